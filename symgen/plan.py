@@ -21,7 +21,7 @@ from symgen.errors import InputError, nearest, quoted
 from symgen.integrators import INTEGRATORS
 from symgen.memory import require
 from symgen.methods import METHODS
-from symgen.runtime.foreseen import foreseen
+from symgen.runtime.foreseen import Foreseen, foreseen
 from symgen.runtime.run import MAX_STEPS, Array, RunSpec
 from symgen.settings import Settings, told_constant
 
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from symgen.methods._base import Method
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.last_state import LastState
-    from symgen.runtime.pieces import Piece
 
 #: Adaptive runs without asked output times report this many equidistant ones.
 DEFAULT_OUTPUTS = 1001
@@ -109,7 +108,10 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         warnings.append(
             f"the step {step:g} s exceeds {limit:.3g} s, where {method.name} is unstable with {tableau.name}"
         )
-    warnings += _stepped_over(mechanism, s.parameters, until, None if adaptive else step)
+    events = events_asked(mechanism, s)
+    known = foreseen(mechanism, events)
+    values = parameter_values(mechanism, s.parameters) if known else {}
+    warnings += _stepped_over(known, values, until, None if adaptive else step)
     spec = RunSpec(
         until=until,
         step=step,
@@ -123,7 +125,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         max_velocity_violation=limit_of_velocities(method, s.max_violation),
         max_energy_error=s.max_energy_error,
         max_steps=MAX_STEPS if s.max_steps is None else s.max_steps,
-        pieces=_pieces(mechanism, s.parameters, until) if adaptive else (),
+        pieces=known.pieces(values, until) if adaptive else (),
         # not the end of this run: where it is gone on with, it has to be the same
         duration=None if adaptive else defaults.until,
         integrator_parameters={
@@ -133,7 +135,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
     free = "solver" in choice.options and not _asked(s, "solver")
     massless = mechanism.has_massless
     choice, free = for_masses(mechanism, choice, free), free and not massless
-    asked_shape, events = _shape(s, last), events_asked(mechanism, s)
+    asked_shape = _shape(s, last)
     if s.coordinates == "joint":
         choose_coordinates(mechanism, s.coordinates, asked_shape)
         asked_shape = "straight"
@@ -165,18 +167,8 @@ def limit_of_velocities(method: Method, max_violation: float) -> float | None:
     return math.sqrt(max_violation) if method.velocities_follow else None
 
 
-def _pieces(mechanism: Mechanism, parameters: Mapping[str, float], until: float) -> tuple[Piece, ...]:
-    """Return the pieces of an adaptive run between what is known beforehand."""
-    known = foreseen(mechanism)
-    return known.pieces(parameter_values(mechanism, parameters), until) if known else ()
-
-
-def _stepped_over(mechanism: Mechanism, parameters: Mapping[str, float], until: float, step: float | None) -> list[str]:
+def _stepped_over(known: Foreseen, values: Mapping[str, float], until: float, step: float | None) -> list[str]:
     """Return what steps may not see, in words: constant ones what formulas do between two times within one."""
-    known = foreseen(mechanism)
-    if not known:
-        return []
-    values = parameter_values(mechanism, parameters)
     if not known.are_all(values, until):
         often = "formulas change, or pass points of tables, more often than can be told apart"
         return [f"{often}: steps do not end there, and may miss what is short"]

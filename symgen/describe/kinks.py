@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
 import msgspec
 
 from symgen.describe.inputs import MOST_KNOTS, Jump, replaced
-from symgen.describe.mechanism import Mechanism
+from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.outputs import integrals
 from symgen.describe.tables import Table
 from symgen.vocabulary.expressions import Call, Expr, Reading, call, names, readings, table_of
@@ -21,8 +21,8 @@ _SIDES = ("lt", "le", "gt", "ge", "sign")
 _COMPARED = (*_SIDES, "abs", "min", "max")
 
 
-def kinks_of(mechanism: Mechanism) -> tuple[Jump, ...]:
-    """Return where formulas of joints, forces and integrals have kinks in time, as jumps that need no switch.
+def kinks_of(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[Jump, ...]:
+    """Return where formulas of joints, forces, integrals and events have kinks in time, as jumps without a switch.
 
     `abs`, `min` and `max` have them where two values are equal, and tables at their points, whatever their pieces are:
     of a cubic one the third derivative jumps. Arguments are formulas of t and parameters; those of state pass such
@@ -37,10 +37,10 @@ def kinks_of(mechanism: Mechanism) -> tuple[Jump, ...]:
             return Jump(e.arguments[0], table.x, period=table.x[-1] - table.x[0] if table.periodic else 0.0)
         return None
 
-    return _in_time(mechanism, _WORDS, kink)
+    return _in_time(mechanism, events, _WORDS, kink)
 
 
-def sides_of(mechanism: Mechanism) -> tuple[Jump, ...]:
+def sides_of(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[Jump, ...]:
     """Return what these formulas compare in time: where it is passed they may jump, without a switch."""
 
     def side(e: Call) -> Jump | None:
@@ -48,16 +48,19 @@ def sides_of(mechanism: Mechanism) -> tuple[Jump, ...]:
             return None
         return Jump(e.arguments[0] if e.function == "sign" else call("sub", *e.arguments))
 
-    return _in_time(mechanism, [name.encode() for name in _SIDES], side)
+    return _in_time(mechanism, events, [name.encode() for name in _SIDES], side)
 
 
-def _in_time(mechanism: Mechanism, words: Iterable[bytes], jump_of: Callable[[Call], Jump | None]) -> tuple[Jump, ...]:
-    """Return the jumps of what a run integrates whose arguments are formulas of t and parameters, each once.
+def _in_time(
+    mechanism: Mechanism, events: Sequence[Event], words: Iterable[bytes], jump_of: Callable[[Call], Jump | None]
+) -> tuple[Jump, ...]:
+    """Return the jumps of what a run integrates or watches whose arguments are formulas of t and parameters, each once.
 
     Words are what is written where there is one: most mechanisms have none, and walking through large ones takes a
     while.
     """
-    formulas = mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
+    formulas: tuple[Any, ...] = mechanism.joints, mechanism.forces
+    formulas = *formulas, tuple(integral.of for integral in integrals(mechanism)), tuple(e.when for e in events)
     text = msgspec.msgpack.encode(formulas)
     if not any(word in text for word in words):
         return ()

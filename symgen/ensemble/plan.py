@@ -222,13 +222,13 @@ def make_ensemble(
     # before anything is derived; where it depends on what varies, rows are told apart behind their runs
     if not read_by_motions(mechanism, grid.names):
         refuse_jumps(mechanism, chosen.parameters, plan.spec.until)
-    known = foreseen(mechanism) if plan.spec.adaptive else None
+    kept_names, events = _events(mechanism, plan, quantities)
+    known = foreseen(mechanism, events) if plan.spec.adaptive else None
     if known and target != "cpu":  # devices have nothing between two parts of a run
         notes = (*notes, f"target '{target}' goes across times at which formulas jump or have kinks; cpu stops there")
         known = None
     plan = replace(plan, spec=replace(plan.spec, pieces=()))
     driving = Driving(given, grid.names, plan.spec.until, known)
-    kept_names, events = _events(mechanism, plan, quantities)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)
     held = held_of(names, grid.names, plan.holds, compiled.info)

@@ -14,12 +14,13 @@ from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
+from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import Jump
 from symgen.describe.kinks import kinks_of, sides_of
-from symgen.describe.mechanism import Mechanism
+from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.remembered import remembered
 from symgen.errors import InputError
-from symgen.runtime.in_time import MOST_PIECES, InTime
+from symgen.runtime.in_time import MOST_PIECES, InTime, line_of
 from symgen.runtime.pieces import SAME, Piece
 from symgen.vocabulary.expressions import names
 
@@ -114,9 +115,21 @@ class Foreseen:
         return pieces, all_kinks and all_sides
 
 
-def foreseen(mechanism: Mechanism) -> Foreseen:
-    """Return what is known beforehand of the formulas of joints, forces and integrals of a mechanism."""
-    return Foreseen(mechanism, *_passed(mechanism))
+def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
+    """Return what is known beforehand of the formulas of joints, forces and integrals of a mechanism, and of events.
+
+    An event that is a straight line in t is found wherever steps end; another one may come and go within a step.
+    """
+    if not events:
+        return Foreseen(mechanism, *_passed(mechanism))
+    timely = {p.name for p in mechanism.parameters if not p.input} | {"t"}
+    values = parameter_values(mechanism)
+    happening = (
+        jump
+        for jump in (Jump(event.when) for event in events)
+        if "t" in (read := {*names(jump.argument)}) and read <= timely and line_of(jump, values) is None
+    )
+    return Foreseen(mechanism, kinks_of(mechanism, events), (*sides_of(mechanism, events), *happening))
 
 
 @remembered

@@ -97,7 +97,7 @@ class SteppedRun:
         self._clocks, self._calling, self._advance = list[Clock](), False, Advance(self._loop)
         inputs: Mapping[str, str | float] = {} if given is None else given.told
         self._described, self._driven = (mechanism, None) if given is None else (given.mechanism, given.driven)
-        known = foreseen(self._described) if self._adaptive else Foreseen(mechanism)
+        known = foreseen(self._described, plan.events) if self._adaptive else Foreseen(mechanism)
         self._jumps, self._windows = plan.spec.pieces, Windows(known, plan.spec.until, self.t)
         if known:
             self._loop.spec = self._divided(parameter_values(mechanism, self._changed))

@@ -205,3 +205,33 @@ def test_what_cannot_be_told_apart_is_told(tmp_path: Path, settings: dict[str, o
     assert any(expected in warning for warning in model.simulate(method="lagrange", **settings).warnings)
     found = make_ensemble(model, symgen.Settings(method="lagrange", **settings), {"f": [1.0, 2.0]}, {}, None)
     assert any(expected in note for note in found.notes)
+
+
+@pytest.mark.parametrize("integrator", SCHEMES)
+def test_events_that_come_and_go_within_a_step_are_seen(tmp_path: Path, integrator: str) -> None:
+    """Conditions of the time alone: of one that is true 500 times for 90 us `dop853` saw none."""
+    model = pulsed(tmp_path, "0.1", 10.0)
+    often, once = "sin(2*pi*f*t) > 0.9999", "max(0, 1 - abs(t - 3.337)/1e-4) > 0.5"
+    result = model.simulate(method="lagrange", integrator=integrator, rtol=1e-8, record_when=[often, once])
+    found = [np.array([event.t for event in result.events if event.name == name]) for name in (often, once)]
+    first = math.asin(0.9999) / (100.0 * math.pi)
+    np.testing.assert_allclose(found[0], first + 0.02 * np.arange(500), rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(found[1], [3.33695], rtol=0.0, atol=1e-9)
+    stopped = model.simulate(method="lagrange", integrator=integrator, rtol=1e-8, stop_when=[once])
+    assert stopped.t[-1] == pytest.approx(3.33695, abs=1e-9)
+
+
+def test_rows_of_sweeps_see_them_too(tmp_path: Path) -> None:
+    model = pulsed(tmp_path, "0.1", 10.0)
+    often = "sin(2*pi*f*t) > 0.9999"
+    found = sweep(
+        model, vary={"f": [50.0, 7.0]}, method="lagrange", integrator="dop853", rtol=1e-8, record_when=[often]
+    )
+    assert found[f"event.{often}.count"].tolist() == [500.0, 70.0]
+
+
+def test_runs_step_by_step_see_them_too(tmp_path: Path) -> None:
+    once = "max(0, 1 - abs(t - 3.337)/1e-4) > 0.5"
+    run = pulsed(tmp_path, "0.1", 10.0).start(method="lagrange", integrator="dop853", rtol=1e-8, stop_when=[once])
+    event = run.run(5.0)
+    assert event is not None and event.t == pytest.approx(3.33695, abs=1e-9)
