@@ -166,3 +166,11 @@ def test_a_long_run_shows_progress_on_a_terminal_only():
     assert process.returncode == 0
     assert json.loads(out)["status"] == "ok"
     assert b"pendulum, direct-correction" in shown and b"%" in shown
+
+
+def test_the_interpreter_runs_the_command_line():
+    done = subprocess.run([sys.executable, "-m", "symgen", "list", "--jsno"], capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "--json" in done.stderr
+    listed = subprocess.run([sys.executable, "-m", "symgen", "list", "--json"], capture_output=True, text=True)
+    assert listed.returncode == 0 and "four-bar" in listed.stdout

@@ -26,6 +26,7 @@ PACKAGE = Path(__file__).resolve().parents[2] / "symgen"
 #: Top-level folder or module of symgen -> libraries from outside the standard library that it may import.
 ALLOWED = {
     "__init__": set(),
+    "__main__": set(),
     "analyses": {"control", "matplotlib", "msgspec", "numpy", "scipy"},
     "api": {"numpy"},
     "arguments": set(),
