@@ -51,7 +51,7 @@ def passed(before: Any, after: Any, h: float, least: float) -> float:
     least : float
         What lasts for a smaller part of the step than this is not looked at.
     """
-    n, first, second, probe = before.shape[0] // 2, 2.0, 2.0, False
+    n, first, second, probe, twice = before.shape[0] // 2, 2.0, 2.0, False, False
     for i in range(n):
         g0, g1, d0, d1 = before[i], after[i], h * before[n + i], h * after[n + i]
         # most switches are far away: both tangents stay on their side
@@ -69,11 +69,12 @@ def passed(before: Any, after: Any, h: float, least: float) -> float:
                 continue
             x = first_root(g0, d0, g1, d1, side)
         if x < first:
-            first, second, probe = x, first, inside
+            first, second, probe, twice = x, first, inside, probe
         elif x < second:
-            second = x
+            second, twice = x, inside
     if probe:
         return first if first > least else 1.0
-    if second >= 1.0 or second - first <= least:
+    # what returns is passed twice there, wherever another switch is passed
+    if second >= 1.0 or (second - first <= least and not twice):
         return 1.0
     return 0.5 * (first + second)
