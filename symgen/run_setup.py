@@ -16,7 +16,6 @@ from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.events import in_words
 from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.inputs import Driven, driven
-from symgen.describe.kinks import knots_of
 from symgen.describe.moved import moved
 from symgen.describe.sides import wrong_sides
 from symgen.describe.start import described_start
@@ -347,15 +346,7 @@ def stopping(mechanism: Mechanism, plan: Plan, compiled: CompiledModel) -> Plan:
     """Return a plan whose run ends steps at kinks over the state, and passes no two switches in a step."""
     if not plan.spec.adaptive:
         return plan
-    from symgen.compiling.knots import compile_knots, compile_switches
+    from symgen.compiling.knots import with_looks
 
-    knots = compile_knots(mechanism, compiled) if stops(mechanism, plan) else None
-    return replace(plan, spec=replace(plan.spec, knots=knots, switches=compile_switches(mechanism, compiled)))
-
-
-def stops(mechanism: Mechanism, plan: Plan, bends: bool = True) -> bool:
-    """Whether runs end steps at points of tables and at kinks that the state passes, those of forces with `bends`.
-
-    They do where steps follow an error estimate and the scheme has the accelerations at the beginning of a step.
-    """
-    return plan.spec.adaptive and isinstance(plan.tableau, Tableau) and bool(knots_of(mechanism, bends))
+    # steps end at kinks where the scheme has the accelerations at their beginning
+    return replace(plan, spec=with_looks(mechanism, compiled, plan.spec, isinstance(plan.tableau, Tableau)))

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from symgen.compiling.side import compile_side
 from symgen.describe.kinks import knots_of, switches_of
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.printer import to_text
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.knots import Knots
+from symgen.runtime.run import RunSpec
 from symgen.runtime.switches import Switches
 
 #: Which derivative of a table jumps at its points.
 _JUMPS = {"linear": 1, "pchip": 2, "cubic": 3}
+
+
+def with_looks(mechanism: Mechanism, compiled: CompiledModel, spec: RunSpec, ends: bool = True) -> RunSpec:
+    """Return what a run is to do that passes no two switches in a step and, with `ends`, ends steps at kinks."""
+    knots = compile_knots(mechanism, compiled) if ends else None
+    return replace(spec, knots=knots, switches=compile_switches(mechanism, compiled))
 
 
 def compile_knots(mechanism: Mechanism, compiled: CompiledModel) -> Knots | None:
@@ -23,7 +32,7 @@ def compile_knots(mechanism: Mechanism, compiled: CompiledModel) -> Knots | None
     side = compile_side(mechanism, compiled, "knots", "Arguments of tables, abs, min and max", formulas, 2)
     tables = [table for _, table in found]
     return Knots(
-        function=side.plain,
+        function=side.function,
         levels=tuple((0.0,) if table is None else table.x for table in tables),
         periods=tuple(0.0 if table is None or not table.periodic else table.x[-1] - table.x[0] for table in tables),
         orders=tuple(1 if table is None else _JUMPS[table.interpolation] for table in tables),
@@ -37,4 +46,4 @@ def compile_switches(mechanism: Mechanism, compiled: CompiledModel) -> Switches 
         return None
     formulas = [(to_text(argument), argument) for argument in found]
     side = compile_side(mechanism, compiled, "switches", "What forces and integrals compare", formulas, 1)
-    return Switches(side.plain, len(found), "ydot" in side.reads)
+    return Switches(side.function, len(found), "ydot" in side.reads)

@@ -73,30 +73,29 @@ def _in_time(
     return tuple(found)
 
 
-def knots_of(mechanism: Mechanism, bends: bool = True) -> tuple[tuple[Expr, Table | None], ...]:
+def knots_of(mechanism: Mechanism) -> tuple[tuple[Expr, Table | None], ...]:
     """Return what passes points with kinks as the state does, each argument before its table.
 
     Those are tables of joints, forces and integrals that are read over the state, and, without a table, what `abs`,
-    `min` and `max` in integrals and, with `bends`, in joints and forces compare with zero. An integrand acts on
-    nothing, so that a dip of it between two evaluations is seen by no other error. Arguments are formulas of a run:
-    what forces call ``s`` and ``rate`` is read of their measures.
+    `min` and `max` compare with zero. An integrand acts on nothing, so that a dip of it between two evaluations is seen
+    by no other error. Arguments are formulas of a run: what forces call ``s`` and ``rate`` is read of their measures.
     """
-    acting, added = (mechanism.joints, mechanism.forces), tuple(integral.of for integral in integrals(mechanism))
+    formulas = mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
     tables = {table.name: table for table in mechanism.tables}
     plain = {p.name for p in mechanism.parameters} | {"t"}
     found = dict[tuple[Expr, Table | None], None]()
-    text = msgspec.msgpack.encode((acting, added))
+    text = msgspec.msgpack.encode(formulas)
     if not any(word in text for word in _WORDS):
         return ()
     if tables and b"table:" in text:
-        for e, effort in _calls(acting, added):
+        for e, effort in _calls(*formulas):
             table = tables.get(table_of(e.function) or "")
             if table is None or len(table.x) > MOST_KNOTS:
                 continue
             argument = e.arguments[0] if effort is None else _of_a_run(e.arguments[0], effort)
             if _is_of_state(argument, plain):
                 found[argument, table] = None
-    for e, effort in _calls(acting if bends else (), added):
+    for e, effort in _calls(*formulas):
         if e.function in ("abs", "min", "max"):
             argument = e.arguments[0] if e.function == "abs" else call("sub", *e.arguments)
             argument = argument if effort is None else _of_a_run(argument, effort)
@@ -105,20 +104,20 @@ def knots_of(mechanism: Mechanism, bends: bool = True) -> tuple[tuple[Expr, Tabl
     return tuple(found)
 
 
-def switches_of(mechanism: Mechanism, jumps: bool = False) -> tuple[Expr, ...]:
+def switches_of(mechanism: Mechanism) -> tuple[Expr, ...]:
     """Return what formulas of joints, forces and integrals compare with zero and what depends on the state, each once.
 
-    That is what comparisons and `sign` pass as a jump and, unless `jumps` alone are asked for, `abs`, `min` and `max`
-    as a kink. Arguments are formulas of a run, as those of `knots_of`.
+    That is what comparisons and `sign` pass as a jump, and `abs`, `min` and `max` as a kink. Arguments are formulas of
+    a run, as those of `knots_of`.
     """
     formulas = mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
-    text, asked = msgspec.msgpack.encode(formulas), _SIDES if jumps else _COMPARED
-    if not any(name.encode() in text for name in asked):
+    text = msgspec.msgpack.encode(formulas)
+    if not any(name.encode() in text for name in _COMPARED):
         return ()
     plain = {p.name for p in mechanism.parameters} | {"t"}
     found = dict[Expr, None]()
     for e, effort in _calls(*formulas):
-        if e.function in asked:
+        if e.function in _COMPARED:
             argument = e.arguments[0] if len(e.arguments) == 1 else call("sub", *e.arguments)
             argument = argument if effort is None else _of_a_run(argument, effort)
             if _is_of_state(argument, plain):

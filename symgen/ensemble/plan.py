@@ -17,7 +17,7 @@ from symgen.compiling.pipeline import compile_model
 from symgen.describe.derived import derived
 from symgen.describe.digest import identity
 from symgen.describe.events import RECORD
-from symgen.describe.kinks import switches_of
+from symgen.describe.kinks import knots_of, switches_of
 from symgen.describe.sides import sides_of
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.driving import Driving
@@ -35,7 +35,7 @@ from symgen.ensemble.tree_rows import are_plain
 from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.plan import Plan, make_plan, refuse_events
-from symgen.run_setup import give_inputs, stops
+from symgen.run_setup import give_inputs
 from symgen.runtime.foreseen import foreseen
 from symgen.runtime.motions import refuse_jumps
 from symgen.settings import Settings
@@ -242,13 +242,11 @@ def make_ensemble(
     integrator_of_rows(plan.tableau.name, plan.spec)
     if target == "lanes":
         check_lanes(plan.tableau.name, plan.spec)
-    looks = target == "cpu" and plan.spec.adaptive
-    # kinks of forces alone leave rows in loops, where the error estimate sees what it sees of them
-    steps = looks and (stops(mechanism, plan, bends=False) or bool(switches_of(mechanism, jumps=True)))
-    parts = bool(events) or driving.jumps or steps  # what Python does something between
-    singly = Singly(mechanism, events, ends, looks) if parts or joint else None
+    looks = target == "cpu" and plan.spec.adaptive and bool(switches_of(mechanism) or knots_of(mechanism))
+    parts = bool(events) or driving.jumps  # what Python does something between
+    singly = Singly(mechanism, events, ends) if parts or joint else None
     # single runs add up all that outputs ask for, which their steps follow, too
-    adds = integral is not None or (singly is not None and can_integrate(compiled))
+    adds = integral is not None or ((singly is not None or looks) and can_integrate(compiled))
     made = Made(mechanism, compiled, plan, adds, kept if singly is None else ())
     recipe = Recipe(
         **made.codes(target, joint, not parts and are_plain(kept, compiled.info)),
@@ -265,6 +263,7 @@ def make_ensemble(
         singly=singly,
         joints=tuple(held.joints.values()),
         sides=tuple(side for side in sides_of(mechanism) if side.held),
+        looks=mechanism if looks else None,
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first

@@ -1,9 +1,8 @@
 """Runs of an ensemble that a loop over many runs cannot take: each is a single run, by the loops of single runs.
 
-Where events are looked for, an input jumps or a table is read over the state, Python has something to do between two
-parts of a run; and what is observed of joints' motion as one of bodies is worked out as for single runs. Such runs are
-done one after the other, in the same threads, chunks and folders; ensembles that need none of it know nothing of this
-module.
+Where events are looked for or an input jumps, Python has something to do between two parts of a run; and what is
+observed of joints' motion as one of bodies is worked out as for single runs. Such runs are done one after the other, in
+the same threads, chunks and folders; ensembles that need none of it know nothing of this module.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from numpy.typing import NDArray
 
 from symgen.compiling.carrying import carrying_of
 from symgen.compiling.events import compile_events, masses_of
-from symgen.compiling.knots import compile_knots, compile_switches
+from symgen.compiling.knots import with_looks
 from symgen.compiling.side import compile_side
 from symgen.describe.digest import identity
 from symgen.describe.events import RESET, in_words
@@ -42,10 +41,9 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Watched
     from symgen.runtime.integrator import Integrator
-    from symgen.runtime.knots import Knots
     from symgen.runtime.outcome import Outcome
+    from symgen.runtime.run import RunSpec
     from symgen.runtime.start_records import Instant
-    from symgen.runtime.switches import Switches
     from symgen.runtime.tree_start import Carrying
 
 Array = NDArray[np.float64]
@@ -67,14 +65,11 @@ class Singly:
         What is looked for.
     ends : bool
         Whether the only output is the end of a run, wherever an event puts it.
-    looks : bool
-        Whether it is looked between steps at tables over the state, and at what they pass of switches.
     """
 
     mechanism: Mechanism
     events: tuple[Event, ...] = ()
     ends: bool = False
-    looks: bool = False
 
     @property
     def width(self) -> int:
@@ -84,7 +79,7 @@ class Singly:
     @property
     def described(self) -> list[Any]:
         """What it is, as JSON can express it."""
-        return [identity(self.mechanism), in_words(self.events), self.ends, *(["looks"] if self.looks else [])]
+        return [identity(self.mechanism), in_words(self.events), self.ends]
 
 
 @dataclass
@@ -114,11 +109,10 @@ class SingleRuns:
         return (self.singly.mechanism, self.compiled) if self.tree is None else self.tree
 
     @cached_property
-    def _looks(self) -> tuple[Knots | None, Switches | None]:
-        """What is looked at between steps."""
-        if not self.singly.looks:
-            return None, None
-        return compile_knots(*self._run_of), compile_switches(*self._run_of)
+    def _spec(self) -> RunSpec:
+        """What runs do, with what is looked at between steps."""
+        spec = self.recipe.spec
+        return spec if self.recipe.looks is None else with_looks(*self._run_of, spec)
 
     @cached_property
     def _watched(self) -> Watched | None:
@@ -186,12 +180,11 @@ class SingleRuns:
     def _run(self, r: int, rows: Rows, began: Start | TreeRun, out: Results, control: Integers) -> bool:
         tree = began if isinstance(began, TreeRun) else None
         start, compiled = (began.start, began.compiled) if isinstance(began, TreeRun) else (began, self.compiled)
-        spec = replace(self.recipe.spec, pieces=rows.pieces_of(r), events=self._events(rows, r))
-        spec = replace(spec, knots=self._looks[0], switches=self._looks[1])
+        spec = replace(self._spec, pieces=rows.pieces_of(r), events=self._events(rows, r))
         simulation = Simulation(compiled, self.integrator, start, spec)
         outputs = simulation.outputs(spec.times)
         with self._lock:
-            if not self._warm or any(self._looks):  # which enter the loop at each step, by its address
+            if not self._warm:
                 simulation.warm(outputs)
                 self._warm = True
         held, follow = simulation.follower(outputs)

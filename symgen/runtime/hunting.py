@@ -136,6 +136,12 @@ def __getattr__(name: str) -> Any:
 # -- from Python -------------------------------------------------------------------------------------------------------
 
 
+def without_notes(state: Any) -> Array:
+    """Return what a run keeps of its events but notes; empty where none are looked for."""
+    hunt: Array = getattr(state, "hunt", np.zeros(0))
+    return hunt[: notes_at(int(hunt[searching.COUNT]), len(state.y), len(state.w))] if len(hunt) else hunt
+
+
 def taken_notes(hunt: Array, width: int, nw: int) -> list[tuple[float, int, Array]]:
     """Return time, number and state of the events noted so far, and make room for more."""
     first = notes_at(int(hunt[searching.COUNT]), width, nw)

@@ -13,7 +13,7 @@ import types as python
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
-from numba import njit
+from numba import njit, types
 from numba.extending import _Intrinsic as Intrinsic
 
 from symgen.store.jit import jit
@@ -48,7 +48,7 @@ def part(copy: python.FunctionType, original: Any) -> Any:
     )(copy)
 
 
-def loop(module: str, name: str, function: Any, signature: Any, **meanings: Any) -> Any:
+def loop(module: str, name: str, function: Any, signature: Any, once: bool = False, **meanings: Any) -> Any:
     """Return a compiled loop: an instance of `function` for given types, kept in the cache of machine code.
 
     Parameters
@@ -59,12 +59,20 @@ def loop(module: str, name: str, function: Any, signature: Any, **meanings: Any)
         The source.
     signature : Signature
         Its types.
+    once : bool
+        As for `symgen.store.loops.from_source`.
     **meanings
         See `Instances`.
     """
     copy = Instances(meanings).copy(function)
     copy.__module__, copy.__name__, copy.__qualname__ = module, name, name
-    return from_source(jit(signature)(copy))
+    return from_source(jit(signature)(copy), once)
+
+
+def signature_of(loop: Any) -> Any:
+    """Return the types of a compiled loop; none where nothing is compiled."""
+    (signature,) = getattr(loop, "_signatures", (types.int64(),))
+    return signature
 
 
 class Instances:

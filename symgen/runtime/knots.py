@@ -9,10 +9,15 @@ that the error estimate proposes say which step to try.
 from __future__ import annotations
 
 import math
-from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.runtime.instances import called
+
+Array = NDArray[np.float64]
 
 #: A table with more points inside a step than this is not followed: its kinks are smaller than the tolerance, or the
 #: error estimate will say so.
@@ -25,8 +30,8 @@ class Knots:
 
     Attributes
     ----------
-    function : callable
-        ``(t, y, p, w, ydot, out)``, plain Python: arguments of all tables, their rates, and the rates of these.
+    function : emitted function
+        ``(t, y, p, w, ydot, out)``: arguments of all tables, their rates, and the rates of these.
     levels : tuple of tuple of float
         Points of each table, increasing.
     periods : tuple of float
@@ -35,86 +40,102 @@ class Knots:
         Which derivative of each table jumps there.
     """
 
-    function: Callable[..., None]
+    function: Any
     levels: tuple[tuple[float, ...], ...]
     periods: tuple[float, ...]
     orders: tuple[int, ...]
 
-    @cached_property
-    def _unrolled(self) -> list[tuple[Sequence[float], float, float]]:
-        """Levels, over three periods where they repeat, the middle one the table's; where that begins; the period."""
-        found = list[tuple[Sequence[float], float, float]]()
-        for levels, period in zip(self.levels, self.periods, strict=True):
+    def arrays(self, rtol: float) -> tuple[Array, NDArray[np.int64], Array]:
+        """Return levels, where those of each table begin, and numbers of each table, as `aimed` takes them.
+
+        Levels stand over three periods where they repeat, the middle one the table's. Numbers are where that begins,
+        the period, and below which part of a step points were just met: that much of a kink is a tolerance, as a step
+        of which a part x lies behind a jump of a k-th derivative feels the (k + 1)-th power of x.
+        """
+        every, starts, numbers = list[float](), [0], list[float]()
+        for levels, period, order in zip(self.levels, self.periods, self.orders, strict=True):
             turns = (-1, 0, 1) if period > 0.0 else ()
-            rolled = [x + k * period for k in turns for x in levels[:-1]]
-            found.append((rolled or levels, levels[0], period))
-        return found
-
-    def met(self, rtol: float) -> list[float]:
-        """Return below which part of a step points of each table were just met: that much of a kink is a tolerance.
-
-        A step of which a part x lies behind a jump of a k-th derivative feels the (k + 1)-th power of x.
-        """
-        return [rtol ** (1.0 / (order + 1)) for order in self.orders]
-
-    def step(self, out: Sequence[float], h: float, met: Sequence[float]) -> float:
-        """Return the step to try in place of one of `h` seconds.
-
-        Parameters
-        ----------
-        out : sequence of float
-            What the function has written for the state at its beginning.
-        h : float
-            The step that the error estimate proposes [s].
-        met : sequence of float
-            From `met`.
-        """
-        n, twice, first = len(self.periods), 2.0 * h, math.inf
-        for i, (levels, begin, period) in enumerate(self._unrolled):
-            s, rate, half = out[i], out[n + i], 0.5 * out[2 * n + i]
-            ahead = twice * (rate + twice * half)
-            if not math.isfinite(s + ahead):
-                continue
-            if period > 0.0:
-                s -= math.floor((s - begin) / period) * period
-            if rate * (rate + 2.0 * twice * half) > 0.0:
-                found = _first_on(levels, s, rate, half, h, met[i], ahead)
-            else:
-                found = _first_around(levels, s, rate, half, h, met[i])
-            if found < first:
-                first = found
-        if first > twice:
-            return h
-        return first if first <= h else 0.5 * first
+            every += [x + k * period for k in turns for x in levels[:-1]] or levels
+            starts.append(len(every))
+            numbers += [levels[0], period, rtol ** (1.0 / (order + 1))]
+        return np.array(every), np.array(starts, dtype=np.int64), np.array(numbers)
 
 
-def _first_on(levels: Sequence[float], s: float, rate: float, half: float, h: float, met: float, ahead: float) -> float:
+@called
+def aimed(levels: Any, starts: Any, tables: Any, out: Any, h: float) -> float:
+    """Return the step to try in place of one of `h` seconds.
+
+    Parameters
+    ----------
+    levels, starts, tables : Array
+        From `Knots.arrays`.
+    out : Array
+        What the function has written for the state at its beginning.
+    h : float
+        The step that the error estimate proposes [s].
+    """
+    n, twice, first = starts.shape[0] - 1, 2.0 * h, math.inf
+    for i in range(n):
+        s, rate, half = out[i], out[n + i], 0.5 * out[2 * n + i]
+        begin, period, met = tables[3 * i], tables[3 * i + 1], tables[3 * i + 2]
+        ahead = twice * (rate + twice * half)
+        if not math.isfinite(s + ahead):
+            continue
+        if period > 0.0:
+            s -= math.floor((s - begin) / period) * period
+        low, high = starts[i], starts[i + 1]
+        if rate * (rate + 2.0 * twice * half) > 0.0:
+            found = first_on(levels, low, high, s, rate, half, h, met, ahead)
+        else:
+            found = first_around(levels, low, high, s, rate, half, h, met)
+        first = min(first, found)
+    if first > twice:
+        return h
+    return first if first <= h else 0.5 * first
+
+
+def behind(levels: Any, low: int, high: int, s: float, equal: bool) -> int:
+    """Return the number of the first of some levels that lies behind s, or at it, unless an equal one counts before."""
+    while low < high:
+        middle = (low + high) // 2
+        if levels[middle] < s or (equal and levels[middle] == s):
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
+def first_on(
+    levels: Any, low: int, high: int, s: float, rate: float, half: float, h: float, met: float, ahead: float
+) -> float:
     """Return when s + rate t + half t^2, which goes by `ahead` in one direction in 2 h, passes the first level."""
     up = rate > 0.0
-    k, way, count = (bisect_right(levels, s), 1, len(levels)) if up else (bisect_left(levels, s) - 1, -1, -1)
-    while k != count:
+    k, way, end = behind(levels, low, high, s, up), 1, high
+    if not up:
+        k, way, end = k - 1, -1, low - 1
+    while k != end:
         distance = levels[k] - s
         if abs(distance) > abs(ahead):
             return math.inf
         t = 2.0 * distance / (rate + math.copysign(math.sqrt(max(0.0, rate * rate + 4.0 * half * distance)), rate))
         if t > met * h:
             last = k + way * _CROWD
-            crowd = 0 <= last < len(levels) and abs(levels[last] - s) <= abs(h * (rate + h * half))
+            crowd = low <= last and last < high and abs(levels[last] - s) <= abs(h * (rate + h * half))
             return math.inf if crowd else t
         k += way
     return math.inf
 
 
-def _first_around(levels: Sequence[float], s: float, rate: float, half: float, h: float, met: float) -> float:
+def first_around(levels: Any, low: int, high: int, s: float, rate: float, half: float, h: float, met: float) -> float:
     """Return the same of what turns round in 2 h: of the nearest levels on both sides."""
-    here, found = bisect_left(levels, s), math.inf
-    for level in levels[max(0, here - 2) : here + 2]:
-        distance = level - s
+    here, found = behind(levels, low, high, s, False), math.inf
+    for k in range(max(low, here - 2), min(high, here + 2)):
+        distance = levels[k] - s
         inside = rate * rate + 4.0 * half * distance
         if inside < 0.0:
             continue
         q = 0.5 * (rate + math.copysign(math.sqrt(inside), rate))
         for t in (distance / q if q != 0.0 else 0.0, -q / half if half != 0.0 else 0.0):
-            if met * h < t < found:
+            if met * h < t and t < found:
                 found = t
     return found

@@ -1,136 +1,273 @@
 """Looks between the steps of an adaptive run: at where the next one should end, and at what the last one has passed.
 
-The loop is left after each step, and the looks are plain Python: no loop is compiled for them, and runs without what is
-looked at are entered once, as ever.
+A loop around another one, which it enters for each step by its address: one for each kind of scheme, compiled when a
+run first has something to look at. Single runs, runs step by step and rows of sweeps enter it in place of the other.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numba import types
 
-from symgen.describe.events import RESET
 from symgen.runtime import abi
-from symgen.runtime.entry import direct
+from symgen.runtime.bare import bare, part
+from symgen.runtime.hunting import without_notes
+from symgen.runtime.instances import called, signature_of
+from symgen.runtime.instances import loop as compiled_loop
+from symgen.runtime.knots import aimed
 from symgen.runtime.probe import rates_of
-from symgen.runtime.switches import MOST_AGAIN
+from symgen.runtime.records import Span
+from symgen.runtime.switches import MOST_AGAIN, passed
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from symgen.runtime.simulation import Simulation
+    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.integrator import Setup
+    from symgen.runtime.records import State
+    from symgen.runtime.run import RunSpec
 
 #: No step is taken again that would be shorter than this part of the time: rounding says what it passes.
 _SHORTEST = 1e-13
-#: What counts as work that was done, of steps that are taken again as well.
-_COUNTED = (abi.EVALUATIONS, abi.JACOBIANS, abi.NEWTON_ITERATIONS)
+#: Numbers of a run: 1 where `before` is that of its state; how often the last step was taken again, and how long it
+#: was at first; where the rates of a state are had from.
+KNOWN, AGAIN, LONGEST, RATES = range(4)
+#: They are not read; they stand first in what the scheme keeps; they are evaluated.
+_UNREAD, _KEPT, _ASKED = range(3)
+_STOP, _REJECTED, _ROW = abi.STOP, abi.REJECTED, abi.N_EVENT
+_EVALUATIONS, _JACOBIANS, _ITERATIONS = abi.EVALUATIONS, abi.JACOBIANS, abi.NEWTON_ITERATIONS
 
 
-def stepped(run: Simulation, enter: Callable[[float], int], pause: float) -> int:
-    """Enter a loop for each step; return how it ended.
+class Looks(NamedTuple):
+    """What is looked at between steps, and room for it.
+
+    Attributes
+    ----------
+    head : Array
+        Numbers: `KNOWN` and those behind it.
+    before, after : Array
+        Values and rates of switches at the beginning and at the end of a step.
+    out : Array
+        Arguments of tables with two rates.
+    levels, starts, tables : Array
+        What these pass, see `symgen.runtime.knots.aimed`.
+    kept, counts : Array
+        What the run kept at the beginning of a step.
+    hunt : Array
+        What it keeps of its events but notes, empty where there are none.
+    y, w, iw, rate : Array
+        A state at which rates are evaluated, what emitted functions remember of it, and the rates.
+    """
+
+    head: Any
+    before: Any
+    after: Any
+    out: Any
+    levels: Any
+    starts: Any
+    tables: Any
+    kept: Any
+    counts: Any
+    hunt: Any
+    y: Any
+    w: Any
+    iw: Any
+    rate: Any
+
+    def forget(self) -> None:
+        """Look at the state anew: others may have changed it."""
+        self.head[KNOWN] = 0.0
+
+
+_A, _K = types.float64[::1], types.int64[::1]
+LOOKS = types.NamedTuple((*(_A,) * 5, _K, _A, _A, _K, _A, _A, _A, _K, _A), Looks)
+
+
+# -- what a run keeps --------------------------------------------------------------------------------------------------
+
+
+@called
+def put(array: Any, out: Any, at: int) -> int:
+    """Copy an array to where `out` has room for it; return where that ends."""
+    for i in range(array.shape[0]):
+        out[at + i] = array[i]
+    return at + int(array.shape[0])
+
+
+@called
+def taken(array: Any, kept: Any, at: int) -> int:
+    """Copy back what `put` has copied; return where it ends."""
+    for i in range(array.shape[0]):
+        array[i] = kept[at + i]
+    return at + int(array.shape[0])
+
+
+def passage(state: Any) -> Any:
+    """Return the last passage near a singular position, which the next state may be part of."""
+    k = min(max(state.control[abi.EVENTS], 1), abi.MAX_EVENTS) - 1
+    return part(state.events, k * _ROW, _ROW)
+
+
+@called
+def keep(state: Any, looks: Any) -> None:
+    """Keep what a step changes."""
+    at = put(state.y, looks.kept, 0)
+    at = put(state.w, looks.kept, at)
+    at = put(state.clock, looks.kept, at)
+    at = put(state.gauges, looks.kept, at)
+    at = put(state.memory, looks.kept, at)
+    at = put(looks.hunt, looks.kept, at)
+    put(passage(state), looks.kept, at)
+    put(state.control, looks.counts, put(state.iw, looks.counts, 0))
+
+
+@called
+def go_back(state: Any, looks: Any) -> None:
+    """Have a run be where it was, one attempt later; work that was done counts."""
+    at = taken(state.y, looks.kept, 0)
+    at = taken(state.w, looks.kept, at)
+    at = taken(state.clock, looks.kept, at)
+    at = taken(state.gauges, looks.kept, at)
+    at = taken(state.memory, looks.kept, at)
+    at = taken(looks.hunt, looks.kept, at)
+    first, control = taken(state.iw, looks.counts, 0), state.control
+    for i in range(control.shape[0]):
+        if i != _STOP and i != _EVALUATIONS and i != _JACOBIANS and i != _ITERATIONS and i != _REJECTED:
+            control[i] = looks.counts[first + i]
+    control[_REJECTED] += 1
+    taken(passage(state), looks.kept, at)
+
+
+# -- the loop ----------------------------------------------------------------------------------------------------------
+
+
+def rates_at(looks: Any, state: Any, rates: Any, confirm: Any) -> Any:
+    """Return the rate of the state where a run stands."""
+    if looks.head[RATES] == _ASKED:  # what emitted functions remember stays that of the step
+        put(state.y, looks.y, 0)
+        put(state.w, looks.w, 0)
+        put(state.iw, looks.iw, 0)
+        t = state.clock[abi.TIME]
+        if rates(t, looks.y, state.p, looks.w, looks.iw, looks.rate) != 0:
+            confirm(t, looks.y, state.p, looks.w, looks.iw, looks.rate)
+        state.control[abi.EVALUATIONS] += 1
+    known = part(state.memory, 0, looks.rate.shape[0] if looks.head[RATES] == _KEPT else 0)
+    return known if looks.head[RATES] == _KEPT else looks.rate
+
+
+def until_step(span: Any, steps: float) -> Any:
+    """Return a span that ends where so many steps have been accepted."""
+    return Span(
+        *(span.step, span.largest, span.until, span.end, span.duration, span.rtol, span.atol, span.relative),
+        *(span.safety, span.most, min(span.pause, steps)),
+    )
+
+
+def stepped(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> int:
+    """Enter a loop for each step, as it is entered for all.
 
     A step is made to end at a point of a table (`symgen.runtime.knots`), and one that has passed two switches is taken
     again (`symgen.runtime.switches`).
 
     Parameters
     ----------
-    run : Simulation
-        The run.
-    enter : callable
-        Enters the loop, which is left (`PAUSED`) when as many steps as it is told have been accepted.
-    pause : float
-        Steps of the run after which to return.
+    model : tuple
+        What the loop takes first, `Looks`, the loop; what gives the rates of a state and confirms them, and the
+        functions of tables and of switches.
+    scheme, span, state, outputs
+        As for the loop.
     """
-    state, knots, switches, rtol = run.state, run.spec.knots, run.spec.switches, run.spec.rtol
-    arrays: tuple[Any, ...] = state.clock, state.control
-    views: list[Any] = [memoryview(array) for array in arrays]  # read and written faster than arrays are
-    clock, control = views
-    met = [] if knots is None else knots.met(rtol)
-    out = [0.0] * (0 if knots is None else 3 * len(knots.levels))
-    rates = _rates(run)
-    with np.errstate(all="ignore"):
-        if control[abi.BEGUN] != 1:  # the scheme has to begin before anything is known of its first step
-            code = enter(min(pause, control[abi.STEPS]))
-            if code != abi.PAUSED:
-                return code
-        before, again, longest = _seen(run, rates), 0, 0.0
-        while (steps := control[abi.STEPS]) < pause:
-            if knots is not None and again == 0:
-                try:
-                    knots.function(clock[abi.TIME], state.y, state.p, state.w, rates(), out)
-                    clock[abi.NEXT] = knots.step(out, clock[abi.NEXT], met)
-                except (ArithmeticError, ValueError):
-                    pass  # what plain Python refuses to evaluate is nan in compiled code: the step stays as it is
-            if switches is not None:
-                run.snapshot.take(run.scheme)
-            code = enter(min(pause, steps + 1))
-            if code not in (abi.PAUSED, abi.DONE, abi.MET):
-                return code
-            if switches is not None and control[abi.STEPS] > steps:
-                after, h = _seen(run, rates), clock[abi.STEP]
-                if again == 0 or h < longest:
-                    part = 1.0
-                    if before is not None and after is not None and not _was_reset(run):
-                        part = switches.part(before, after, h, rtol)
-                    if part < 1.0 and again < MOST_AGAIN and part * h > _SHORTEST * clock[abi.TIME]:
-                        _take_again(run, part * h)
-                        again, longest = again + 1, h
-                        continue
-                before, again = after, 0
-            if code != abi.PAUSED:
-                return code
+    system, looks, loop, rates, confirm, knots, switches = model
+    looks, state = bare(looks), bare(state)
+    head, clock, control = looks.head, state.clock, state.control
+    if control[abi.BEGUN] != 1:  # the scheme has to begin before anything is known of its first step
+        code = loop(system, scheme, until_step(span, float(control[abi.STEPS])), state, outputs)
+        if code != abi.PAUSED:
+            return int(code)
+        head[KNOWN] = 0.0
+    if head[KNOWN] == 0.0:
+        head[AGAIN] = 0.0
+        if looks.before.shape[0] > 0:
+            switches(clock[abi.TIME], state.y, state.p, state.w, rates_at(looks, state, rates, confirm), looks.before)
+        head[KNOWN] = 1.0
+    while control[abi.STEPS] < span.pause:
+        steps = control[abi.STEPS]
+        if looks.out.shape[0] > 0 and head[AGAIN] == 0.0:
+            knots(clock[abi.TIME], state.y, state.p, state.w, rates_at(looks, state, rates, confirm), looks.out)
+            clock[abi.NEXT] = aimed(looks.levels, looks.starts, looks.tables, looks.out, clock[abi.NEXT])
+        if looks.before.shape[0] > 0:
+            keep(state, looks)
+        code = loop(system, scheme, until_step(span, float(steps + 1)), state, outputs)
+        if control[abi.STEPS] == steps or code > abi.DONE:
+            return int(code)
+        if looks.before.shape[0] > 0:
+            switches(clock[abi.TIME], state.y, state.p, state.w, rates_at(looks, state, rates, confirm), looks.after)
+            h, share = clock[abi.STEP], 1.0
+            if head[AGAIN] == 0.0 or h < head[LONGEST]:
+                share = passed(looks.before, looks.after, h, span.rtol)
+            if share < 1.0 and head[AGAIN] < MOST_AGAIN and share * h > _SHORTEST * clock[abi.TIME]:
+                go_back(state, looks)
+                clock[abi.NEXT] = share * h
+                head[AGAIN] += 1.0
+                head[LONGEST] = h
+                continue
+            put(looks.after, looks.before, 0)
+            head[AGAIN] = 0.0
+        if code != abi.PAUSED:
+            return int(code)
     return abi.PAUSED
 
 
-def _take_again(run: Simulation, h: float) -> None:
-    """Go back to where the last step began, and have the next one try `h` seconds."""
-    control, clock = run.state.control, run.state.clock
-    counted, refused = control[[*_COUNTED]], control[abi.REJECTED]
-    run.go_back()
-    control[[*_COUNTED]], control[abi.REJECTED] = counted, refused + 1
-    clock[abi.NEXT] = h
+_loops: dict[Any, Any] = {}
 
 
-def _seen(run: Simulation, rates: Callable[[], NDArray[np.float64]]) -> Sequence[float] | None:
-    """Return values and rates of switches where a run stands, None where they are not known."""
-    switches, state = run.spec.switches, run.state
-    if switches is None:
-        return None
-    now, out = float(state.clock[abi.TIME]), [0.0] * (2 * switches.count)
-    try:
-        switches.function(now, state.y, state.p, state.w, rates(), out)
-    except (ArithmeticError, ValueError):
-        return None
-    return out
+def with_looks(loop: Any) -> Any:
+    """Return the loop that enters another one for each step; made when it is first asked for.
+
+    Parameters
+    ----------
+    loop : compiled loop
+        From `symgen.runtime.frame.loop`, or one that looks for events.
+    """
+    if loop not in _loops:
+        name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}"
+        signature, functions = signature_of(loop), (abi.RHS, abi.RHS, abi.OBSERVE, abi.OBSERVE)
+        model = types.Tuple((*signature.args[:1], LOOKS, types.FunctionType(signature), *functions))
+        made = compiled_loop(__name__, name, stepped, types.int64(model, *signature.args[1:]), once=True)
+        _loops[loop] = globals()[name] = made  # it is known by its name, as all loops are
+    return _loops[loop]
 
 
-def _was_reset(run: Simulation) -> bool:
-    """Return whether velocities have jumped where a run stands: what lies across such a jump was not passed."""
-    happened = [] if run.events is None else run.events.happened[-1:]
-    return any(event.action == RESET and event.t == run.state.clock[abi.TIME] for event in happened)
+# -- from Python -------------------------------------------------------------------------------------------------------
 
 
-def _rates(run: Simulation) -> Callable[[], NDArray[np.float64]]:
-    """Return what gives the rate of the state where a run stands; zeros where nothing reads it."""
-    state, law, switches = run.state, run.compiled.law_module, run.spec.switches
-    if run.setup.knows_rates and not hasattr(law, "rates"):
-        known = state.memory[: len(state.y)]
-        return lambda: known
-    found: NDArray[np.float64] = np.zeros_like(state.y)
-    if run.spec.knots is None and (switches is None or not switches.needs_rates):
-        return lambda: found
-    # what emitted functions remember is that of the step
-    own = state.y.copy(), state.p, state.w.copy(), state.iw.copy(), found
-    function, confirm = (direct(f, abi.RHS, 0.0, *own) for f in rates_of(law))
+def looking(
+    compiled: CompiledModel, setup: Setup, spec: RunSpec, system: tuple[Any, ...], state: State
+) -> tuple[tuple[Any, ...], Looks]:
+    """Return what the loop takes first, and what of it is looked at.
 
-    def rates() -> NDArray[np.float64]:
-        now = float(state.clock[abi.TIME])
-        own[0][:], own[2][:], own[3][:] = state.y, state.w, state.iw
-        if function(now) != 0:
-            confirm(now)
-        state.control[abi.EVALUATIONS] += 1
-        return found
-
-    return rates
+    Parameters
+    ----------
+    compiled, setup, spec
+        Model and method, the scheme, and what there is to look at.
+    system : tuple
+        What the loop takes that is entered for each step.
+    state : State
+        What the run keeps.
+    """
+    law, knots, switches, hunt = compiled.law_module, spec.knots, spec.switches, without_notes(state)
+    rates, source, count = setup.functions[:2], _UNREAD, 0 if switches is None else switches.count
+    levels, starts, tables = (np.zeros(0),) * 3 if knots is None else knots.arrays(spec.rtol)
+    if setup.knows_rates and not hasattr(law, "rates"):
+        source = _KEPT
+    elif knots is not None or (switches is not None and switches.needs_rates):
+        rates, source = rates_of(law), _ASKED
+    floats = state.y, state.w, state.clock, state.gauges, state.memory, hunt
+    looks = Looks(
+        *(np.array([0.0, 0.0, 0.0, source]), np.zeros(2 * count), np.zeros(2 * count), np.zeros(len(tables))),
+        *(levels, starts.astype(np.int64), tables, np.zeros(sum(map(len, floats)) + _ROW)),
+        *(np.zeros(len(state.iw) + len(state.control), dtype=np.int64), hunt),
+        *(np.zeros_like(array) for array in (state.y, state.w, state.iw, state.y)),
+    )
+    functions = [x.function for x in (knots or switches, switches or knots) if x is not None]
+    return (system, looks, setup.loop, *rates, *functions), looks

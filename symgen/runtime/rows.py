@@ -14,10 +14,11 @@ from numba import types
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import bare, part
-from symgen.runtime.instances import called
+from symgen.runtime.instances import called, signature_of
 from symgen.runtime.instances import loop as compiled_loop
+from symgen.runtime.looks import with_looks
 from symgen.runtime.observe import observe_rates, observe_rows
-from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Observed, Outputs
+from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, Observed, Outputs
 from symgen.runtime.redundancy import choose_rows
 from symgen.runtime.schemes import explicit
 from symgen.store.loops import from_its_source
@@ -185,8 +186,8 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: A
     Parameters
     ----------
     model : tuple
-        Its sizes and functions (`symgen.runtime.abi`): ``rhs``, ``confirm`` and ``accept``; for what is observed at
-        outputs ``rates`` or ``rhs``, its confirmation, and ``observe``.
+        What the loop over one run takes first; and for what is observed at outputs its sizes and functions
+        (`symgen.runtime.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``.
     scheme, span
         As for a single run.
     chunk : Chunk
@@ -202,9 +203,8 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: A
         How many of the selected rows are done: all of them, unless the run was stopped.
     """
     chunk, state, kept = bare(chunk), bare(state), bare(kept)
-    sizes, rhs, confirm, accept, rates, rates_confirm, observe = model
-    system, observers = (sizes, rhs, confirm, accept, 0, 0, 0), (sizes, rates, rates_confirm, accept, observe)
-    ny, n_p, nw = sizes.ny, state.p.shape[0], state.w.shape[0]
+    system, observers = model
+    ny, n_p, nw = observers[0].ny, state.p.shape[0], state.w.shape[0]
     for s in range(chunk.selected.shape[0]):
         if state.control[abi.STOP] != 0:
             return int(s)
@@ -236,12 +236,19 @@ def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> in
     return 0
 
 
-def rows_loop(name: str, loop: Any, scheme: Any) -> Any:
-    """Return the loop over many runs around one over a single run, for a type of its scheme's record."""
-    model = types.Tuple((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.RHS, abi.RHS, abi.OBSERVE))
-    signature = types.int64(model, scheme, SPAN, CHUNK, STATE, KEPT_OF_RUN)
+def rows_loop(name: str, loop: Any) -> Any:
+    """Return the loop over many runs around one over a single run."""
+    args = signature_of(loop).args
+    observers = types.Tuple((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
+    signature = types.int64(types.Tuple((*args[:1], observers)), *args[1:2], SPAN, CHUNK, STATE, KEPT_OF_RUN)
     return compiled_loop(__name__, name, run_rows, signature, integrate=loop)
 
 
-constant = rows_loop("constant", explicit.constant, TABLEAU)
-adaptive = rows_loop("adaptive", explicit.adaptive, TABLEAU)
+constant = rows_loop("constant", explicit.constant)
+adaptive = rows_loop("adaptive", explicit.adaptive)
+looking = rows_loop("looking", with_looks(explicit.adaptive))
+
+
+def that_look(loop: Any) -> Any:
+    """Return the loop over many runs that looks between the steps of each, and is otherwise the same."""
+    return {adaptive: looking}[loop]

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from symgen.ir.numerics import WARN
 from symgen.runtime import abi
 from symgen.runtime.changes import Changes
-from symgen.runtime.looks import stepped
 from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
 from symgen.runtime.probe import rates_of
 from symgen.runtime.redundancy import row_chooser
@@ -26,6 +25,7 @@ if TYPE_CHECKING:
     from symgen.runtime.entry import Entry
     from symgen.runtime.events import Events, Watched
     from symgen.runtime.integrator import Integrator
+    from symgen.runtime.looks import Looks
     from symgen.runtime.records import Outputs
     from symgen.runtime.run import RunSpec
 
@@ -88,6 +88,13 @@ class Simulation:
             self._watch(spec.events)
         self.snapshot = Snapshot(state)
         self.state = self.snapshot.state
+        self._model: tuple[Any, ...] = self.sizes, *self.setup.functions
+        self._looks: Looks | None = None
+        if spec.knots is not None or spec.switches is not None:
+            from symgen.runtime.looks import looking, with_looks
+
+            self._model, self._looks = looking(compiled, self.setup, spec, self._model, self.state)
+            self.setup = replace(self.setup, loop=with_looks(self.setup.loop))
         self._prepared: tuple[Outputs, Entry] | None = None
         self._counts, self._clock = memoryview(self.state.control), memoryview(self.state.clock)
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
@@ -173,12 +180,8 @@ class Simulation:
             If an event asks for velocities that the constraints do not allow.
         """
         until, most = self.spec.until if until is None else until, self.span.most if most is None else most
-        if self.spec.knots is None and self.spec.switches is None:
-            return self._entered(outputs, until, pause, most)
-        return stepped(self, lambda pause: self._entered(outputs, until, pause, most), pause)
-
-    def _entered(self, outputs: Outputs, until: float, pause: float, most: float) -> int:
-        """Go on as `enter` does, by steps that look no further than their error estimate."""
+        if self._looks is not None:
+            self._looks.forget()
         entry = self._prepared[1] if self._prepared is not None and self._prepared[0] is outputs else None
         while True:
             if entry is None:
@@ -283,16 +286,17 @@ class Simulation:
 
         What the run keeps before is remembered, see `go_back`.
         """
-        entry, snapshot, spec = self._entry, self.snapshot, self.spec
-        if entry is None or not self.direct or spec.knots is not None or spec.switches is not None:
+        entry, snapshot = self._entry, self.snapshot
+        if entry is None or not self.direct:
             snapshot.take(self.scheme)
-            self._prepared = None if entry is None or not self.direct else (self._nothing, entry)
             return self.enter(self._nothing, until, pause, most)
         if not self._copied or self._counts[abi.EVENTS] > 0:
             snapshot.take(self.scheme)
         else:
             snapshot.rows = 0
         most = self.span.most if most is None else most
+        if self._looks is not None:
+            self._looks.forget()
         while True:
             if not entry.has(self.scheme, self.span):
                 entry.take(self.scheme, self.span)
@@ -302,7 +306,7 @@ class Simulation:
                 return ended
 
     def go_back(self) -> None:
-        """Take up what was remembered in `snapshot` last, as by `go` where it enters its loop."""
+        """Take up what was remembered when `go` was called last, or entered its loop after an event."""
         self.scheme = self.snapshot.put_back(self.scheme)
         if self.events is not None:
             self.events.forget_after(self._clock[abi.TIME])
@@ -323,10 +327,6 @@ class Simulation:
         elif code != abi.NOTED:
             return code
         return None
-
-    @property
-    def _model(self) -> tuple[Any, ...]:
-        return self.sizes, *self.setup.functions
 
     @cached_property
     def _nothing(self) -> Outputs:

@@ -9,9 +9,10 @@ step say what was passed, and the step is taken again to between the first two p
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
+from symgen.runtime.instances import called
 from symgen.runtime.switching import first_root, hidden, side_of
 
 #: How often a step is taken again at most: passages are known to the fourth power of a step.
@@ -24,53 +25,56 @@ class Switches:
 
     Attributes
     ----------
-    function : callable
-        ``(t, y, p, w, ydot, out)``, plain Python: values of all switches, then their rates.
+    function : emitted function
+        ``(t, y, p, w, ydot, out)``: values of all switches, then their rates.
     count : int
         How many there are.
     needs_rates : bool
         Whether the function reads accelerations.
     """
 
-    function: Callable[..., None]
+    function: Any
     count: int
     needs_rates: bool
 
-    def part(self, before: Sequence[float], after: Sequence[float], h: float, least: float) -> float:
-        """Return the part of a step to take in its place, 1 for all of it.
 
-        Parameters
-        ----------
-        before, after : sequence of float
-            What the function has written at its beginning and at its end.
-        h : float
-            Its length [s].
-        least : float
-            What lasts for a smaller part of the step than this is not looked at.
-        """
-        n, first, second, probe = self.count, 2.0, 2.0, False
-        for i in range(n):
-            g0, g1, d0, d1 = before[i], after[i], h * before[n + i], h * after[n + i]
-            # most switches are far away: both tangents stay on their side
-            if (g0 > 0.0 and g1 > 0.0 and g0 + d0 > 0.0 and g1 - d1 > 0.0) or (
-                g0 < 0.0 and g1 < 0.0 and g0 + d0 < 0.0 and g1 - d1 < 0.0
-            ):
+@called
+def passed(before: Any, after: Any, h: float, least: float) -> float:
+    """Return the part of a step to take in its place, 1 for all of it.
+
+    Parameters
+    ----------
+    before, after : Array
+        What the function has written at its beginning and at its end.
+    h : float
+        Its length [s].
+    least : float
+        What lasts for a smaller part of the step than this is not looked at.
+    """
+    n, first, second, probe, twice = before.shape[0] // 2, 2.0, 2.0, False, False
+    for i in range(n):
+        g0, g1, d0, d1 = before[i], after[i], h * before[n + i], h * after[n + i]
+        # most switches are far away: both tangents stay on their side
+        if (g0 > 0.0 and g1 > 0.0 and g0 + d0 > 0.0 and g1 - d1 > 0.0) or (
+            g0 < 0.0 and g1 < 0.0 and g0 + d0 < 0.0 and g1 - d1 < 0.0
+        ):
+            continue
+        if not math.isfinite(g0 + g1 + d0 + d1):
+            continue
+        side = side_of(g0, side_of(d0, 1.0))
+        x = hidden(g0, d0, g1, d1, side, 0.0)
+        inside = x < 1.0
+        if not inside:
+            if side_of(g1, side) == side:
                 continue
-            if not math.isfinite(g0 + g1 + d0 + d1):
-                continue
-            side = side_of(g0, side_of(d0, 1.0))
-            x = hidden(g0, d0, g1, d1, side, 0.0)
-            inside = x < 1.0
-            if not inside:
-                if side_of(g1, side) == side:
-                    continue
-                x = first_root(g0, d0, g1, d1, side)
-            if x < first:
-                first, second, probe = x, first, inside
-            elif x < second:
-                second = x
-        if probe:
-            return first if first > least else 1.0
-        if second >= 1.0 or second - first <= least:
-            return 1.0
-        return 0.5 * (first + second)
+            x = first_root(g0, d0, g1, d1, side)
+        if x < first:
+            first, second, probe, twice = x, first, inside, probe
+        elif x < second:
+            second, twice = x, inside
+    if probe:
+        return first if first > least else 1.0
+    # what returns is passed twice there, wherever another switch is passed
+    if second >= 1.0 or (second - first <= least and not twice):
+        return 1.0
+    return 0.5 * (first + second)

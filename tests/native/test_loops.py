@@ -7,7 +7,9 @@ from importlib import import_module
 import pytest
 
 from symgen.native.loops import read_loop
+from symgen.runtime import rows
 from symgen.runtime.hunting import with_events
+from symgen.runtime.looks import with_looks
 from symgen.store.emitted import COMPILER
 from symgen.store.loops import _lines, definition
 
@@ -25,8 +27,20 @@ LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
 def test_every_loop_is_in_the_language(scheme, name, events):
     loop = getattr(import_module(f"symgen.runtime.schemes.{scheme}"), name)
     loop = with_events(loop) if events else loop
+    read(loop)
+    if name == "adaptive":
+        read(with_looks(loop))
+
+
+@pytest.mark.parametrize("name", ["constant", "adaptive", "looking"])
+def test_every_loop_over_rows_is_in_the_language(name):
+    read(getattr(rows, name))
+
+
+def read(loop):
+    """Raise where a part of a loop is left to Numba."""
     (signature,) = loop._signatures
-    read_loop(loop._eager, signature.args, definition)  # raises where a part is left to Numba
+    read_loop(loop._eager, signature.args, definition)
 
 
 def test_a_loop_whose_file_was_edited_since_it_was_loaded_is_numbas(tmp_path, monkeypatch):

@@ -17,7 +17,7 @@ import symgen
 from symgen import catalogue
 from symgen.describe.kinks import knots_of
 from symgen.ensemble.sweep import sweep
-from symgen.runtime.knots import Knots
+from symgen.runtime.knots import Knots, aimed
 
 #: Force over position, linear between points; constant beyond them.
 X, Y = (0.2, 0.37, 0.61, 0.85, 1.1), (1.0, -6.0, 9.0, -8.0, 2.0)
@@ -184,7 +184,7 @@ def test_the_next_point_is_the_first_root_of_a_parabola(period: float) -> None:
     """Beside NumPy's roots of all parabolas, for motions that go on and that turn round."""
     random, seen = np.random.default_rng(5), set()
     levels = (0.0, 0.17, 0.31, 0.52, 0.8, 1.0)
-    knots, met = Knots(lambda *_: None, (levels,), (period,), (1,)), 1e-4
+    arrays, met = Knots(None, (levels,), (period,), (1,)).arrays(1e-8), 1e-4
     for _ in range(400):
         s, rate, second = random.uniform(-0.3, 1.3) + 7.0 * period, random.normal(), random.normal() * 3.0
         h = random.uniform(0.02, 0.3)
@@ -193,21 +193,20 @@ def test_the_next_point_is_the_first_root_of_a_parabola(period: float) -> None:
         times = [float(t.real) for pair in roots for t in pair if abs(t.imag) < 1e-12 and t.real > met * h]
         first = min(times, default=math.inf)
         expected = h if first > 2.0 * h else first if first <= h else 0.5 * first
-        found = knots.step([s, rate, second], h, [met])
+        found = aimed(*arrays, np.array([s, rate, second]), h)
         assert found == pytest.approx(expected, rel=1e-9)
         seen.add((first <= h, first <= 2.0 * h, rate * (rate + 2.0 * h * second) > 0.0))
     assert len(seen) == 6, "near, far and further, of motions that go on and that turn round"
 
 
 def test_what_is_not_finite_and_what_stands_still_is_left_alone() -> None:
-    knots = Knots(lambda *_: None, ((0.0, 1.0),), (0.0,), (2,))
-    met = knots.met(1e-9)
-    assert met == [pytest.approx(1e-3)]
+    arrays = Knots(None, ((0.0, 1.0),), (0.0,), (2,)).arrays(1e-9)
+    assert arrays[2].tolist() == [0.0, 0.0, pytest.approx(1e-3)]
     for out in ((math.nan, 1.0, 0.0), (0.5, math.inf, 0.0), (0.5, 0.0, 0.0), (1.0, 0.0, 0.0), (0.5, 1.0, math.nan)):
-        assert knots.step(list(out), 0.1, met) == 0.1
-    assert knots.step([0.96, 1.0, 0.0], 0.1, met) == pytest.approx(0.04)
-    assert knots.step([0.99999, 1.0, 0.0], 0.1, met) == 0.1  # just met
-    assert knots.step([0.85, 1.0, 0.0], 0.1, met) == pytest.approx(0.075)  # two equal steps
+        assert aimed(*arrays, np.array(out), 0.1) == 0.1
+    assert aimed(*arrays, np.array([0.96, 1.0, 0.0]), 0.1) == pytest.approx(0.04)
+    assert aimed(*arrays, np.array([0.99999, 1.0, 0.0]), 0.1) == 0.1  # just met
+    assert aimed(*arrays, np.array([0.85, 1.0, 0.0]), 0.1) == pytest.approx(0.075)  # two equal steps
 
 
 def test_tables_over_the_state_are_those_of_two_machines() -> None:
