@@ -348,5 +348,4 @@ def stopping(mechanism: Mechanism, plan: Plan, compiled: CompiledModel) -> Plan:
         return plan
     from symgen.compiling.knots import with_looks
 
-    # steps end at kinks where the scheme has the accelerations at their beginning
     return replace(plan, spec=with_looks(mechanism, compiled, plan.spec, isinstance(plan.tableau, Tableau)))

@@ -19,9 +19,8 @@ from symgen.runtime.instances import called
 
 Array = NDArray[np.float64]
 
-#: A table with more points inside a step than this is not followed: its kinks are smaller than the tolerance, or the
-#: error estimate will say so.
-_CROWD = 8
+#: This part of the way between two points is none: a point is missed by less.
+_REACHED = 1e-2
 
 
 @dataclass(frozen=True)
@@ -38,24 +37,29 @@ class Knots:
         By which these repeat themselves, 0 where they do not.
     orders : tuple of int
         Which derivative of each table jumps there.
+    sizes : tuple of tuple of float
+        How much each point matters: by how much of its range a table differs from its neighbouring piece a point on.
     """
 
     function: Any
     levels: tuple[tuple[float, ...], ...]
     periods: tuple[float, ...]
     orders: tuple[int, ...]
+    sizes: tuple[tuple[float, ...], ...]
 
     def arrays(self, rtol: float) -> tuple[Array, NDArray[np.int64], Array]:
         """Return levels, where those of each table begin, and numbers of each table, as `aimed` takes them.
 
-        Levels stand over three periods where they repeat, the middle one the table's. Numbers are where that begins,
-        the period, and below which part of a step points were just met: that much of a kink is a tolerance, as a step
-        of which a part x lies behind a jump of a k-th derivative feels the (k + 1)-th power of x.
+        Levels stand over three periods where they repeat, the middle one the table's; points that matter less than
+        `rtol` are left out: many of these together are a smooth curve, which the error estimate sees. Numbers are where
+        the period begins, the period, and below which part of a step points were just met: that much of a kink is a
+        tolerance, as a step of which a part x lies behind a jump of a k-th derivative feels the (k + 1)-th power of x.
         """
         every, starts, numbers = list[float](), [0], list[float]()
-        for levels, period, order in zip(self.levels, self.periods, self.orders, strict=True):
-            turns = (-1, 0, 1) if period > 0.0 else ()
-            every += [x + k * period for k in turns for x in levels[:-1]] or levels
+        for levels, period, order, sizes in zip(self.levels, self.periods, self.orders, self.sizes, strict=True):
+            turns, own = ((-1, 0, 1), levels[:-1]) if period > 0.0 else ((0,), levels)
+            felt = [x for x, size in zip(own, sizes, strict=False) if size > rtol]
+            every += [x + k * period for k in turns for x in felt]
             starts.append(len(every))
             numbers += [levels[0], period, rtol ** (1.0 / (order + 1))]
         return np.array(every), np.array(starts, dtype=np.int64), np.array(numbers)
@@ -118,10 +122,8 @@ def first_on(
         if abs(distance) > abs(ahead):
             return math.inf
         t = 2.0 * distance / (rate + math.copysign(math.sqrt(max(0.0, rate * rate + 4.0 * half * distance)), rate))
-        if t > met * h:
-            last = k + way * _CROWD
-            crowd = low <= last and last < high and abs(levels[last] - s) <= abs(h * (rate + h * half))
-            return math.inf if crowd else t
+        if t > met * h or not at_point(levels, low, high, k, s):
+            return float(t)
         k += way
     return math.inf
 
@@ -136,6 +138,16 @@ def first_around(levels: Any, low: int, high: int, s: float, rate: float, half: 
             continue
         q = 0.5 * (rate + math.copysign(math.sqrt(inside), rate))
         for t in (distance / q if q != 0.0 else 0.0, -q / half if half != 0.0 else 0.0):
-            if met * h < t and t < found:
+            if 0.0 < t and t < found and (met * h < t or not at_point(levels, low, high, k, s)):
                 found = t
     return found
+
+
+def at_point(levels: Any, low: int, high: int, k: int, s: float) -> bool:
+    """Return whether s is as good as at a level: from the one before it is nearly all the way."""
+    near = math.inf
+    if k > low:
+        near = levels[k] - levels[k - 1]
+    if k + 1 < high:
+        near = min(near, levels[k + 1] - levels[k])
+    return bool(abs(levels[k] - s) <= _REACHED * near)

@@ -15,7 +15,9 @@ from support.pushed import pushed_mass
 
 import symgen
 from symgen import catalogue
+from symgen.compiling.knots import _sizes
 from symgen.describe.kinks import knots_of
+from symgen.describe.tables import Table
 from symgen.ensemble.sweep import sweep
 from symgen.runtime.knots import Knots, aimed
 
@@ -184,7 +186,7 @@ def test_the_next_point_is_the_first_root_of_a_parabola(period: float) -> None:
     """Beside NumPy's roots of all parabolas, for motions that go on and that turn round."""
     random, seen = np.random.default_rng(5), set()
     levels = (0.0, 0.17, 0.31, 0.52, 0.8, 1.0)
-    arrays, met = Knots(None, (levels,), (period,), (1,)).arrays(1e-8), 1e-4
+    arrays, met = Knots(None, (levels,), (period,), (1,), ((1.0,) * len(levels),)).arrays(1e-8), 1e-4
     for _ in range(400):
         s, rate, second = random.uniform(-0.3, 1.3) + 7.0 * period, random.normal(), random.normal() * 3.0
         h = random.uniform(0.02, 0.3)
@@ -200,7 +202,7 @@ def test_the_next_point_is_the_first_root_of_a_parabola(period: float) -> None:
 
 
 def test_what_is_not_finite_and_what_stands_still_is_left_alone() -> None:
-    arrays = Knots(None, ((0.0, 1.0),), (0.0,), (2,)).arrays(1e-9)
+    arrays = Knots(None, ((0.0, 1.0),), (0.0,), (2,), ((1.0, 1.0),)).arrays(1e-9)
     assert arrays[2].tolist() == [0.0, 0.0, pytest.approx(1e-3)]
     for out in ((math.nan, 1.0, 0.0), (0.5, math.inf, 0.0), (0.5, 0.0, 0.0), (1.0, 0.0, 0.0), (0.5, 1.0, math.nan)):
         assert aimed(*arrays, np.array(out), 0.1) == 0.1
@@ -319,3 +321,35 @@ def test_methods_with_momenta_run_rows_without_integrals_nobody_asks_for(tmp_pat
     settings = {"integrator": "dop853", "until": 0.1, "method": "augmented-hamiltonian"}
     found = sweep(symgen.load(file), {"place": [0.3, 0.6]}, quantities=["bob.x"], **settings)
     assert list(found.status) == ["ok", "ok"]
+
+
+@pytest.mark.parametrize("integrator", ["dop853", "dopri5", "abm", "sdirk", "radau5"])
+@pytest.mark.parametrize(("points", "how"), [(101, "linear"), (1001, "pchip"), (6001, "linear")])
+def test_a_spike_of_a_table_is_not_stepped_over(tmp_path: Path, points: int, how: str, integrator: str) -> None:
+    """A bump of one point among many that are flat, as on a road: a step over all of it would see nothing."""
+    x = np.linspace(0.0, 10.0, points)
+    y = np.zeros(points)
+    y[int(0.535 * points)] = 0.5 / x[1]
+    text = f'[mechanism]\nname = "road"\ngravity = [0.0, 0.0]\n[run]\nuntil = 9.0\n[tables.bump]\nx = {x.tolist()}\n'
+    text += f'y = {y.tolist()}\ninterpolation = "{how}"\n[bodies.a]\ntype = "point"\nmass = 1.0\n'
+    text += "position = [0.0, 0.0]\nvelocity = [1.0, 0.0]\n"
+    text += '[forces.push]\ntype = "force"\nbody = "a"\nforce = ["0", "bump(a.x)"]\n'
+    file = tmp_path / "road.toml"
+    file.write_text(text, encoding="utf-8")
+    result = symgen.load(file).simulate(method="lagrange", integrator=integrator, rtol=1e-8)
+    # triangle and bell have the same area; two hundred tolerances of a speed of 1 m/s, as steps around it are many
+    assert result["a.vy"][-1] == pytest.approx(0.5, abs=2e-6)
+
+
+def test_points_that_bend_nothing_are_passed() -> None:
+    """Those of a fine smooth table cost no steps; those around a spike of it do."""
+    x = np.linspace(0.0, 1.0, 1001)
+    smooth, spiked = np.sin(6.0 * x), np.sin(6.0 * x)
+    spiked[500] += 1.0
+    counts = []
+    for y in (smooth, spiked):
+        table = Table("t", tuple(x), tuple(y), "cubic")
+        knots = Knots(None, (table.x,), (0.0,), (3,), (_sizes(table.interpolated),))
+        counts.append(len(knots.arrays(1e-8)[0]))
+    # straight lines begin at both ends; the waves of a spline beside a spike fall by 3.7 from point to point
+    assert counts[0] == 2 and 5 <= counts[1] <= 60
