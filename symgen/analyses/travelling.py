@@ -96,7 +96,7 @@ def _known(found: Prescribed, end: float) -> Array:
         return np.zeros(0)
     times = np.unique([0.0, *(t / end for t in changes), 1.0])
     k = np.arange(1, BETWEEN * (len(times) - 1))
-    return np.interp(k / BETWEEN, np.arange(len(times)), times)
+    return np.asarray(np.interp(k / BETWEEN, np.arange(len(times)), times))
 
 
 def _turns(at: Array, steps: Array) -> Array:
