@@ -203,13 +203,13 @@ def _shape(s: Settings, last: LastState | None) -> str:
 
 
 def events_asked(mechanism: Mechanism, s: Settings) -> tuple[Event, ...]:
-    """Return the events of a run: those of the mechanism, then those that are asked for beside."""
-    return (
-        *mechanism.events,
-        *events_of(mechanism, s.events),
+    """Return the events of a run: those of the mechanism, then those that are asked for beside, each once."""
+    asked = (
         *(watched(mechanism, "stop_when", text, STOP) for text in s.stop_when),
         *(watched(mechanism, "record_when", text, RECORD) for text in s.record_when),
     )
+    once = {event.name: event for event in reversed(asked)}  # one that ends runs is recorded as well
+    return (*mechanism.events, *events_of(mechanism, s.events), *reversed(once.values()))
 
 
 def refuse_events(where: str, mechanism: Mechanism, s: Settings) -> None:

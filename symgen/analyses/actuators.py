@@ -127,11 +127,11 @@ def _of_force(force: Force, name: str) -> tuple[Force, list[Actuator]]:
         raise InputError(WHERE, f"an effort of {force.name}", quoted(name), nearest(asked, labels))
     efforts, found = list[Effort](), list[Actuator]()
     for effort in force.efforts:
-        own = force.name if len(labels) == 1 else f"{force.name}.{effort.label}"
+        whole = f"{force.name}.{effort.label}"
         if asked in ("", effort.label):
-            unit = "N m" if is_turning(effort.measure) else "N"
-            found.append(Actuator(own, unit, _parameter(own), _rate(own, effort)))
-            effort = msgspec.structs.replace(effort, magnitude=Name(_parameter(own)), potential=ZERO)
+            own, unit = name if len(labels) == 1 else whole, "N m" if is_turning(effort.measure) else "N"
+            found.append(Actuator(own, unit, _parameter(whole), _rate(own, effort)))
+            effort = msgspec.structs.replace(effort, magnitude=Name(_parameter(whole)), potential=ZERO)
         efforts.append(effort)
     return msgspec.structs.replace(force, efforts=tuple(efforts)), found
 

@@ -81,13 +81,17 @@ class Tangent:
         return self.state_rates[:, : self.size]
 
     @property
+    def speeds(self) -> Array:
+        """The velocities, shape (nv,)."""
+        return self.y[self.subject.nq : self.subject.nq + self.subject.nv]
+
+    @property
     def rate(self) -> float:
         """The fastest that forces, or the motion, could make anything change [1/s]; 1 where nothing does."""
         e, basis, subject = self.base, np.abs(self.basis), self.subject
         heavy = np.einsum("ik,ij,jk->k", self.basis, e.by("balance", "a"), self.basis)
         stiffness = np.abs(e.by("balance", "q") @ e.by("motion", "v"))
-        v = self.y[subject.nq : subject.nq + subject.nv]
-        found = [float(np.abs(v / subject.spans).max(initial=0.0))]
+        found = [float(np.abs(self.speeds / subject.spans).max(initial=0.0))]
         for matrix, power in ((stiffness, 0.5), (np.abs(e.by("balance", "v")), 1.0)):
             sizes = np.einsum("ik,ij,jk->k", basis, matrix, basis)
             moved = heavy > 1e-13 * heavy.max(initial=0.0)

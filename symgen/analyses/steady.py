@@ -21,8 +21,8 @@ from symgen.runtime.probe import rate_function
 
 Array = NDArray[np.float64]
 
-#: Rates below this fraction of the motion's own count as none.
-STILL = 1e-7
+#: Rates below this fraction of the motion's own count as none, and at rest those below this one of the fastest.
+STILL, ROUNDING = 1e-7, 1e-13
 #: How far one quantity may follow from others, as a fraction of it.
 CLOSED = 1e-8
 #: Rates that change by less than this part of the largest change of any are compared with that part of it: a wheel by
@@ -32,36 +32,45 @@ ROUNDED = 1e-6
 LATER = 1e-4
 #: Radians, or lengths of the mechanism, between the instants at which is asked again.
 APART = 0.7
-#: Steps between them; a motion with an eigenvalue that asks for more is stiff.
-STEPS = 60
+#: Steps between them; a motion with an eigenvalue that asks for more is stiff, and is followed for so many radians of
+#: its fastest eigenvalue at most.
+STEPS, FARTHEST = 60, 1e4
 
 
 def at_rest(subject: Subject, x: Tangent) -> bool:
-    """Whether nothing moves at a state, nor begins to, nor is driven."""
-    moving = np.abs(x.y[subject.nq : subject.nq + subject.nv]).max(initial=0.0)
-    if moving > STILL * (1.0 + _speed_of_change(subject)):
+    """Whether nothing moves at a state, nor begins to, nor is driven.
+
+    What moves is compared with what the forces on it could do in its own place: what joints carry there and what
+    springs would exert a length of the mechanism, or a radian, away.
+    """
+    e, spans = x.base, subject.spans
+    if any(np.any(e.by(group, "t")) for group in ("balance", "velocities", "positions")):
         return False
-    driven = max(np.abs(x.base.by(g, "t")).max(initial=0.0) for g in ("balance", "velocities", "positions"))
-    return bool(np.abs(x.a).max(initial=0.0) <= _limit(subject, x) and driven == 0.0)
+    carried = np.abs(subject.rows(e)).T @ np.abs(x.lam) + np.abs(e.by("balance", "q") @ e.by("motion", "v")) @ spans
+    heavy = np.diag(e.by("balance", "a")) * spans
+    found = heavy > 0.0  # what has no mass follows
+    quick = carried[found] / heavy[found]
+    limit = STILL * quick + ROUNDING * quick.max(initial=0.0)
+    v, a = np.abs(x.speeds / spans)[found], np.abs(x.a / spans)[found]
+    return bool(np.all(a <= limit) and np.all(v**2 <= STILL * limit))
 
 
-def _speed_of_change(subject: Subject) -> float:
-    return float(np.sqrt(9.81 / subject.length))
+def pace(x: Tangent) -> float:
+    """Return by how many lengths of the mechanism, or radians, a motion goes on in a second, or would from rest."""
+    v, a = (np.abs(z / x.subject.spans).max(initial=0.0) for z in (x.speeds, x.a))
+    return float(max(v, np.sqrt(a)))
 
 
-def _limit(subject: Subject, x: Tangent) -> float:
-    """Return the rate of a velocity that counts as none."""
-    free = np.abs(x.base.value("balance") - x.base.by("balance", "a") @ x.a).max(initial=0.0)
-    heavy = np.abs(np.diag(x.base.by("balance", "a")))
-    lightest = heavy[heavy > 0.0].min(initial=1.0)
-    scale = max(1.0, float(np.abs(x.y[subject.nq : subject.nq + subject.nv]).max(initial=0.0)) ** 2)
-    return float(STILL * max(scale, min(1e3, free / lightest)))
+def extents(x: Tangent, quantities: Sequence[Quantity]) -> Array:
+    """Return by how much quantities change where everything moves by a length, or a radian, or as fast as it does."""
+    going = np.repeat([1.0, pace(x)], [x.positions, x.velocities])
+    found = np.array([np.abs(q.changes[: x.size] * going).max(initial=0.0) for q in quantities])
+    return np.where(found > 0.0, found, 1.0)
 
 
-def still(subject: Subject, x: Tangent, quantity: Quantity) -> bool:
-    """Whether a quantity does not change at a state."""
-    speed = np.abs(x.y[subject.nq : subject.nq + subject.nv]).max(initial=0.0)
-    return abs(quantity.rate) <= max(_limit(subject, x), STILL * float(speed))
+def still(x: Tangent, quantity: Quantity) -> bool:
+    """Whether a quantity does not change in a motion."""
+    return bool(abs(quantity.rate) <= STILL * pace(x) * extents(x, [quantity])[0])
 
 
 def rates_of(subject: Subject, name: str) -> str | None:
@@ -177,7 +186,7 @@ def found_states(subject: Subject, x: Tangent, soon: Tangent) -> tuple[str, ...]
     """
     turning = {q.name for i, q in enumerate(subject.compiled.info.coordinates) if _of_spin(subject, i)}
     names = [n for n in quantities_of(subject) if n not in turning]
-    names = [n for n in names if still(subject, x, x.quantity(n)) and still(subject, soon, soon.quantity(n))]
+    names = [n for n in names if still(x, x.quantity(n)) and still(soon, soon.quantity(n))]
     while names:
         _, _, rest, sizes = system(x, names)
         follows = np.abs(rest).max(axis=1, initial=0.0) <= CLOSED * sizes
@@ -211,7 +220,9 @@ def check_steady(subject: Subject, x: Tangent, names: Sequence[str], where: str,
     InputError
         If it is not steady; says which state changes, or what is missing among the states.
     """
-    _check_still(subject, x, names, where)
+    resting = at_rest(subject, x)
+    if not resting:
+        _check_still(x, names, where)
     a, _, rest, sizes = system(x, names)
     worst = np.abs(rest).max(axis=1, initial=0.0) / sizes
     if worst.max(initial=0.0) > CLOSED:
@@ -225,19 +236,20 @@ def check_steady(subject: Subject, x: Tangent, names: Sequence[str], where: str,
             f"'{name}', whose rate depends on others",
             f"'{also}' is one of them",
         )
-    if at_rest(subject, x):
+    if resting:
         return
-    then = x
+    then, found = x, [x.quantity(name) for name in names]
+    large = extents(x, found)
+    alike = large / large[:, np.newaxis]
     for k in range(2):
         then = soon if k == 0 and soon is not None else after(subject, then)
         t, b = then.t, system(then, names)[0]
-        if not np.abs(b - a).max(initial=0.0) <= LATER * (1.0 + np.abs(a).max(initial=0.0)):
+        if not np.abs((b - a) * alike).max(initial=0.0) <= LATER * (pace(x) + np.abs(a * alike).max(initial=0.0)):
             expected = "a steady motion, about which everything that is looked at stays as it is"
             raise InputError(where, expected, f"one whose linear system is another at t = {t:.4g} s")
-        for name in names:
-            now, before = then.quantity(name), x.quantity(name)
-            if not abs(now.value - before.value) <= LATER * (1.0 + abs(before.value)):
-                raise InputError(where, "a steady motion", f"one in which '{name}' changes until t = {t:.4g} s")
+        for before, size in zip(found, large, strict=True):
+            if not abs(then.quantity(before.name).value - before.value) <= LATER * (size + abs(before.value)):
+                raise InputError(where, "a steady motion", f"one in which '{before.name}' changes until t = {t:.4g} s")
 
 
 def _explains(x: Tangent, row: Array, name: str) -> float:
@@ -246,8 +258,8 @@ def _explains(x: Tangent, row: Array, name: str) -> float:
     return float(abs(own @ row) / size) if size > 0.0 else 0.0
 
 
-def _check_still(subject: Subject, x: Tangent, names: Sequence[str], where: str) -> None:
-    moving = [q for name in names if not still(subject, x, q := x.quantity(name))]
+def _check_still(x: Tangent, names: Sequence[str], where: str) -> None:
+    moving = [q for name in names if not still(x, q := x.quantity(name))]
     if moving:
         worst = max(moving, key=lambda q: abs(q.rate))
         expected = "a state of rest, or of a motion in which no state changes"
@@ -273,9 +285,9 @@ def later(subject: Subject, x: Tangent) -> tuple[Array, float]:
         rates(t, _filled(y, z), subject.p, w, iw, whole)
         return whole[: nq + nv].copy()
 
-    speed = max(float(np.abs(y[nq : nq + nv]).max(initial=0.0)), _speed_of_change(subject))
-    end = x.t + APART / speed
     fastest = np.abs(np.linalg.eigvals(x.matrix)).max(initial=0.0)
+    speed = max(pace(x), APART * fastest / FARTHEST)
+    end = x.t + APART / speed
     stiff = fastest * APART / speed > STEPS
     z = (_by_implicit_steps if stiff else _by_steps)(slope, x.t, end, y[: nq + nv])
     y = subject.moved(_filled(y, z), np.zeros(nq))

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.runtime import abi
+from symgen.runtime.foreseen import foreseen, times_between
 from symgen.runtime.probe import Ready
 
 if TYPE_CHECKING:
@@ -22,8 +23,8 @@ Array = NDArray[np.float64]
 #: A driver moves by this between two times at most [rad, or the length of the mechanism].
 FARTHEST = 0.25
 #: Instants at which drivers are looked at first, and at most; they are enough where every second one shows all but
-#: this part of the way.
-FIRST, MOST, UNSEEN = 1024, 65536, 0.02
+#: this part of the way. And instants between two times at which formulas are known to change.
+FIRST, MOST, UNSEEN, BETWEEN = 1024, 65536, 0.02, 16
 #: Changes below this are none, and times nearer than this part of the motion are the same.
 NOTHING, SAME = 1e-12, 1e-9
 _GOLDEN = 0.5 * (5.0**0.5 - 1.0)
@@ -68,13 +69,14 @@ def _looked_at(found: Prescribed, end: float) -> tuple[Array, Array]:
     """Return parts of a motion, and how far each row is open there if nothing moves but drivers, as a number."""
     compiled, start = found.compiled, found.start
     geometry, w = Ready(compiled.model.geometry, abi.MEASURE), start.w.copy()
-    y = start.y.copy()
+    y, knots = start.y.copy(), _known(found, end)
     scale = np.array([1.0 if row.unit == "rad" else 1.0 / w[abi.LENGTH] for row in compiled.info.rows])
     count = FIRST
     while True:
         # not equidistant, so that what is faster than the looks is seen to be
         i = np.arange(1, count)
-        at = np.concatenate([[0.0], (i + 0.6 * (_GOLDEN * i % 1.0)) / (count + 0.6), [1.0]])
+        at = np.concatenate([[0.0], (i + 0.6 * (_GOLDEN * i % 1.0)) / (count + 0.6), knots, [1.0]])
+        at.sort()
         way = np.empty((len(at), len(scale)))
         for k, part in enumerate(at):
             geometry(float(part * end), y, start.p, w)
@@ -83,6 +85,19 @@ def _looked_at(found: Prescribed, end: float) -> tuple[Array, Array]:
         if whole - seen <= UNSEEN * whole or count >= MOST:
             return at, way
         count *= 2
+
+
+def _known(found: Prescribed, end: float) -> Array:
+    """Return parts of a motion at which formulas are known to change, and some between, however short that is."""
+    values = {q.name: float(x) for q, x in zip(found.compiled.info.parameters, found.start.p, strict=False)}
+    known = foreseen(found.mechanism)
+    jumps = (*known.kinks, *known.sides)
+    changes, _ = times_between(jumps, found.mechanism, values, max(end, 0.0), min(end, 0.0))
+    if not 0 < len(changes) <= MOST // BETWEEN:  # more of them are looked at as anything else is
+        return np.zeros(0)
+    times = np.unique([0.0, *(t / end for t in changes), 1.0])
+    k = np.arange(1, BETWEEN * (len(times) - 1))
+    return np.asarray(np.interp(k / BETWEEN, np.arange(len(times)), times))
 
 
 def _turns(at: Array, steps: Array) -> Array:

@@ -53,10 +53,12 @@ class Run:
         self.w, self.iw = np.zeros(told["nw"]), np.zeros(START["counters"], np.int64)
         self.limits = {name: x[method] if name == "velocity" else x for name, x in START["limits"].items()}
         self.taken, self.energy, self.moved = 0, None, 0.0
+        self.corrects, self.near, self.before = told["position_correction"], False, None
         for at, numbers in START["w"].values():
             self.w[at : at + len(numbers)] = [float(number) for number in numbers]
         self.y = self.corrected(0.0, np.array(START["y"]))
         self.w[START["step_at"]] = step
+        self.passed(0.0)
 
     def rate(self, t, y):
         """Return the rate of a state."""
@@ -77,8 +79,26 @@ class Run:
         y = self.corrected(t, y)
         if why := self.wrong(y):
             raise ArithmeticError(f"{why} at t = {t}")
+        entered = self.passed(t)
+        if entered is not None and not self.near:
+            where = f"passed near a singular position at t = {entered:.6g} s"
+            if self.corrects:
+                warnings.warn(f"{where}; the error there is not controlled by the step size", stacklevel=2)
+            else:
+                doubt = "and positions are not corrected: nothing tells whether the right branch was taken"
+                warnings.warn(f"unverified: {where} {doubt}", stacklevel=2)
+            self.near = True
         self.taken += 1
         return y
+
+    def passed(self, t):
+        """Return when the state that was taken last, or the step to it, has come near a singular position, or None."""
+        pivots = self.w[START["status"].index("smallest_pivot")], self.limits["pivot"]
+        sine, least = (max(pivot, 0.0) ** 0.5 for pivot in pivots)
+        begun, last, fall = self.before or (t, sine, 0.0)
+        gone = t - begun
+        self.before = t, sine, (last - sine) / gone if gone > 0.0 else 0.0
+        return t if sine < least else begun if fall > 0.0 and last - fall * gone < least else None
 
     def wrong(self, y):
         """Return why the corrected state that comes next in a run cannot be relied on, or an empty text."""
@@ -274,7 +294,8 @@ def _readme(model: Model, choices: Sequence[MethodChoice], why: str) -> str:
             "",
             f"runs it with numpy and numba alone, from the start in `start.json`. METHOD is one of {methods}. `Run` in"
             " `__init__.py` has the start and the functions: `rate(t, y)`, and `corrected(t, y)` for accepted states;"
-            " `accepted(t, y)` also ends a run where `symgen run` would end it, with the reason."
+            " `accepted(t, y)` also ends a run where `symgen run` would end it, with the reason, and warns where it"
+            " passes near a singular position, as a run does that is unverified. Errors are not estimated."
             " The start belongs to the parameters that stand there; with others the package has to be generated anew.",
             "",
             *([f"Nothing here looks for events, as `symgen run` does: {events}.", ""] if events else []),

@@ -25,17 +25,19 @@ def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel,
         known |= {x.name: (1, info.m + 2 * k), f"{x.name}.rate": (1, info.m + 2 * k + 1)}
     names, speeds = state_names(carried, carried.topology)
     turned = {m: abi.WINDING + i for i, m in enumerate(winding_order(mechanism, bodies.shape))}
-    first = info.sections["gauge"][0]
+    gauge = info.sections["gauge"][0]
 
     def integers(found: Iterable[int]) -> NDArray[np.int64]:
         return np.array(list(found), dtype=np.int64)
 
     return Carrying(
-        *(0, own.work, info.observed),
+        *(0, own.work, max(info.observed, info.nq + 2 * info.nv)),
         places=integers(x for name, _ in (*names, *speeds) for x in known[name]),
         windings=integers(turned[m] for m in winding_order(carried, "straight")),
-        gauges=integers(-1 if j is None else first + j for j in _levers(carried, info)),
+        gauges=integers(-1 if j is None else gauge + j for j in _levers(carried, info)),
+        spins=integers(first for first, _ in info.spins),
         dependent=integers(()),
+        alike=np.zeros(0),
     )
 
 

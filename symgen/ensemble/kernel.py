@@ -186,11 +186,11 @@ class Kernel:
             ready &= out.summary[selected, e.LIGHT] == 0.0
         selected = selected[ready]
         if model.tree is not None and model.on_tree is not None:
-            starts, apart = model.tree.settle(now, selected, control)
-            plain, selected = model.tree.upright(starts, selected[apart], now.y, out.summary), selected[~apart]
+            starts, apart, alike = model.tree.settle(now, selected, control)
+            plain, selected = model.tree.upright(selected[apart], alike, out.summary), selected[~apart]
             if not self._advance(model.on_tree, starts, plain, out, control):
                 return False
-            model.tree.turn(recipe.quantities, plain, now.y, out.values)
+            model.tree.turn(recipe.quantities, plain, alike, out.values)
         if model.single is not None:
             return model.single.run(rows, now, selected, out, control)
         if not self._advance(model, now, selected, out, control):

@@ -249,7 +249,7 @@ def make_ensemble(
     adds = integral is not None or ((singly is not None or looks) and can_integrate(compiled))
     made = Made(mechanism, compiled, plan, adds, kept if singly is None else ())
     recipe = Recipe(
-        **made.codes(target, joint, not parts and are_plain(kept, compiled.info)),
+        **made.codes(target, joint, not parts and are_plain(kept)),
         integrator=plan.tableau.name,
         spec=plan.spec,
         method_parameters=dict(plan.method_parameters),

@@ -14,20 +14,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.carrying import carrying_of
-from symgen.describe.sides import Side, sides_of
-from symgen.describe.topology import edges_of
-from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.exact import compiled_form
-from symgen.runtime.probe import Ready
 from symgen.runtime.start_records import Instant
 from symgen.runtime.starting import prepare_rows
-from symgen.runtime.tree_start import Carrying, settle_rows, turned_by_tree
+from symgen.runtime.tree_start import TURNED_OVER, Carrying, settle_rows
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.quantities import Quantity
-    from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.compiled import CompiledModel
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -36,19 +32,9 @@ Integers = NDArray[np.int64]
 _PLAIN = {e.STATE, e.STATUS, e.ENERGY, e.ENERGY_ERROR}
 
 
-def are_plain(quantities: Sequence[Quantity], info: ModelInfo) -> bool:
-    """Return whether loops leave all of some quantities; of Euler parameters, which have two signs, all four.
-
-    Parameters
-    ----------
-    quantities : sequence of Quantity
-        What is kept.
-    info : ModelInfo
-        The model in the bodies' own coordinates.
-    """
-    kept = {q.column for q in quantities if q.source == e.STATE}
-    groups = ({first, first + 1, first + 2, first + 3} for first, _ in info.spins)
-    return {q.source for q in quantities} <= _PLAIN and all(not kept & g or g <= kept for g in groups)
+def are_plain(quantities: Sequence[Quantity]) -> bool:
+    """Return whether loops leave all of some quantities."""
+    return {q.source for q in quantities} <= _PLAIN
 
 
 @dataclass(frozen=True)
@@ -61,8 +47,6 @@ class TreeRows:
         In the bodies' own coordinates, and in those of joints.
     p : Array
         Parameters of the second, those of a row left out.
-    sides : tuple of Side or None
-        Joints that turn a body over where their directions point opposite ways; None where others may as well.
     carrying : Carrying
         Where what stands.
     """
@@ -70,7 +54,6 @@ class TreeRows:
     bodies: CompiledModel
     compiled: CompiledModel
     p: Array
-    sides: tuple[Side, ...] | None
     carrying: Carrying
 
     @classmethod
@@ -86,8 +69,7 @@ class TreeRows:
         bodies, compiled, p
             See the class.
         """
-        sides = None if any(edge.turn == "cross" for edge in edges_of(whole).values()) else sides_of(whole)
-        return cls(bodies, compiled, p, sides, carrying_of(whole, carried, bodies, compiled))
+        return cls(bodies, compiled, p, carrying_of(whole, carried, bodies, compiled))
 
     @property
     def width(self) -> int:
@@ -107,8 +89,12 @@ class TreeRows:
                 found.append((e.STATE, q.column - info.work + own.work))
         return np.array(found, dtype=np.int64).ravel()
 
-    def settle(self, starts: Instant, selected: Integers, control: Integers) -> tuple[Instant, NDArray[np.bool_]]:
+    def settle(
+        self, starts: Instant, selected: Integers, control: Integers
+    ) -> tuple[Instant, NDArray[np.bool_], Array]:
         """Return states, parameters and scratch of the tree, and which of the selected rows have no dependent rows.
+
+        Last come the products of Euler parameters of bodies with those that the tree carries, shape (runs, spins).
 
         Parameters
         ----------
@@ -125,42 +111,34 @@ class TreeRows:
         flat = Instant(ys.reshape(-1), ps.reshape(-1), ws.reshape(-1))
         compiled_form(prepare_rows)(model.prepare, law.prepare, model.masses, scratch, *flat[1:], runs, selected)
         of_bodies = Instant(*(array.reshape(-1) for array in starts))
-        places = self.carrying._replace(runs=runs, dependent=np.zeros(runs, dtype=np.int64))
-        room = np.zeros(info.ny + info.observed + starts[2].shape[1])
-        functions = self.bodies.model.observe, model.geometry
+        alike = np.zeros((runs, len(info.spins)))
+        dependent = np.zeros(runs, dtype=np.int64)
+        places = self.carrying._replace(runs=runs, dependent=dependent, alike=alike.reshape(-1))
+        room = np.zeros(info.ny + places.outs + starts[2].shape[1])
+        functions = self.bodies.model.observe, model.geometry, model.bodies
         compiled_form(settle_rows)(*functions, self.compiled.layout, of_bodies, flat, places, room, selected, control)
-        return Instant(ys, ps, ws), places.dependent[selected] == 0
+        return Instant(ys, ps, ws), dependent[selected] == 0, alike
 
-    def upright(self, starts: Instant, selected: Integers, closed: Array, summary: Array) -> Integers:
+    @staticmethod
+    def upright(selected: Integers, alike: Array, summary: Array) -> Integers:
         """Return those of selected rows in which the tree turns no body over; the others are told why they end.
 
         Parameters
         ----------
-        starts : Instant
-            Of the tree, from `settle`.
         selected : Array of int
             Rows to look at.
-        closed : Array, shape (runs, ny)
-            States of bodies.
+        alike : Array
+            From `TreeRows.settle`.
         summary : Array
             See `symgen.runtime.ensemble_abi`; written.
         """
-        info, own = self.bodies.info, self.compiled.info
-        if not info.spins:
-            return selected
-        q, doubtful = closed[selected, : info.nq].T, np.full(len(selected), self.sides is None)
-        for side in self.sides or ():
-            doubtful |= side.cosine(q) < 0.0
-        observe, rate, out = Ready(self.compiled.model.bodies, abi.OBSERVE), np.zeros(own.ny), np.zeros(self.width)
-        for r in selected[doubtful]:
-            y, p, w = (array[r].copy() for array in starts)
-            observe(self.compiled.layout.t, y, p, w, rate, out)
-            if (over := turned_by_tree(info, closed[r], out)) >= 0:
-                summary[r, [e.START, e.START_WHERE]] = e.TURNED_OVER, over
-        return np.asarray(selected[summary[selected, e.START] == e.ASSEMBLED])
+        over = np.abs(alike[selected]) < TURNED_OVER
+        for k in reversed(range(over.shape[1])):  # the first one is told
+            summary[selected[over[:, k]], [[e.START], [e.START_WHERE]]] = [[e.TURNED_OVER], [k]]
+        return np.asarray(selected[~over.any(axis=1)])
 
-    def turn(self, quantities: Sequence[Quantity], selected: Integers, starts: Array, values: Array) -> None:
-        """Give Euler parameters the signs that they have at the start.
+    def turn(self, quantities: Sequence[Quantity], selected: Integers, alike: Array, values: Array) -> None:
+        """Have Euler parameters, of two signs, go on from those of the start.
 
         Parameters
         ----------
@@ -168,17 +146,12 @@ class TreeRows:
             What is kept.
         selected : Array of int
             Rows that were run.
-        starts : Array, shape (runs, ny)
-            Where bodies began.
+        alike : Array
+            From `settle`.
         values : Array, shape (runs, quantities, times)
             Changed.
         """
         at = {q.column: i for i, q in enumerate(quantities) if q.source == e.STATE}
-        for first, _ in self.bodies.info.spins:
-            if first in at and values.shape[2]:
-                columns = [at[first + k] for k in range(4)]
-                turned = (
-                    np.einsum("rk,rk->r", values[selected][:, columns, 0], starts[selected, first : first + 4]) < 0.0
-                )
-                rows = selected[turned]
-                values[np.ix_(rows, columns)] *= -1.0
+        for (first, _), products in zip(self.bodies.info.spins, alike.T, strict=True):
+            columns = [at[k] for k in range(first, first + 4) if k in at]
+            values[np.ix_(selected[products[selected] < 0.0], columns)] *= -1.0

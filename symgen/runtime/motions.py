@@ -7,6 +7,7 @@ that ends smoothly is one. So the formula is looked at from both sides of the ti
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from itertools import pairwise
@@ -25,8 +26,9 @@ from symgen.vocabulary.measures import Holonomic
 #: How near a formula is looked at, as a part of the run, and of the time to the next change at most; and once more,
 #: nearer by a factor: differences that stay are jumps, those that shrink are curvature.
 _NEAR, _APART, _NEARER = 1e-5, 0.125, 16.0
-#: Jumps of a value, as a part of its range, and of a rate, as a part of the speeds on both sides, that are none.
-_ROUNDING, _SMALL = 1e-6, 1e-3
+#: Jumps of a value, as a part of its range, and of a rate, as a part of the speeds on both sides, that are none; and
+#: what rounding of the values makes of differences, in units of the last digit.
+_SMALL, _ROUNDING = 1e-6, 64.0 * sys.float_info.epsilon
 #: Part of a jump by which it may differ from the one seen from farther.
 _STAYS = 0.2
 _WORDS = (b"abs", b"sign", b"min", b"max", b"lt", b"le", b"gt", b"ge")
@@ -94,19 +96,17 @@ def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> 
 
 def _jump(f: Callable[[float], float], t: float, h: float, until: float) -> tuple[str, float]:
     """Return what of a function jumps at a time, and by how much; nothing where neither value nor slope does."""
-    (value, slope, speed), (far_value, far_slope, _) = _sides(f, t, h / _NEARER), _sides(f, t, h)
+    h /= _NEARER
+    (value, slope, speed), (far_value, far_slope, _) = _sides(f, t, h), _sides(f, t, _NEARER * h)
     for kind, near, far in (("value", value, far_value), ("rate", slope, far_slope)):
         if near != 0.0 and abs(near - far) <= _STAYS * abs(near):
-            extent = _extent(f, until)
-            if abs(near) > (_ROUNDING * extent if kind == "value" else _SMALL * max(speed, extent / until)):
+            samples = [x for i in range(33) if math.isfinite(x := f(until * i / 32))]
+            extent = max(samples, default=0.0) - min(samples, default=0.0)
+            rounding = _ROUNDING * max(map(abs, samples), default=0.0)
+            small, size = (rounding, extent) if kind == "value" else (rounding / h, max(speed, extent / until))
+            if abs(near) > max(small, _SMALL * size):
                 return kind, near
     return "", 0.0
-
-
-def _extent(f: Callable[[float], float], until: float) -> float:
-    """Return about the range of a function."""
-    samples = [x for i in range(33) if math.isfinite(x := f(until * i / 32))]
-    return max(samples, default=0.0) - min(samples, default=0.0) + 1e-9 * max(map(abs, samples), default=0.0)
 
 
 def _sides(f: Callable[[float], float], t: float, h: float) -> tuple[float, float, float]:

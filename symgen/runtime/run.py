@@ -33,6 +33,12 @@ Progress = Callable[[float], None]
 
 #: Attempts at an adaptive step that a run may take, unless it is asked for otherwise.
 MAX_STEPS = 1e8
+#: What is said of runs that make no progress, and of those whose forces or joints compare the state.
+_STIFF = "where the motion is stiff, an implicit integrator (radau5) takes longer steps"
+_JUMPING = (
+    "formulas compare the state: where one jumps to and fro, as friction by sign(v) does that sticks, no step gets "
+    "across; a steep smooth one in its place, such as tanh(v/1e-3), has motions that radau5 follows"
+)
 
 
 @dataclass(frozen=True)
@@ -315,9 +321,10 @@ def end_reason(
         more = "at the present rate the rest would take more than" if attempts < spec.max_steps else "that is all of"
         return (
             f"{sentence}: {attempts} attempts at a step brought it to t = {time:.6g} of {spec.until:g} s, and {more} "
-            f"max_steps = {spec.max_steps:g}; where the motion is stiff, an implicit integrator (radau5) takes longer "
-            "steps"
+            f"max_steps = {spec.max_steps:g}; {_STIFF if spec.switches is None else _JUMPING}"
         )
+    if code == abi.TINY_STEP and spec.switches is not None:
+        return f"{sentence}{where}; {_JUMPING}"
     if code == abi.ENERGY:
         return f"{sentence} ({spec.max_energy_error:g} of {scale:.3g} J){where}"
     return sentence + where

@@ -26,6 +26,9 @@ from symgen.runtime.start_records import INSTANT, LAYOUT, Instant
 
 Array = NDArray[np.float64]
 
+#: A product of Euler parameters below this is one of orientations more than 120 degrees apart.
+TURNED_OVER = 0.5
+
 
 def settle_tree(
     compiled: CompiledModel, y: Array, p: Array, t: float, turned: Array, scales: tuple[float, float, Array]
@@ -82,7 +85,7 @@ def turned_by_tree(info: ModelInfo, closed: Array, carried: Array) -> int:
         Coordinates of bodies as they were closed, and as the tree carries them.
     """
     for k, (first, _) in enumerate(info.spins):
-        if abs(carried[first : first + 4] @ closed[first : first + 4]) < 0.5:  # of Euler parameters: 120 degrees apart
+        if abs(carried[first : first + 4] @ closed[first : first + 4]) < TURNED_OVER:
             return k
     return -1
 
@@ -96,10 +99,13 @@ class Carrying(NamedTuple):
         Rows; elements of a tree's state before the work; numbers that ``observe`` writes.
     places : Array of int, shape (2 work,)
         Of each of these elements: 0 and where it stands in the state of bodies, or 1 and where ``observe`` writes it.
-    windings, gauges : Array of int
-        Where angles that count turns, and squares of lengths, stand in the scratch of bodies; -1 where that is 1.
+    windings, gauges, spins : Array of int
+        Where angles that count turns, and squares of lengths, stand in the scratch of bodies; -1 where that is 1. Where
+        Euler parameters begin among the coordinates of bodies.
     dependent : Array of int, shape (runs,)
         Set to 1 where rows of loops depend on others, 0 elsewhere.
+    alike : Array, shape (runs * spins,)
+        Set to the products of Euler parameters as bodies were closed with those that the tree carries.
     """
 
     runs: int
@@ -108,17 +114,20 @@ class Carrying(NamedTuple):
     places: Any
     windings: Any
     gauges: Any
+    spins: Any
     dependent: Any
+    alike: Any
 
 
 _I, _A = types.int64[::1], types.float64[::1]
-_CARRYING = types.NamedTuple((types.int64, types.int64, types.int64, _I, _I, _I, _I), Carrying)
+_CARRYING = types.NamedTuple((*(types.int64,) * 3, *(_I,) * 5, _A), Carrying)
 
 
-@exact(types.int64(abi.OBSERVE, abi.MEASURE, LAYOUT, INSTANT, INSTANT, _CARRYING, _A, _I, _I))
+@exact(types.int64(abi.OBSERVE, abi.MEASURE, abi.OBSERVE, LAYOUT, INSTANT, INSTANT, _CARRYING, _A, _I, _I))
 def settle_rows(
     observe: Any,
     geometry: Any,
+    bodies: Any,
     layout: Any,
     of_bodies: Any,
     of_tree: Any,
@@ -131,8 +140,8 @@ def settle_rows(
 
     Parameters
     ----------
-    observe, geometry : emitted functions
-        Of bodies, and of the tree.
+    observe, geometry, bodies : emitted functions
+        Of bodies, and of the tree, the last of which carries its motion to bodies.
     layout : Layout
         Of the tree.
     of_bodies, of_tree : Instant
@@ -140,7 +149,7 @@ def settle_rows(
     carrying : Carrying
         Where what stands.
     room : Array
-        Working memory: a state, what ``observe`` writes, and scratch.
+        Working memory: a state, what ``observe`` or ``bodies`` writes, and scratch.
     selected, control : Array of int
         Rows to work on; what the watching thread shares.
     """
@@ -174,6 +183,14 @@ def settle_rows(
                 carrying.dependent[r] = 1
         geometry(layout.t, y_t, p_t, w_t)
         weigh_rows(layout, Instant(y_t, p_t, w_t))
+        count = carrying.spins.shape[0]
+        if count > 0:
+            bodies(layout.t, y_t, p_t, w_t, rate, out)
+        for i in range(count):
+            first, alike = carrying.spins[i], 0.0
+            for k in range(first, first + 4):
+                alike += out[k] * y[k]
+            carrying.alike[r * count + i] = alike
     return int(selected.shape[0])
 
 

@@ -304,6 +304,26 @@ def test_a_motion_of_some_drivers_is_taken_from_a_run(linkage):
     assert np.abs(found.efforts["motor"] - run["motor.effort"]).max() < 1e-10 * np.abs(run["motor.effort"]).max()
 
 
+def test_an_effort_is_weighed_by_the_name_that_it_is_asked_for_by():
+    """A force along one axis has one effort, which is asked for with its axis or without."""
+    lift = {"type": "force", "body": "block", "at": [0.0, 0.0], "force": [0.0, 2.0]}
+    rail = {"type": "translational", "between": ["ground", "block"], "at": [[0.0, 0.0]] * 2, "axis": [0.0, 1.0]}
+    raised = model(
+        {
+            "mechanism": {"name": "hoist", "gravity": [0.0, -9.81]},
+            "bodies": {"block": {"mass": 1.0, "inertia": 1.0}},
+            "forces": {"left": lift, "right": lift},
+            "joints": {"rail": rail, "motor": {"type": "driver", "joint": "rail", "value": "t**2"}},
+        }
+    )
+    for names in (("left.y", "right.y"), ("left", "right"), ("left.y", "right")):
+        found = raised.inverse(times=[0.0], actuators=names, weights={names[0]: 2.0})
+        assert found.efforts.names == names
+        np.testing.assert_allclose(found.efforts.values[0], [11.81 / 5.0, 11.81 * 4.0 / 5.0], rtol=1e-12)
+    with pytest.raises(InputError, match="each name once"):
+        raised.inverse(times=[0.0], actuators=["left", "left.y"])
+
+
 # -- words -------------------------------------------------------------------------------------------------------------
 
 

@@ -329,6 +329,19 @@ def test_a_dead_centre_between_times_at_which_the_driver_rests_is_met(start, far
     assert needed.ended.startswith("dead centre at t = -") and list(needed.t) == [0.0]
 
 
+@pytest.mark.parametrize(
+    "drive",
+    ["start + (2.4*sin(pi*(t - 1)/1e-4)**2 if t > 1 and t < 1.0001 else 0)", "start + max(0, 2.4 - abs(t + 0.7)*5e4)"],
+)
+def test_a_dead_centre_in_a_motion_much_shorter_than_the_whole_is_met(drive):
+    """Between two times at which the formula is known to change drivers are looked at, however short that is."""
+    linkage = model(four_bar((4.0, 2.0, 3.0, 2.95), 0.7, drive))
+    part = (math.acos((4.0**2 + 2.0**2 - 5.95**2) / 16.0) - 0.7) / 2.4
+    met = 1.0 + 1e-4 * math.asin(math.sqrt(part)) / math.pi if "sin" in drive else -0.7 + 2.4 * (1.0 - part) / 5e4
+    found = linkage.kinematics([-2.0, 0.0, 2.0])
+    assert not found.ok and len(found.t) == 2 and abs(found.passages[0].t - met) < 1e-9
+
+
 def test_a_driver_that_comes_back_from_where_it_can_go_is_followed():
     """Out and back between the asked times, and short of the dead centre: nothing else than at rest."""
     linkage = model(four_bar((4.0, 2.0, 3.0, 2.95), 0.7, "start + 2*sin(pi*t)**4"))

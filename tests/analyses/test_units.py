@@ -1,10 +1,13 @@
 """Equilibria and frequencies do not know units: grams and micrometres have those of kilograms and metres."""
 
+import math
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 from analyses import rods
+from symgen.errors import InputError
 
 
 def carousel(mass, length, time=1.0, damping=0.0):
@@ -61,3 +64,18 @@ def test_what_is_free_has_frequency_zero_in_all_units(length, time):
     for usual, other in zip(found(1.0, 1.0), found(length, time), strict=True):
         assert np.sum(usual == 0.0) == np.sum(other == 0.0) == 2
         assert_allclose(other, usual, rtol=1e-9)
+
+
+@pytest.mark.parametrize("turned", [0.5, 0.0])
+@pytest.mark.parametrize(("length", "time"), [(1.0, 1.0), (1.0, 1e4), (1e-6, 1.0), (1e-6, 1e3), (1e3, 1e4)])
+def test_what_swings_is_at_rest_in_no_units(length, time, turned):
+    """At the end of its swing, or at the bottom: in slow or small mechanisms either was a state of rest."""
+    rod = {"mass": 1.0, "inertia": 0.1 * length**2, "angle": turned, "angular_velocity": (0.5 - turned) / time}
+    rod["position"] = [0.5 * length * math.sin(turned), -0.5 * length * math.cos(turned)]
+    pin = {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], [0.0, 0.5 * length]]}
+    model = rods.model({"rod": rod}, {"pin": pin}, gravity=[0.0, -rods.GRAVITY * length / time**2])
+    for found in (model.linearise, model.modes):
+        with pytest.raises(InputError, match=r"a state of rest.* got one where 'rod\.\w+' changes"):
+            found(at="start")
+    frequency = np.sqrt(0.5 * rods.GRAVITY / 0.35)
+    assert_allclose(model.linearise().eigenvalues().imag * time, [frequency, -frequency], rtol=1e-9)

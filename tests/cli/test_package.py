@@ -119,6 +119,27 @@ def test_a_package_says_where_rows_that_stand_for_others_hardly_hold(alone, tmp_
     assert "the rows that stand for those left out hardly hold, and nothing here chooses others, at t = 0." in said
 
 
+@pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
+def test_a_package_doubts_what_a_run_doubts(method, tmp_path):
+    """Windows of two bars in line at 0.71 s: without correction nothing tells the branch."""
+    assert main(["generate", "n-four-bar:2", "--method", method, "-o", str(tmp_path / "emitted")]) == 0
+    script = str(tmp_path / "emitted" / "simulate.py")
+    done = subprocess.run(
+        [sys.executable, script, method.replace("-", "_"), "0.72", "2e-3"],
+        **{"capture_output": True, "text": True, "timeout": 600, "check": True},
+        env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
+    )
+    asked = {"method": method, "integrator": "rk4", "step": 2e-3, "until": 0.72, "shape": "straight"}
+    run = symgen.load("n-four-bar:2").simulate(**asked)
+    passage = f"passed near a singular position at t = {run.rank_events[0].t_in:.6g} s"
+    assert run.status == ("unverified" if method == "lagrange" else "ok") and passage in run.warnings[0]
+    if method == "lagrange":
+        assert f"UserWarning: unverified: {passage} and positions are not corrected: nothing tells" in done.stderr
+    else:
+        assert f"UserWarning: {passage}; the error there is not controlled by the step size" in done.stderr
+    assert done.stderr.count("UserWarning") == 1
+
+
 def test_a_package_says_what_it_is(tmp_path, capsys):
     folder = tmp_path / "emitted"
     assert main(["generate", "pendulum", "--method", "lagrange", "-o", str(folder), "--json"]) == 0

@@ -47,6 +47,14 @@ def test_runs_end_where_their_balls_land_and_show_the_state_there():
     assert found.to_json()["events"] == {"land": {"runs": 3, "count": 3}}
 
 
+def test_a_condition_that_is_asked_for_twice_is_one_event():
+    found = symgen.sweep(
+        ball(), {"height": [0.5, 3.0]}, stop_when="ball.y < 0", record_when="ball.y  < 0", until=5.0, **FALLING
+    )
+    np.testing.assert_array_equal(found["event.ball.y < 0.count"], 1.0)
+    np.testing.assert_array_equal(found["event.ball.y < 0.first"], found["end"])
+
+
 def test_outputs_that_were_asked_for_end_with_their_run():
     found = symgen.sweep(
         ball(), {"height": [0.5, 3.0]}, stop_when="ball.y < 0", times=(0.0, 0.4, 0.7), until=5.0, **FALLING

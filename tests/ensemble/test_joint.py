@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from runtime.test_events import four_bar
+from support.emitted import mechanism_of
 
 import symgen
 from symgen import tree_run
@@ -43,6 +44,22 @@ def test_rows_are_single_runs_to_the_last_bit(name, varies, values, how):
         for number in ("steps", "evaluations", "position_violation_max", "energy_drift_max"):
             assert found[number][i] == getattr(one, number), number
     assert found.to_json()["coordinates"] == "joint" == found.attributes["coordinates"]
+
+
+@pytest.mark.parametrize("kept", [("q",), ("spinner.e0", "spinner.e3")])
+def test_euler_parameters_go_on_from_the_start_whenever_they_are_first_kept(kept):
+    """A body that has turned by more than half a turn until then has the other sign nearer to its start."""
+    raw = {
+        "mechanism": {"name": "spins", "space": "spatial", "gravity": [0.0, 0.0, 0.0]},
+        "parameters": {"speed": 1.0},
+        "bodies": {"spinner": {"mass": 1.0, "inertia": [1.0, 1.0, 1.0], "angular_velocity": [0.0, 0.0, "speed"]}},
+        "joints": {"hinge": {"type": "revolute", "between": ["ground", "spinner"], "at": [[0.0, 0.0, 0.0]] * 2}},
+    }
+    raw["joints"]["hinge"]["axis"] = [0.0, 0.0, 1.0]
+    speeds = np.array([1.0, 4.0, 8.0, -5.0])
+    found = symgen.sweep(mechanism_of(raw), {"speed": speeds}, quantities=kept, until=1.0, coordinates="joint")
+    np.testing.assert_allclose(found["spinner.e0"][:, 0], np.cos(0.5 * speeds), atol=1e-9)
+    np.testing.assert_allclose(found["spinner.e3"][:, 0], np.sin(0.5 * speeds), atol=1e-9)
 
 
 def test_both_coordinates_give_one_motion():

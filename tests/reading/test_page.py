@@ -4,6 +4,7 @@ import re
 from html.parser import HTMLParser
 
 import pytest
+from numba import config
 
 from symgen.cli import main
 from symgen.describe import load
@@ -116,6 +117,7 @@ def test_a_page_that_would_be_too_large_leaves_out_the_code(tmp_path, monkeypatc
     assert {link[1:] for link in found.links} <= set(found.ids)
 
 
+@pytest.mark.skipif(config.DISABLE_JIT, reason="pages then say that code was left to Python")
 def test_listings_make_room_for_the_right_hand_side(four_bar, tmp_path, monkeypatch):
     text, _ = four_bar
     script = re.search(r"const rates = (\(\(\) => \{.*?\}\)\(\));", text, re.DOTALL)[1]

@@ -46,6 +46,7 @@ def cart(value: str) -> dict:
         ("0 if t < late else 0.1", "a value that jumps by 0.1 m at t = 0.5 s"),
         ("0.02*max(0, t - late)", "a rate that jumps by 0.02 m/s at t = 0.5 s"),
         ("abs(t - 0.25)", "a rate that jumps by 2 m/s at t = 0.25 s"),
+        ("0.1*sin(2*t) + 1e-6*max(0, t - late)", "a rate that jumps by"),
         ("min(cam(t), 0.2)", "a rate that jumps by"),
         ("0.1*sign(sin(7*t))", "a value that jumps by -0.2 m at t = 0.448799 s"),
         ("t if t < 0.3 and t < late else 0.3", "a rate that jumps by -1 m/s at t = 0.3 s"),
@@ -77,6 +78,7 @@ def test_motions_that_jump_are_refused(value, said):
         "tanh(200*(t - late))*abs(t - late)*(t - late)",
         "1 if t < late else 1 + 0*t",
         "1e6 + max(0, t - late)**2",
+        "0.1*sin(2*t) + 1e-8*max(0, t - late)",
     ],
 )
 def test_motions_that_change_smoothly_are_not(value):

@@ -300,3 +300,21 @@ def test_integrals_of_efforts_that_are_cut_off() -> None:
     """What `min` compares in an effort reads its own measure: with outputs that integrate it, nothing ran."""
     result = symgen.load("inverted-pendulum").simulate(integrator="dop853", method="lagrange", until=0.02, times=[0.02])
     assert result.status == "ok", result.reason
+
+
+@pytest.mark.parametrize("integrator", ["dop853", "radau5"])
+def test_friction_that_sticks_says_why_nothing_goes_on(folder: Path, integrator: str) -> None:
+    """A block of 1 kg slides for half a second; what is proposed in the place of sign carries it beyond."""
+    file = folder / "block.toml"
+    text = (
+        '[mechanism]\nname = "block"\ngravity = [0, 0]\n[bodies.b]\ntype = "point"\nmass = 1.0\nvelocity = [1, 0]\n'
+        '[forces.drag]\ntype = "force"\nbody = "b"\nat = "centre"\nforce = ["-2*LAW", 0]\n'
+    )
+    asked = {"method": "lagrange", "integrator": integrator, "until": 3.0, "max_steps": 25_000}
+    file.write_text(text.replace("LAW", "sign(b.vx)"))
+    stuck = symgen.simulate(file, **asked)
+    assert stuck.status == "failed" and abs(stuck.end - 0.5) < 1e-6
+    assert "where one jumps to and fro, as friction by sign(v) does that sticks, no step gets across" in stuck.reason
+    file.write_text(text.replace("LAW", "tanh(b.vx/1e-3)"))
+    smooth = symgen.simulate(file, **asked)
+    assert smooth.status == "ok" and abs(smooth["b.x"][-1] - 0.25) < 1e-6
