@@ -42,6 +42,8 @@ class Run:
     def __init__(self, method=START["method"], step=START["step"]):
         if START["events"]:  # what follows after one of them is another motion than that of `symgen run`
             warnings.warn(f"nothing here looks for events, as a run does: {START['events']}", stacklevel=2)
+        for told in START["warnings"]:
+            warnings.warn(told, stacklevel=2)
         told = json.loads((_HERE / f"{method}.json").read_text(encoding="utf-8"))
         model, self.law = (import_module(f".{stem}", __name__) for stem in ("model", method))
         values, defaults = list(START["parameters"].values()), [default for _, default in told["parameters"]]
@@ -159,7 +161,8 @@ def package(
     free : container of str
         Methods whose solver was not asked for.
     """
-    from symgen.errors import AssemblyError
+    from symgen.errors import AssemblyError, InputError
+    from symgen.runtime.motions import refuse_jumps
 
     why, files = "no method here is for explicit integrators", dict[str, str]()
     explicit = [choice for choice in choices if not choice.implicit]
@@ -173,8 +176,13 @@ def package(
                 usual = next(choice for choice in explicit if choice.method is usual.method)
             settled = _settled(model, usual, explicit, coordinates)
             files = {"start.json": json.dumps(settled, allow_nan=False, indent=1) + "\n", "simulate.py": _SIMULATE}
+            refuse_jumps(model.mechanism, {}, model.mechanism.defaults.until)
         except AssemblyError as error:
             why = harmless(error)
+        except InputError as error:
+            if not files:
+                raise
+            why, files = harmless(error), {}
     name = harmless(model.name)
     bare = f'"""Emitted code of `{name}`; see README.md. Written by symgen."""\n'
     files["__init__.py"] = _PACKAGE.replace("MECHANISM", name) if "start.json" in files else bare
@@ -226,6 +234,7 @@ def _settled(model: Model, choice: MethodChoice, choices: Sequence[MethodChoice]
         "step": defaults.step,
         "parameters": model.parameters(),
         "events": _events(model),
+        "warnings": list(begun.plan.warnings),
         "names": [q.name for q in (*info.coordinates, *info.velocities)] + ["work"],
         "y": state.y[: info.work + 1].tolist(),
         "counters": len(COUNTERS),
@@ -276,6 +285,8 @@ def _readme(model: Model, choices: Sequence[MethodChoice], why: str) -> str:
             " `__init__.py` has the start and the functions: `rate(t, y)`, and `corrected(t, y)` for accepted states;"
             " `accepted(t, y)` also ends a run where `symgen run` would end it, with the reason."
             " The start belongs to the parameters that stand there; with others the package has to be generated anew.",
+            "",
+            "Passages near singular positions, of which `symgen run` tells, are not looked for.",
             "",
             *([f"Nothing here looks for events, as `symgen run` does: {events}.", ""] if events else []),
         ]
