@@ -148,6 +148,14 @@ def test_a_package_says_that_it_looks_for_no_events(tmp_path):
     assert "UserWarning: nothing here looks for events, as a run does: `floor` changes velocities" in done.stderr
 
 
+def test_the_energy_of_a_short_package_run_is_judged_at_its_end(alone, tmp_path):
+    assert main(["generate", "pendulum", "--method", "direct-correction", "-o", str(tmp_path / "emitted")]) == 0
+    found = simulated(tmp_path / "emitted", alone, tmp_path, "direct_correction", 40 * 0.4, 0.4, fails=True)
+    run = symgen.load("pendulum").simulate(integrator="rk4", step=0.4, until=40 * 0.4, shape="straight")
+    assert run.status == "failed" and run.steps == 40 and "energy" in run.reason
+    assert found.startswith("ArithmeticError: the energy is off by ") and found.endswith(f"at t = {40 * 0.4}")
+
+
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_motions_that_jump_have_no_package_that_runs(coordinates, tmp_path):
     """On a tree what is prescribed is set, and corrections follow it: both went on behind the jump without a word."""
