@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from itertools import islice, product
 from typing import Any
 
 import msgspec
@@ -18,8 +17,6 @@ from symgen.vocabulary.measures import Effort
 #: What is written where a formula has a kink, and what where it may jump.
 _WORDS = (b"abs", b"min", b"max", b"table:")
 _SIDES = ("lt", "le", "gt", "ge", "sign")
-#: Branches of a formula that are looked at, at most.
-MOST_BRANCHES = 8
 #: What compares something with zero, or two values with each other.
 _COMPARED = (*_SIDES, "abs", "min", "max")
 
@@ -109,8 +106,7 @@ def switches_of(mechanism: Mechanism, jumps: bool = False) -> tuple[Expr, ...]:
     """Return what formulas of joints, forces and integrals compare with zero and what depends on the state, each once.
 
     That is what comparisons and `sign` pass as a jump and, unless `jumps` alone are asked for, `abs`, `min` and `max`
-    as a kink. Arguments are formulas of a run, as those of `knots_of`. What has kinks itself is passed where one of its
-    branches is: between its kinks the way of ``abs(x - 1) - 0.01`` is not seen from afar, those of both branches are.
+    as a kink. Arguments are formulas of a run, as those of `knots_of`.
     """
     formulas = mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
     text, asked = msgspec.msgpack.encode(formulas), _SIDES if jumps else _COMPARED
@@ -122,22 +118,9 @@ def switches_of(mechanism: Mechanism, jumps: bool = False) -> tuple[Expr, ...]:
         if e.function in asked:
             argument = e.arguments[0] if len(e.arguments) == 1 else call("sub", *e.arguments)
             argument = argument if effort is None else _of_a_run(argument, effort)
-            found |= {branch: None for branch in _branches(argument) if _is_of_state(branch, plain)}
+            if _is_of_state(argument, plain):
+                found[argument] = None
     return tuple(found)
-
-
-def _branches(e: Expr) -> tuple[Expr, ...]:
-    """Return what a formula is on the sides of its `abs`, `min` and `max`; itself alone where these are too many."""
-    if not isinstance(e, Call):
-        return (e,)
-    parts = [_branches(argument) for argument in e.arguments]
-    if e.function == "abs":
-        found = [way for part in parts[0] for way in (part, call("neg", part))]
-    elif e.function in ("min", "max"):
-        found = [branch for part in parts for branch in part]
-    else:
-        found = [call(e.function, *chosen) for chosen in islice(product(*parts), MOST_BRANCHES + 1)]
-    return tuple(found) if len(found) <= MOST_BRANCHES else (e,)
 
 
 def _is_of_state(argument: Expr, plain: set[str]) -> bool:

@@ -227,7 +227,7 @@ def test_cells_see_a_force_between_two_places(space, tmp_path):
     path.write_text(
         f'[mechanism]\nname = "pushed"\nspace = "{space}"\n[bodies.a]\ntype = "point"\nmass = 1.0\n'
         f"position = [0.3, 0.0{rest}]\nvelocity = [1.0, 0.0{rest}]\n"
-        f'[forces.push]\ntype = "force"\nbody = "a"\nforce = ["6.6 if abs(a.x - 1.0) < 4e-4 else 0", 0.0{rest}]\n'
+        f'[forces.push]\ntype = "force"\nbody = "a"\nforce = ["6.6 if 0.9996 < a.x < 1.0004 else 0", 0.0{rest}]\n'
     )
     level = Level("flight", "past", (1.0,), symgen.load(path).mechanism, 2.0, 1e-3)
     known = compute(ReferenceTask(level))
