@@ -7,21 +7,21 @@ from formulas of the file alone, as those of runs do; what a solver does between
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.runtime.foreseen import foreseen, times_between
+from symgen.runtime.foreseen import foreseen
 
 if TYPE_CHECKING:
     from symgen.study.references.independent import IndependentEquations
 
 Array = NDArray[np.float64]
 
-#: So far beside such a time, in last digits of the end, one part ends and the next begins: what lies between is no
-#: more than rounding.
-BESIDE = 4.0
+#: Parts that are shorter than this part of the end lead from one side of a jump to the other.
+JUMP = 3e-12
 
 #: Called with the time at which a part begins, the state there, the times at which states are wanted, the last of them
 #: the part's end, and what is told how far it is; returns the states.
@@ -52,14 +52,17 @@ def in_parts(
     """
     motion, done = np.empty((len(times), len(y))), 0
     end = float(times[-1]) if len(times) else 0.0
-    known, mechanism = foreseen(equations.mechanism), equations.mechanism
-    passed = times_between((*known.kinks, *known.sides), mechanism, equations.parameters, end) if known and end else ()
-    beside = BESIDE * float(np.spacing(end))
-    for first, last in zip([0.0, *(t + beside for t in passed)], [*(t - beside for t in passed), end], strict=True):
-        upto = int(np.searchsorted(times, last + beside, side="right"))
-        own = np.clip(times[done:upto], first, last)
-        wanted = own if len(own) and own[-1] == last else np.append(own, last)
-        share = last / end if end else 1.0
-        states = integrate(first, y, wanted, lambda part, share=share: progress(share * part))  # type: ignore[misc]
-        motion[done:upto], y, done = states[: len(own)], states[-1], upto
+    pieces = foreseen(equations.mechanism).pieces(equations.parameters, end) if end else ()
+    for first, last in pairwise([*([piece.begin for piece in pieces] or [0.0]), end]):
+        upto = int(np.searchsorted(times, last, side="right"))
+        own = times[done:upto]
+        if pieces and last - first < JUMP * end:  # what acts before it up to its middle, and then what acts behind it
+            y = y + 0.5 * (last - first) * (equations.rate(first, y) + equations.rate(last, y))
+            states = np.tile(y, (len(own), 1))
+        else:
+            wanted = own if len(own) and own[-1] == last else np.append(own, last)
+            share = last / end if end else 1.0
+            states = integrate(first, y, wanted, lambda part, share=share: progress(share * part))  # type: ignore[misc]
+            y = states[-1]
+        motion[done:upto], done = states[: len(own)], upto
     return motion
