@@ -42,6 +42,8 @@ class Run:
     def __init__(self, method=START["method"], step=START["step"]):
         if START["events"]:  # what follows after one of them is another motion than that of `symgen run`
             warnings.warn(f"nothing here looks for events, as a run does: {START['events']}", stacklevel=2)
+        for told in START["warnings"]:
+            warnings.warn(told, stacklevel=2)
         told = json.loads((_HERE / f"{method}.json").read_text(encoding="utf-8"))
         model, self.law = (import_module(f".{stem}", __name__) for stem in ("model", method))
         values, defaults = list(START["parameters"].values()), [default for _, default in told["parameters"]]
@@ -74,10 +76,13 @@ class Run:
             raise ArithmeticError(f"the state at t = {t} cannot be corrected")
         return y
 
-    def accepted(self, t, y):
-        """Return the next state of a run, corrected; an ArithmeticError says why `symgen run` would end there."""
+    def accepted(self, t, y, last=False):
+        """Return the next state of a run, corrected; an ArithmeticError says why `symgen run` would end there.
+
+        The energy of few steps is judged at the `last` one alone.
+        """
         y = self.corrected(t, y)
-        if why := self.wrong(y):
+        if why := self.wrong(y, last):
             raise ArithmeticError(f"{why} at t = {t}")
         entered = self.passed(t)
         if entered is not None and not self.near:
@@ -100,7 +105,7 @@ class Run:
         self.before = t, sine, (last - sine) / gone if gone > 0.0 else 0.0
         return t if sine < least else begun if fall > 0.0 and last - fall * gone < least else None
 
-    def wrong(self, y):
+    def wrong(self, y, last=False):
         """Return why the corrected state that comes next in a run cannot be relied on, or an empty text."""
         now, limits, n = dict(zip(START["status"], self.w.tolist())), self.limits, START["coordinates"]
         sizes = np.abs(y[: len(START["metric"])]) * START["metric"]
@@ -121,7 +126,7 @@ class Run:
         if not now["velocity_measure"] <= limits["velocity"] * speed:
             return f"velocities violate the constraints by {now['velocity_violation']:.3g}"
         rounding = limits["rounding"] * (now["kinetic"] + abs(now["potential"]))
-        if self.taken >= limits["setting_out"] and error > limits["energy"] * self.moved + rounding:
+        if (last or self.taken >= limits["setting_out"]) and error > limits["energy"] * self.moved + rounding:
             return f"the energy is off by {error:.3g} J"
         if START["redundant"] and now["smallest_pivot"] < limits["pivot"]:
             return "the rows that stand for those left out hardly hold, and nothing here chooses others,"
@@ -138,13 +143,13 @@ def simulate(method=package.START["method"], until=package.START["until"], h=pac
     """Return times and states (q, v, work) of a run by the classical Runge-Kutta scheme with steps h."""
     run = package.Run(method, h)
     states = [(0.0, run.y)]
-    for i in range(1, round(until / h) + 1):
+    for i in range(1, (end := round(until / h)) + 1):
         t, y = states[-1]
         k1 = run.rate(t, y)
         k2 = run.rate(t + h / 2, y + h / 2 * k1)
         k3 = run.rate(t + h / 2, y + h / 2 * k2)
         k4 = run.rate(t + h, y + h * k3)
-        states.append((i * h, run.accepted(i * h, y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4))))
+        states.append((i * h, run.accepted(i * h, y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4), i == end)))
     return states
 t, y = simulate(*sys.argv[1:2], *map(float, sys.argv[2:4]))[-1]
 print(json.dumps({"t": t, **dict(zip(package.START["names"], y.tolist()))}, indent=1))
@@ -179,7 +184,8 @@ def package(
     free : container of str
         Methods whose solver was not asked for.
     """
-    from symgen.errors import AssemblyError
+    from symgen.errors import AssemblyError, InputError
+    from symgen.runtime.motions import refuse_jumps
 
     why, files = "no method here is for explicit integrators", dict[str, str]()
     explicit = [choice for choice in choices if not choice.implicit]
@@ -193,8 +199,13 @@ def package(
                 usual = next(choice for choice in explicit if choice.method is usual.method)
             settled = _settled(model, usual, explicit, coordinates)
             files = {"start.json": json.dumps(settled, allow_nan=False, indent=1) + "\n", "simulate.py": _SIMULATE}
+            refuse_jumps(model.mechanism, {}, model.mechanism.defaults.until)
         except AssemblyError as error:
             why = harmless(error)
+        except InputError as error:
+            if not files:
+                raise
+            why, files = harmless(error), {}
     name = harmless(model.name)
     bare = f'"""Emitted code of `{name}`; see README.md. Written by symgen."""\n'
     files["__init__.py"] = _PACKAGE.replace("MECHANISM", name) if "start.json" in files else bare
@@ -246,6 +257,7 @@ def _settled(model: Model, choice: MethodChoice, choices: Sequence[MethodChoice]
         "step": defaults.step,
         "parameters": model.parameters(),
         "events": _events(model),
+        "warnings": list(begun.plan.warnings),
         "names": [q.name for q in (*info.coordinates, *info.velocities)] + ["work"],
         "y": state.y[: info.work + 1].tolist(),
         "counters": len(COUNTERS),

@@ -169,6 +169,44 @@ def test_a_package_says_that_it_looks_for_no_events(tmp_path):
     assert "UserWarning: nothing here looks for events, as a run does: `floor` changes velocities" in done.stderr
 
 
+def test_the_energy_of_a_short_package_run_is_judged_at_its_end(alone, tmp_path):
+    assert main(["generate", "pendulum", "--method", "direct-correction", "-o", str(tmp_path / "emitted")]) == 0
+    found = simulated(tmp_path / "emitted", alone, tmp_path, "direct_correction", 40 * 0.4, 0.4, fails=True)
+    run = symgen.load("pendulum").simulate(integrator="rk4", step=0.4, until=40 * 0.4, shape="straight")
+    assert run.status == "failed" and run.steps == 40 and "energy" in run.reason
+    assert found.startswith("ArithmeticError: the energy is off by ") and found.endswith(f"at t = {40 * 0.4}")
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_motions_that_jump_have_no_package_that_runs(coordinates, tmp_path):
+    """On a tree what is prescribed is set, and corrections follow it: both went on behind the jump without a word."""
+    path = tmp_path / "flip.toml"
+    path.write_text(
+        '[mechanism]\nname = "flip"\n[run]\nuntil = 1.0\n[bodies.a]\nmass = 1.0\ninertia = 0.1\n'
+        '[joints.j]\ntype = "revolute"\nbetween = ["ground", "a"]\nat = [[0, 0], [0, 0]]\n'
+        '[joints.motor]\ntype = "driver"\njoint = "j"\nvalue = "0.3 if t > 0.5 else 0"\n'
+    )
+    arguments = ["--method", "direct-correction", "--coordinates", coordinates]
+    assert main(["generate", str(path), "-o", str(tmp_path / "emitted"), *arguments]) == 0
+    assert not (tmp_path / "emitted" / "simulate.py").exists()
+    said = (tmp_path / "emitted" / "README.md").read_text()
+    assert "There is no `simulate.py`: " in said and "jumps by 0.3 rad at t = 0.5 s" in said
+
+
+def test_a_package_warns_of_what_its_steps_may_miss(tmp_path):
+    path = tmp_path / "pulse.toml"
+    path.write_text(
+        '[mechanism]\nname = "pulse"\n[run]\nuntil = 1.0\nstep = 1e-2\n[bodies.a]\ntype = "point"\nmass = 1.0\n'
+        '[forces.f]\ntype = "force"\nbody = "a"\nforce = ["100 if 0.5021 < t < 0.5031 else 0", 0]\n'
+    )
+    assert main(["generate", str(path), "--method", "lagrange", "-o", str(tmp_path / "emitted")]) == 0
+    command = [sys.executable, str(tmp_path / "emitted" / "simulate.py"), "lagrange", "1e-2"]
+    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False, env=environment)
+    warned = symgen.load(path).simulate(method="lagrange", integrator="rk4").warnings
+    assert len(warned) == 1 and f"UserWarning: {warned[0]}" in done.stderr
+
+
 def test_a_package_on_a_tree_has_the_state_of_its_start(alone, tmp_path):
     """A motor whose effort is integrated as an output keeps its row in runs; packages have no outputs."""
     path = tmp_path / "motor.toml"

@@ -11,7 +11,7 @@ from symgen.describe import MechanismBuilder
 from symgen.errors import InputError
 from symgen.result.points import Points, own_length
 from symgen.study.references.independent import IndependentEquations
-from symgen.study.references.motion import CompiledEquations
+from symgen.study.references.motion import CompiledEquations, motion
 from symgen.study.references.reference import CLOSED, reference
 from symgen.study.references.solvers import SOLVERS
 from tests.methods.test_hard_cases import two_links
@@ -228,3 +228,79 @@ def test_a_bob_on_a_massless_rod_in_space_has_the_reference_of_one_at_a_distance
         model = symgen.Model(raw.build())
         found.append(reference(model.mechanism, {}, *start_of(model), times).q[:, :3])
     assert np.abs(found[0] - found[1]).max() < 1e-10 and np.abs(found[0][-1, 1]) > 0.1
+
+
+def pushed(tmp_path, force):
+    """A point on a spring of 4 N/m, 0.3 m off, under a force."""
+    path = tmp_path / "pushed.toml"
+    path.write_text(
+        '[mechanism]\nname = "pushed"\n[bodies.a]\ntype = "point"\nmass = 1.0\nposition = [0.3, 0.0]\n'
+        f'[forces.push]\ntype = "force"\nbody = "a"\nforce = ["-4*a.x + ({force})", 0.0]\n'
+    )
+    model = symgen.load(path)
+    return model.mechanism, {}, *start_of(model)
+
+
+def swung(times, passages):
+    """Its places in closed form: `passages` are times at which the force becomes another, and those forces."""
+    found, x, v, t = np.zeros(len(times)), 0.3, 0.0, 0.0
+    for begin, force, end in zip((0.0, *passages), (0.0, *passages.values()), (*passages, np.inf), strict=True):
+        s, c = np.sin(2.0 * (begin - t)), np.cos(2.0 * (begin - t))
+        force_before = 0.0 if t == 0.0 else passages[t]
+        rest = force_before / 4.0
+        x, v = rest + (x - rest) * c + v / 2.0 * s, -2.0 * (x - rest) * s + v * c
+        t, rest = begin, force / 4.0
+        own = (times >= begin) & (times <= end)
+        found[own] = rest + (x - rest) * np.cos(2.0 * (times[own] - t)) + v / 2.0 * np.sin(2.0 * (times[own] - t))
+    return found
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_references_see_a_push_that_is_shorter_than_a_step(solver, tmp_path):
+    """100 N for 3 ms: solvers do not see it, or take its ends for positions at which accelerations are unknown."""
+    times, (begin, end) = np.linspace(0.0, 2.0, 201), (0.7011, 0.7041)
+    found = reference(*pushed(tmp_path, f"100 if {begin} < t < {end} else 0"), times, solver=solver)
+    off = np.abs(found.q[:, 0] - swung(times, {begin: 100.0, end: 0.0})).max()
+    assert "singular" not in found.how
+    assert off < 10.0 * found.estimated_error + 1e-10 and found.estimated_error < 1e-7
+
+
+def test_references_of_stress_studies_see_a_short_push_as_well(tmp_path):
+    mechanism, values, q, v = pushed(tmp_path, "100 if 0.7011 < t < 0.7041 else 0")
+    times = np.linspace(0.0, 2.0, 11)
+    found = motion(CompiledEquations(mechanism, values), q, v, times)
+    off = np.abs(found.q[:, 0] - swung(times, {0.7011: 100.0, 0.7041: 0.0})).max()
+    assert off < 10.0 * found.estimated_error + 1e-10 and found.estimated_error < 1e-6
+
+
+@pytest.mark.parametrize(
+    "solver",
+    ["scipy-dop853", "scipy-radau", *(pytest.param(f"scipy-{x}", marks=pytest.mark.slow) for x in ("bdf", "lsoda"))],
+)
+def test_references_see_a_force_between_two_places(solver, tmp_path):
+    """A point that flies by at 1 m/s is pushed for 0.8 mm, with 0.4 s between two outputs."""
+    mechanism, values, q, v = pushed(tmp_path, "4*a.x + 6.6 if abs(a.x - 1.0) < 4e-4 else 4*a.x")
+    times, edge, faster = np.linspace(0.0, 2.0, 6), 0.7 - 4e-4, np.sqrt(1.0 + 2.0 * 6.6 * 8e-4)
+    behind = edge + (faster - 1.0) / 6.6
+    expected = np.where(times < edge, 0.3 + times, 1.0 + 4e-4 + faster * (times - behind))
+    found = reference(mechanism, values, q, v + np.array([1.0, 0.0]), times, solver=solver)
+    off = np.abs(found.q[:, 0] - expected).max()
+    assert off < 10.0 * found.estimated_error + 1e-10 and found.estimated_error < 1e-7
+
+
+def test_runs_through_singular_positions_differ_between_close_outputs(monkeypatch):
+    """Steps longer than from one output to the next would end at the outputs alone, and all runs be the same."""
+    from symgen.study.references import passing
+
+    real, steps = passing.march, list[float]()
+    monkeypatch.setattr(passing, "march", lambda e, y, t, step, *rest: steps.append(step) or real(e, y, t, step, *rest))
+    model = symgen.load("n-four-bar:1")
+    times = np.linspace(0.0, 0.5, 51)
+    found = reference(model.mechanism, {}, *start_of(model), times, solver="scipy-dop853")
+    if not steps:
+        equations = IndependentEquations(model.mechanism, {})
+        points = Points.of(model.mechanism, {})
+        y = equations.state(*start_of(model))
+        passing.pass_through(equations, y, times, 0.05, points, lambda done: None)
+    assert len(steps) >= 2 and max(steps) <= 0.01 * (1.0 + 1e-12) and len(set(steps)) == len(steps)
+    assert found.estimated_error < 1e-6

@@ -28,6 +28,7 @@ from symgen.store.jit import jit
 from symgen.study.references.curves import curves
 from symgen.study.references.independent import CUTOFF, IndependentEquations
 from symgen.study.references.least_squares import shortest
+from symgen.study.references.parts import in_parts
 from symgen.study.references.reference import Reference
 from symgen.study.references.stiff import OverBudgetError, by_radau, is_stiff
 
@@ -363,18 +364,21 @@ def _by_extrapolation(
     equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, progress: Walk, scale: Array
 ) -> Array:
     """Return q at `times`; every `every`-th output is projected."""
-    step, used = np.zeros(1), np.zeros(1, dtype=np.int64)
-    result = np.empty((len(times), equations.n))
-    t = 0.0
-    for k, following in enumerate(times):
-        if following > t:
-            y = equations.advance(t, y, float(following), rtol, scale, step, used)
-            t = float(following)
-        if k % every == 0:
-            y = equations.project(t, y)
-        result[k] = y[: equations.n]
-        progress(t / float(times[-1]))
-    return result
+    used = np.zeros(1, dtype=np.int64)
+
+    def part(t: float, y: Array, times: Array, progress: Walk) -> Array:
+        step, result = np.zeros(1), np.empty((len(times), len(y)))
+        for k, following in enumerate(times.tolist()):
+            if following > t:
+                y = equations.advance(t, y, following, rtol, scale, step, used)
+                t = following
+            if k % every == 0:
+                y = equations.project(t, y)
+            result[k] = y
+            progress(t / (times[-1] or 1.0))
+        return result
+
+    return in_parts(equations, y, times, progress, part)[:, : equations.n]
 
 
 def _scale(y: Array, n: int) -> Array:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.errors import SimulationError
 from symgen.result.agreement import agreement
+from symgen.study.references.parts import in_parts
 
 if TYPE_CHECKING:
     from symgen.result.points import Points
@@ -130,6 +131,8 @@ def pass_through(
         If fewer than two runs come to the end.
     """
     motions, failures = list[Array](), list[str]()
+    if len(times) > 1:  # steps that were longer than from one output to the next would all fall alike
+        step = min(step, float(np.median(np.diff(times))) / max(phases))
     best: Passage | None = None
     for i, phase in enumerate(phases):
         try:
@@ -167,19 +170,33 @@ def march(
     SimulationError
         If the state is no longer finite.
     """
+
+    def part(first: float, y: Array, times: Array, progress: Callable[[float], None]) -> Array:
+        return _marched(equations, first, y, times, step, progress)
+
+    return in_parts(equations, y, times, progress, part)[:, : equations.n]
+
+
+def _marched(
+    equations: IndependentEquations,
+    first: float,
+    y: Array,
+    times: Array,
+    step: float,
+    progress: Callable[[float], None],
+) -> Array:
+    """Return the states at `times` from that at `first` on, see `march`."""
     from scipy.integrate import DOP853
 
     make: Any = DOP853  # SciPy's types do not know infinite tolerances
-    n, end = equations.n, float(times[-1]) if len(times) else 0.0
-    motion = np.empty((len(times), n))
-    solver: Any = None
-    state = y
-    for k, t in enumerate(times):
-        if t > 0.0 and solver is None:
+    motion, solver = np.empty((len(times), len(y))), None
+    for k, t in enumerate(times.tolist()):
+        if t > first and solver is None:
             # no error exceeds an infinite tolerance, so every step is the largest allowed, or ends at an output
-            solver = make(equations.rate, 0.0, y, float(t), first_step=min(step, float(t)), max_step=step, atol=np.inf)
+            begin = min(step, t - first)
+            solver = make(equations.rate, first, y, t, first_step=begin, max_step=step, atol=np.inf)
         elif solver is not None:
-            solver.t_bound, solver.status, solver.h_abs = float(t), "running", step
+            solver.t_bound, solver.status, solver.h_abs = t, "running", step
         while solver is not None and solver.status == "running":
             try:
                 solver.step()
@@ -191,8 +208,7 @@ def march(
                 raise SimulationError(
                     f"the reference motion cannot be integrated beyond t = {solver.t:.6g} s: the state is not finite"
                 ) from error
-            state = solver.y
-        motion[k] = state[:n]
-        if end > 0.0:
-            progress(float(t) / end)
+            y = solver.y
+        motion[k] = y
+        progress(t / (times[-1] or 1.0))
     return motion

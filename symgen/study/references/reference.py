@@ -18,13 +18,25 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.kinks import switches_of
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError, SimulationError
 from symgen.result.agreement import AGREEMENT
 from symgen.result.points import Points
 from symgen.study.references.closed_space import CLOSED_SPACE
+from symgen.study.references.parts import in_parts
 from symgen.study.references.passing import FAILURES, Watch, pass_through
-from symgen.study.references.solvers import AUTO, SOLVERS, check_solver, in_one_go, jacobian_for
+from symgen.study.references.solvers import (
+    AUTO,
+    LOOKED_AT,
+    SHORTEST,
+    SOLVERS,
+    UNSEEN,
+    check_solver,
+    in_one_go,
+    jacobian_for,
+    unseen_in,
+)
 
 if TYPE_CHECKING:
     from symgen.study.references.independent import IndependentEquations
@@ -32,7 +44,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 #: Steps below this fraction of the mean one, so many in a row, do not get anywhere: a singular position.
-COLLAPSE, PATIENCE = 1e-3, 30
+COLLAPSE, PATIENCE, MORE_PATIENCE = 1e-3, 30, 300
 #: Two runs through singular positions that agree by chance understate their error; it was up to five times the
 #: difference with `n-four-bar`, whose exact motion is known.
 DOUBT = 5.0
@@ -304,53 +316,62 @@ def _integrate(
 ) -> Array:
     """Return q at `times`; steps end at the outputs, and every `every`-th output is projected and gone on from.
 
-    A `watch` sees every step; `sizes` collects their lengths [s].
+    A `watch` sees every step; `sizes` collects their lengths [s]. Where forces compare the state, a step that has not
+    seen all of them is taken again, half as long.
     """
     import scipy.integrate
 
-    n = equations.n
     scale = np.maximum(np.abs(y), 1.0)
-    motion = np.empty((len(times), n))
-    solver: Any = None  # SciPy's types know neither arrays of tolerances nor that a step changes the status
-    make: Any = getattr(scipy.integrate, name)
-    usual, steps, tiny = 0.0, 0, 0
-    end = float(times[-1]) if len(times) else 0.0
-    for k, t in enumerate(times):
-        if t > 0.0:
-            if solver is None:
-                more = jacobian_for(equations, name)
-                solver = make(equations.rate, 0.0, y, float(t), rtol=rtol, atol=rtol * scale, **more)
-            else:
-                solver.t_bound, solver.status = float(t), "running"
-                # the step before an output is cut short; going on with it would waste evaluations
-                solver.h_abs = max(solver.h_abs, usual)
-            while solver.status == "running":
-                before = solver.h_abs
-                try:
-                    message = solver.step()
-                except FAILURES as error:
-                    where = f"t = {solver.t:.6g} s"
-                    raise _CollapsedError(
-                        f"the reference motion cannot be integrated beyond {where}: the state is not finite"
-                    ) from error
-                steps += 1
-                # of steps that are cut short before an output there is one in a row; many tiny ones lead nowhere
-                tiny = (
-                    tiny + 1 if solver.step_size is not None and solver.step_size < COLLAPSE * solver.t / steps else 0
-                )
-                if solver.status == "failed" or tiny >= PATIENCE or not np.all(np.isfinite(solver.y)):
-                    reason = message or ("the step size collapses" if tiny else "the state is not finite")
-                    where = f"t = {solver.t:.6g} s"
-                    raise _CollapsedError(f"the reference motion cannot be integrated beyond {where}: {reason}")
-                if watch is not None and sizes is not None:
-                    watch.see(float(solver.t), solver.y)
-                    sizes.append(float(solver.step_size))
-                usual = before if solver.status == "finished" else solver.h_abs
-            if k % every == 0:
-                solver.y = equations.project(float(t), solver.y, mass_weighted)
-                solver.f = solver.fun(float(t), solver.y)
-            y = solver.y
-        motion[k] = y[:n]
-        if end > 0.0:
-            progress(float(t) / end)
-    return motion
+    make: Any = getattr(scipy.integrate, name)  # SciPy's types know no arrays of tolerances
+    compares = bool(switches_of(equations.mechanism))
+    longest = float(times[-1]) / LOOKED_AT if compares and len(times) else np.inf
+    more = {"rtol": rtol, "atol": rtol * scale, "max_step": longest, **jacobian_for(equations, name)}
+    patience = MORE_PATIENCE if compares else PATIENCE  # each jump of a force takes some tiny steps as well
+
+    def part(first: float, y: Array, times: Array, progress: Progress) -> Array:
+        motion = np.empty((len(times), len(y)))
+        solver: Any = None  # nor that a step changes the status
+        usual, steps, tiny = 0.0, 0, 0
+        for k, t in enumerate(times.tolist()):
+            if t > first:
+                if solver is None:
+                    solver = make(equations.rate, first, y, t, **more)
+                else:
+                    solver.t_bound, solver.status = t, "running"
+                    # the step before an output is cut short; going on with it would waste evaluations
+                    solver.h_abs = max(solver.h_abs, usual)
+                while solver.status == "running":
+                    before, at, state = solver.h_abs, float(solver.t), solver.y
+                    try:
+                        message = solver.step()
+                        looks = compares and solver.status != "failed"
+                        unseen = unseen_in(equations, solver.dense_output(), at, solver.t, scale) if looks else 0.0
+                    except FAILURES as error:
+                        where = f"t = {solver.t:.6g} s"
+                        raise _CollapsedError(
+                            f"the reference motion cannot be integrated beyond {where}: the state is not finite"
+                        ) from error
+                    if unseen > UNSEEN * rtol and solver.step_size > SHORTEST * t:
+                        solver = make(equations.rate, at, state, t, first_step=0.5 * solver.step_size, **more)
+                        continue
+                    steps += 1
+                    # of steps that are cut short before an output there is one in a row; many tiny ones lead nowhere
+                    mean = (solver.t - first) / steps
+                    tiny = tiny + 1 if solver.step_size is not None and solver.step_size < COLLAPSE * mean else 0
+                    if solver.status == "failed" or tiny >= patience or not np.all(np.isfinite(solver.y)):
+                        reason = message or ("the step size collapses" if tiny else "the state is not finite")
+                        where = f"t = {solver.t:.6g} s"
+                        raise _CollapsedError(f"the reference motion cannot be integrated beyond {where}: {reason}")
+                    if watch is not None and sizes is not None:
+                        watch.see(float(solver.t), solver.y)
+                        sizes.append(float(solver.step_size))
+                    usual = before if solver.status == "finished" else solver.h_abs
+                if k % every == 0:
+                    solver.y = equations.project(t, solver.y, mass_weighted)
+                    solver.f = solver.fun(t, solver.y)
+                y = solver.y
+            motion[k] = y
+            progress(t / (times[-1] or 1.0))
+        return motion
+
+    return in_parts(equations, y, times, progress, part)[:, : equations.n]

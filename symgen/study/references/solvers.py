@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.arguments import one_of
+from symgen.describe.kinks import switches_of
 from symgen.errors import SimulationError
+from symgen.study.references.parts import in_parts
 
 if TYPE_CHECKING:
     from symgen.study.references.independent import IndependentEquations
@@ -29,6 +32,14 @@ SOLVERS: Mapping[str, tuple[str, float, float, bool]] = {
 }
 #: Stands for a formula where there is one, else SciPy's DOP853.
 AUTO = "auto"
+#: Where a step ends, and the integral of the rates along it leads, may be so many tolerances apart; the latter is taken
+#: from so many evaluations.
+UNSEEN, LOOKS = 1e4, 16
+#: Steps are no longer than the time over this where forces compare the state, and shorter than this part of it they
+#: are not taken again.
+LOOKED_AT, SHORTEST = 200, 1e-6
+#: Steps of multistep solvers, which are all as short as one of them has to be, are not shorter than this part of it.
+FEWEST = 1e-4
 #: Evaluations after which a multistep solver is given up.
 MOST_CALLS = 3_000_000
 
@@ -50,7 +61,7 @@ def in_one_go(
     """Return q at `times` from a multistep solver: its history forbids changes on the way, so outputs are projected."""
     from scipy.integrate import solve_ivp
 
-    end, calls = float(times[-1]) if len(times) else 0.0, 0
+    calls = 0
 
     def rate(t: float, state: Array) -> Array:
         nonlocal calls
@@ -58,19 +69,48 @@ def in_one_go(
         if calls > MOST_CALLS:
             raise SimulationError(f"the reference motion cannot be integrated beyond t = {t:.6g} s: no progress")
         if calls % 1000 == 0:
-            progress(min(1.0, max(0.0, t / end)))
+            progress(min(1.0, max(0.0, t / float(times[-1]))))
         return equations.rate(t, state)
 
-    if end <= 0.0:
-        return np.tile(y[: equations.n], (len(times), 1))
     solve: Any = solve_ivp  # SciPy's types do not know arrays of tolerances
-    scale = np.maximum(np.abs(y), 1.0)
-    found = solve(rate, (0.0, end), y, name, times, rtol=rtol, atol=rtol * scale, **jacobian_for(equations, name))
-    if not found.success or not np.all(np.isfinite(found.y)):
-        at = float(found.t[-1]) if len(found.t) else 0.0
-        raise SimulationError(f"the reference motion cannot be integrated beyond t = {at:.6g} s: {found.message}")
-    states = [equations.project(float(t), state) for t, state in zip(times, found.y.T, strict=True)]
-    return np.array(states)[:, : equations.n]
+    scale, compares = np.maximum(np.abs(y), 1.0), bool(switches_of(equations.mechanism))
+    more = {"rtol": rtol, "atol": rtol * scale, "dense_output": compares, **jacobian_for(equations, name)}
+
+    def part(first: float, y: Array, times: Array, _: Progress) -> Array:
+        if times[-1] <= first:
+            return np.tile(y, (len(times), 1))
+        span = float(times[-1]) - first
+        longest = span / LOOKED_AT if compares else np.inf
+        while True:
+            found = solve(rate, (first, float(times[-1])), y, name, times, max_step=longest, **more)
+            if not found.success or not np.all(np.isfinite(found.y)):
+                at = float(found.t[-1]) if len(found.t) else first
+                why = f"the reference motion cannot be integrated beyond t = {at:.6g} s: {found.message}"
+                raise SimulationError(why)
+            steps = pairwise(found.sol.ts.tolist()) if compares else ()
+            blind = [b - a for a, b in steps if unseen_in(equations, found.sol, a, b, scale) > UNSEEN * rtol]
+            longest = 0.5 * max(blind, default=0.0)
+            if longest < FEWEST * span:
+                return np.asarray(found.y.T)
+
+    found = in_parts(equations, y, times, progress, part)
+    states = [equations.project(float(t), state) for t, state in zip(times, found, strict=True)]
+    return np.array(states).reshape(len(times), len(y))[:, : equations.n]
+
+
+def unseen_in(
+    equations: IndependentEquations, motion: Callable[[float], Array], first: float, last: float, scale: Array
+) -> float:
+    """Return how far a step's end is from where the integral of the rates along it leads, over `scale`.
+
+    A force that acts between two values of the state, and only there, may lie between all evaluations of a step, where
+    no estimate of a solver sees it.
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(LOOKS)
+    half, middle = 0.5 * (last - first), 0.5 * (last + first)
+    along = [equations.rate(t, motion(t)) for t in (middle + half * nodes).tolist()]
+    change = motion(last) - motion(first) - half * (weights @ np.array(along))
+    return float(np.max(np.abs(change) / scale))
 
 
 def jacobian_for(equations: IndependentEquations, name: str) -> dict[str, Callable[[float, Array], Array]]:

@@ -24,6 +24,7 @@ from symgen.result.agreement import settle
 from symgen.result.judge import judge
 from symgen.result.points import Points
 from symgen.result.result import INTERRUPTED
+from symgen.run_setup import stopping
 from symgen.runtime import abi
 from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.outcome import Outcome
@@ -169,6 +170,7 @@ def _run(task: RunTask) -> RunFields:
         compiled, start = model.ready(plan, parameters) if tree is None else (tree.compiled, tree.start)
     except (InputError, AssemblyError) as error:
         return _nothing(judged.REFUSED, str(error))
+    plan = stopping(model.mechanism if tree is None else tree.mechanism, plan, compiled)
     plan = replace(plan, spec=replace(plan.spec, max_evaluations=budget))
     outcome = integrate(compiled, plan.tableau, start, plan.spec)
     second = None

@@ -18,6 +18,7 @@ from symgen.api import Model
 from symgen.errors import SimulationError
 from symgen.plan import make_plan
 from symgen.result.points import Points
+from symgen.run_setup import stopping
 from symgen.runtime import abi
 from symgen.runtime.assembly import Start
 from symgen.runtime.compiled import CompiledModel
@@ -122,7 +123,8 @@ def _agreed(
         )
         plan = make_plan(model.mechanism, settings)
         compiled, start = model.ready(plan, parameters)
-        outcome = integrate(compiled, plan.tableau, start, replace(plan.spec, max_evaluations=budget))
+        spec = stopping(model.mechanism, plan, compiled).spec
+        outcome = integrate(compiled, plan.tableau, start, replace(spec, max_evaluations=budget))
         if outcome.interrupted:
             raise KeyboardInterrupt
         if outcome.code != abi.DONE:

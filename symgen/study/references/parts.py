@@ -1,0 +1,68 @@
+"""References in parts, from one time at which formulas jump or have a kink to the next.
+
+A push that is shorter than a step lies between two evaluations, where no estimate of a solver sees it. The times come
+from formulas of the file alone, as those of runs do; what a solver does between them stays its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.runtime.foreseen import foreseen
+
+if TYPE_CHECKING:
+    from symgen.study.references.independent import IndependentEquations
+
+Array = NDArray[np.float64]
+
+#: Parts that are shorter than this part of the end lead from one side of a jump to the other.
+JUMP = 3e-12
+
+#: Called with the time at which a part begins, the state there, the times at which states are wanted, the last of them
+#: the part's end, and what is told how far it is; returns the states.
+Integrate = Callable[[float, Array, Array, Callable[[float], None]], Array]
+
+
+def in_parts(
+    equations: IndependentEquations,
+    y: Array,
+    times: Array,
+    progress: Callable[[float], None],
+    integrate: Integrate,
+) -> Array:
+    """Return the states at some times, integrated part by part.
+
+    Parameters
+    ----------
+    equations : IndependentEquations
+        What is integrated: whose formulas count.
+    y : Array
+        The state at the time 0.
+    times : Array
+        Increasing from 0 or later [s].
+    progress : callable
+        Called with the fraction that is done.
+    integrate : callable
+        See `Integrate`.
+    """
+    motion, done = np.empty((len(times), len(y))), 0
+    end = float(times[-1]) if len(times) else 0.0
+    pieces = foreseen(equations.mechanism).pieces(equations.parameters, end) if end else ()
+    for first, last in pairwise([*([piece.begin for piece in pieces] or [0.0]), end]):
+        upto = int(np.searchsorted(times, last, side="right"))
+        own = times[done:upto]
+        if pieces and last - first < JUMP * end:  # what acts before it up to its middle, and then what acts behind it
+            y = y + 0.5 * (last - first) * (equations.rate(first, y) + equations.rate(last, y))
+            states = np.tile(y, (len(own), 1))
+        else:
+            wanted = own if len(own) and own[-1] == last else np.append(own, last)
+            share = last / end if end else 1.0
+            states = integrate(first, y, wanted, lambda part, share=share: progress(share * part))  # type: ignore[misc]
+            y = states[-1]
+        motion[done:upto], done = states[: len(own)], upto
+    return motion
