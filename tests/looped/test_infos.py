@@ -25,8 +25,9 @@ from symgen.lower.model import lower_model
 
 PLANAR = ("revolute", "rigid", "translational", "pin-in-slot", "driver", "gear", "distance", "knife-edge", "rolling")
 SPATIAL = ("revolute", "spherical", "cylindrical", "universal", "translational", "rigid", "screw", "driver", "distance")
-#: What each shape lays out in its own way, and a digest that only straight code is told.
-OWN = ("digest", "sections", "jacobian", "hoisted", "operations")
+#: What each shape lays out in its own way, and a digest that only straight code is told. Rows that are eliminated alone
+#: are the same where kernels know all zeros of D.
+OWN = ("digest", "sections", "jacobian", "hoisted", "operations", "alone")
 
 
 def infos(mechanism: Mechanism) -> list[dict[str, Any]]:
