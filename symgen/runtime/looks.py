@@ -87,18 +87,13 @@ LOOKS = types.NamedTuple((*(_A,) * 5, _K, _A, _A, _K, _A, _A, _A, _K, _A), Looks
 
 
 @called
-def put(array: Any, out: Any, at: int) -> int:
-    """Copy an array to where `out` has room for it; return where that ends."""
+def exchanged(array: Any, kept: Any, at: int, back: bool) -> int:
+    """Copy an array to where `kept` has room for it, or from there; return where that ends."""
     for i in range(array.shape[0]):
-        out[at + i] = array[i]
-    return at + int(array.shape[0])
-
-
-@called
-def taken(array: Any, kept: Any, at: int) -> int:
-    """Copy back what `put` has copied; return where it ends."""
-    for i in range(array.shape[0]):
-        array[i] = kept[at + i]
+        if back:
+            array[i] = kept[at + i]
+        else:
+            kept[at + i] = array[i]
     return at + int(array.shape[0])
 
 
@@ -109,33 +104,32 @@ def passage(state: Any) -> Any:
 
 
 @called
+def exchange(state: Any, looks: Any, back: bool) -> int:
+    """Keep what a step changes but its counts, or have it again; return where these stand."""
+    at = exchanged(state.y, looks.kept, 0, back)
+    at = exchanged(state.w, looks.kept, at, back)
+    at = exchanged(state.clock, looks.kept, at, back)
+    at = exchanged(state.gauges, looks.kept, at, back)
+    at = exchanged(state.memory, looks.kept, at, back)
+    at = exchanged(looks.hunt, looks.kept, at, back)
+    exchanged(passage(state), looks.kept, at, back)
+    return int(exchanged(state.iw, looks.counts, 0, back))
+
+
+@called
 def keep(state: Any, looks: Any) -> None:
     """Keep what a step changes."""
-    at = put(state.y, looks.kept, 0)
-    at = put(state.w, looks.kept, at)
-    at = put(state.clock, looks.kept, at)
-    at = put(state.gauges, looks.kept, at)
-    at = put(state.memory, looks.kept, at)
-    at = put(looks.hunt, looks.kept, at)
-    put(passage(state), looks.kept, at)
-    put(state.control, looks.counts, put(state.iw, looks.counts, 0))
+    exchanged(state.control, looks.counts, exchange(state, looks, False), False)
 
 
 @called
 def go_back(state: Any, looks: Any) -> None:
     """Have a run be where it was, one attempt later; work that was done counts."""
-    at = taken(state.y, looks.kept, 0)
-    at = taken(state.w, looks.kept, at)
-    at = taken(state.clock, looks.kept, at)
-    at = taken(state.gauges, looks.kept, at)
-    at = taken(state.memory, looks.kept, at)
-    at = taken(looks.hunt, looks.kept, at)
-    first, control = taken(state.iw, looks.counts, 0), state.control
+    first, control = exchange(state, looks, True), state.control
     for i in range(control.shape[0]):
         if i != _STOP and i != _EVALUATIONS and i != _JACOBIANS and i != _ITERATIONS and i != _REJECTED:
             control[i] = looks.counts[first + i]
     control[_REJECTED] += 1
-    taken(passage(state), looks.kept, at)
 
 
 # -- the loop ----------------------------------------------------------------------------------------------------------
@@ -144,9 +138,9 @@ def go_back(state: Any, looks: Any) -> None:
 def rates_at(looks: Any, state: Any, rates: Any, confirm: Any) -> Any:
     """Return the rate of the state where a run stands."""
     if looks.head[RATES] == _ASKED:  # what emitted functions remember stays that of the step
-        put(state.y, looks.y, 0)
-        put(state.w, looks.w, 0)
-        put(state.iw, looks.iw, 0)
+        exchanged(state.y, looks.y, 0, False)
+        exchanged(state.w, looks.w, 0, False)
+        exchanged(state.iw, looks.iw, 0, False)
         t = state.clock[abi.TIME]
         if rates(t, looks.y, state.p, looks.w, looks.iw, looks.rate) != 0:
             confirm(t, looks.y, state.p, looks.w, looks.iw, looks.rate)
@@ -211,7 +205,7 @@ def stepped(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> int
                 head[AGAIN] += 1.0
                 head[LONGEST] = h
                 continue
-            put(looks.after, looks.before, 0)
+            exchanged(looks.after, looks.before, 0, False)
             head[AGAIN] = 0.0
         if code != abi.PAUSED:
             return int(code)

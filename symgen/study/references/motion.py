@@ -28,7 +28,7 @@ from symgen.store.jit import jit
 from symgen.study.references.curves import curves
 from symgen.study.references.independent import CUTOFF, IndependentEquations
 from symgen.study.references.least_squares import shortest
-from symgen.study.references.parts import in_parts
+from symgen.study.references.parts import Advance, by_outputs, in_parts
 from symgen.study.references.reference import Reference
 from symgen.study.references.stiff import OverBudgetError, by_radau, is_stiff
 
@@ -366,19 +366,11 @@ def _by_extrapolation(
     """Return q at `times`; every `every`-th output is projected."""
     used = np.zeros(1, dtype=np.int64)
 
-    def part(t: float, y: Array, times: Array, progress: Walk) -> Array:
-        step, result = np.zeros(1), np.empty((len(times), len(y)))
-        for k, following in enumerate(times.tolist()):
-            if following > t:
-                y = equations.advance(t, y, following, rtol, scale, step, used)
-                t = following
-            if k % every == 0:
-                y = equations.project(t, y)
-            result[k] = y
-            progress(t / (times[-1] or 1.0))
-        return result
+    def begin() -> Advance:
+        step = np.zeros(1)  # the one to try next
+        return lambda t, y, following: equations.advance(t, y, following, rtol, scale, step, used)
 
-    return in_parts(equations, y, times, progress, part)[:, : equations.n]
+    return in_parts(equations, y, times, progress, by_outputs(equations, every, begin))[:, : equations.n]
 
 
 def _scale(y: Array, n: int) -> Array:

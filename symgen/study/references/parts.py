@@ -26,6 +26,8 @@ JUMP = 3e-12
 #: Called with the time at which a part begins, the state there, the times at which states are wanted, the last of them
 #: the part's end, and what is told how far it is; returns the states.
 Integrate = Callable[[float, Array, Array, Callable[[float], None]], Array]
+#: Called with a time, the state there and another time; returns the state at that.
+Advance = Callable[[float, Array, float], Array]
 
 
 def in_parts(
@@ -66,3 +68,30 @@ def in_parts(
             y = states[-1]
         motion[done:upto], done = states[: len(own)], upto
     return motion
+
+
+def by_outputs(equations: IndependentEquations, every: int, begin: Callable[[], Advance]) -> Integrate:
+    """Return what integrates a part from output to output.
+
+    Parameters
+    ----------
+    equations : IndependentEquations
+        What is integrated.
+    every : int
+        Every so many-th output is projected.
+    begin : callable
+        Returns, for each part, what takes a state at a time to another time.
+    """
+
+    def integrate(t: float, y: Array, times: Array, progress: Callable[[float], None]) -> Array:
+        result, advance = np.empty((len(times), len(y))), begin()
+        for k, following in enumerate(times.tolist()):
+            if following > t:
+                y, t = advance(t, y, following), following
+            if k % every == 0:
+                y = equations.project(t, y)
+            result[k] = y
+            progress(t / (times[-1] or 1.0))
+        return result
+
+    return integrate

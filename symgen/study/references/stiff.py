@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.errors import SimulationError
-from symgen.study.references.parts import in_parts
+from symgen.study.references.parts import by_outputs, in_parts
 from symgen.study.references.passing import FAILURES
 
 if TYPE_CHECKING:
@@ -102,22 +102,15 @@ def by_radau(
     # fast decay leaves velocities at a state of balance: errors of positions are what counts
     atol: Any = rtol * scale
 
-    def part(t: float, y: Array, times: Array, progress: Callable[[float], None]) -> Array:
-        result = np.empty((len(times), len(y)))
-        for k, following in enumerate(times.tolist()):
-            if following > t:
-                beyond = f"the reference motion cannot be integrated beyond t = {t:.6g} s"
-                try:
-                    found = solve_ivp(rate, (t, following), y, "Radau", rtol=rtol, atol=atol, jac=jacobian)
-                except FAILURES as error:  # SciPy raises where a Jacobian is not finite
-                    raise SimulationError(f"{beyond}: {error}") from None
-                if not found.success or not np.all(np.isfinite(found.y[:, -1])):
-                    raise SimulationError(beyond)
-                y, t = found.y[:, -1], following
-            if k % every == 0:
-                y = equations.project(t, y)
-            result[k] = y
-            progress(t / (times[-1] or 1.0))
-        return result
+    def advance(t: float, y: Array, following: float) -> Array:
+        beyond = f"the reference motion cannot be integrated beyond t = {t:.6g} s"
+        try:
+            found = solve_ivp(rate, (t, following), y, "Radau", rtol=rtol, atol=atol, jac=jacobian)
+        except FAILURES as error:  # SciPy raises where a Jacobian is not finite
+            raise SimulationError(f"{beyond}: {error}") from None
+        if not found.success or not np.all(np.isfinite(found.y[:, -1])):
+            raise SimulationError(beyond)
+        return found.y[:, -1]
 
+    part = by_outputs(equations, every, lambda: advance)
     return in_parts(equations, y, times, progress, part)[:, : equations.n]
