@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.algebra import ZERO, Complex, split, squares_along, symmetric
 from symgen.analyses.edges import edges
-from symgen.analyses.settle import Settled, lengths, settle
+from symgen.analyses.settle import Settled, settle
 from symgen.analyses.subject import Subject
 from symgen.errors import AnalysisError, InputError
 
@@ -286,6 +286,6 @@ def _add(found: list[Equilibrium], rest: Settled) -> None:
         for first, _ in subject.compiled.info.spins:  # both signs of Euler parameters are one orientation
             one, other = known.y[first : first + 4], at[first : first + 4]
             apart[first : first + 4] = min(one - other, one + other, key=lambda x: float(np.linalg.norm(x)))
-        if np.abs(apart / lengths(subject)).max(initial=0.0) < SAME:
+        if np.abs(apart / subject.lengths).max(initial=0.0) < SAME:
             return
     found.append(new)

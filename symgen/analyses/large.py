@@ -168,9 +168,7 @@ def _smallest(sparse: Sparse, y: Array, lam: Array) -> tuple[Array, list[int]]:
     for i, row in enumerate(extra):
         none[i, sparse.kept] = solve(whole[row].toarray().ravel(), np.zeros(len(sparse.kept)))[1]
         none[i, row] = -1.0
-    info = sparse.compiled.info
-    length = float(sparse.w[abi.LENGTH]) or 1.0
-    loads = np.array([length if row.unit == "rad" else 1.0 for row in info.rows])  # as `Subject.loads`
+    loads = sparse.loads
     basis = np.linalg.qr(none.T / loads[:, np.newaxis])[0]
     share = np.linalg.norm(basis, axis=1)
     return lam - loads * (basis @ (basis.T @ (lam / loads))), [int(i) for i in np.flatnonzero(share > 1e-8)]

@@ -253,8 +253,7 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> Tangent:
     multipliers = -inverse.T @ (force + mass @ rates)
     q_rates = e.by("motion", "q") @ q + motion @ v
     q_rates[:, positions + velocities :] += e.by("motion", "p")[:, places]
-    lengths = np.array([subject.length if c.unit == "m" else 1.0 for c in subject.compiled.info.coordinates])
-    back = np.linalg.pinv((motion @ free) / lengths[:, np.newaxis]) / lengths
+    back = np.linalg.pinv((motion @ free) / subject.lengths[:, np.newaxis]) / subject.lengths
     along = (basis / subject.spans[:, np.newaxis] ** 2).T  # of orthonormal columns in spans
     states = np.eye(positions + velocities, width)
     state_rates = np.vstack([back @ q_rates, along @ rates])

@@ -166,7 +166,7 @@ def _sunk(subject: Subject, y: Array, held: Sequence[tuple[str, float]]) -> tupl
         now = balance(subject, y, lam, held)
         change, multipliers = _downhill(now)
         lam = _all_rows(subject, multipliers, held)
-        longest = (np.abs(now.motion @ change) / lengths(subject)).max(initial=0.0)
+        longest = (np.abs(now.motion @ change) / subject.lengths).max(initial=0.0)
         y = subject.moved(y, now.motion @ (min(1.0, REACH / max(longest, 1e-300)) * change))
         subject = subject.wound(y)
     return subject, y
@@ -234,7 +234,7 @@ def _stepped(
     if not sinking:
         far, steps = False, sorted(steps, key=lambda step: step is not steps[far])
     for way, (change, multipliers) in enumerate(steps):
-        longest = (np.abs(now.motion @ change) / lengths(subject)).max(initial=0.0)
+        longest = (np.abs(now.motion @ change) / subject.lengths).max(initial=0.0)
         part = min(1.0, 1.0 / longest) if longest > 0.0 else 1.0
         for _ in range(MOST_HALVINGS):
             tried = subject.moved(y, now.motion @ (part * change))
@@ -292,18 +292,13 @@ def _steps(subject: Subject, now: Balance, lam: Array, matrix: Array) -> tuple[b
     chance which, so that the mechanism sinks.
     """
     newton, downhill = _newton(now, lam, matrix), _downhill(now)
-    longest = float((np.abs(now.motion @ newton[0]) / lengths(subject)).max(initial=0.0))
+    longest = float((np.abs(now.motion @ newton[0]) / subject.lengths).max(initial=0.0))
     # forces that no step would balance: where the stiffness vanishes along them, as that of a level pendulum does
     blind = longest < BLIND and np.linalg.norm(now.force + now.rows.T @ newton[1]) > TOLERANCE * np.linalg.norm(
         now.force
     )
     far = bool(longest >= NEAR or blind)
     return far, [downhill, newton] if far else [newton, downhill]
-
-
-def lengths(subject: Subject) -> Array:
-    """Return what changes of coordinates are compared with: the mechanism's length, or 1."""
-    return np.array([subject.length if q.unit == "m" else 1.0 for q in subject.compiled.info.coordinates])
 
 
 def _inverse(now: Balance, rank: float = RANK) -> Array | None:

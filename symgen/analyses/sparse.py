@@ -70,16 +70,24 @@ class Sparse:
     kept: NDArray[np.int64]
 
     @property
+    def length(self) -> float:
+        """The mechanism's length [m]."""
+        return float(self.w[abi.LENGTH]) or 1.0
+
+    @property
     def lengths(self) -> Array:
         """What changes of coordinates are compared with: the mechanism's length, or 1."""
-        length = float(self.w[abi.LENGTH]) or 1.0
-        return np.array([length if q.unit == "m" else 1.0 for q in self.compiled.info.coordinates])
+        return np.array([self.length if q.unit == "m" else 1.0 for q in self.compiled.info.coordinates])
 
     @property
     def spans(self) -> Array:
         """The same of velocities, in a second."""
-        length = float(self.w[abi.LENGTH]) or 1.0
-        return np.array([length if v.unit == "m/s" else 1.0 for v in self.compiled.info.velocities])
+        return np.array([self.length if v.unit == "m/s" else 1.0 for v in self.compiled.info.velocities])
+
+    @property
+    def loads(self) -> Array:
+        """What multipliers are divided by to be compared, as of `symgen.analyses.subject.Subject.loads`."""
+        return np.array([self.length if row.unit == "rad" else 1.0 for row in self.compiled.info.rows])
 
     def matrices(self, y: Array, lam: Array) -> tuple[Any, Any, Any, Any, Any]:
         """Return N, M, D, the stiffness K and the derivative of the balance by v at a state at rest."""

@@ -105,6 +105,11 @@ class Subject:
         return self.compiled.info.nv
 
     @property
+    def lengths(self) -> Array:
+        """What changes of coordinates are compared with: the mechanism's length [m], or 1; shape (nq,)."""
+        return np.array([self.length if q.unit == "m" else 1.0 for q in self.compiled.info.coordinates])
+
+    @property
     def spans(self) -> Array:
         """A way along each velocity that counts as large: the mechanism's length [m], or 1 rad; shape (nv,)."""
         return np.array([self.length if v.unit == "m/s" else 1.0 for v in self.compiled.info.velocities])

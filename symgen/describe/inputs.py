@@ -183,6 +183,11 @@ def _names(mechanism: Mechanism) -> Names:
     return Names(what, plain, bodies, tables, frozenset(mechanism.inputs), readings=readings, hints=hints)
 
 
+def compared(e: Call) -> Expr:
+    """Return what a comparison, `sign`, `abs`, `min` or `max` compares with zero."""
+    return e.arguments[0] if len(e.arguments) == 1 else call("sub", *e.arguments)
+
+
 class _Switching:
     """Takes jumps out of one formula, and notes them and its kinks down."""
 
@@ -201,8 +206,7 @@ class _Switching:
                 return self.switch(e)
             table = self.tables.get(table_of(e.function) or "")
             if e.function in ("abs", "min", "max"):
-                argument = e.arguments[0] if e.function == "abs" else call("sub", *e.arguments)
-                self.note(Jump(argument))
+                self.note(Jump(compared(e)))
             elif table is not None and table.interpolation != "cubic" and len(table.x) <= MOST_KNOTS:
                 self.note(Jump(e.arguments[0], table.x))
         return Call(e.function, arguments)
@@ -216,8 +220,7 @@ class _Switching:
         """Return what stands for a condition or a sign: the number that a run sets."""
         if e not in self.known:
             name = f"{self.name}~{sum(1 for j in self.jumps if j.switch) + 1}"  # no name of a file
-            argument = e.arguments[0] if e.function == "sign" else call("sub", *e.arguments)
-            self.jumps.append(Jump(argument, switch=name, value=e))
+            self.jumps.append(Jump(compared(e), switch=name, value=e))
             number = Name(name)
             self.known[e] = number if e.function == "sign" else Call("gt", (number, Number(0.5)))
         return self.known[e]

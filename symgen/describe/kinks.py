@@ -7,11 +7,11 @@ from typing import Any
 
 import msgspec
 
-from symgen.describe.inputs import MOST_KNOTS, Jump, replaced
+from symgen.describe.inputs import MOST_KNOTS, Jump, compared, replaced
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.outputs import integrals
 from symgen.describe.tables import Table
-from symgen.vocabulary.expressions import Call, Expr, Reading, call, names, readings, table_of
+from symgen.vocabulary.expressions import Call, Expr, Reading, names, readings, table_of
 from symgen.vocabulary.measures import Effort
 
 #: What is written where a formula has a kink, and what where it may jump.
@@ -32,7 +32,7 @@ def kinks_of(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[Jump, 
 
     def kink(e: Call) -> Jump | None:
         if e.function in ("abs", "min", "max"):
-            return Jump(e.arguments[0] if e.function == "abs" else call("sub", *e.arguments))
+            return Jump(compared(e))
         if (table := tables.get(table_of(e.function) or "")) is not None and len(table.x) <= MOST_KNOTS:
             return Jump(e.arguments[0], table.x, period=table.x[-1] - table.x[0] if table.periodic else 0.0)
         return None
@@ -44,9 +44,7 @@ def sides_of(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[Jump, 
     """Return what these formulas compare in time: where it is passed they may jump, without a switch."""
 
     def side(e: Call) -> Jump | None:
-        if e.function not in _SIDES:
-            return None
-        return Jump(e.arguments[0] if e.function == "sign" else call("sub", *e.arguments))
+        return Jump(compared(e)) if e.function in _SIDES else None
 
     return _in_time(mechanism, events, [name.encode() for name in _SIDES], side)
 
@@ -97,8 +95,7 @@ def knots_of(mechanism: Mechanism) -> tuple[tuple[Expr, Table | None], ...]:
                 found[argument, table] = None
     for e, effort in _calls(*formulas):
         if e.function in ("abs", "min", "max"):
-            argument = e.arguments[0] if e.function == "abs" else call("sub", *e.arguments)
-            argument = argument if effort is None else _of_a_run(argument, effort)
+            argument = compared(e) if effort is None else _of_a_run(compared(e), effort)
             if _is_of_state(argument, plain):
                 found[argument, None] = None
     return tuple(found)
@@ -118,8 +115,7 @@ def switches_of(mechanism: Mechanism) -> tuple[Expr, ...]:
     found = dict[Expr, None]()
     for e, effort in _calls(*formulas):
         if e.function in _COMPARED:
-            argument = e.arguments[0] if len(e.arguments) == 1 else call("sub", *e.arguments)
-            argument = argument if effort is None else _of_a_run(argument, effort)
+            argument = compared(e) if effort is None else _of_a_run(compared(e), effort)
             if _is_of_state(argument, plain):
                 found[argument] = None
     return tuple(found)

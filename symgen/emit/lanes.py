@@ -124,8 +124,8 @@ def _watched(block: Block, turning: Container[int]) -> list[int]:
     for node in block.needed:
         op, args, payload = block.graph.nodes[node]
         of = [bounds[a] for a in args]
-        if op == "const":
-            bounds[node] = abs(float(payload))  # type: ignore[arg-type]  # a constant's payload is a float
+        if (value := block.graph.value(node)) is not None:
+            bounds[node] = abs(value)
         elif op == "input":
             assert isinstance(payload, tuple), "an input's payload is its key"
             space, index = payload

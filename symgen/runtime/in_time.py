@@ -105,7 +105,7 @@ def crossings(
         # anywhere in equal parts, so that what is faster than the looks is seen to be, whatever its frequency
         anywhere = np.random.default_rng(count).random(count)
         times = np.concatenate([[first], first + span * (np.arange(count) + anywhere) / count, [until]])
-        looks = _Looks(times, samples := over(times), sorted_levels)
+        looks = _Samples(times, samples := over(times), sorted_levels)
         if len(looks.passes) > MOST_PIECES:
             raise InputError("inputs", f"at most {MOST_PIECES} jumps", often)
         passed, known = -1, samples[np.isfinite(samples)]
@@ -118,7 +118,7 @@ def crossings(
     raise InputError("inputs", f"at most {MOST_PIECES} jumps", f"{often} than can be told apart")
 
 
-class _Looks:
+class _Samples:
     """What is seen of a function at some times: where it passes levels, and where it may do so twice.
 
     Parameters

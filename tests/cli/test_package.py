@@ -53,6 +53,14 @@ def simulated(folder, alone, tmp_path, *arguments, compiled=False, fails=False):
     return done.stderr.strip().splitlines()[-1] if fails else json.loads(done.stdout)
 
 
+def interpreted(*command):
+    """What a script of a package says where Numba compiles nothing."""
+    environment = os.environ | {"NUMBA_DISABLE_JIT": "1"}
+    return subprocess.run(
+        [sys.executable, *command], capture_output=True, text=True, timeout=600, check=False, env=environment
+    )
+
+
 def agrees(name, alone, tmp_path, coordinates="absolute", steps=20, compiled=False):
     """A few steps of the package are those of a run."""
     folder = tmp_path / "emitted"
@@ -124,11 +132,8 @@ def test_a_package_doubts_what_a_run_doubts(method, tmp_path):
     """Windows of two bars in line at 0.71 s: without correction nothing tells the branch."""
     assert main(["generate", "n-four-bar:2", "--method", method, "-o", str(tmp_path / "emitted")]) == 0
     script = str(tmp_path / "emitted" / "simulate.py")
-    done = subprocess.run(
-        [sys.executable, script, method.replace("-", "_"), "0.72", "2e-3"],
-        **{"capture_output": True, "text": True, "timeout": 600, "check": True},
-        env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
-    )
+    done = interpreted(script, method.replace("-", "_"), "0.72", "2e-3")
+    assert done.returncode == 0, done.stderr[-2000:]
     asked = {"method": method, "integrator": "rk4", "step": 2e-3, "until": 0.72, "shape": "straight"}
     run = symgen.load("n-four-bar:2").simulate(**asked)
     passage = f"passed near a singular position at t = {run.rank_events[0].t_in:.6g} s"
@@ -163,9 +168,7 @@ def test_a_package_says_that_it_looks_for_no_events(tmp_path):
     assert main(["generate", str(path), "--method", "lagrange", "-o", str(tmp_path / "emitted")]) == 0
     said = (tmp_path / "emitted" / "README.md").read_text()
     assert "Nothing here looks for events, as `symgen run` does: `floor` changes velocities.\n" in said
-    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
-    command = [sys.executable, "-W", "error", str(tmp_path / "emitted" / "simulate.py"), "lagrange", "1e-3"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False, env=environment)
+    done = interpreted("-W", "error", str(tmp_path / "emitted" / "simulate.py"), "lagrange", "1e-3")
     assert "UserWarning: nothing here looks for events, as a run does: `floor` changes velocities" in done.stderr
 
 
@@ -200,9 +203,7 @@ def test_a_package_warns_of_what_its_steps_may_miss(tmp_path):
         '[forces.f]\ntype = "force"\nbody = "a"\nforce = ["100 if 0.5021 < t < 0.5031 else 0", 0]\n'
     )
     assert main(["generate", str(path), "--method", "lagrange", "-o", str(tmp_path / "emitted")]) == 0
-    command = [sys.executable, str(tmp_path / "emitted" / "simulate.py"), "lagrange", "1e-2"]
-    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
-    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False, env=environment)
+    done = interpreted(str(tmp_path / "emitted" / "simulate.py"), "lagrange", "1e-2")
     warned = symgen.load(path).simulate(method="lagrange", integrator="rk4").warnings
     assert len(warned) == 1 and f"UserWarning: {warned[0]}" in done.stderr
 

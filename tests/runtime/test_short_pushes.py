@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -91,17 +92,17 @@ def test_a_parameter_that_is_set_moves_them(pushed: symgen.Model) -> None:
 
 
 def test_rows_of_sweeps_are_single_runs(pushed: symgen.Model) -> None:
-    settings = {"method": "lagrange", "integrator": "dop853", "rtol": 1e-8}
-    found = sweep(pushed, vary={"at": [2.0, AT, 7.0]}, quantities=["a.vy", "b.x"], **settings)  # type: ignore[arg-type]
+    settings: dict[str, Any] = {"method": "lagrange", "integrator": "dop853", "rtol": 1e-8}
+    found = sweep(pushed, vary={"at": [2.0, AT, 7.0]}, quantities=["a.vy", "b.x"], **settings)
     for row, at in zip(found.values[:, :, -1], (2.0, AT, 7.0), strict=True):
-        alone = pushed.simulate(parameters={"at": at}, **settings)  # type: ignore[arg-type]
+        alone = pushed.simulate(parameters={"at": at}, **settings)
         assert row.tolist() == [alone["a.vy"][-1], alone["b.x"][-1]]
         assert alone["a.vy"][-1] == pytest.approx(-0.18, abs=1e-8)
 
 
 def test_constant_steps_say_what_they_may_miss(pushed: symgen.Model) -> None:
-    def told(**chosen: object) -> list[str]:
-        result = pushed.simulate(method="lagrange", integrator="rk4", until=4.0, **chosen)  # type: ignore[arg-type]
+    def told(**chosen: Any) -> list[str]:
+        result = pushed.simulate(method="lagrange", integrator="rk4", until=4.0, **chosen)
         return [warning for warning in result.warnings if "within one step" in warning]
 
     assert told(step=0.01) and not told(step=4e-5)
@@ -132,16 +133,15 @@ def test_values_over_times_are_those_at_each(pushed: symgen.Model) -> None:
         np.testing.assert_array_equal(formulas.over(e, times), one_by_one)
 
 
-def test_plateaus_are_not_searched(pushed: symgen.Model) -> None:
+def test_plateaus_are_not_searched(pushed: symgen.Model, monkeypatch: pytest.MonkeyPatch) -> None:
     """What stays where it is has a least value everywhere: looking for it between all looks would take seconds."""
-    looks, formulas = [0], InTime(pushed.mechanism, {"at": AT})
-    over = formulas.over
+    looks, formulas, over = [0], InTime(pushed.mechanism, {"at": AT}), InTime.over
 
-    def counted(e: Expr, times: np.ndarray) -> np.ndarray:
+    def counted(self: InTime, e: Expr, times: np.ndarray) -> np.ndarray:
         looks[0] += len(times)
-        return over(e, times)
+        return over(self, e, times)
 
-    formulas.over = counted  # type: ignore[method-assign]
+    monkeypatch.setattr(InTime, "over", counted)
     (jump,) = (jump for jump in foreseen(pushed.mechanism).kinks if abs(formulas.at(jump.argument, 0.0)) > 1e6)
     assert len(formulas.crossings(jump, 10.0)) == 2
     assert looks[0] < 2 * (2048 + 4096)
@@ -199,7 +199,7 @@ def test_a_spike_of_a_long_table_is_seen(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("settings", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 0.01}])
-def test_what_cannot_be_told_apart_is_told(tmp_path: Path, settings: dict[str, object]) -> None:
+def test_what_cannot_be_told_apart_is_told(tmp_path: Path, settings: dict[str, Any]) -> None:
     model = pulsed(tmp_path, "10 if sin(2e7*t) > 0.999 else 0", 1.0)
     expected = "formulas change, or pass points of tables, more often than can be told apart"
     assert any(expected in warning for warning in model.simulate(method="lagrange", **settings).warnings)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -65,6 +66,16 @@ def made(folder: Path, force: str, more: str = "") -> symgen.Model:
     return symgen.load(file)
 
 
+def pushed(
+    model: symgen.Model, integrator: str, low: float, high: float, times: Sequence[float] | np.ndarray = TIMES
+) -> symgen.Result:
+    """A run of 0.8 s at a tolerance of 1e-8."""
+    parameters = {"low": low, "high": high}
+    return model.simulate(
+        method="lagrange", integrator=integrator, rtol=1e-8, times=times, until=0.8, parameters=parameters
+    )
+
+
 @pytest.mark.parametrize("integrator", ADAPTIVE)
 @pytest.mark.parametrize(("force", "where"), [(OVER_SPEED, "speed"), (OVER_TIME, "time")])
 def test_short_pushes_are_not_stepped_over(folder: Path, integrator: str, force: str, where: str) -> None:
@@ -73,14 +84,7 @@ def test_short_pushes_are_not_stepped_over(folder: Path, integrator: str, force:
     for place in np.linspace(0.031, 0.67, 9):
         for width in (0.002, 0.008):
             low = shift + place
-            result = model.simulate(
-                method="lagrange",
-                integrator=integrator,
-                rtol=1e-8,
-                times=TIMES,
-                until=0.8,
-                parameters={"low": low, "high": low + width},
-            )
+            result = pushed(model, integrator, low, low + width)
             assert result.status == "ok", result.reason
             np.testing.assert_allclose(result["bob.vx"], speeds(low, low + width, where), rtol=0.0, atol=2e-5)
 
@@ -116,14 +120,7 @@ def test_short_parts_of_integrands_are_not_stepped_over(
     """Nothing acts on the motion: with `abm` and implicit schemes nothing was added up, with others by chance."""
     model = made(folder, "0", f'[outputs]\nnarrow = "integral({integrand})"\n')
     for low in np.linspace(0.02, 0.36, 7):
-        result = model.simulate(
-            method="lagrange",
-            integrator=integrator,
-            rtol=1e-8,
-            times=[0.8],
-            until=0.8,
-            parameters={"low": low, "high": low + 0.002},
-        )
+        result = pushed(model, integrator, low, low + 0.002, [0.8])
         assert result.status == "ok", result.reason
         assert abs(result["narrow"][-1] - area * 0.004) < 1e-6
 
@@ -134,14 +131,7 @@ def test_bumps_are_not_stepped_over(folder: Path, integrator: str, width: float)
     """The work of a bump in the way gives the speed behind it: `abm` missed one in three, passed at its middle."""
     model = made(folder, BUMP)
     for low in np.linspace(0.02, 0.33, 7):
-        result = model.simulate(
-            method="lagrange",
-            integrator=integrator,
-            rtol=1e-8,
-            times=[0.8],
-            until=0.8,
-            parameters={"low": low, "high": low + width},
-        )
+        result = pushed(model, integrator, low, low + width, [0.8])
         assert abs(result["bob.vx"][-1] - math.sqrt(0.25 + 30.0 * width)) < 1e-5
 
 

@@ -63,11 +63,15 @@ def in_parts(
             states = np.tile(y, (len(own), 1))
         else:
             wanted = own if len(own) and own[-1] == last else np.append(own, last)
-            share = last / end if end else 1.0
-            states = integrate(first, y, wanted, lambda part, share=share: progress(share * part))  # type: ignore[misc]
+            states = integrate(first, y, wanted, _up_to(last / end if end else 1.0, progress))
             y = states[-1]
         motion[done:upto], done = states[: len(own)], upto
     return motion
+
+
+def _up_to(share: float, progress: Callable[[float], None]) -> Callable[[float], None]:
+    """Return what is told how far a part is that ends at a share of the whole."""
+    return lambda part: progress(share * part)
 
 
 def by_outputs(equations: IndependentEquations, every: int, begin: Callable[[], Advance]) -> Integrate:
