@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.settle import EXACT, NEAR, OPENED
 from symgen.analyses.subject import described_state, given_at_start
+from symgen.analyses.yardsticks import Yardsticks
 from symgen.errors import AnalysisError, AssemblyError
 from symgen.plan import make_plan
 from symgen.run_setup import ready
@@ -47,7 +48,7 @@ FASTER, LEAST = 4.0, 0.1
 
 
 @dataclass(frozen=True)
-class Sparse:
+class Sparse(Yardsticks):
     """The descriptor form of a mechanism at rest as sparse matrices.
 
     Attributes
@@ -68,26 +69,6 @@ class Sparse:
     w: Array
     pattern: Pattern
     kept: NDArray[np.int64]
-
-    @property
-    def length(self) -> float:
-        """The mechanism's length [m]."""
-        return float(self.w[abi.LENGTH]) or 1.0
-
-    @property
-    def lengths(self) -> Array:
-        """What changes of coordinates are compared with: the mechanism's length, or 1."""
-        return np.array([self.length if q.unit == "m" else 1.0 for q in self.compiled.info.coordinates])
-
-    @property
-    def spans(self) -> Array:
-        """The same of velocities, in a second."""
-        return np.array([self.length if v.unit == "m/s" else 1.0 for v in self.compiled.info.velocities])
-
-    @property
-    def loads(self) -> Array:
-        """What multipliers are divided by to be compared, as of `symgen.analyses.subject.Subject.loads`."""
-        return np.array([self.length if row.unit == "rad" else 1.0 for row in self.compiled.info.rows])
 
     def matrices(self, y: Array, lam: Array) -> tuple[Any, Any, Any, Any, Any]:
         """Return N, M, D, the stiffness K and the derivative of the balance by v at a state at rest."""

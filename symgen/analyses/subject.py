@@ -11,6 +11,7 @@ from msgspec.structs import replace as replaced
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import split
+from symgen.analyses.yardsticks import Yardsticks
 from symgen.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
 from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import compile_side
@@ -45,7 +46,7 @@ RATE = ".rate"
 
 
 @dataclass(frozen=True)
-class Subject:
+class Subject(Yardsticks):
     """A mechanism, ready to be analysed.
 
     Attributes
@@ -105,32 +106,9 @@ class Subject:
         return self.compiled.info.nv
 
     @property
-    def lengths(self) -> Array:
-        """What changes of coordinates are compared with: the mechanism's length [m], or 1; shape (nq,)."""
-        return np.array([self.length if q.unit == "m" else 1.0 for q in self.compiled.info.coordinates])
-
-    @property
-    def spans(self) -> Array:
-        """A way along each velocity that counts as large: the mechanism's length [m], or 1 rad; shape (nv,)."""
-        return np.array([self.length if v.unit == "m/s" else 1.0 for v in self.compiled.info.velocities])
-
-    @property
-    def loads(self) -> Array:
-        """What multipliers are divided by to be compared: a moment is the force that has it at the mechanism's length.
-
-        As in runs, whose multipliers are the smallest ones by the same measure; shape (m,).
-        """
-        return np.array([self.length if row.unit == "rad" else 1.0 for row in self.compiled.info.rows])
-
-    @property
     def m(self) -> int:
         """Number of constraint rows."""
         return self.compiled.info.m
-
-    @property
-    def length(self) -> float:
-        """Length of the mechanism [m]."""
-        return float(self.w[abi.LENGTH]) or 1.0
 
     @property
     def holonomic(self) -> NDArray[np.bool_]:
