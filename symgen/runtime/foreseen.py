@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import Jump
@@ -30,6 +30,14 @@ from symgen.vocabulary.expressions import Expr, names
 _BESIDE = 1e-12
 
 
+class _Found(NamedTuple):
+    """The pieces of a motion, whether they end at all that formulas pass, and where smooth pulses begin and end."""
+
+    pieces: tuple[Piece, ...] = ()
+    all: bool = True
+    smooth: Sequence[tuple[float, float]] = ()
+
+
 @dataclass(frozen=True)
 class Foreseen:
     """What formulas of a mechanism pass at times that are known beforehand; false where that is nothing.
@@ -45,16 +53,14 @@ class Foreseen:
     pulses : tuple of expressions
         From `symgen.describe.pulses.pulses_of`.
     known : dict
-        What was found last, by what it depends on: pieces, and whether these are all.
+        What was found last, by what it depends on.
     """
 
     mechanism: Mechanism
     kinks: tuple[Jump, ...] = ()
     sides: tuple[Jump, ...] = ()
     pulses: tuple[Expr, ...] = ()
-    known: dict[tuple[float, ...], tuple[tuple[Piece, ...], bool]] = field(
-        default_factory=dict, repr=False, compare=False
-    )
+    known: dict[tuple[float, ...], _Found] = field(default_factory=dict, repr=False, compare=False)
 
     def __bool__(self) -> bool:
         """Whether there is anything."""
@@ -76,7 +82,7 @@ class Foreseen:
         until, first : float
             End of the motion, and its begin [s].
         """
-        return self._found(values, until, first)[0]
+        return self._found(values, until, first).pieces
 
     def are_all(self, values: Mapping[str, float], until: float) -> bool:
         """Return whether `pieces` end at all that formulas pass; with too many times they end at none.
@@ -86,11 +92,11 @@ class Foreseen:
         values, until
             As for `pieces`.
         """
-        return self._found(values, until, 0.0)[1]
+        return self._found(values, until, 0.0).all
 
-    def _found(self, values: Mapping[str, float], until: float, first: float) -> tuple[tuple[Piece, ...], bool]:
+    def _found(self, values: Mapping[str, float], until: float, first: float) -> _Found:
         if not self:
-            return (), True
+            return _Found()
         key = (until, first, *(values[name] for name in sorted(self.reads & values.keys())))
         if key not in self.known:  # runs that are compared, or of a sweep, often differ in nothing of that
             found = self._looked_for(values, until, first)
@@ -118,9 +124,7 @@ class Foreseen:
         values, until
             As for `pieces`.
         """
-        jumps, _ = times_between((*self.kinks, *self.sides), self.mechanism, values, until)
-        found, _ = self._smooth(values, (0.0, *jumps, until))
-        return min(((pulse[0], pulse[-1]) for pulse in found), key=_length, default=None)
+        return min(self._found(values, until, 0.0).smooth, key=_length, default=None)
 
     def times(self, values: Mapping[str, float], until: float, first: float) -> tuple[float, ...]:
         """Return all times inside a motion at which formulas pass something [s], those in pulses among them.
@@ -134,7 +138,7 @@ class Foreseen:
         found, _ = self._smooth(values, (first, *jumps, until))
         return tuple(sorted({*jumps, *(t for pulse in found for t in pulse if first < t < until)}))
 
-    def _looked_for(self, values: Mapping[str, float], until: float, first: float) -> tuple[tuple[Piece, ...], bool]:
+    def _looked_for(self, values: Mapping[str, float], until: float, first: float) -> _Found:
         kinks, all_kinks = times_between(self.kinks, self.mechanism, values, until, first)
         sides, all_sides = times_between(self.sides, self.mechanism, values, until, first)
         times = set(kinks)
@@ -142,12 +146,12 @@ class Foreseen:
         for t in sides:
             times |= {beside for way in (-1.0, 1.0) if first < (beside := t + way * _BESIDE * until) < until}
         smooth, all_smooth = self._smooth(values, (first, *sorted(times), until))
-        within = {t for pulse in smooth for t in pulse if first < t < until}
+        within = {t for pulse in smooth for t in pulse if first < t < until} - times
         if len(times) + len(within) > MOST_PIECES:
             within, all_smooth = set(), False
-        times |= within
-        pieces = tuple(Piece(t, {}) for t in (first, *sorted(times))) if times else ()
-        return pieces, all_kinks and all_sides and all_smooth
+        begins = sorted(times | within)
+        pieces = tuple(Piece(t, {}, t in within) for t in (first, *begins)) if begins else ()
+        return _Found(pieces, all_kinks and all_sides and all_smooth, [(pulse[0], pulse[-1]) for pulse in smooth])
 
     def _smooth(self, values: Mapping[str, float], times: Sequence[float]) -> tuple[list[list[float]], bool]:
         """Return the times in each smooth pulse between some times, and whether these are all pulses."""

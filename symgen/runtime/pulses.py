@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from itertools import pairwise, product
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -143,7 +143,10 @@ class Bounded:
             undefined |= poles[0] != poles[1]
         some, every = undefined.any(axis=0), undefined.all(axis=0)
         low, high = np.fmin.reduce(values), np.fmax.reduce(values)
-        ends = np.where(every, np.nan, np.where(some, -np.inf, low)), np.where(every, np.nan, np.where(some, np.inf, high))
+        ends = (
+            np.where(every, np.nan, np.where(some, -np.inf, low)),
+            np.where(every, np.nan, np.where(some, np.inf, high)),
+        )
         return ends
 
 
@@ -159,15 +162,11 @@ def _looks(low: Any, high: Any, function: str) -> list[Any]:
 
 def _waved(function: str, low: Array, high: Array) -> Bounds:
     """Return bounds of a sine or cosine."""
+    unknown, top = ~np.isfinite(low) | ~np.isfinite(high), 0.25 if function == "sin" else 0.0
     with np.errstate(invalid="ignore"):
-        ends = getattr(np, function)([low, high])
-        top = 0.25 if function == "sin" else 0.0
-        passed = [np.floor(high / (2.0 * math.pi) - at) > np.floor(low / (2.0 * math.pi) - at) for at in (top, top + 0.5)]
-    unknown = ~np.isfinite(low) | ~np.isfinite(high)
-    return (
-        np.where(unknown | passed[1], -1.0, np.fmin(*ends)),
-        np.where(unknown | passed[0], 1.0, np.fmax(*ends)),
-    )
+        ends, turns = getattr(np, function)([low, high]), (low / math.tau, high / math.tau)
+        up, down = (np.floor(turns[1] - at) > np.floor(turns[0] - at) for at in (top, top + 0.5))
+    return np.where(unknown | down, -1.0, np.fmin(*ends)), np.where(unknown | up, 1.0, np.fmax(*ends))
 
 
 def _joined(begin: Array, end: Array, bounds: Bounds) -> list[tuple[float, float]]:
