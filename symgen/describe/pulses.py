@@ -45,11 +45,14 @@ def pulses_of(mechanism: Mechanism) -> tuple[Expr, ...]:
     formulas = mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
     if _TIME not in msgspec.msgpack.encode(formulas):
         return ()
+    parts = (part for parts in formulas for part in parts if _TIME in msgspec.msgpack.encode(part))
+    return tuple(dict.fromkeys(e for part in parts for formula in _in_time(part, timely) for e in sharp_in(formula)))
+
+
+def sharp_in(formula: Expr) -> tuple[Expr, ...]:
+    """Return the parts of a formula of t and parameters that may hide a pulse, each once."""
     found = dict[Expr, None]()
-    for part in (part for parts in formulas for part in parts):
-        if _TIME in msgspec.msgpack.encode(part):
-            for formula in _in_time(part, timely):
-                _kind(formula, found)
+    _kind(formula, found)
     return tuple(found)
 
 

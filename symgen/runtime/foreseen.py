@@ -135,7 +135,7 @@ class Foreseen:
             As for `pieces`.
         """
         jumps, _ = times_between((*self.kinks, *self.sides), self.mechanism, values, until, first)
-        found, _ = self._smooth(values, (first, *jumps, until))
+        found, _ = self._smooth(values, until, first)
         return tuple(sorted({*jumps, *(t for pulse in found for t in pulse if first < t < until)}))
 
     def _looked_for(self, values: Mapping[str, float], until: float, first: float) -> _Found:
@@ -145,7 +145,7 @@ class Foreseen:
         # a short piece around each: no stage of those beside it is at the very time, which belongs to one side
         for t in sides:
             times |= {beside for way in (-1.0, 1.0) if first < (beside := t + way * _BESIDE * until) < until}
-        smooth, all_smooth = self._smooth(values, (first, *sorted(times), until))
+        smooth, all_smooth = self._smooth(values, until, first)
         within = {t for pulse in smooth for t in pulse if first < t < until} - times
         if len(times) + len(within) > MOST_PIECES:
             within, all_smooth = set(), False
@@ -153,12 +153,13 @@ class Foreseen:
         pieces = tuple(Piece(t, {}, t in within) for t in (first, *begins)) if begins else ()
         return _Found(pieces, all_kinks and all_sides and all_smooth, [(pulse[0], pulse[-1]) for pulse in smooth])
 
-    def _smooth(self, values: Mapping[str, float], times: Sequence[float]) -> tuple[list[list[float]], bool]:
-        """Return the times in each smooth pulse between some times, and whether these are all pulses."""
-        found, whole, bounded = list[list[float]](), True, Bounded(self.mechanism, values)
+    def _smooth(self, values: Mapping[str, float], until: float, first: float) -> tuple[list[list[float]], bool]:
+        """Return the times in each smooth pulse of a motion, and whether these are all pulses."""
+        found, whole = list[list[float]](), True
+        bounded = Bounded({table.name: table for table in self.mechanism.tables}, values)
         for formula in self.pulses:
             try:
-                found += bounded.pulses(formula, times)
+                found += bounded.pulses(formula, until, first)
             except TooFast:
                 whole = False
         return found, whole

@@ -9,14 +9,14 @@ it rests, and as short as its pulses.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from itertools import product
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.mechanism import Mechanism
+from symgen.describe.tables import Table
 from symgen.runtime.columns import Columns
 from symgen.vocabulary.expressions import Expr, Name, Number, Reading, table_of
 
@@ -31,8 +31,8 @@ _PART = 0.25
 _SHORT = 1.0 / 32.0
 #: Intervals that may change at once, and the least length of one, as a part of the run.
 _MOST, _LEAST = 2**15, 1e-11
-#: What is too fast is looked at in so many windows, each of this part of its share of the run.
-_ASKED, _WINDOW = 8, 2.0**-10
+#: What is too fast is looked at in so many windows, each of this part of the run.
+_ASKED, _WINDOW = 8, 2.0**-13
 #: Changes below this part of the values are rounding.
 _ROUNDING = 1e-12
 #: Looks into a table between two values of its argument.
@@ -48,43 +48,41 @@ class Bounded:
 
     Parameters
     ----------
-    mechanism : Mechanism
-        Whose tables they may read.
+    tables : mapping of str to Table
+        That they may read.
     values : mapping of str to float
         Of the parameters.
     """
 
-    def __init__(self, mechanism: Mechanism, values: Mapping[str, float]) -> None:
-        self._values = values
-        self._columns = Columns({}, {table.name: table for table in mechanism.tables})
+    def __init__(self, tables: Mapping[str, Table], values: Mapping[str, float]) -> None:
+        self._values, self._columns = values, Columns({}, tables)
 
-    def pulses(self, e: Expr, times: Sequence[float]) -> list[list[float]]:
-        """Return where each pulse or step of a formula begins, changes and ends.
+    def pulses(self, e: Expr, until: float, first: float = 0.0) -> list[list[float]]:
+        """Return the times at which each pulse or step of a formula begins, changes and ends.
 
         Parameters
         ----------
         e : expression
             The formula.
-        times : sequence of float
-            Begin and end of the run [s], and times between at which formulas may jump.
+        until, first : float
+            End and begin of the run [s].
 
         Raises
         ------
         TooFast
             If they cannot be told apart.
         """
-        first, span = times[0], times[-1] - times[0]
         try:
-            return self._told_apart(e, np.asarray(times, dtype=np.float64))
+            return self._told_apart(e, first, until)
         except TooFast:  # what is as fast everywhere hides nothing
-            for k in range(_ASKED):
-                if self._told_apart(e, first + span / _ASKED * (k + np.array([0.0, _WINDOW]))):
+            for begin in np.linspace(first, until, _ASKED, endpoint=False).tolist():
+                if self._told_apart(e, begin, begin + _WINDOW * (until - first)):
                     raise
             return []
 
-    def _told_apart(self, e: Expr, times: Array) -> list[list[float]]:
-        span = float(times[-1] - times[0])
-        bounds, begin, end = self._divided(e, times, _LEAST * span)
+    def _told_apart(self, e: Expr, first: float, until: float) -> list[list[float]]:
+        span = until - first
+        bounds, begin, end = self._divided(e, np.array([first]), np.array([until]), _LEAST * span)
         joined = _joined(begin, end, bounds)
         short = _SHORT * max((b - a for a, b in joined), default=0.0)
         found, last = list[list[float]](), -math.inf
@@ -96,9 +94,8 @@ class Bounded:
                 last = b
         return found
 
-    def _divided(self, e: Expr, times: Array, least: float) -> tuple[Bounds, Array, Array]:
+    def _divided(self, e: Expr, begin: Array, end: Array, least: float) -> tuple[Bounds, Array, Array]:
         """Return intervals, and bounds of a formula over each that differ by no more than a part of its range."""
-        begin, end = times[:-1], times[1:]
         low, high = self._over(e, begin, end)
         while True:
             finite = np.isfinite(low) & np.isfinite(high)
