@@ -20,11 +20,11 @@ from symgen.vocabulary.expressions import Call, Expr, Name, Number, names, table
 _TIME = msgspec.msgpack.encode(Name("t"))
 #: Powers up to this one count as polynomials.
 _LOW = 16
-#: Functions that are as even as their arguments, but for jumps and kinks, which are found otherwise; and those that are
-#: so of straight lines alone.
+#: Functions that are as even as their arguments, but for jumps and kinks, which are found otherwise; and those that grow
+#: or fade with straight lines.
 _EVEN = frozenset(("add", "sub", "neg", "sin", "cos", "sqrt", "log", "asinh", "where", "and", "or", "not"))
 _EVEN |= {"abs", "sign", "min", "max", "lt", "le", "gt", "ge"}
-_EVEN_OF_LINES = frozenset(("exp", "sinh", "cosh"))
+_EXPONENTIAL = frozenset(("exp", "sinh", "cosh"))
 
 
 class _Kind(IntEnum):
@@ -33,7 +33,8 @@ class _Kind(IntEnum):
     CONSTANT = 0
     LINE = 1
     EVEN = 2
-    SHARP = 3
+    GROWING = 3
+    SHARP = 4
 
 
 def pulses_of(mechanism: Mechanism) -> tuple[Expr, ...]:
@@ -84,8 +85,10 @@ def _kind(e: Expr, found: dict[Expr, None]) -> tuple[_Kind, float]:
         return kind, power
     if function in ("mul", "div") and _Kind.CONSTANT in kinds[function == "div" :]:  # by a number
         return kind, power
-    even = function in _EVEN or table_of(function) or (function in _EVEN_OF_LINES and kind is _Kind.LINE)
-    if function == "mul" and kind <= _Kind.EVEN:
+    if function in _EXPONENTIAL and kind is _Kind.LINE:
+        return _Kind.GROWING, power
+    even = function in _EVEN or table_of(function)
+    if function == "mul" and (kind < _Kind.SHARP or min(kinds) < _Kind.GROWING):
         even, power = True, sum(powers)
     if function == "pow" and isinstance(n := e.arguments[1], Number) and n.value in range(_LOW + 1):
         even, power = True, n.value * power
