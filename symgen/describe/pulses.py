@@ -20,8 +20,8 @@ from symgen.vocabulary.expressions import Call, Expr, Name, Number, names, table
 _TIME = msgspec.msgpack.encode(Name("t"))
 #: Powers up to this one count as polynomials.
 _LOW = 16
-#: Functions that are as even as their arguments, but for jumps and kinks, which are found otherwise; and those that grow
-#: or fade with straight lines.
+#: Functions that are as even as their arguments, but for jumps and kinks, which are found otherwise; and those that
+#: grow or fade with straight lines.
 _EVEN = frozenset(("add", "sub", "neg", "sin", "cos", "sqrt", "log", "asinh", "where", "and", "or", "not"))
 _EVEN |= {"abs", "sign", "min", "max", "lt", "le", "gt", "ge"}
 _EXPONENTIAL = frozenset(("exp", "sinh", "cosh"))
