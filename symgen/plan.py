@@ -37,6 +37,8 @@ DEFAULT_OUTPUTS = 1001
 ADAPTIVE_EVALUATIONS = 2000.0
 #: Default tolerances of adaptive runs.
 RTOL, ATOL = 1e-8, 1e-10
+#: Constant steps that see a smooth pulse: that many from where it begins to where it ends.
+RESOLVING = 4
 
 
 @dataclass(frozen=True)
@@ -172,11 +174,16 @@ def _stepped_over(known: Foreseen, values: Mapping[str, float], until: float, st
     if not known.are_all(values, until):
         often = "formulas change, or pass points of tables, more often than can be told apart"
         return [f"{often}: steps do not end there, and may miss what is short"]
-    near = None if step is None else known.closest(values, until)
-    if near is None or near[1] - near[0] >= (step or 0.0):
+    if step is None:
         return []
-    what = f"formulas change at t = {near[0]:.9g} and {near[1]:.9g} s, within one step of {step:g} s"
-    return [f"{what}: constant steps may miss what lies between; adaptive ones do not"]
+    told, near, pulse = list[str](), known.closest(values, until), known.shortest(values, until)
+    if near is not None and near[1] - near[0] < step:
+        what = f"formulas change at t = {near[0]:.9g} and {near[1]:.9g} s, within one step of {step:g} s"
+        told.append(f"{what}: constant steps may miss what lies between; adaptive ones do not")
+    if pulse is not None and pulse[1] - pulse[0] < RESOLVING * step:
+        what = f"a formula changes from t = {pulse[0]:.9g} to {pulse[1]:.9g} s, within {RESOLVING} steps of {step:g} s"
+        told.append(f"{what}: constant steps may miss that; adaptive ones do not")
+    return told
 
 
 def _asked(s: Settings, option: str) -> bool:

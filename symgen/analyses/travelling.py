@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.runtime import abi
-from symgen.runtime.foreseen import foreseen, times_between
+from symgen.runtime.foreseen import foreseen
 from symgen.runtime.probe import Ready
 
 if TYPE_CHECKING:
@@ -90,9 +90,7 @@ def _looked_at(found: Prescribed, end: float) -> tuple[Array, Array]:
 def _known(found: Prescribed, end: float) -> Array:
     """Return parts of a motion at which formulas are known to change, and some between, however short that is."""
     values = {q.name: float(x) for q, x in zip(found.compiled.info.parameters, found.start.p, strict=False)}
-    known = foreseen(found.mechanism)
-    jumps = (*known.kinks, *known.sides)
-    changes, _ = times_between(jumps, found.mechanism, values, max(end, 0.0), min(end, 0.0))
+    changes = foreseen(found.mechanism).times(values, max(end, 0.0), min(end, 0.0))
     if not 0 < len(changes) <= MOST // BETWEEN:  # more of them are looked at as anything else is
         return np.zeros(0)
     times = np.unique([0.0, *(t / end for t in changes), 1.0])

@@ -225,7 +225,9 @@ def make_ensemble(
     kept_names, events = _events(mechanism, plan, quantities)
     known = foreseen(mechanism, events) if plan.spec.adaptive else None
     if known and target != "cpu":  # devices have nothing between two parts of a run
-        notes = (*notes, f"target '{target}' goes across times at which formulas jump or have kinks; cpu stops there")
+        if Driving(given, grid.names, plan.spec.until, known).jumps:
+            across = f"target '{target}' goes across times at which formulas jump, have kinks or pass short pulses"
+            notes = (*notes, f"{across}; cpu stops there")
         known = None
     plan = replace(plan, spec=replace(plan.spec, pieces=()))
     driving = Driving(given, grid.names, plan.spec.until, known)

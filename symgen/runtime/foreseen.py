@@ -1,8 +1,8 @@
 """Times at which formulas of a run have kinks or jump, as far as they are known before it begins.
 
 An error estimate sees a kink or a jump where stages of a step lie on both sides of it, and one between two stages, as a
-push that is shorter than a step, not at all. What is known beforehand needs no estimate: adaptive runs go in pieces
-from one such time to the next.
+push that is shorter than a step, not at all, however smooth it is. What is known beforehand needs no estimate: adaptive
+runs go in pieces from one such time to the next.
 """
 
 from __future__ import annotations
@@ -12,20 +12,30 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import Jump
 from symgen.describe.kinks import kinks_of, sides_of
 from symgen.describe.mechanism import Event, Mechanism
+from symgen.describe.pulses import pulses_of
 from symgen.describe.remembered import remembered
 from symgen.errors import InputError
 from symgen.runtime.in_time import MOST_PIECES, InTime, line_of
 from symgen.runtime.pieces import SAME, Piece
-from symgen.vocabulary.expressions import names
+from symgen.runtime.pulses import Bounded, TooFast
+from symgen.vocabulary.expressions import Expr, names
 
 #: So far beside a jump, as a part of the run, a step ends and another begins.
 _BESIDE = 1e-12
+
+
+class _Found(NamedTuple):
+    """The pieces of a motion, whether they end at all that formulas pass, and where smooth pulses begin and end."""
+
+    pieces: tuple[Piece, ...] = ()
+    all: bool = True
+    smooth: Sequence[tuple[float, float]] = ()
 
 
 @dataclass(frozen=True)
@@ -40,25 +50,27 @@ class Foreseen:
         Whose tables they may read.
     kinks, sides : tuple of Jump
         From `kinks_of` and `sides_of` of `symgen.describe.kinks`.
+    pulses : tuple of expressions
+        From `symgen.describe.pulses.pulses_of`.
     known : dict
-        What was found last, by what it depends on: pieces, and whether these are all.
+        What was found last, by what it depends on.
     """
 
     mechanism: Mechanism
     kinks: tuple[Jump, ...] = ()
     sides: tuple[Jump, ...] = ()
-    known: dict[tuple[float, ...], tuple[tuple[Piece, ...], bool]] = field(
-        default_factory=dict, repr=False, compare=False
-    )
+    pulses: tuple[Expr, ...] = ()
+    known: dict[tuple[float, ...], _Found] = field(default_factory=dict, repr=False, compare=False)
 
     def __bool__(self) -> bool:
         """Whether there is anything."""
-        return bool(self.kinks or self.sides)
+        return bool(self.kinks or self.sides or self.pulses)
 
     @cached_property
     def reads(self) -> frozenset[str]:
         """What the times depend on: names of parameters, and t."""
-        return frozenset(name for jump in (*self.kinks, *self.sides) for name in names(jump.argument))
+        read = (*(jump.argument for jump in (*self.kinks, *self.sides)), *self.pulses)
+        return frozenset(name for formula in read for name in names(formula))
 
     def pieces(self, values: Mapping[str, float], until: float, first: float = 0.0) -> tuple[Piece, ...]:
         """Return the pieces of a motion from `first` to `until`, in which no number changes; none where it is whole.
@@ -70,7 +82,7 @@ class Foreseen:
         until, first : float
             End of the motion, and its begin [s].
         """
-        return self._found(values, until, first)[0]
+        return self._found(values, until, first).pieces
 
     def are_all(self, values: Mapping[str, float], until: float) -> bool:
         """Return whether `pieces` end at all that formulas pass; with too many times they end at none.
@@ -80,11 +92,11 @@ class Foreseen:
         values, until
             As for `pieces`.
         """
-        return self._found(values, until, 0.0)[1]
+        return self._found(values, until, 0.0).all
 
-    def _found(self, values: Mapping[str, float], until: float, first: float) -> tuple[tuple[Piece, ...], bool]:
+    def _found(self, values: Mapping[str, float], until: float, first: float) -> _Found:
         if not self:
-            return (), True
+            return _Found()
         key = (until, first, *(values[name] for name in sorted(self.reads & values.keys())))
         if key not in self.known:  # runs that are compared, or of a sweep, often differ in nothing of that
             found = self._looked_for(values, until, first)
@@ -102,17 +114,59 @@ class Foreseen:
         """
         jumps = [*self.sides, *(kink for kink in self.kinks if kink.levels == (0.0,))]
         times, _ = times_between(jumps, self.mechanism, values, until)
-        return min(pairwise(times), key=lambda pair: pair[1] - pair[0], default=None)
+        return min(pairwise(times), key=_length, default=None)
 
-    def _looked_for(self, values: Mapping[str, float], until: float, first: float) -> tuple[tuple[Piece, ...], bool]:
+    def shortest(self, values: Mapping[str, float], until: float) -> tuple[float, float] | None:
+        """Return begin and end [s] of the shortest smooth pulse inside a run.
+
+        Parameters
+        ----------
+        values, until
+            As for `pieces`.
+        """
+        return min(self._found(values, until, 0.0).smooth, key=_length, default=None)
+
+    def times(self, values: Mapping[str, float], until: float, first: float) -> tuple[float, ...]:
+        """Return all times inside a motion at which formulas pass something [s], those in pulses among them.
+
+        Parameters
+        ----------
+        values, until, first
+            As for `pieces`.
+        """
+        jumps, _ = times_between((*self.kinks, *self.sides), self.mechanism, values, until, first)
+        found, _ = self._smooth(values, until, first)
+        return tuple(sorted({*jumps, *(t for pulse in found for t in pulse if first < t < until)}))
+
+    def _looked_for(self, values: Mapping[str, float], until: float, first: float) -> _Found:
         kinks, all_kinks = times_between(self.kinks, self.mechanism, values, until, first)
         sides, all_sides = times_between(self.sides, self.mechanism, values, until, first)
         times = set(kinks)
         # a short piece around each: no stage of those beside it is at the very time, which belongs to one side
         for t in sides:
             times |= {beside for way in (-1.0, 1.0) if first < (beside := t + way * _BESIDE * until) < until}
-        pieces = tuple(Piece(t, {}) for t in (first, *sorted(times))) if times else ()
-        return pieces, all_kinks and all_sides
+        smooth, all_smooth = self._smooth(values, until, first)
+        within = {t for pulse in smooth for t in pulse if first < t < until} - times
+        if len(times) + len(within) > MOST_PIECES:
+            within, all_smooth = set(), False
+        begins = sorted(times | within)
+        pieces = tuple(Piece(t, {}, t in within) for t in (first, *begins)) if begins else ()
+        return _Found(pieces, all_kinks and all_sides and all_smooth, [(pulse[0], pulse[-1]) for pulse in smooth])
+
+    def _smooth(self, values: Mapping[str, float], until: float, first: float) -> tuple[list[list[float]], bool]:
+        """Return the times in each smooth pulse of a motion, and whether these are all pulses."""
+        found, whole = list[list[float]](), True
+        bounded = Bounded({table.name: table for table in self.mechanism.tables}, values)
+        for formula in self.pulses:
+            try:
+                found += bounded.pulses(formula, until, first)
+            except TooFast:
+                whole = False
+        return found, whole
+
+
+def _length(pair: tuple[float, float]) -> float:
+    return pair[1] - pair[0]
 
 
 def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
@@ -129,12 +183,13 @@ def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
         for jump in (Jump(event.when) for event in events)
         if "t" in (read := {*names(jump.argument)}) and read <= timely and line_of(jump, values) is None
     )
-    return Foreseen(mechanism, kinks_of(mechanism, events), (*sides_of(mechanism, events), *happening))
+    sides = *sides_of(mechanism, events), *happening
+    return Foreseen(mechanism, kinks_of(mechanism, events), sides, _passed(mechanism)[2])
 
 
 @remembered
-def _passed(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], dict[Any, Any]]:
-    return kinks_of(mechanism), sides_of(mechanism), {}
+def _passed(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], tuple[Expr, ...], dict[Any, Any]]:
+    return kinks_of(mechanism), sides_of(mechanism), pulses_of(mechanism), {}
 
 
 def times_between(

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,8 +14,10 @@ from numpy.typing import NDArray
 from symgen.describe.evaluate import evaluate
 from symgen.describe.inputs import Jump
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.pulses import sharp_in
 from symgen.errors import InputError
 from symgen.runtime.columns import Columns
+from symgen.runtime.pulses import Bounded, TooFast
 from symgen.vocabulary.expressions import Call, Expr, Name, Number, names
 
 Array = NDArray[np.float64]
@@ -59,8 +63,12 @@ class InTime:
 
     def crossings(self, jump: Jump, until: float, first: float = 0.0) -> list[float]:
         """Return the times from `first` to `until` at which what `jump` reads passes its levels; see `crossings`."""
-        over = partial(self.over, jump.argument)
-        return crossings(over, line_of(jump, self._values), jump.levels, until, first)
+        over, line, within = partial(self.over, jump.argument), line_of(jump, self._values), list[float]()
+        bounded = Bounded(self._tables, self._values)
+        for formula in sharp_in(jump.argument) if line is None else ():  # its pulses are where looks would miss them
+            with suppress(TooFast):
+                within += (t for pulse in bounded.pulses(formula, until, first) for t in pulse)
+        return crossings(over, line, jump.levels, until, first, within)
 
     def range(self, jump: Jump, until: float, first: float = 0.0) -> tuple[float, float]:
         """Return the least and the largest value of what `jump` reads, as far as looks tell; nan where undefined."""
@@ -77,6 +85,7 @@ def crossings(
     levels: Sequence[float],
     until: float,
     first: float = 0.0,
+    within: Sequence[float] = (),
 ) -> list[float]:
     """Return the times from `first` to `until` at which a function passes one of some levels.
 
@@ -90,6 +99,8 @@ def crossings(
         What it passes.
     until, first : float
         End and begin [s].
+    within : sequence of float
+        Where it is looked at beside others, and between each two of these [s].
 
     Raises
     ------
@@ -101,10 +112,12 @@ def crossings(
         return [t for level in levels if slope and first <= (t := (level - value) / slope) <= until]
     count, before, span, sorted_levels = _FIRST, -1, until - first, np.sort(np.asarray(levels, dtype=np.float64))
     often = "a formula that changes sides more often"
+    known_short = np.unique([*within, *(0.5 * (a + b) for a, b in pairwise(sorted(within)))])
     while count <= _MOST:
         # anywhere in equal parts, so that what is faster than the looks is seen to be, whatever its frequency
         anywhere = np.random.default_rng(count).random(count)
         times = np.concatenate([[first], first + span * (np.arange(count) + anywhere) / count, [until]])
+        times = np.union1d(times, known_short) if len(known_short) else times
         looks = _Samples(times, samples := over(times), sorted_levels)
         if len(looks.passes) > MOST_PIECES:
             raise InputError("inputs", f"at most {MOST_PIECES} jumps", often)

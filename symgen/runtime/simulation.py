@@ -269,8 +269,9 @@ class Simulation:
         """Set the numbers of all pieces that have begun where the run stands, or at a time that it has reached [s]."""
         values, last = dict[str, float](), -math.inf
         while (begin := self.next_piece) < math.inf and (begin <= reached or not self.is_ahead(begin)):
-            values |= self.spec.pieces[self._pieces_taken].values
-            self._pieces_taken, last = self._pieces_taken + 1, begin
+            piece = self.spec.pieces[self._pieces_taken]
+            values |= piece.values
+            self._pieces_taken, last = self._pieces_taken + 1, last if piece.smooth else begin
         self.changes.give(values)
         # a kink changes no number, but what multistep schemes know of the past ends there as well
         if self._clock[abi.TIME] - last <= self.same(self._clock[abi.TIME]) and self.state.control[abi.BEGUN] == 1:

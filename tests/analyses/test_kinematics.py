@@ -342,6 +342,17 @@ def test_a_dead_centre_in_a_motion_much_shorter_than_the_whole_is_met(drive):
     assert not found.ok and len(found.t) == 2 and abs(found.passages[0].t - met) < 1e-9
 
 
+def test_a_dead_centre_in_a_smooth_pulse_is_met():
+    """Bells 10 and 1 us wide in 4 s, met forwards and backwards."""
+    part = (math.acos((4.0**2 + 2.0**2 - 5.95**2) / 16.0) - 0.7) / 2.4
+    for bell, met in (
+        ("exp(-((t - 1.0037)/1e-5)**2)", 1.0037 - 1e-5 * math.sqrt(-math.log(part))),
+        ("1/(1 + ((t + 0.7)/1e-6)**2)", -0.7 + 1e-6 * math.sqrt(1.0 / part - 1.0)),
+    ):
+        found = model(four_bar((4.0, 2.0, 3.0, 2.95), 0.7, f"start + 2.4*{bell}")).kinematics([-2.0, 0.0, 2.0])
+        assert not found.ok and len(found.t) == 2 and abs(found.passages[0].t - met) < 1e-9
+
+
 def test_a_driver_that_comes_back_from_where_it_can_go_is_followed():
     """Out and back between the asked times, and short of the dead centre: nothing else than at rest."""
     linkage = model(four_bar((4.0, 2.0, 3.0, 2.95), 0.7, "start + 2*sin(pi*t)**4"))

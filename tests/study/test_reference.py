@@ -273,6 +273,21 @@ def test_references_of_stress_studies_see_a_short_push_as_well(tmp_path):
     assert off < 10.0 * found.estimated_error + 1e-10 and found.estimated_error < 1e-6
 
 
+@pytest.mark.parametrize("solver", [*SOLVERS, "of stress studies"])
+def test_references_see_a_smooth_pulse(solver, tmp_path):
+    """A bell 0.1 ms wide of 0.3 sqrt(pi) N s, behind which a spring swings on: no output is near."""
+    times, at, w = np.linspace(0.0, 2.0, 11), 0.7321, 1e-4
+    mechanism, values, q, v = pushed(tmp_path, f"{0.3 / w}*exp(-((t - {at})/{w})**2)")
+    if solver in SOLVERS:
+        found = reference(mechanism, values, q, v, times, solver=solver)
+    else:
+        found = motion(CompiledEquations(mechanism, values), q, v, times)
+    blow = 0.3 * np.sqrt(np.pi) * np.exp(-(w**2)) / 2.0  # of a bell, its transform at 2 rad/s
+    expected = 0.3 * np.cos(2.0 * times) + np.where(times > at, blow * np.sin(2.0 * (times - at)), 0.0)
+    off = np.abs(found.q[:, 0] - expected).max()
+    assert off < 10.0 * found.estimated_error + 1e-11 and found.estimated_error < 1e-7
+
+
 @pytest.mark.parametrize(
     "solver",
     ["scipy-dop853", "scipy-radau", *(pytest.param(f"scipy-{x}", marks=pytest.mark.slow) for x in ("bdf", "lsoda"))],

@@ -23,6 +23,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError, SimulationError
 from symgen.result.agreement import AGREEMENT
 from symgen.result.points import Points
+from symgen.runtime.foreseen import foreseen
 from symgen.study.references.closed_space import CLOSED_SPACE
 from symgen.study.references.parts import in_parts
 from symgen.study.references.passing import FAILURES, Watch, pass_through
@@ -326,7 +327,8 @@ def _integrate(
     compares = bool(switches_of(equations.mechanism))
     longest = float(times[-1]) / LOOKED_AT if compares and len(times) else np.inf
     more = {"rtol": rtol, "atol": rtol * scale, "max_step": longest, **jacobian_for(equations, name)}
-    patience = MORE_PATIENCE if compares else PATIENCE  # each jump of a force takes some tiny steps as well
+    # each jump of a force takes some tiny steps as well, and so do the feet of short pulses
+    patience = MORE_PATIENCE if compares or foreseen(equations.mechanism).pulses else PATIENCE
 
     def part(first: float, y: Array, times: Array, progress: Progress) -> Array:
         motion = np.empty((len(times), len(y)))
