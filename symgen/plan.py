@@ -74,7 +74,8 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         If a name, option or number is wrong.
     """
     if s.inputs:  # single runs have put them into the mechanism
-        raise InputError("inputs", "a single run; here an input is a number, as parameters are", "one of a run")
+        name, expected = next(iter(s.inputs)), "a single run; here an input is a number, as parameters are"
+        raise InputError("inputs", expected, "one of a run", f"parameters or --set give it one, such as {name}=2")
     method = METHODS.get(s.method, "--method")
     tableau = INTEGRATORS.get(s.integrator or method.default_integrator, "--integrator")
     if not set(method.forms) & set(tableau.forms):
@@ -228,6 +229,8 @@ def refuse_events(where: str, mechanism: Mechanism, s: Settings) -> None:
             expected = "a mechanism whose motion has no events" if i < own else "no events"
             does = {RECORD: "is recorded", STOP: "ends runs"}.get(event.action, "changes velocities")
             hint = "single runs look for events"
+            if i < own:
+                hint += f"; without {event.name} in [events], or with its action 'record', it is taken"
             raise InputError(where, expected, f"the event '{event.name}', which {does}", hint)
 
 
