@@ -17,6 +17,7 @@ from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import RECORD, STOP, events_of, watched
 from symgen.describe.holds import holds_of
+from symgen.describe.kinks import switches_of
 from symgen.errors import InputError, nearest, quoted
 from symgen.integrators import INTEGRATORS
 from symgen.memory import require
@@ -75,7 +76,8 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         If a name, option or number is wrong.
     """
     if s.inputs:  # single runs have put them into the mechanism
-        raise InputError("inputs", "a single run; here an input is a number, as parameters are", "one of a run")
+        name, expected = next(iter(s.inputs)), "a single run; here an input is a number, as parameters are"
+        raise InputError("inputs", expected, "one of a run", f"parameters or --set give it one, such as {name}=2")
     method = METHODS.get(s.method, "--method")
     tableau = INTEGRATORS.get(s.integrator or method.default_integrator, "--integrator")
     if not set(method.forms) & set(tableau.forms):
@@ -127,6 +129,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         max_velocity_violation=limit_of_velocities(method, s.max_violation),
         max_energy_error=s.max_energy_error,
         max_steps=MAX_STEPS if s.max_steps is None else s.max_steps,
+        compares=not adaptive and "ode" not in tableau.forms and bool(switches_of(mechanism)),
         pieces=known.pieces(values, until) if adaptive else (),
         # not the end of this run: where it is gone on with, it has to be the same
         duration=None if adaptive else defaults.until,
@@ -233,6 +236,8 @@ def refuse_events(where: str, mechanism: Mechanism, s: Settings) -> None:
             expected = "a mechanism whose motion has no events" if i < own else "no events"
             does = {RECORD: "is recorded", STOP: "ends runs"}.get(event.action, "changes velocities")
             hint = "single runs look for events"
+            if i < own:
+                hint += f"; without {event.name} in [events], or with its action 'record', it is taken"
             raise InputError(where, expected, f"the event '{event.name}', which {does}", hint)
 
 

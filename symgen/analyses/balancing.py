@@ -17,11 +17,11 @@ from symgen import arguments
 from symgen.analyses.actuators import WHERE, Actuated, Actuator
 from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import compile_side
+from symgen.describe.columns import PREFIX
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, nearest, quoted
 from symgen.lower.windings import winding_order
 from symgen.plan import make_plan
-from symgen.result.export import PREFIX
 from symgen.result.recorded import Recorded, accelerations
 from symgen.runtime import abi
 from symgen.runtime.assembly import assemble

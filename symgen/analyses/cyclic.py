@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,7 +50,8 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> Settled:
         if name not in names:
             expected = f"a coordinate of the joints of {subject.mechanism.name}"
             raise InputError(f"cyclic '{name}'", expected, "none of that name", nearest(name, names))
-    with_time, ways = _ways(_without_effect(subject), [names.index(name) for name in cyclic])
+    free, units = _without_effect(subject)
+    with_time, ways = _ways(free, units, [names.index(name) for name in cyclic])
     for name in cyclic:
         if names.index(name) not in ways:
             raise InputError(
@@ -70,42 +72,85 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> Settled:
     return found
 
 
-def _without_effect(subject: Subject) -> Array:
-    """Return ways along which nothing changes, here and elsewhere, of coordinates and of time: shape (k, nq + 1).
+def _without_effect(subject: Subject) -> tuple[Array, Array]:
+    """Return ways along which nothing changes, here and elsewhere, of coordinates and of time, and what they are in.
 
     What a driver moves depends on time as its own row does, which therefore counts for nothing.
+
+    Returns
+    -------
+    ways : Array, shape (k, nq + 1)
+        Orthonormal in those units.
+    units : Array, shape (nq + 1,)
+        A length of the mechanism or a radian of each coordinate, and a time.
     """
     rng = np.random.default_rng(0)
+    scale = _own_scale(subject)
     changes = list[Array]()
     for k in range(3):
         y = subject.y.copy()
-        y[: subject.nq] += 0.3 * k * rng.standard_normal(subject.nq)
-        v = y[subject.nq : subject.nq + subject.nv]
-        v[:] = rng.standard_normal(subject.nv)
-        t = subject.t + 0.3 * k
-        e = subject.evaluated(y, rng.standard_normal(subject.nv), rng.standard_normal(subject.m), t)
+        y[: subject.nq] += 0.3 * k * subject.lengths * rng.standard_normal(subject.nq)
+        y[subject.nq : subject.nq + subject.nv] = scale.speeds * rng.standard_normal(subject.nv)
+        a, lam = scale.accelerations * rng.standard_normal(subject.nv), scale.loads * rng.standard_normal(subject.m)
+        e = subject.evaluated(y, a, lam, subject.t + 0.3 * k * scale.time)
+        still = e.by("positions", "t")[:, 0] == 0.0
         for group in ("motion", "balance", "accelerations", "velocities", "positions"):
-            by = np.hstack([e.by(group, "q"), e.by(group, "t")])
+            by = np.hstack([e.by(group, "q") * subject.lengths, e.by(group, "t") * scale.time])
             # each row by itself: a soft spring is one beside a stiff one as well
-            size = np.max([np.abs(e.by(group, s)).max(axis=1, initial=1e-300) for s in ("q", "v", "a", "lam")], axis=0)
+            sizes = (subject.lengths, scale.speeds, scale.accelerations, scale.loads)
+            parts = [np.abs(e.by(group, s)) * x for s, x in zip(("q", "v", "a", "lam"), sizes, strict=True)]
+            size = np.max([part.max(axis=1, initial=1e-300) for part in parts], axis=0)
             if group not in ("motion", "balance"):
-                size = np.where(e.by("positions", "t")[:, 0] == 0.0, size, np.inf)
+                size = np.where(still, size, np.inf)
             changes.append(by / size[:, np.newaxis])
     whole = np.vstack(changes)
     count = whole.shape[1]
     _, felt, ways = np.linalg.svd(np.vstack([whole, np.zeros((count, count))]), full_matrices=False)
-    return np.asarray(ways[felt <= WITHOUT * max(1.0, felt.max(initial=0.0))])
+    # of rows that are of size 1 or less, whatever the units
+    return np.asarray(ways[felt <= WITHOUT * max(1.0, felt.max(initial=0.0))]), np.append(subject.lengths, scale.time)
 
 
-def _ways(free: Array, named: Sequence[int]) -> tuple[Array, dict[int, Array]]:
+@dataclass(frozen=True)
+class _Scale:
+    """What is usual in a mechanism by its own forces: a time, velocities, accelerations and multipliers."""
+
+    time: float
+    speeds: Array
+    accelerations: Array
+    loads: Array
+
+
+def _own_scale(subject: Subject) -> _Scale:
+    """Return what is usual of each velocity in its own place: beside stiff springs soft ones are as much as these."""
+    e, spans, y = subject.evaluated(subject.y), subject.spans, subject.y
+    heavy = np.diag(e.by("balance", "a")) * spans
+    carried = np.abs(e.value("balance")) + np.abs(e.by("balance", "q") @ e.by("motion", "v")) @ spans
+    found = (heavy > 0.0) & (carried > 0.0)
+    rates = np.abs(y[subject.nq : subject.nq + subject.nv]) / spans
+    rates[found] = np.maximum(rates[found], np.sqrt(carried[found] / heavy[found]))
+    opened = np.abs(e.by("positions", "t")[:, 0])
+    sizes = np.abs(e.by("positions", "q") * subject.lengths).max(axis=1, initial=1e-300)
+    driven = float((opened / sizes).max(initial=0.0))
+    some = rates[rates > 0.0]
+    slowest = driven or float(some.min(initial=np.inf))
+    slowest = slowest if np.isfinite(slowest) else 1.0  # nothing moves or is pushed: no time is told from another
+    rates = np.where(rates > 0.0, rates, some.max(initial=0.0) or slowest)
+    forces = np.where(heavy > 0.0, heavy * rates**2, heavy.max(initial=0.0) * rates**2)
+    by_row = np.abs(subject.rows(e))
+    with np.errstate(divide="ignore"):
+        loads = np.where(by_row > 0.0, forces / by_row, np.inf).min(axis=1, initial=np.inf)
+    return _Scale(1.0 / slowest, spans * rates, spans * rates**2, np.where(np.isfinite(loads), loads, 0.0))
+
+
+def _ways(free: Array, units: Array, named: Sequence[int]) -> tuple[Array, dict[int, Array]]:
     """Return ways along which nothing changes, each by the one coordinate that none of the others changes.
 
     That is one of those named where it can be, else the first one: the one nearest to the ground in the tree.
 
     Parameters
     ----------
-    free : Array, shape (k, nq + 1)
-        Independent ways, of coordinates and of time.
+    free, units : Array, shapes (k, nq + 1) and (nq + 1,)
+        Independent ways, of coordinates and of time, and what they are in.
     named : sequence of int
         Coordinates that are asked for.
 
@@ -125,7 +170,7 @@ def _ways(free: Array, named: Sequence[int]) -> tuple[Array, dict[int, Array]]:
         rows = np.delete(rows, lead, axis=0)
         rows = rows - np.outer(rows[:, place], way)
         found = {i: other - other[place] * way for i, other in found.items()} | {place: way}
-    ways = {i: np.where(np.abs(way) <= NO_PART, 0.0, way)[:time] for i, way in found.items()}
+    ways = {i: (np.where(np.abs(way) <= NO_PART, 0.0, way) * units / units[i])[:time] for i, way in found.items()}
     return ways.pop(time, np.zeros(time)), ways
 
 
@@ -148,16 +193,16 @@ def _refuse_lost(subject: Subject, y: Array, lost: Array) -> None:
     if not spins:
         return
     x = tangent(subject, y)
-    free = x.free
-    size = np.abs(x.matrix).max(initial=1.0)
+    free, matrix = x.free / subject.spans[:, np.newaxis], x.matrix * x.sizes / x.sizes[:, np.newaxis]
+    size = np.abs(matrix).max(initial=0.0) or 1.0
     for first in spins:
         about = np.zeros((subject.nv, 3))
         about[first : first + 3] = np.eye(3)
         turned = np.linalg.lstsq(free, about, rcond=None)[0]
-        changes = np.vstack([x.matrix[:, : x.positions] @ turned / size, about - free @ turned])
+        changes = np.vstack([matrix[:, : x.positions] @ turned / size, about - free @ turned])
         _, felt, axes = np.linalg.svd(changes)
         spin = axes[felt <= SPUN] @ lost[first : first + 3]
-        if np.abs(spin).max(initial=0.0) > SPUN * np.abs(lost).max():
+        if np.abs(spin).max(initial=0.0) > SPUN * np.abs(lost / subject.spans).max():
             k = int(np.argmax(np.abs(lost[first : first + 3])))
             _refuse_spin(subject.compiled.info.velocities[first + k].name)
 

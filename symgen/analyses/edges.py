@@ -111,14 +111,14 @@ def edges_of_large(sparse: Sparse, y: Array, lam: Array) -> tuple[str, ...]:
     """Return the same of a large mechanism at rest, whose joints carry multipliers."""
     nq, nv, base = sparse.pattern.nq, sparse.pattern.nv, sparse.forces(y, lam)[0]
     motion, _, _, stiffness, damping = sparse.matrices(y, lam)
-    spans = sparse.spans
+    spans = np.ones(nv)  # as forces and matrices are over lengths of the mechanism and radians
 
     def positions(step: float) -> Array:
         return sparse.forces(sparse.moved(y, motion @ (step * _unlike(spans))), lam)[0]
 
     def velocities(step: float) -> Array:
         there = y.copy()
-        there[nq : nq + nv] += step * _unlike(spans)
+        there[nq : nq + nv] += step * sparse.spans * _unlike(spans)
         return sparse.forces(there, lam)[0]
 
     ways = (

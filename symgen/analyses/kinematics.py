@@ -23,7 +23,7 @@ from symgen.plan import multiples, output_size
 from symgen.result.derived import Derived
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.measured import Measured
-from symgen.result.reactions import Forces, seats
+from symgen.result.reactions import Forces, multiplier_unit, seats
 from symgen.result.result import accelerations_of
 from symgen.result.tables import Tables
 from symgen.runtime import abi
@@ -108,10 +108,16 @@ class Kinematics(Derived, Tables):
 
     @cached_property
     def efforts(self) -> Labelled:
-        """What each driver exerts along its coordinate [N m or N]: on the second body of its joint, forward."""
+        """What each driver exerts along its coordinate [N m or N]: on the second body of its joint, forward.
+
+        Nothing, where its row repeats another one, which carries all.
+        """
         rows = {row.joint: i for i, row in enumerate(self.motion.compiled.info.rows)}
-        places = [rows[name] for name in self.drivers]
-        return Labelled(-self.lam.values[:, places], self.drivers, tuple(self.lam.units[i] for i in places))
+        own = {joint.name: joint.rows[0].unit for joint in self.measured.mechanism.joints}
+        nothing = np.zeros(len(self.t))
+        values = [-self.lam.values[:, rows[name]] if name in rows else nothing for name in self.drivers]
+        units = tuple(multiplier_unit(own[name]) for name in self.drivers)
+        return Labelled(np.column_stack(values), self.drivers, units)
 
     @cached_property
     def energy(self) -> Labelled:

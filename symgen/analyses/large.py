@@ -109,7 +109,7 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         q=places | {c.name: float(x) for c, x in zip(found, out[info.m :: 2], strict=True)},
         stability=stability,
         omega_squared=tuple(float(x) for x in squares.real),
-        residual=float(np.abs(sparse.forces(y, lam)[0]).max(initial=0.0)),
+        residual=float(np.abs(sparse.forces(y, lam)[0] / sparse.spans).max(initial=0.0)),
         iterations=steps,
         multipliers={row.name: float(x) for row, x in zip(info.rows, lam, strict=True)},
         not_unique=tuple(j.name for j in mechanism.joints if j.name in joints),
@@ -169,7 +169,7 @@ def _smallest(sparse: Sparse, y: Array, lam: Array) -> tuple[Array, list[int]]:
         none[i, sparse.kept] = solve(whole[row].toarray().ravel(), np.zeros(len(sparse.kept)))[1]
         none[i, row] = -1.0
     loads = sparse.loads
-    basis = np.linalg.qr(none.T / loads[:, np.newaxis])[0]
+    basis = np.linalg.qr(none.T / (sparse.gaps * loads)[:, np.newaxis])[0]
     share = np.linalg.norm(basis, axis=1)
     return lam - loads * (basis @ (basis.T @ (lam / loads))), [int(i) for i in np.flatnonzero(share > 1e-8)]
 
@@ -200,7 +200,7 @@ def _far_below(stiffness: Any, mass: Any, rows: Any, squares: Array) -> list[flo
     heavy = mass.diagonal()
     heavy = heavy[heavy > 0.0]
     shift = -1.05 * float(np.abs(squares).max(initial=0.0))
-    end = -float(abs(stiffness).sum(axis=1).max()) / float(heavy.min(initial=1.0))
+    end = -float(abs(stiffness).sum(axis=1).max()) / float(heavy.min(initial=np.inf))
     none, rng = np.zeros(rows.shape[0]), np.random.default_rng(0)
     while end < shift < 0.0:
         solve = _regular(stiffness - shift * mass, rows)

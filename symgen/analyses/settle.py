@@ -93,12 +93,11 @@ def balance(subject: Subject, y: Array, lam: Array, held: Sequence[tuple[str, fl
 
 def _units(subject: Subject, held: Sequence[tuple[str, float]]) -> Array:
     """Return what counts as 1 of each row, and of each coordinate that is held: a length of the mechanism or 1 rad."""
-    info = subject.compiled.info
-    units = [row.unit for row in info.rows]
+    info, units = subject.compiled.info, list[str]()
     for name, _ in held:
         space, at = subject.position(name)
         units.append(info.coordinates[at].unit if space == "q" else subject.form.units[name])
-    return np.array([subject.length if unit == "m" else 1.0 for unit in units])
+    return np.append(subject.gaps, [subject.length if unit == "m" else 1.0 for unit in units])
 
 
 @dataclass(frozen=True)

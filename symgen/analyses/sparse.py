@@ -41,7 +41,7 @@ Solver = Callable[[Array, Array], tuple[Array, Array]]
 MOST_STEPS, TOLERANCE = 300, 1e-12
 #: How long a step downhill may be, in lengths of the mechanism and radians.
 REACH = 0.5
-#: A closing step as long as this has no way; what everything is moved by then, in metres and radians.
+#: A closing step as long as this has no way; what everything is moved by then, in lengths of the mechanism and radians.
 SINGULAR, ASTRAY = 1e6, 0.01
 #: What s is multiplied with where a step is too long, and the least part of its root that is left behind a short one.
 FASTER, LEAST = 4.0, 0.1
@@ -71,8 +71,12 @@ class Sparse(Yardsticks):
     kept: NDArray[np.int64]
 
     def matrices(self, y: Array, lam: Array) -> tuple[Any, Any, Any, Any, Any]:
-        """Return N, M, D, the stiffness K and the derivative of the balance by v at a state at rest."""
-        from scipy.sparse import coo_matrix
+        """Return N, M, D, the stiffness K and the derivative of the balance by v at a state at rest.
+
+        All over changes in lengths of the mechanism and radians, and violations in these, so that forces are work:
+        what is solved with them, and its pivots, are the same in micrometres.
+        """
+        from scipy.sparse import coo_matrix, diags
 
         f, nq, nv, m, n = self.pattern, self.pattern.nq, self.pattern.nv, self.pattern.m, self.pattern.unknowns
         k, j = np.zeros(n), np.zeros(f.size)
@@ -85,30 +89,32 @@ class Sparse(Yardsticks):
             places = f.rows[inside] - rows[0], f.columns[inside] - columns[0]
             return coo_matrix((j[inside], places), shape=(rows[1], columns[1])).tocsc()
 
-        motion = -block((0, nq), (n + nq, nv))
+        spans, loads = diags(self.spans, format="csc"), diags(1.0 / self.gaps, format="csc")
+        motion = -block((0, nq), (n + nq, nv)) @ spans
         balance = (nq, nv)
-        mass, force_rows = block(balance, (nq, nv)), block(balance, (nq + nv, m))
-        stiffness = block(balance, (n, nq)) @ motion
-        return motion, mass, force_rows.T.tocsr()[self.kept].tocsc(), stiffness, block(balance, (n + nq, nv))
+        mass, rows = spans @ block(balance, (nq, nv)) @ spans, (spans @ block(balance, (nq + nv, m)) @ loads).T
+        stiffness, damping = spans @ block(balance, (n, nq)) @ motion, spans @ block(balance, (n + nq, nv)) @ spans
+        return motion, mass, rows.tocsr()[self.kept].tocsc(), stiffness, damping
 
     def all_rows(self, y: Array) -> Any:
         """Return D with the rows that are redundant."""
         return replace(self, kept=np.arange(self.pattern.m)).matrices(y, np.zeros(self.pattern.m))[2]
 
     def forces(self, y: Array, lam: Array) -> tuple[Array, Array]:
-        """Return D^T lambda - f, and Phi."""
+        """Return the work of D^T lambda - f along lengths of the mechanism and radians, and Phi in these."""
         nq, nv, m = self.pattern.nq, self.pattern.nv, self.pattern.m
         k, r = np.zeros(self.pattern.unknowns), np.zeros(self.pattern.unknowns)
         k[nq + nv : nq + nv + m] = lam
         Ready(self.compiled.law_module.residual, abi.STAGE)(0.0, y, k, self.p, self.w, r)
         Ready(self.compiled.model.geometry, abi.MEASURE)(0.0, y, self.p, self.w)
-        return r[nq : nq + nv].copy(), self.compiled.section(self.w, "residual")[self.kept].copy()
+        gaps = self.compiled.section(self.w, "residual") / self.gaps
+        return r[nq : nq + nv] * self.spans, gaps[self.kept]
 
     def whole(self, multipliers: Array) -> Array:
-        """Return multipliers of all rows from those that are kept."""
+        """Return multipliers of all rows from the work of those that are kept."""
         found = np.zeros(self.pattern.m)
         found[self.kept] = multipliers
-        return found
+        return found / self.gaps
 
     def moved(self, y: Array, change: Array) -> Array:
         """Return a state whose coordinates are moved by a change, Euler parameters kept at length 1."""
@@ -157,23 +163,23 @@ def settled(mechanism: Mechanism, settings: Settings) -> tuple[Sparse, Array, Ar
     y, steps = _closed(sparse)
     motion, _, rows, stiffness, _ = sparse.matrices(y, np.zeros(sparse.pattern.m))
     force, gaps = sparse.forces(y, np.zeros(sparse.pattern.m))
-    still = _sizes(sparse)
+    still = _level(sparse)
     lam = sparse.whole(_regular(still, rows)(-force, np.zeros(len(gaps)))[1])
     force, gaps = sparse.forces(y, lam)
     motion, _, rows, stiffness, _ = sparse.matrices(y, lam)
     shift, best, before = 0.0, np.inf, (y, lam)
-    first = float(abs(stiffness).max() / abs(still).max()) or 1.0
-    spans = 1.0 / np.sqrt(still.diagonal())
+    first = float(abs(stiffness).max()) or 1.0
     for step in range(steps + 1, MOST_STEPS):
-        load = float(np.abs(rows.T @ lam[sparse.kept]).max(initial=1e-300))
+        load = float(np.abs(rows.T @ (sparse.gaps * lam)[sparse.kept]).max(initial=1e-300))
         # where joints carry nothing, what each force changes by over a thousandth of the mechanism
-        error = float((np.abs(force) / np.maximum(load, 1e-3 * abs(stiffness) @ spans)).max(initial=0.0))
-        error += float(np.abs(gaps).max(initial=0.0)) / max(1.0, float(sparse.w[abi.LENGTH]))
-        good = error < 1e3 * TOLERANCE
+        stiff = 1e-3 * np.asarray(abs(stiffness).sum(axis=1)).ravel()
+        error = float((np.abs(force) / np.maximum(load, stiff)).max(initial=0.0) + np.abs(gaps).max(initial=0.0))
+        good = min(error, best) < 1e3 * TOLERANCE
         if good and (error >= 0.5 * best or error <= EXACT):
             # a step that balances no more may lead anywhere
             return sparse, *(before if error > best else (y, lam)), step
-        before, best = (y, lam), min(best, error)
+        if error < best:
+            before, best = (y, lam), error
         found = _near(sparse, motion, solver(stiffness, rows), force, gaps)
         if found is None and good:
             return sparse, y, lam, step
@@ -198,8 +204,8 @@ def _closed(sparse: Sparse) -> tuple[Array, int]:
     for step in range(MOST_STEPS):
         motion, _, rows, _, _ = sparse.matrices(y, lam)
         force, gaps = sparse.forces(y, lam)
-        solve = solver(_sizes(sparse), rows)
-        if solve is not None and np.linalg.norm(gaps) <= OPENED * sparse.lengths.max():
+        solve = solver(_level(sparse), rows)
+        if solve is not None and np.linalg.norm(gaps) <= OPENED:
             return y, step
         change = np.full(len(force), np.inf) if solve is None else solve(np.zeros(len(force)), -gaps)[0]
         long = _length(sparse, motion, change)
@@ -216,15 +222,14 @@ def _regular(stiffness: Any, rows: Any) -> Solver:
     return found
 
 
-def _sizes(sparse: Sparse) -> Any:
+def _level(sparse: Sparse) -> Any:
     """Return what steps are measured with: turns, and displacements over the mechanism's length.
 
     Not masses: light turns would be cheap, and short links fold like a fan rather than bend.
     """
-    from scipy.sparse import diags
+    from scipy.sparse import eye
 
-    length = float(sparse.lengths.max(initial=1.0))
-    return diags([1.0 if v.unit == "rad/s" else length**-2 for v in sparse.compiled.info.velocities], format="csc")
+    return eye(sparse.pattern.nv, format="csc")
 
 
 def _length(sparse: Sparse, motion: Any, change: Array) -> float:
@@ -254,7 +259,7 @@ def _down(
             if long <= REACH and steep > 0.0:
                 then, open_ = sparse.forces(sparse.moved(y, motion @ change), lam + sparse.whole(more))
                 ahead = float(change @ then) <= 0.5 * steep
-                closed = np.linalg.norm(open_) <= max(OPENED * sparse.lengths.max(), float(np.linalg.norm(gaps)))
+                closed = np.linalg.norm(open_) <= max(OPENED, float(np.linalg.norm(gaps)))
                 if ahead and closed:
                     return (change, more), shift * min(1.0, max(LEAST, 0.7 * long / REACH) ** 2)
         shift *= FASTER

@@ -197,7 +197,7 @@ def found_states(subject: Subject, x: Tangent, soon: Tangent) -> tuple[str, ...]
     independent = list[str]()
     basis = np.zeros((0, x.size))
     for name in names:
-        row = x.quantity(name).changes[: x.size]
+        row = x.quantity(name).changes[: x.size] * x.sizes / x.sizes_of([name])
         left = row - basis.T @ (basis @ row)
         size = float(np.linalg.norm(row))
         if size > 1e-12 and float(np.linalg.norm(left)) > 1e-7 * size:
@@ -253,7 +253,7 @@ def check_steady(subject: Subject, x: Tangent, names: Sequence[str], where: str,
 
 
 def _explains(x: Tangent, row: Array, name: str) -> float:
-    own = x.quantity(name).changes[: x.size]
+    own = x.quantity(name).changes[: x.size] * x.sizes
     size = np.linalg.norm(own)
     return float(abs(own @ row) / size) if size > 0.0 else 0.0
 
@@ -261,7 +261,7 @@ def _explains(x: Tangent, row: Array, name: str) -> float:
 def _check_still(x: Tangent, names: Sequence[str], where: str) -> None:
     moving = [q for name in names if not still(x, q := x.quantity(name))]
     if moving:
-        worst = max(moving, key=lambda q: abs(q.rate))
+        worst = moving[int(np.argmax(np.abs([q.rate for q in moving]) / extents(x, moving)))]
         expected = "a state of rest, or of a motion in which no state changes"
         hint = "ask for an equilibrium, or name the states that stay as they are"
         raise InputError(where, expected, f"one where '{worst.name}' changes at a rate of {worst.rate:.4g}", hint)

@@ -138,8 +138,7 @@ class Subject(Yardsticks):
     def rows(self, e: Evaluated) -> Array:
         """Return D, with zeros for redundant rows that are nothing but rounding; shape (m, nv)."""
         d = e.by("velocities", "v")
-        units = np.array([self.length if row.unit == "m" else 1.0 for row in self.compiled.info.rows])
-        d[self.redundant & (np.linalg.norm(d * self.spans, axis=1) < NO_ROW * units)] = 0.0
+        d[self.redundant & (np.linalg.norm(d * self.spans, axis=1) < NO_ROW * self.gaps)] = 0.0
         return d
 
     def free(self, e: Evaluated) -> Array:

@@ -37,6 +37,11 @@ class Yardsticks:
         return self._of(tuple(v.unit for v in self.compiled.info.velocities), "m/s")
 
     @property
+    def gaps(self) -> Array:
+        """What violations of rows are compared with: the mechanism's length [m], or 1 rad; shape (m,)."""
+        return self._of(tuple(row.unit for row in self.compiled.info.rows), "m")
+
+    @property
     def loads(self) -> Array:
         """What multipliers are divided by to be compared: a moment is the force that has it at the mechanism's length.
 

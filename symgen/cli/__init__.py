@@ -173,10 +173,23 @@ def _sentence(error: click.ClickException) -> str:
     context = getattr(error, "ctx", None)
     if isinstance(error, click.NoSuchOption):
         options = [o for p in context.command.params for o in p.opts] if context is not None else []
-        hint = nearest(error.option_name, [o for o in options if o.startswith("--")])
+        hint = _elsewhere(error.option_name, options) or nearest(
+            error.option_name, [o for o in options if o.startswith("--")]
+        )
         text = f"there is no option '{error.option_name}'" + (f"; {hint}" if hint else "")
     help_at = f" (symgen {context.info_name} --help)" if context is not None and context.parent is not None else ""
     return text[:1].lower() + text[1:].rstrip(".") + help_at
+
+
+def _elsewhere(option: str, own: Sequence[str]) -> str:
+    """Return what is to be done where single runs have an option that other runs have not, empty where none has."""
+    if "--max-violation" not in own or option not in {
+        o for p in import_module(COMMANDS["run"][0]).command.params for o in p.opts
+    }:
+        return ""
+    if option == "--input" and "--set" in own:
+        return "'symgen run' has it; here an input is a number, which --set NAME=VALUE gives"
+    return "'symgen run' has it"
 
 
 def _open_streams() -> None:

@@ -10,6 +10,7 @@ import msgspec
 
 from symgen.describe.bodies import planar_body, spatial_body
 from symgen.describe.bounds import DEEPEST
+from symgen.describe.columns import check_columns
 from symgen.describe.derived import in_order
 from symgen.describe.evaluate import evaluate
 from symgen.describe.events import read_event
@@ -131,6 +132,7 @@ class _Validator:
             ),
             events=tuple(read_event(Scope(self.model, f"events.{n}", n), n, e) for n, e in self.entries("events")),
         )
+        check_columns(mechanism, self.source)
         holds_of(mechanism, self.source)  # says what is held twice
         return mechanism
 

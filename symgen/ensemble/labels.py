@@ -5,7 +5,7 @@ A parameter may be called ``steps``, an output ``end``, and each run has numbers
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -40,9 +40,16 @@ def of_number(name: str) -> str:
     return _NUMBER.get(name, name)
 
 
-def of_quantity(name: str) -> str:
-    """Return what a quantity is called: an output may have a name that is taken."""
-    return f"output.{name}" if name in _TAKEN and name not in _NUMBER else name
+def of_quantities(names: Sequence[str], axes: Iterable[Axis]) -> tuple[str, ...]:
+    """Return what quantities are called: an output may have a name that is taken, or that of what varies."""
+    taken = _TAKEN.difference(_NUMBER).union(of_varied(name, axis) for axis in axes for name in axis.values)
+    found = list[str]()
+    for name in names:
+        label = name
+        while label in taken or (label != name and label in names):
+            label = f"output.{label}"
+        found.append(label)
+    return tuple(found)
 
 
 def of_varied(name: str, axis: Axis) -> str:

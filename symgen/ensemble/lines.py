@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.ensemble.labels import of_quantity, of_varied
+from symgen.ensemble.labels import of_quantities, of_varied
 from symgen.ensemble.verdicts import column
 from symgen.files import headed
 
@@ -29,13 +29,14 @@ def csv_of(found: Sweep) -> tuple[list[str], Iterator[list[object]]]:
     ensemble, units = found.ensemble, found.units()
     times, quantities = ensemble.recipe.spec.times, ensemble.recipe.quantities
     varied = ensemble.grid.values(0, len(found))
+    labels = of_quantities([q.name for q in quantities], ensemble.grid.axes)
     names = {name: of_varied(name, axis) for axis in ensemble.grid.axes for name in axis.values}
     events = {name: found.summary[:, at] for name, (at, _) in found.events.items()}
     heading = [
         "run",
         *(headed(names[name], units[name]) for name in varied),
         headed("t", "s"),
-        *(headed(of_quantity(q.name), q.unit) for q in quantities),
+        *(headed(label, q.unit) for label, q in zip(labels, quantities, strict=True)),
         headed("end", "s"),
         *(headed(name, unit) for name, (_, unit) in found.events.items()),
         "status",

@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.side import compile_side
+from symgen.describe.columns import PREFIX
 from symgen.describe.outputs import TABLES
 from symgen.ensemble.quantities import Quantity
 from symgen.result.acting import Acting, Seat
-from symgen.result.export import PREFIX
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.vocabulary.expressions import readings

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from symgen.describe.columns import PREFIX
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, nearest
 from symgen.result.reactions import multiplier_unit
@@ -34,10 +35,11 @@ def known_quantities(info: ModelInfo) -> tuple[Quantity, ...]:
         body, _, component = v.name.rpartition(".")
         found.append(Quantity(f"{body}.{ACCELERATIONS[component]}", f"{v.unit}^2", e.ACCELERATION, i))
     for i, c in enumerate(info.joint_coordinates):
-        found.append(Quantity(f"joint.{c.name}", c.unit, e.JOINT, 2 * i))
-        found.append(Quantity(f"joint.{c.name}.rate", f"{c.unit}/s", e.JOINT, 2 * i + 1))
+        name = PREFIX["joint_coordinates"] + c.name
+        found.append(Quantity(name, c.unit, e.JOINT, 2 * i))
+        found.append(Quantity(f"{name}.rate", f"{c.unit}/s", e.JOINT, 2 * i + 1))
     for i, row in enumerate(info.rows):
-        found.append(Quantity(f"lam.{row.name}", multiplier_unit(row.unit), e.MULTIPLIER, i))
+        found.append(Quantity(PREFIX["lam"] + row.name, multiplier_unit(row.unit), e.MULTIPLIER, i))
     found += [
         Quantity("energy.kinetic", "J", e.STATUS, abi.KINETIC),
         Quantity("energy.potential", "J", e.STATUS, abi.POTENTIAL),

@@ -17,7 +17,7 @@ from symgen import __version__
 from symgen.arguments import path as argument_path
 from symgen.arguments import shown, whole
 from symgen.ensemble.jumps import rows_that_jump
-from symgen.ensemble.labels import NUMBERS, of_dimension, of_number, of_quantity, of_varied
+from symgen.ensemble.labels import NUMBERS, of_dimension, of_number, of_quantities, of_varied
 from symgen.ensemble.lines import SAVED, csv_of
 from symgen.ensemble.names import Names
 from symgen.ensemble.singly import event_columns
@@ -204,9 +204,12 @@ class Sweep:
 
         ensemble = self.ensemble
         shape, dimensions = ensemble.grid.shape, tuple(map(of_dimension, ensemble.grid.axes))
+        quantities = ensemble.recipe.quantities
         variables: dict[str, Any] = {
-            of_quantity(q.name): ((*dimensions, "time"), self[q.name], {"units": q.unit})
-            for q in ensemble.recipe.quantities
+            label: ((*dimensions, "time"), self[q.name], {"units": q.unit})
+            for label, q in zip(
+                of_quantities([q.name for q in quantities], ensemble.grid.axes), quantities, strict=True
+            )
         }
         variables["status"] = (dimensions, self.status.reshape(shape))
         variables["reason"] = (dimensions, self.reason.reshape(shape))

@@ -77,7 +77,9 @@ class SideModel(Model):
         if isinstance(source, Integral):
             return g.input("z", 1 + integrals(self.mechanism)[source])  # behind the work
         if isinstance(source, Driven):
-            effort = g.neg(g.input("multipliers", self.beside.rows[source.row]))
+            place = self.beside.rows.get(source.row)
+            # a row that repeats another one is left out: the other one carries all
+            effort = g.zero if place is None else g.neg(g.input("multipliers", place))
             return g.mul(effort, self.motion(source.measure).rate(g, self.velocities)) if source.power else effort
         return super().reading(r)
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.describe.columns import PREFIX
 from symgen.errors import InputError, nearest
 from symgen.files import check_writable, headed, write_whole
 from symgen.memory import require
@@ -33,26 +34,6 @@ SAVED: Mapping[str, tuple[str, ...]] = {
 #: Endings of plots -> the libraries needed.
 PLOTTED: Mapping[str, tuple[str, ...]] = {".png": ("matplotlib",), ".svg": ("matplotlib",), ".pdf": ("matplotlib",)}
 
-#: Table -> what its columns are prefixed with in a data frame. Bodies and joints may share names, so all but the
-#: tables of bodies say whose they are.
-PREFIX = {
-    "q": "",
-    "v": "",
-    "a": "",
-    "joint_coordinates": "joint.",
-    "lam": "lam.",
-    "reactions": "reaction.",
-    "body_reactions": "reaction.body.",
-    "magnitudes": "reaction.",
-    "points": "",
-    "elements": "",
-    "outputs": "",
-    "energy": "energy.",
-    "violations": "violation.",
-    # of analyses along a motion
-    "efforts": "effort.",
-    "rates": "rate.",
-}
 #: Table -> name of its second dimension in a dataset.
 _DIMENSION = {
     "q": "coordinate",

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.columns import PREFIX
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, quoted
 from symgen.files import unheaded
-from symgen.result.export import PREFIX
 from symgen.result.saved import read_saved
 
 if TYPE_CHECKING:

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.arguments import words
+from symgen.describe.columns import PREFIX
 from symgen.describe.outputs import TABLES as MEASURED
 from symgen.errors import InputError, nearest
 from symgen.result.acting import reaction_names
 from symgen.result.contract import finite
-from symgen.result.export import PREFIX
 from symgen.result.labelled import Labelled
 from symgen.result.result import ENERGIES, TABLES, VIOLATIONS, accelerations_of
 

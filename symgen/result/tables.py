@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from symgen.arguments import path as argument_path
 from symgen.arguments import words
+from symgen.describe.columns import PREFIX
 from symgen.errors import MOST_LISTED, InputError, nearest
 from symgen.files import headed
-from symgen.result.export import PLOTTED, PREFIX, check_path, need
+from symgen.result.export import PLOTTED, check_path, need
 from symgen.result.labelled import Labelled
 
 if TYPE_CHECKING:
@@ -190,6 +191,6 @@ class Tables(ABC):
 
 
 def _columns(table: str, found: Labelled) -> Iterable[tuple[str, tuple[Array, str]]]:
-    prefix = PREFIX.get(table, f"{table}.")
+    prefix = PREFIX[table]
     for i, (name, unit) in enumerate(zip(found.names, found.units, strict=True)):
         yield prefix + name, (found.values[:, i], unit)

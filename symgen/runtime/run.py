@@ -83,6 +83,8 @@ class RunSpec:
         Points of tables that adaptive steps end at.
     switches : Switches or None
         What adaptive steps may not pass two of.
+    compares : bool
+        Whether constant implicit steps solve equations in which formulas compare the state.
     """
 
     until: float
@@ -104,6 +106,7 @@ class RunSpec:
     events: Watched | None = None
     knots: Knots | None = None
     switches: Switches | None = None
+    compares: bool = False
 
     @property
     def scale_time(self) -> float:
@@ -323,7 +326,7 @@ def end_reason(
             f"{sentence}: {attempts} attempts at a step brought it to t = {time:.6g} of {spec.until:g} s, and {more} "
             f"max_steps = {spec.max_steps:g}; {_STIFF if spec.switches is None else _JUMPING}"
         )
-    if code == abi.TINY_STEP and spec.switches is not None:
+    if (code == abi.TINY_STEP and spec.switches is not None) or (code == abi.NEWTON and spec.compares):
         return f"{sentence}{where}; {_JUMPING}"
     if code == abi.ENERGY:
         return f"{sentence} ({spec.max_energy_error:g} of {scale:.3g} J){where}"

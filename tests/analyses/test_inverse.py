@@ -10,6 +10,7 @@ import symgen
 from symgen.cli import main
 from symgen.describe.validate import validate
 from symgen.errors import InputError
+from tests.analyses import rods
 from tests.analyses.linkages import four_bar
 
 CRANK = "start + 2*pi*t"
@@ -377,3 +378,29 @@ def test_too_few_times_for_integrals_are_said(linkage, capsys):
     assert few.too_few()[:30] in capsys.readouterr().err
     assert main(["inverse", "driven-four-bar", "--times", "lin(0,1,101)"]) == 0
     assert "integrals" not in capsys.readouterr().err
+
+
+def test_a_driver_that_repeats_another_exerts_nothing_beside_it(tmp_path):
+    """M = I theta'' + m g x; runs' elements, files, sweeps, kinematics and inverse dynamics gave a KeyError."""
+    rod = {"mass": 2.0, "inertia": 0.3, "position": [0.5, 0.0], "angle": 0.2, "angular_velocity": 0.7}
+    joints = {
+        "pin": rods.pin("ground", "rod", rods.GROUND2, [-0.5, 0.0]),
+        "motor": {"type": "driver", "joint": "pin", "coordinate": "angle", "value": "0.2 + 0.7*t + 0.5*t**2"},
+    }
+    joints["twin"] = dict(joints["motor"])
+    model = rods.model({"rod": rod}, joints)
+    times = np.array([0.0, 0.1, 0.2])
+    needed = 0.3 + 2.0 * 0.25 + 2.0 * rods.GRAVITY * 0.5 * np.cos(0.2 + 0.7 * times + 0.5 * times**2)
+    asked = {"until": 0.2, "step": 0.01, "times": times}
+    run, moved, inverse = model.simulate(**asked), model.kinematics(times), model.inverse(times=times)
+    for found in (run.elements, moved.elements):
+        np.testing.assert_allclose(found["motor.effort"], needed, rtol=1e-6)
+        np.testing.assert_allclose(found["motor.power"], needed * (0.7 + times), rtol=1e-6)
+        assert not found["twin.effort"].any() and not found["twin.power"].any()
+    for found in (moved, inverse):
+        np.testing.assert_allclose(found.efforts["motor"], needed, rtol=1e-9)
+        assert found.efforts.units == ("N m", "N m") and not found.efforts["twin"].any()
+        assert found.non_unique_reactions == ("motor", "twin")
+    swept = symgen.sweep(model, {"rod.omega": [0.7]}, **asked, quantities=["elements"])
+    np.testing.assert_allclose(swept["motor.effort"][0], needed, rtol=1e-6)
+    assert not swept["twin.power"].any() and run.save(tmp_path / "run.csv").exists()

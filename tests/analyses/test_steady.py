@@ -48,7 +48,7 @@ def test_weave_and_capsize_speeds(tmp_path):
 
 
 def test_a_turn_is_no_straight_ride():
-    with pytest.raises(InputError, match=r"in which no state changes, got one where 'steer\.rate' changes"):
+    with pytest.raises(InputError, match=r"in which no state changes, got one where 'lean' changes"):
         symgen.load("bicycle").linearise(at="start", states=["lean", "steer"], parameters={"lean_rate": 0.1})
 
 

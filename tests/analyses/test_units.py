@@ -1,12 +1,15 @@
 """Equilibria and frequencies do not know units: grams and micrometres have those of kilograms and metres."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+import symgen.catalogue
 from analyses import rods
+from benchmarks.rescale import Units, rescaled
 from symgen.errors import InputError
 
 
@@ -79,3 +82,54 @@ def test_what_swings_is_at_rest_in_no_units(length, time, turned):
             found(at="start")
     frequency = np.sqrt(0.5 * rods.GRAVITY / 0.35)
     assert_allclose(model.linearise().eigenvalues().imag * time, [frequency, -frequency], rtol=1e-9)
+
+
+def links(count, length):
+    """Links hung in a chain between two pins, all of one length."""
+    bodies, joints = {}, {}
+    for i in range(count):
+        place = [(0.5 + 0.8 * i) * length, 0.1 * i * length]
+        bodies[f"l{i}"] = {"mass": 1.0, "inertia": length**2 / 12.0, "position": place, "angle": 0.3 * i}
+        before = "ground" if i == 0 else f"l{i - 1}"
+        at = rods.GROUND2 if i == 0 else [0.5 * length, 0.0]
+        joints[f"j{i}"] = rods.pin(before, f"l{i}", at, [-0.5 * length, 0.0])
+    end = [0.6 * count * length, 0.2 * length]
+    joints["end"] = rods.pin("ground", f"l{count - 1}", end, [0.5 * length, 0.0])
+    return rods.model(bodies, joints, gravity=[0.0, -rods.GRAVITY * length])
+
+
+@pytest.mark.slow  # looped code of an implicit law is compiled
+def test_sparse_matrices_know_no_unit_of_length():
+    """Gaps were divided by a metre at least, steps measured in metres; a turning table was left where it is open."""
+    for make in (lambda length: carousel(1.0, length), lambda length: links(8, length)):
+        dense = make(1.0).equilibrium(shape="straight")
+        found = {power: make(2.0**power).equilibrium(shape="looped") for power in (-20, -10, 0, 12)}
+        assert_allclose(found[0].omega_squared, dense.omega_squared, rtol=1e-9, atol=1e-9 * dense.omega_squared[-1])
+        for power, other in found.items():
+            assert other.omega_squared == found[0].omega_squared and other.iterations == found[0].iterations
+            for name, value in found[0].q.items():
+                turned = name.rpartition(".")[2] in ("theta", "angle", "e0", "e1", "e2", "e3")
+                assert other.q[name] == value * (1.0 if turned else 2.0**power), name
+
+
+STEADY = ("front-suspension", "flyball-governor")
+OTHERS = [(10, 0, 13), (-20, -30, -13), (20, 30, 10)]
+
+
+@pytest.mark.parametrize("entry", STEADY)
+def test_steady_motions_are_found_in_all_units(entry, tmp_path):
+    """Shifts of 0.3 m and 0.3 s and speeds of 1 m/s were taken to ask what depends on what."""
+    source = (Path(symgen.catalogue.__file__).parent / f"{entry}.toml").read_text(encoding="utf-8")
+
+    def found(name, units):
+        path = tmp_path / f"{name}.toml"
+        path.write_text(rescaled(source, units))
+        model = symgen.load(path)
+        told = model.linearise(at="steady").eigenvalues(), model.modes(at="steady").eigenvalues
+        return [units.time * eigenvalues for eigenvalues in told]
+
+    usual = found("usual", Units(3.0, 3.0, 3.0))
+    for k, powers in enumerate(OTHERS):
+        units = Units(*(3.0 * 2.0**power for power in powers))
+        for before, after in zip(usual, found(f"other{k}", units), strict=True):
+            assert_allclose(after, before, rtol=1e-8, atol=1e-8 * np.abs(before).max())

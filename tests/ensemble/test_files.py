@@ -95,6 +95,23 @@ def test_names_of_a_mechanism_give_way_to_those_that_every_data_set_has(tmp_path
         assert [line.split(",")[5] for line in lines[1:]] == ["0.3"] * 4
 
 
+def test_an_output_called_as_a_parameter_that_varies_has_a_label_of_its_own(tmp_path):
+    """x = t + k t^2/2 is the coordinate, the output and what is asked for by the parameter's name; a body gives way."""
+    built = symgen.MechanismBuilder("pushed").parameter("x", 3.0).output("x", "2*block.x").output("t0", "output.x")
+    built = built.body("block", type="point", mass=1.0, velocity=(1.0, 0.0)).body("output", type="point", mass=1.0)
+    model = symgen.Model(built.force("push", "force", body="block", force=("x", 0.0)).build())
+    asked = {"quantities": ("x", "output.x", "t0"), "times": [0.5], "until": 0.5, "step": 0.1}
+    found = symgen.sweep(model, {"x": [1.0, 2.0]}, **asked, method="lagrange", integrator="rk4")
+    twice = 2.0 * (0.5 + np.array([1.0, 2.0]) * 0.125)
+    path = found.save(tmp_path / "few.nc")
+    with xr.open_dataset(path, engine="h5netcdf") as data:
+        np.testing.assert_array_equal(data["x"], [1.0, 2.0])
+        np.testing.assert_array_equal(data["output.x"], np.zeros((2, 1)))
+        np.testing.assert_allclose(data["output.output.x"][:, 0], twice, rtol=1e-12)
+    lines = found.save(tmp_path / "few.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0] == "run,x,t [s],output.output.x,output.x [m],t0,end [s],status,reason"
+
+
 def test_any_number_of_threads_gives_the_same_bits():
     one, three = (symgen.sweep("four-bar", **FEW, jobs=jobs) for jobs in (1, 3))
     np.testing.assert_array_equal(one.values, three.values)

@@ -308,3 +308,22 @@ def test_friction_that_sticks_says_why_nothing_goes_on(folder: Path, integrator:
     file.write_text(text.replace("LAW", "tanh(b.vx/1e-3)"))
     smooth = symgen.simulate(file, **asked)
     assert smooth.status == "ok" and abs(smooth["b.x"][-1] - 0.25) < 1e-6
+
+
+@pytest.mark.parametrize("integrator", ["trapezoidal", "newmark", "generalized-alpha"])
+def test_friction_that_sticks_under_constant_implicit_steps_says_so_too(folder: Path, integrator: str) -> None:
+    """A block of 1 kg slides for half a second; what is advised goes on."""
+    file = folder / "slid.toml"
+    text = (
+        '[mechanism]\nname = "slid"\ngravity = [0, 0]\n[bodies.b]\ntype = "point"\nmass = 1.0\n'
+        'velocity = [1, 0]\n[forces.drag]\ntype = "force"\nbody = "b"\nat = "centre"\nforce = ["-2*LAW", 0]\n'
+    )
+    method = "generalized-alpha" if integrator == "generalized-alpha" else "lagrange"
+    asked = {"method": method, "integrator": integrator, "step": 1e-2, "until": 3.0}
+    file.write_text(text.replace("LAW", "sign(b.vx)"))
+    stuck = symgen.simulate(file, **asked)
+    assert stuck.reason.startswith("Newton's iteration of an implicit stage did not converge at t = 0.49 s; formulas")
+    assert "such as tanh(v/1e-3), has motions that radau5 follows" in stuck.reason
+    file.write_text(text.replace("LAW", "tanh(b.vx/1e-3)"))
+    smooth = symgen.simulate(file, **asked | {"method": "lagrange", "integrator": "radau5"})
+    assert smooth.status == "ok" and abs(smooth["b.x"][-1] - 0.25) < 1e-6
