@@ -55,24 +55,10 @@ def independent_equations(mechanism: Mechanism, parameters: Mapping[str, float])
 
 
 class SpatialEquations(IndependentEquations):
-    """Phi, D, nu, gamma and f of a spatial mechanism as numbers, in coordinates and their rates.
+    """Phi, D, nu, gamma and f of a spatial mechanism as numbers, in coordinates and their rates."""
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A validated spatial mechanism.
-    parameters : mapping
-        Values of all its parameters; they become numbers in the formulas.
-    """
-
-    def __init__(self, mechanism: Mechanism, parameters: Mapping[str, float]) -> None:
-        #: For each body that turns: where its Euler parameters begin, and its inertia tensor.
-        self.spins: list[tuple[int, Array]] = []
-        self._angles: list[Any] = []
-        self._whole_turns: list[Any] = []
-        self._seen: list[float] = []
-        self.rank: int | None = None
-        super().__init__(mechanism, parameters)
+    def _weigh(self) -> None:
+        super()._weigh()
         self._first_e = np.array([i for i, _ in self.spins], dtype=int)
         self._tensors = np.array([tensor for _, tensor in self.spins]).reshape(-1, 3, 3)
         straight = np.ones(self.n, dtype=bool)
@@ -81,6 +67,12 @@ class SpatialEquations(IndependentEquations):
         self._straight = np.flatnonzero(straight)
 
     def _declare(self) -> None:
+        #: For each body that turns: where its Euler parameters begin, and its inertia tensor.
+        self.spins: list[tuple[int, Array]] = []
+        self._angles: list[Any] = []
+        self._whole_turns: list[Any] = []
+        self._seen: list[float] = []
+        self.rank: int | None = None
         for body in self.mechanism.bodies:
             assert isinstance(body, SpatialBody), "a mechanism is planar or spatial as a whole"
             i = self.first[body.name] = len(self.q)
