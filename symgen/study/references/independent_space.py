@@ -226,12 +226,7 @@ class SpatialEquations(IndependentEquations):
         return np.array(values)
 
     def _forces(self) -> list[Any]:
-        total = [sp.S.Zero] * self.n
-        gravity = [evaluate(e, self.parameters, "gravity") for e in self.mechanism.gravity]
-        for body in self.mechanism.bodies:
-            i = self.first[body.name]
-            for k in range(3):
-                total[i + k] += sp.Float(self.mass[i] * gravity[k])
+        total = super()._forces()
         for i, tensor in self.spins:
             e, rates = self.q[i : i + 4], self.v[i : i + 4]
             omega = sp.Matrix(_angular_velocity(e, rates))
@@ -240,10 +235,6 @@ class SpatialEquations(IndependentEquations):
                 momentum = sp.diff(kinetic, rates[k])
                 along = sum((sp.diff(momentum, e[j]) * rates[j] for j in range(4)), sp.S.Zero)
                 total[i + k] += sp.diff(kinetic, e[k]) - along
-        for force in self.mechanism.forces:
-            for effort in force.efforts:
-                for i, term in self._effort(effort).items():
-                    total[i] += term
         return total
 
     def _effort(self, effort: Effort) -> dict[int, Any]:
