@@ -17,8 +17,10 @@ from symgen.vocabulary.measures import Effort
 #: What is written where a formula has a kink, and what where it may jump.
 _WORDS = (b"abs", b"min", b"max", b"table:")
 _SIDES = ("lt", "le", "gt", "ge", "sign")
-#: What compares something with zero, or two values with each other.
-_COMPARED = (*_SIDES, "abs", "min", "max")
+_BENT = ("abs", "min", "max")
+#: What compares something with zero, or two values with each other, and what is written there.
+_COMPARED = (*_SIDES, *_BENT)
+_CHANGING = [name.encode() for name in _COMPARED]
 
 
 def kinks_of(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[Jump, ...]:
@@ -31,7 +33,7 @@ def kinks_of(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[Jump, 
     tables = {table.name: table for table in mechanism.tables}
 
     def kink(e: Call) -> Jump | None:
-        if e.function in ("abs", "min", "max"):
+        if e.function in _BENT:
             return Jump(compared(e))
         if (table := tables.get(table_of(e.function) or "")) is not None and len(table.x) <= MOST_KNOTS:
             return Jump(e.arguments[0], table.x, period=table.x[-1] - table.x[0] if table.periodic else 0.0)
@@ -78,27 +80,15 @@ def knots_of(mechanism: Mechanism) -> tuple[tuple[Expr, Table | None], ...]:
     `min` and `max` compare with zero. An integrand acts on nothing, so that a dip of it between two evaluations is seen
     by no other error. Arguments are formulas of a run: what forces call ``s`` and ``rate`` is read of their measures.
     """
-    formulas = mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
-    tables = {table.name: table for table in mechanism.tables}
-    plain = {p.name for p in mechanism.parameters} | {"t"}
-    found = dict[tuple[Expr, Table | None], None]()
-    text = msgspec.msgpack.encode(formulas)
-    if not any(word in text for word in _WORDS):
-        return ()
-    if tables and b"table:" in text:
-        for e, effort in _calls(*formulas):
-            table = tables.get(table_of(e.function) or "")
-            if table is None or len(table.x) > MOST_KNOTS:
-                continue
-            argument = e.arguments[0] if effort is None else _of_a_run(e.arguments[0], effort)
-            if _is_of_state(argument, plain):
-                found[argument, table] = None
-    for e, effort in _calls(*formulas):
-        if e.function in ("abs", "min", "max"):
-            argument = compared(e) if effort is None else _of_a_run(compared(e), effort)
-            if _is_of_state(argument, plain):
-                found[argument, None] = None
-    return tuple(found)
+    tables = {table.name: table for table in mechanism.tables if len(table.x) <= MOST_KNOTS}
+
+    def read(e: Call) -> Expr | None:
+        if e.function in _BENT:
+            return compared(e)
+        return e.arguments[0] if (table_of(e.function) or "") in tables else None
+
+    found = [(argument, tables.get(table_of(e.function) or "")) for e, argument in _over_state(mechanism, _WORDS, read)]
+    return tuple(dict.fromkeys(sorted(found, key=lambda pair: pair[1] is None)))
 
 
 def switches_of(mechanism: Mechanism) -> tuple[Expr, ...]:
@@ -107,18 +97,35 @@ def switches_of(mechanism: Mechanism) -> tuple[Expr, ...]:
     That is what comparisons and `sign` pass as a jump, and `abs`, `min` and `max` as a kink. Arguments are formulas of
     a run, as those of `knots_of`.
     """
+    found = _over_state(mechanism, _CHANGING, lambda e: compared(e) if e.function in _COMPARED else None)
+    return tuple(dict.fromkeys(argument for _, argument in found))
+
+
+def changes_of(formula: Expr) -> tuple[Jump, ...]:
+    """Return what a formula of the time compares with zero and what depends on t, each once, without a switch."""
+    text = msgspec.msgpack.encode(formula)
+    if not any(word in text for word in _CHANGING):
+        return ()
+    found = (e for e, _ in _calls(formula) if e.function in _COMPARED and "t" in set(names(e)))
+    return tuple(dict.fromkeys(Jump(compared(e)) for e in found))
+
+
+def _over_state(
+    mechanism: Mechanism, words: Iterable[bytes], argument_of: Callable[[Call], Expr | None]
+) -> Iterator[tuple[Call, Expr]]:
+    """Yield functions of joints, forces and integrals with what they take, where that depends on the state."""
     formulas = mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
     text = msgspec.msgpack.encode(formulas)
-    if not any(name.encode() in text for name in _COMPARED):
-        return ()
+    if not any(word in text for word in words):
+        return
     plain = {p.name for p in mechanism.parameters} | {"t"}
-    found = dict[Expr, None]()
     for e, effort in _calls(*formulas):
-        if e.function in _COMPARED:
-            argument = compared(e) if effort is None else _of_a_run(compared(e), effort)
-            if _is_of_state(argument, plain):
-                found[argument] = None
-    return tuple(found)
+        taken = argument_of(e)
+        if taken is None:
+            continue
+        argument = taken if effort is None else _of_a_run(taken, effort)
+        if _is_of_state(argument, plain):
+            yield e, argument
 
 
 def _is_of_state(argument: Expr, plain: set[str]) -> bool:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.errors import InputError
+from symgen.ir.program import LANES, lane_bases
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
@@ -59,7 +60,8 @@ def run_in_lanes(
     info, law, (sizes, *observers) = compiled.info, compiled.law_module, observed
     lengths = len(state.p), len(state.w), info.windings, len(kept.outputs.times)
     lanes = state._replace(room=aligned(room_of_lanes(info.ny, scheme.stages, *lengths)))
-    return int(lane_runs((sizes, law.rhs, law.accept, *observers), scheme, span, chunk, lanes, kept))
+    wide = sizes._replace(width=LANES * lane_bases(info.ny, 0, 0)["ydot"])
+    return int(lane_runs((wide, law.rhs, law.accept, *observers), scheme, span, chunk, lanes, kept))
 
 
 def aligned(size: int) -> NDArray[np.float64]:

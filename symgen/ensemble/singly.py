@@ -114,17 +114,18 @@ class SingleRuns:
         spec = self.recipe.spec
         return spec if self.recipe.looks is None else with_looks(*self._run_of, spec)
 
-    @cached_property
-    def _watched(self) -> Watched | None:
-        mechanism, compiled = self._run_of
+    def _events_of(self, mechanism: Mechanism, compiled: CompiledModel) -> Watched | None:
         values = {q.name: q.value for q in self.singly.mechanism.parameters}
         return compile_events(mechanism, compiled, self.singly.events, values)
 
     @cached_property
+    def _watched(self) -> Watched | None:
+        return self._events_of(*self._run_of)
+
+    @cached_property
     def _of_bodies(self) -> Watched | None:
         """The events as bodies have them, where the tree of joints is run."""
-        values = {q.name: q.value for q in self.singly.mechanism.parameters}
-        return compile_events(self.singly.mechanism, self.compiled, self.singly.events, values)
+        return self._events_of(self.singly.mechanism, self.compiled)
 
     @cached_property
     def _carrying(self) -> Carrying:

@@ -25,7 +25,7 @@ from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import integrate
 from symgen.runtime.instances import Instances
 from symgen.runtime.instances import loop as compiled_loop
-from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Outputs, Run, Sizes, State
+from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Outputs, Run, State
 from symgen.runtime.redundancy import FALLEN, never
 from symgen.runtime.rows import begin_run, end_run, take
 from symgen.runtime.scales import still
@@ -246,6 +246,7 @@ def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: 
     ----------
     model : tuple
         As for `symgen.runtime.rows.run_rows`; in place of the first three functions, ``rhs`` and ``accept`` for lanes.
+        The width is that of all lanes.
     scheme, span, chunk, kept
         As for `symgen.runtime.rows.run_rows`.
     state : State
@@ -258,14 +259,8 @@ def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: 
     """
     chunk, state, kept = bare(chunk), bare(state), bare(kept)
     sizes, rhs, lanes_accept, rates, confirm, accept, observe = model
-    n, n_p, nw, columns = sizes.ny, state.p.shape[0], state.w.shape[0], kept.outputs.status.shape[1]
+    width, n, n_p, nw, columns = sizes.width, sizes.ny, state.p.shape[0], state.w.shape[0], kept.outputs.status.shape[1]
     times, total, room = kept.outputs.times, chunk.selected.shape[0], state.room
-    width = (n + 3) // 4 * 4 * _L  # as in `symgen.ir.program.lane_bases`
-    wide = Sizes(
-        *(sizes.nq, sizes.nv, sizes.m, n, width, sizes.controlled, sizes.unknowns),
-        *(sizes.pivots, sizes.multipliers, sizes.mask, sizes.change, sizes.gauge, sizes.row_weight),
-        *(sizes.jacobian, sizes.auxiliary),
-    )
     numbers = 2 * width + (n_p + nw + _SPARE) * _L
     z, at = part(room, 0, numbers), numbers
     y, gauges = part(room, at, width), part(room, at + width, _N_LANE_GAUGES * _L)
@@ -282,9 +277,9 @@ def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: 
     for g in range(0, total, _L):
         if control[abi.STOP] != 0:
             return int(g)
-        load(chunk, wide, state, g, z, gauges)
+        load(chunk, sizes, state, g, z, gauges)
         copied(width, z, y)
-        if integrate((wide, rhs, 0, lanes_accept, 0, 0, 0), scheme, span, lanes, outputs) == abi.STOPPED:
+        if integrate((sizes, rhs, 0, lanes_accept, 0, 0, 0), scheme, span, lanes, outputs) == abi.STOPPED:
             return int(g)
         steps, evaluations = control[abi.STEPS], control[abi.EVALUATIONS]
         for lane in range(min(_L, total - g)):

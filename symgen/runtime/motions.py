@@ -8,19 +8,18 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import partial
 from itertools import pairwise
 
-import msgspec
-
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import Jump
+from symgen.describe.kinks import changes_of
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.remembered import remembered
 from symgen.errors import InputError
 from symgen.runtime.in_time import InTime
-from symgen.vocabulary.expressions import Call, Expr, call, names
+from symgen.vocabulary.expressions import Expr, names
 from symgen.vocabulary.measures import Holonomic
 
 #: How near a formula is looked at, as a part of the run, and of the time to the next change at most; and once more,
@@ -31,7 +30,6 @@ _NEAR, _APART, _NEARER = 1e-5, 0.125, 16.0
 _SMALL, _ROUNDING = 1e-6, 64.0 * sys.float_info.epsilon
 #: Part of a jump by which it may differ from the one seen from farther.
 _STAYS = 0.2
-_WORDS = (b"abs", b"sign", b"min", b"max", b"lt", b"le", b"gt", b"ge")
 
 
 def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: float) -> None:
@@ -125,24 +123,6 @@ def _moved(mechanism: Mechanism) -> tuple[tuple[str, str, Expr, tuple[Jump, ...]
     found = list[tuple[str, str, Expr, tuple[Jump, ...]]]()
     for joint in mechanism.joints:
         row = joint.rows[0] if joint.kind == "driver" and joint.rows else None
-        if isinstance(row, Holonomic) and any(word in msgspec.msgpack.encode(row.value) for word in _WORDS):
-            changes = tuple(dict.fromkeys(Jump(e) for e in _changing(row.value)))
-            if changes:
-                found.append((joint.name, row.unit, row.value, changes))
+        if isinstance(row, Holonomic) and (changes := changes_of(row.value)):
+            found.append((joint.name, row.unit, row.value, changes))
     return tuple(found)
-
-
-def _changing(formula: Expr) -> Sequence[Expr]:
-    """Return what changes its sign where a formula of the time may jump."""
-    found, waiting = list[Expr](), [formula]
-    while waiting:
-        e = waiting.pop()
-        if not isinstance(e, Call):
-            continue
-        waiting += e.arguments
-        if "t" in set(names(e)):
-            if e.function in ("abs", "sign"):
-                found.append(e.arguments[0])
-            elif e.function in ("min", "max", "lt", "le", "gt", "ge"):
-                found.append(call("sub", *e.arguments))
-    return found

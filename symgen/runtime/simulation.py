@@ -367,10 +367,8 @@ class Simulation:
 
     def save(self) -> dict[str, NDArray[Any]]:
         """Return copies of all arrays that the run keeps, by name."""
-        from symgen.runtime.records import KEPT
-
         found = {name: array for name, array in self.state._asdict().items() if name != "room"}
-        found |= {name: getattr(self.scheme, name) for name in KEPT if hasattr(self.scheme, name)}
+        found |= {name: getattr(self.scheme, name) for name in names_kept(self.scheme)}
         return {name: array.copy() for name, array in found.items()}
 
     def restore(self, saved: Mapping[str, NDArray[Any]]) -> None:

@@ -22,6 +22,7 @@ from symgen.runtime.blocks import BLOCK
 
 _F64, _I32, _I64 = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
 _VECTOR, _INDICES, _PAIR = ir.VectorType(_F64, BLOCK), ir.VectorType(_I64, BLOCK), ir.VectorType(_F64, 2)
+_ZERO = ir.Constant(_VECTOR, [0.0] * BLOCK)
 #: Up to this width numbers that were just written one by one are read one by one.
 _SMALL = 4 * BLOCK
 #: Multiplication and addition may be contracted, as everywhere in compiled code; nothing else is allowed.
@@ -161,10 +162,15 @@ def _folded(builder: Any, vector: Any, join: Callable[[Any, Any], Any]) -> Any:
     return numbers[0]
 
 
+def _each_block(builder: Any, width: Any) -> Any:
+    """Return a loop over blocks, whose variables are the index of a block and its number."""
+    return cgutils.for_range_slice(builder, _I64(0), width, _I64(BLOCK), _I64, inc=True)
+
+
 def _blocks(builder: Any, width: Any, begin: Any, block: Callable[[Any, Any], Any]) -> Any:
     """Return a vector that is carried from block to block: ``carried = block(index, carried)``, from `begin` on."""
     carried = cgutils.alloca_once_value(builder, begin)
-    with cgutils.for_range_slice(builder, _I64(0), width, _I64(BLOCK), _I64, inc=True) as (i, _):
+    with _each_block(builder, width) as (i, _):
         builder.store(block(i, builder.load(carried)), carried)
     return builder.load(carried)
 
@@ -198,7 +204,7 @@ def _combining(last_row: Callable[..., None]) -> Callable[..., Any]:
                     before = _added(builder, _spread(builder, h), total, _load(builder, base, i))
                     rate, to = builder.gep(rows, [builder.add(row, i)]), builder.gep(out, [i])
                     last_row(builder, width, before, factor, rate, to)
-            with none, cgutils.for_range_slice(builder, _I64(0), width, _I64(BLOCK), _I64, inc=True) as (i, _):
+            with none, _each_block(builder, width) as (i, _):
                 _store(builder, _load(builder, base, i), out, i)
         return context.get_dummy_value()
 
@@ -275,10 +281,9 @@ def _sums(context: Any, builder: Any, signature: Any, arguments: Any) -> Iterato
     """Give each block's index and its sum of values times rows, inside the loop over blocks."""
     width, _, first, last = arguments[:4]
     column, value, rows = _data(context, builder, signature, arguments, 4, 5, 6)
-    zero = ir.Constant(_VECTOR, [0.0] * BLOCK)
-    with cgutils.for_range_slice(builder, _I64(0), width, _I64(BLOCK), _I64, inc=True) as (i, _):
+    with _each_block(builder, width) as (i, _):
         total = cgutils.alloca_once(builder, _VECTOR)
-        builder.store(zero, total)
+        builder.store(_ZERO, total)
         with cgutils.for_range_slice(builder, first, last, _I64(1), _I64, inc=True) as (k, _):
             row = builder.mul(builder.load(builder.gep(column, [k])), width)
             weight = _spread(builder, builder.load(builder.gep(value, [k])))
@@ -291,7 +296,7 @@ def _sums(context: Any, builder: Any, signature: Any, arguments: Any) -> Iterato
 def _vector_copied(typing: Any, width: Any, array: Any, out: Any) -> Any:
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         data, to = _data(context, builder, signature, arguments, 1, 2)
-        with cgutils.for_range_slice(builder, _I64(0), arguments[0], _I64(BLOCK), _I64, inc=True) as (i, _):
+        with _each_block(builder, arguments[0]) as (i, _):
             _store(builder, _load(builder, data, i), to, i)
         return context.get_dummy_value()
 
@@ -310,7 +315,7 @@ def _vector_received(typing: Any, width: Any, array: Any, out: Any) -> Any:
         def large(i: Any) -> None:
             _store(builder, _load(builder, data, i), to, i)
 
-        with cgutils.for_range_slice(builder, _I64(0), arguments[0], _I64(BLOCK), _I64, inc=True) as (i, _):
+        with _each_block(builder, arguments[0]) as (i, _):
             _as_written(builder, arguments[0], partial(small, i), partial(large, i))
         return context.get_dummy_value()
 
@@ -324,7 +329,6 @@ def _vector_weigh(typing: Any, width: Any, error: Any, share: Any, y: Any, new: 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         error, share, y, new = _data(context, builder, signature, arguments, 1, 2, 3, 4)
         rtol, atol = _spread(builder, arguments[5]), _spread(builder, arguments[6])
-        zero = ir.Constant(_VECTOR, [0.0] * BLOCK)
 
         def block(i: Any, total: Any) -> Any:
             larger = _greater(
@@ -334,11 +338,11 @@ def _vector_weigh(typing: Any, width: Any, error: Any, share: Any, y: Any, new: 
             larger = builder.fmul(weight, larger)
             scale = builder.fadd(atol, builder.fmul(rtol, larger, flags=_FLAGS), flags=_FLAGS)
             error_here = builder.fmul(weight, _load(builder, error, i))
-            none = builder.fcmp_ordered("==", error_here, zero)
-            part = builder.select(none, zero, builder.fdiv(error_here, scale))
+            none = builder.fcmp_ordered("==", error_here, _ZERO)
+            part = builder.select(none, _ZERO, builder.fdiv(error_here, scale))
             return builder.fadd(total, builder.fmul(part, part, flags=_FLAGS), flags=_FLAGS)
 
-        total = _blocks(builder, arguments[0], zero, block)
+        total = _blocks(builder, arguments[0], _ZERO, block)
         return _folded(builder, total, builder.fadd)
 
     return signature, generate
@@ -349,18 +353,16 @@ def _vector_largest(typing: Any, width: Any, array: Any, weights: Any, first: An
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         width, _, _, first, last = arguments
         data, factors = _data(context, builder, signature, arguments, 1, 2)
-        zero = ir.Constant(_VECTOR, [0.0] * BLOCK)
-
         low, high = _spread(builder, first, _INDICES), _spread(builder, last, _INDICES)
 
         def block(i: Any, largest: Any) -> Any:
             index = builder.add(_spread(builder, i, _INDICES), ir.Constant(_INDICES, list(range(BLOCK))))
             inside = builder.and_(builder.icmp_signed(">=", index, low), builder.icmp_signed("<", index, high))
             size = builder.fmul(_magnitude(builder, _load(builder, data, i)), _load(builder, factors, i))
-            size = builder.select(inside, size, zero)
+            size = builder.select(inside, size, _ZERO)
             return _greater(builder, size, largest)
 
-        found = _blocks(builder, width, zero, block)
+        found = _blocks(builder, width, _ZERO, block)
         return _folded(builder, found, lambda a, b: _greater(builder, a, b))
 
     return types.float64(types.int64, array, weights, types.int64, types.int64), generate
@@ -375,7 +377,7 @@ def _vector_finite(typing: Any, width: Any, array: Any) -> Any:
             vector = _load(builder, data, i)
             return builder.fadd(total, builder.fsub(vector, vector))
 
-        total = _blocks(builder, arguments[0], ir.Constant(_VECTOR, [0.0] * BLOCK), block)
+        total = _blocks(builder, arguments[0], _ZERO, block)
         return builder.fcmp_ordered("==", _folded(builder, total, builder.fadd), ir.Constant(_F64, 0.0))
 
     return types.boolean(types.int64, array), generate

@@ -24,7 +24,7 @@ from symgen.runtime.instances import called
 from symgen.runtime.manifold import advance
 from symgen.runtime.records import ALPHA
 from symgen.runtime.redundancy import leave_out_rest
-from symgen.runtime.schemes.implicit import is_converged
+from symgen.runtime.schemes.implicit import ended
 from symgen.runtime.sparse import multiply, solve, turn_rows
 
 _MOST_ITERATIONS = 20
@@ -83,7 +83,7 @@ def attempt(
         k[i] = run.memory[i]
     ratio = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
     by_velocity, by_position = h * scheme.gamma * ratio, h * h * scheme.beta * ratio
-    last, fresh, converged = math.inf, True, False
+    last, fresh, end = math.inf, True, 0
     for _ in range(_MOST_ITERATIONS):
         move(system, scheme, run, h, k, a1, change)
         for i in range(nv):
@@ -114,14 +114,11 @@ def attempt(
         rate = run.w[abi.SPEED] / run.w[abi.LENGTH]
         at_floor = math.sqrt(moved) * rate * by_position < 1e-12 * length
         moved = math.sqrt(moved) / (rate + math.sqrt(total))
-        if not math.isfinite(moved):
+        end = ended(moved, last, 1e-12, 1e-7, at_floor)
+        if end != 0:
             break
-        converged = is_converged(moved, last, 1e-12, 1e-7, at_floor)
-        if converged:
-            break
-        fresh = moved > 0.05 * last
-        last = moved
-    if not converged:
+        fresh, last = moved > 0.05 * last, moved
+    if end <= 0:
         return DIVERGED
     move(system, scheme, run, h, k, a1, change)
     for i in range(sizes.ny - first):

@@ -57,8 +57,10 @@ def stage_state(system: Any, scheme: Any, run: Any, h: float, stage: int, k: Any
                 run.trial[i] += factor * rates[j * (ny - first) + i - first]
 
 
-def is_converged(moved: float, last: float, least: float, poor: float, at_floor: bool) -> bool:
-    """Return whether a Newton iteration is at its end: its correction is small, or only rounding keeps it from it.
+def ended(moved: float, last: float, least: float, poor: float, at_floor: bool) -> int:
+    """Return 1 where a Newton iteration is at its end, -1 where it leads nowhere, 0 where it goes on.
+
+    It ends where its correction is small, or where only rounding keeps it from that.
 
     Parameters
     ----------
@@ -69,7 +71,9 @@ def is_converged(moved: float, last: float, least: float, poor: float, at_floor:
     at_floor : bool
         Whether the correction is rounding of positions.
     """
-    return moved < least or (moved > 0.3 * last and (moved < poor or at_floor))
+    if not math.isfinite(moved):
+        return -1
+    return 1 if moved < least or (moved > 0.3 * last and (moved < poor or at_floor)) else 0
 
 
 @called
@@ -99,7 +103,7 @@ def attempt(
         if scheme.together == 0 and scheme.a[group * s_count + group] == 0.0:
             continue  # an explicit first stage is the derivative that is known
         low, high = (0, s_count) if scheme.together == 1 else (group, group + 1)
-        last, fresh, converged = math.inf, True, False
+        last, fresh, end = math.inf, True, 0
         for _ in range(_MOST_ITERATIONS):
             if fresh:
                 for s in range(low, high):
@@ -139,14 +143,11 @@ def attempt(
                 length = max(length, run.scales[i] * abs(run.trial[i]))
             at_floor = math.sqrt(moved) * h < 1e-12 * length
             moved = math.sqrt(moved) / (run.w[abi.SPEED] / run.w[abi.LENGTH] + math.sqrt(size))
-            if not math.isfinite(moved):
+            end = ended(moved, last, 1e-13, 1e-9, at_floor)
+            if end != 0:
                 break
-            converged = is_converged(moved, last, 1e-13, 1e-9, at_floor)
-            if converged:
-                break
-            fresh = moved > 0.05 * last
-            last = moved
-        if not converged:
+            fresh, last = moved > 0.05 * last, moved
+        if end <= 0:
             return DIVERGED
     if n > first + sizes.m:
         # multipliers of index 2 are of lower order than the state: these rates come from the law's own

@@ -251,9 +251,8 @@ class IndependentEquations:
     def _forces(self) -> list[Any]:
         total = [sp.S.Zero] * self.n
         for body in self.mechanism.bodies:
-            for k in range(2):
-                i = self.first[body.name] + k
-                total[i] += self._weight(i, body.mass, self.mechanism.gravity[k])
+            for i, gravity in enumerate(self.mechanism.gravity, self.first[body.name]):
+                total[i] += self._weight(i, body.mass, gravity)
         for force in self.mechanism.forces:
             for effort in force.efforts:
                 for i, e in self._effort(effort).items():

@@ -55,24 +55,10 @@ def independent_equations(mechanism: Mechanism, parameters: Mapping[str, float])
 
 
 class SpatialEquations(IndependentEquations):
-    """Phi, D, nu, gamma and f of a spatial mechanism as numbers, in coordinates and their rates.
+    """Phi, D, nu, gamma and f of a spatial mechanism as numbers, in coordinates and their rates."""
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A validated spatial mechanism.
-    parameters : mapping
-        Values of all its parameters; they become numbers in the formulas.
-    """
-
-    def __init__(self, mechanism: Mechanism, parameters: Mapping[str, float]) -> None:
-        #: For each body that turns: where its Euler parameters begin, and its inertia tensor.
-        self.spins: list[tuple[int, Array]] = []
-        self._angles: list[Any] = []
-        self._whole_turns: list[Any] = []
-        self._seen: list[float] = []
-        self.rank: int | None = None
-        super().__init__(mechanism, parameters)
+    def _weigh(self) -> None:
+        super()._weigh()
         self._first_e = np.array([i for i, _ in self.spins], dtype=int)
         self._tensors = np.array([tensor for _, tensor in self.spins]).reshape(-1, 3, 3)
         straight = np.ones(self.n, dtype=bool)
@@ -81,6 +67,12 @@ class SpatialEquations(IndependentEquations):
         self._straight = np.flatnonzero(straight)
 
     def _declare(self) -> None:
+        #: For each body that turns: where its Euler parameters begin, and its inertia tensor.
+        self.spins: list[tuple[int, Array]] = []
+        self._angles: list[Any] = []
+        self._whole_turns: list[Any] = []
+        self._seen: list[float] = []
+        self.rank: int | None = None
         for body in self.mechanism.bodies:
             assert isinstance(body, SpatialBody), "a mechanism is planar or spatial as a whole"
             i = self.first[body.name] = len(self.q)
@@ -234,12 +226,7 @@ class SpatialEquations(IndependentEquations):
         return np.array(values)
 
     def _forces(self) -> list[Any]:
-        total = [sp.S.Zero] * self.n
-        gravity = [evaluate(e, self.parameters, "gravity") for e in self.mechanism.gravity]
-        for body in self.mechanism.bodies:
-            i = self.first[body.name]
-            for k in range(3):
-                total[i + k] += sp.Float(self.mass[i] * gravity[k])
+        total = super()._forces()
         for i, tensor in self.spins:
             e, rates = self.q[i : i + 4], self.v[i : i + 4]
             omega = sp.Matrix(_angular_velocity(e, rates))
@@ -248,10 +235,6 @@ class SpatialEquations(IndependentEquations):
                 momentum = sp.diff(kinetic, rates[k])
                 along = sum((sp.diff(momentum, e[j]) * rates[j] for j in range(4)), sp.S.Zero)
                 total[i + k] += sp.diff(kinetic, e[k]) - along
-        for force in self.mechanism.forces:
-            for effort in force.efforts:
-                for i, term in self._effort(effort).items():
-                    total[i] += term
         return total
 
     def _effort(self, effort: Effort) -> dict[int, Any]:
