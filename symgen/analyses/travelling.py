@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 #: A driver moves by this between two times at most [rad, or the length of the mechanism].
 FARTHEST = 0.25
 #: Instants at which drivers are looked at first, and at most; they are enough where every second one shows all but
-#: this part of the way. And instants between two times at which formulas are known to change.
+#: this part of the way. And instants between two times at which formulas are known to change, where these are few.
 FIRST, MOST, UNSEEN, BETWEEN = 1024, 65536, 0.02, 16
 #: Changes below this are none, and times nearer than this part of the motion are the same.
 NOTHING, SAME = 1e-12, 1e-9
@@ -91,11 +91,12 @@ def _known(found: Prescribed, end: float) -> Array:
     """Return parts of a motion at which formulas are known to change, and some between, however short that is."""
     values = {q.name: float(x) for q, x in zip(found.compiled.info.parameters, found.start.p, strict=False)}
     changes = foreseen(found.mechanism).times(values, max(end, 0.0), min(end, 0.0))
-    if not 0 < len(changes) <= MOST // BETWEEN:  # more of them are looked at as anything else is
+    if not 0 < len(changes) <= MOST:  # more of them are looked at as anything else is
         return np.zeros(0)
     times = np.unique([0.0, *(t / end for t in changes), 1.0])
-    k = np.arange(1, BETWEEN * (len(times) - 1))
-    return np.asarray(np.interp(k / BETWEEN, np.arange(len(times)), times))
+    between = min(BETWEEN, MOST // len(changes))
+    k = np.arange(1, between * (len(times) - 1))
+    return np.asarray(np.interp(k / between, np.arange(len(times)), times))
 
 
 def _turns(at: Array, steps: Array) -> Array:

@@ -96,7 +96,7 @@ class Bounded:
 
     def _divided(self, e: Expr, begin: Array, end: Array, least: float) -> tuple[Bounds, Array, Array]:
         """Return intervals, and bounds of a formula over each that differ by no more than a part of its range."""
-        low, high = self._over(e, begin, end)
+        low, high = self.over(e, begin, end)
         while True:
             finite = np.isfinite(low) & np.isfinite(high)
             extent = np.ptp([low[finite].min(), high[finite].max()]) if finite.any() else 0.0
@@ -112,10 +112,11 @@ class Bounded:
                 raise TooFast
             middle = 0.5 * (begin[wide] + end[wide])
             fresh = np.concatenate([begin[wide], middle]), np.concatenate([middle, end[wide]])
-            parts = zip((begin, end, low, high), (*fresh, *self._over(e, *fresh)), strict=True)
+            parts = zip((begin, end, low, high), (*fresh, *self.over(e, *fresh)), strict=True)
             begin, end, low, high = (np.concatenate([old[~wide], new]) for old, new in parts)
 
-    def _over(self, e: Expr, begin: Array, end: Array) -> tuple[Array, Array]:
+    def over(self, e: Expr, begin: Array, end: Array) -> tuple[Array, Array]:
+        """Return bounds of a formula over intervals; nan where it is undefined all along, infinite where in part."""
         low, high = self._bounds(e, begin, end)
         return np.broadcast_to(low, begin.shape), np.broadcast_to(high, begin.shape)
 
@@ -132,19 +133,21 @@ class Bounded:
         if e.function in ("sin", "cos"):
             return _waved(e.function, *arguments[0])
         # functions of one argument rise, fall, or turn round at 0; those of two do so in each
-        looked = [_looks(*bounds, e.function) for bounds in arguments]
-        values = np.array([np.broadcast_to(self._columns.apply(e.function, *x), begin.shape) for x in product(*looked)])
+        looked: Any = product(*(_looks(*bounds, e.function) for bounds in arguments))
+        if e.function in ("add", "sub"):
+            first, second = arguments
+            looked = zip(first, second if e.function == "add" else second[::-1], strict=True)
+        values = np.array([np.broadcast_to(self._columns.apply(e.function, *x), begin.shape) for x in looked])
         undefined = np.isnan(values)
         if e.function == "tan":
             poles = [np.floor(x / math.pi + 0.5) for x in arguments[0]]
-            undefined |= poles[0] != poles[1]
+            undefined[0] |= poles[0] != poles[1]
         some, every = undefined.any(axis=0), undefined.all(axis=0)
+        for x in (x for bounds in arguments for x in bounds):
+            every &= ~np.isinf(x)
         low, high = np.fmin.reduce(values), np.fmax.reduce(values)
-        ends = (
-            np.where(every, np.nan, np.where(some, -np.inf, low)),
-            np.where(every, np.nan, np.where(some, np.inf, high)),
-        )
-        return ends
+        low, high = np.where(some, -np.inf, low), np.where(some, np.inf, high)
+        return np.where(every, np.nan, low), np.where(every, np.nan, high)
 
 
 def _looks(low: Any, high: Any, function: str) -> list[Any]:

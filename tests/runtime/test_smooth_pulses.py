@@ -207,3 +207,28 @@ def test_pulses_are_where_they_are(text: str, at: float, width: float) -> None:
     (pulse,) = Bounded({}, {}).pulses(e, END)
     assert at - 5.0 * width < pulse[0] < at < pulse[-1] < at + 5.0 * width
     assert max(np.diff(pulse)) < 2.0 * width and pulse == sorted(set(pulse))
+
+
+def test_bounds_hold_what_lies_between() -> None:
+    random = np.random.default_rng(3)
+    formulas = (
+        "sin(7*t)*cos(t - 2) - t**3",
+        "exp(-(t/2)**2)/(1 + t*t)",
+        "tanh(3*sin(5*t))**4 + abs(t - 1)",
+        "1/(t - 3) + log(t)",
+        "tan(t) if t > 2 else sqrt(4 - t)",
+        "atan2(t - 1, 2 - t) + min(t, 1/2)*max(-t, cosh(t)**-2)",
+        "(t - 1/3)**-3*(sign(t - 1) + t)",
+    )
+    for text in formulas:
+        e, bounded = formula(text), Bounded({}, {})
+        begin = random.uniform(-3.0, 5.0, 200)
+        end = begin + 10.0 ** random.uniform(-4.0, 1.0, 200)
+        low, high = bounded.over(e, begin, end)
+        for a, b, least, largest in zip(begin, end, low, high, strict=True):
+            values, _ = bounded.over(e, times := np.linspace(a, b, 101), times)
+            known = values[np.isfinite(values)]
+            if len(known):
+                scale = 1e-12 * np.abs(known).max()
+                assert least - scale <= known.min() and known.max() <= largest + scale, (text, a, b)
+            assert not np.isnan(least) or not len(known)
