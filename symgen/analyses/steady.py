@@ -8,6 +8,7 @@ meanwhile: they are cyclic. Both is asked at the state and again a little later 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -289,7 +290,10 @@ def later(subject: Subject, x: Tangent) -> tuple[Array, float]:
     speed = max(pace(x), APART * fastest / FARTHEST)
     end = x.t + APART / speed
     stiff = fastest * APART / speed > STEPS
-    z = (_by_implicit_steps if stiff else _by_steps)(slope, x.t, end, y[: nq + nv])
+    if stiff:
+        z = _by_implicit_steps(slope, x.t, end, y[: nq + nv], np.append(subject.lengths, speed * subject.spans))
+    else:
+        z = _by_steps(slope, x.t, end, y[: nq + nv])
     y = subject.moved(_filled(y, z), np.zeros(nq))
     for _ in range(4):
         e = subject.evaluated(y, t=end)
@@ -313,11 +317,12 @@ def _by_steps(slope: Callable[[float, Array], Array], t: float, end: float, z: A
     return z
 
 
-def _by_implicit_steps(slope: Callable[[float, Array], Array], t: float, end: float, z: Array) -> Array:
-    """Return the same of a stiff motion."""
+def _by_implicit_steps(slope: Callable[[float, Array], Array], t: float, end: float, z: Array, sizes: Array) -> Array:
+    """Return the same of a stiff motion; `sizes` say what counts as large of the state."""
     from scipy.integrate import solve_ivp
 
-    run = solve_ivp(lambda t, z: slope(float(t), z), (t, end), z, method="Radau", rtol=1e-8, atol=1e-10)
+    solve: Any = solve_ivp  # SciPy's types do not know arrays of tolerances
+    run = solve(lambda t, z: slope(float(t), z), (t, end), z, method="Radau", rtol=1e-8, atol=1e-10 * sizes)
     if not run.success:
         raise AnalysisError(f"the motion cannot be followed beyond t = {run.t[-1]:.4g} s: {run.message}")
     return np.asarray(run.y[:, -1], dtype=np.float64)

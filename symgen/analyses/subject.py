@@ -15,7 +15,7 @@ from symgen.analyses.yardsticks import Yardsticks
 from symgen.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
 from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import compile_side
-from symgen.describe.evaluate import parameter_values, scalars
+from symgen.describe.evaluate import evaluate, parameter_values, scalars
 from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
 from symgen.errors import AssemblyError, InputError, nearest
@@ -23,6 +23,7 @@ from symgen.lower.windings import winding_order
 from symgen.plan import Plan, make_plan
 from symgen.run_setup import Given, give_inputs, held_of, ready
 from symgen.runtime import abi
+from symgen.runtime.model_arrays import lengths_of
 from symgen.runtime.probe import Ready
 from symgen.settings import Settings
 from symgen.tree_run import tree_run
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
 
 Array = NDArray[np.float64]
 
@@ -319,6 +320,14 @@ def _as_given(mechanism: Mechanism, given: Mapping[str, float]) -> Mechanism:
     return replaced(mechanism, parameters=tuple(plain))
 
 
+def _extent(mechanism: Mechanism, values: Mapping[str, float], info: ModelInfo, y: Array) -> float:
+    """Return the largest coordinate that is a length, or of a point in its body [m]; 0 where all are at one place."""
+    places = [e for body in mechanism.bodies for _, point in body.points for e in point]
+    places += [e for _, marker in mechanism.seats for e in marker.point]
+    sizes = [abs(evaluate(e, values, "points")) for e in places]
+    return max(float(np.abs(y[: info.nq] * lengths_of(info)).max(initial=0.0)), *sizes, 0.0)
+
+
 def described_state(
     mechanism: Mechanism, plan: Plan, parameters: Mapping[str, float]
 ) -> tuple[CompiledModel, Array, Array, Array]:
@@ -332,7 +341,7 @@ def described_state(
     y[: info.nq] = q
     for i, value in held.coordinates.items():
         y[i] = value
-    w[abi.LENGTH] = max(1e-300, float(np.ptp(np.array(q)))) or 1.0
+    w[abi.LENGTH] = _extent(mechanism, values, info, y) or 1.0
     p = compiled.parameter_array(values, plan.method_parameters)
     compiled.prepare(p)
     return compiled, y, p, w

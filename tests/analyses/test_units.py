@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 import symgen.catalogue
 from analyses import rods
 from benchmarks.rescale import Units, rescaled
-from symgen.errors import InputError
+from symgen.errors import AssemblyError, InputError
 
 
 def carousel(mass, length, time=1.0, damping=0.0):
@@ -133,3 +133,26 @@ def test_steady_motions_are_found_in_all_units(entry, tmp_path):
         units = Units(*(3.0 * 2.0**power for power in powers))
         for before, after in zip(usual, found(f"other{k}", units), strict=True):
             assert_allclose(after, before, rtol=1e-8, atol=1e-8 * np.abs(before).max())
+
+
+def test_what_no_start_closes_settles_alike_in_all_units(monkeypatch):
+    """Its length was the spread of all its coordinates, angles among them: 1.2 m of a link of a micrometre."""
+
+    def no_start(*_):
+        raise AssemblyError("not closed")
+
+    def found(length):
+        link = {"mass": 1.0, "inertia": 0.1 * length**2, "position": [0.3 * length, 0.2 * length], "angle": 1.2}
+        pin = rods.pin("ground", "link", rods.GROUND2, [-0.5 * length, 0.0])
+        ends = [[1.5 * length, 0.0], [0.5 * length, 0.0]]
+        spring = {"type": "spring-damper", "between": ["ground", "link"], "at": ends, "stiffness": 30.0}
+        forces = {"spring": spring | {"free_length": 0.3 * length}}
+        pull = [0.0, -rods.GRAVITY * length]
+        return rods.model({"link": link}, {"pin": pin}, gravity=pull, forces=forces).equilibrium()
+
+    monkeypatch.setattr("symgen.analyses.subject.ready", no_start)
+    usual = found(1.0)
+    for power in (-20, -10, 12):
+        other = found(2.0**power)
+        assert other.iterations == usual.iterations and other.q["link.theta"] == usual.q["link.theta"]
+        assert other.q["link.x"] == usual.q["link.x"] * 2.0**power
