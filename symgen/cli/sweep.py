@@ -120,6 +120,7 @@ def command(
     tell_idle_tolerances(settings, (found.ensemble.compiled.law.method, found.ensemble.plan.tableau.name))
     tell(found.ensemble.notes)
     tell(_projected(found))
+    tell(f"warning: in {count} of {len(found)} runs: {sentence}" for sentence, count in found.told())
     if as_json:
         write_json({**found.to_json(), "output": output})
     else:

@@ -42,6 +42,8 @@ class Foreseen:
         From `kinks_of` and `sides_of` of `symgen.describe.kinks`.
     known : dict
         What was found last, by what it depends on: pieces, and whether these are all.
+    whole : dict
+        Whether they are all, of everything that was looked for.
     """
 
     mechanism: Mechanism
@@ -50,6 +52,7 @@ class Foreseen:
     known: dict[tuple[float, ...], tuple[tuple[Piece, ...], bool]] = field(
         default_factory=dict, repr=False, compare=False
     )
+    whole: dict[tuple[float, ...], bool] = field(default_factory=dict, repr=False, compare=False)
 
     def __bool__(self) -> bool:
         """Whether there is anything."""
@@ -80,17 +83,43 @@ class Foreseen:
         values, until
             As for `pieces`.
         """
-        return self._found(values, until, 0.0)[1]
+        key = self._key(values, until, 0.0)
+        return self.whole[key] if key in self.whole else self._found(values, until, 0.0)[1]
+
+    def _key(self, values: Mapping[str, float], until: float, first: float) -> tuple[float, ...]:
+        return until, first, *(values[name] for name in sorted(self.reads & values.keys()))
 
     def _found(self, values: Mapping[str, float], until: float, first: float) -> tuple[tuple[Piece, ...], bool]:
         if not self:
             return (), True
-        key = (until, first, *(values[name] for name in sorted(self.reads & values.keys())))
-        if key not in self.known:  # runs that are compared, or of a sweep, often differ in nothing of that
+        key = self._key(values, until, first)
+        found = self.known.get(key)
+        if found is None:  # runs that are compared, or of a sweep, often differ in nothing of that
             found = self._looked_for(values, until, first)
-            self.known.clear()
+            self.known.clear()  # threads of a sweep do so, too
             self.known[key] = found
-        return self.known[key]
+            if first == 0.0:  # runs without end ask for one window after the other
+                self.whole[key] = found[1]
+        return found
+
+    def missed(self, values: Mapping[str, float], until: float, step: float | None) -> list[str]:
+        """Return what steps of a run may not see, in words: constant ones what lies between two times within one.
+
+        Parameters
+        ----------
+        values, until
+            As for `pieces`.
+        step : float or None
+            The constant step [s]; none where steps are adaptive.
+        """
+        if not self.are_all(values, until):
+            often = "formulas change, or pass points of tables, more often than can be told apart"
+            return [f"{often}: steps do not end there, and may miss what is short"]
+        near = None if step is None else self.closest(values, until)
+        if near is None or step is None or near[1] - near[0] >= step:
+            return []
+        what = f"formulas change at t = {near[0]:.9g} and {near[1]:.9g} s, within one step of {step:g} s"
+        return [f"{what}: constant steps may miss what lies between; adaptive ones do not"]
 
     def closest(self, values: Mapping[str, float], until: float) -> tuple[float, float] | None:
         """Return the two times inside a run [s] that are closest to each other, points of tables left aside.
