@@ -130,10 +130,10 @@ class Sweep:
     def told(self) -> list[tuple[str, int]]:
         """Return one of the warnings of each kind, that of the first run, with the number of runs it is said of."""
         first, count = dict[str, str](), Counter[str]()
-        for sentences in self.warnings:
+        for sentences, runs in Counter(self.warnings).items():  # most have none, or the same
             for kind, sentence in {_FIGURES.sub("", sentence): sentence for sentence in sentences}.items():
                 first.setdefault(kind, sentence)
-                count[kind] += 1
+                count[kind] += runs
         return [(first[kind], runs) for kind, runs in count.most_common()]
 
     def __getitem__(self, name: str) -> Array:
