@@ -51,6 +51,22 @@ def rows_that_jump(ensemble: Ensemble, done: NDArray[np.bool_]) -> Iterator[tupl
             yield rows, said[key]
 
 
+def rows_whose_inputs_cannot_be(ensemble: Ensemble, failed: NDArray[np.bool_]) -> Iterator[tuple[int, str]]:
+    """Yield rows whose inputs jump too often, and what single runs say of each.
+
+    Parameters
+    ----------
+    ensemble : Ensemble
+        What was run.
+    failed : Array of bool, shape (n,)
+        Rows without a start.
+    """
+    for row in np.flatnonzero(failed).tolist() if ensemble.driving.own else ():
+        values = dict(zip(ensemble.parameters, ensemble.settled(row, row + 1).parameters[0].tolist(), strict=True))
+        if all(map(math.isfinite, values.values())) and (told := ensemble.driving.refusal(values)):
+            yield row, told
+
+
 def rows_that_may_miss(ensemble: Ensemble, done: NDArray[np.bool_]) -> Iterator[tuple[NDArray[np.int64], str]]:
     """Yield rows whose steps may go across something short, and what single runs say of each such group.
 

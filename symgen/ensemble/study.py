@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from symgen import __version__
 from symgen.arguments import path as argument_path
 from symgen.arguments import shown, whole
-from symgen.ensemble.jumps import rows_that_jump, rows_that_may_miss
+from symgen.ensemble.jumps import rows_that_jump, rows_that_may_miss, rows_whose_inputs_cannot_be
 from symgen.ensemble.labels import NUMBERS, of_dimension, of_number, of_quantity, of_varied
 from symgen.ensemble.lines import SAVED, csv_of
 from symgen.ensemble.names import Names
@@ -85,6 +85,10 @@ class Sweep:
         status, reason = judge_all(self.summary, self.done, compiled.info, compiled.law, recipe.spec, events)
         for rows, told in rows_that_jump(self.ensemble, self.done):
             status[rows], reason[rows] = FAILED, told
+        for row, told in rows_whose_inputs_cannot_be(
+            self.ensemble, self.done & (column(self.summary, "start") != ASSEMBLED)
+        ):
+            reason[row] = told
         return status, reason
 
     @cached_property

@@ -105,3 +105,17 @@ def test_pieces_are_those_asked_for_whatever_other_threads_ask():
     other = type(known)(known.mechanism, known.kinks, known.sides, Forgetful())
     for values in ({"at": 0.2, "long": 0.1}, {"at": 0.5, "long": 0.1}):
         assert other.pieces(values, 1.0) == known.pieces(values, 1.0) != ()
+
+
+def test_a_row_whose_input_jumps_too_often_is_a_row_that_failed():
+    """The others are run: v = 1 + t under a square wave whose half period is longer than the run."""
+    body = {"mass": 1.0, "inertia": 0.1, "velocity": [1.0, 0.0]}
+    raw = {"mechanism": {"name": "driven"}, "parameters": {"w": 1.0}, "inputs": {"u": 0.0}, "bodies": {"b": body}}
+    raw["forces"] = {"push": {"type": "force", "body": "b", "force": ["u", "0"]}}
+    model, inputs = symgen.load(mechanism_of(raw)), {"u": "sign(sin(w*t + 0.1))"}
+    found = symgen.sweep(model, {"w": [1.0, 1e9, 2.0]}, inputs=inputs, quantities=("b.vx",), **ADAPTIVE)
+    assert list(found.status) == ["ok", "failed", "ok"]
+    np.testing.assert_allclose(found["b.vx"][[0, 2], -1], 1.1, rtol=1e-12)
+    with pytest.raises(InputError) as refused:
+        model.simulate(parameters={"w": 1e9}, inputs=inputs, **ADAPTIVE)
+    assert found.reason[1] == str(refused.value) and "jumps" in found.reason[1]
