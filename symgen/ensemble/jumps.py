@@ -97,10 +97,11 @@ def _groups(
     places = [list(ensemble.parameters).index(name) for name in read]
     for first in range(0, len(ensemble), _TOGETHER):
         last = min(first + _TOGETHER, len(ensemble))
-        found, which = np.unique(ensemble.settled(first, last).parameters[:, places], axis=0, return_inverse=True)
-        which, asked = which.ravel(), np.flatnonzero(done[first:last])
-        for k in np.unique(which[asked]).tolist():
-            yield first + asked[which[asked] == k], dict(zip(read, found[k].tolist(), strict=True))
+        asked, alike = np.flatnonzero(done[first:last]), dict[tuple[float, ...], list[int]]()
+        for row, values in enumerate(ensemble.settled(first, last).parameters[asked][:, places].tolist()):
+            alike.setdefault(tuple(values), []).append(row)
+        for key, rows in alike.items():
+            yield first + asked[rows], dict(zip(read, key, strict=True))
 
 
 def _said(mechanism: Mechanism, values: dict[str, float], until: float) -> str:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
+from msgspec import structs
 from numpy.typing import ArrayLike
 
 from symgen.compiling.choose_shape import LARGEST_STRAIGHT
@@ -225,8 +226,9 @@ def make_ensemble(
     if not read_by_motions(mechanism, grid.names):
         refuse_jumps(mechanism, chosen.parameters, plan.spec.until)
     kept_names, events = _events(mechanism, plan, quantities)
-    known = foreseen(mechanism, events)
-    looks = plan.spec.adaptive and bool(switches_of(mechanism) or knots_of(mechanism))
+    acting = mechanism if target == "cpu" else structs.replace(mechanism, outputs=())  # others integrate no outputs
+    known = foreseen(acting, events)
+    looks = plan.spec.adaptive and bool(switches_of(acting) or knots_of(acting))
     alike = tuple(sentence for sentence in plan.warnings if sentence not in plan.missed)  # others are of each row
     plan = replace(plan, spec=replace(plan.spec, pieces=()), warnings=alike)
     driving = Driving(given, grid.names, plan.spec.until, known if plan.spec.adaptive else None)

@@ -20,6 +20,7 @@ from symgen.arguments import shown, whole
 from symgen.ensemble.jumps import rows_that_jump, rows_that_may_miss, rows_whose_inputs_cannot_be
 from symgen.ensemble.labels import NUMBERS, of_dimension, of_number, of_quantity, of_varied
 from symgen.ensemble.lines import SAVED, csv_of
+from symgen.ensemble.moved import warnings_of_starts
 from symgen.ensemble.names import Names
 from symgen.ensemble.singly import event_columns
 from symgen.ensemble.verdicts import NOT_RUN, column, judge_all, warnings_all
@@ -115,6 +116,8 @@ class Sweep:
         for rows, sentence in rows_that_may_miss(ensemble, begun):
             for i in rows:
                 found[i] += (sentence,)
+        for i, sentences in warnings_of_starts(ensemble, self.summary, begun):
+            found[i] += sentences
         law, spec = ensemble.compiled.law, ensemble.recipe.spec
         for i, sentences in warnings_all(self.summary, begun, law, spec).items():
             found[i] += sentences

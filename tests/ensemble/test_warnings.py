@@ -119,3 +119,45 @@ def test_a_row_whose_input_jumps_too_often_is_a_row_that_failed():
     with pytest.raises(InputError) as refused:
         model.simulate(parameters={"w": 1e9}, inputs=inputs, **ADAPTIVE)
     assert found.reason[1] == str(refused.value) and "jumps" in found.reason[1]
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_rows_that_closing_moves_far_say_so(coordinates):
+    """A bar of 1 m is described at its pin, which the row has elsewhere: by how much is what varies."""
+    bar = {"mass": 1.0, "inertia": 0.1, "position": [0.0, 0.0], "points": {"end": [0.0, 0.0], "tip": [1.0, 0.0]}}
+    raw = {"mechanism": {"name": "bar"}, "parameters": {"off": 0.0}, "bodies": {"bar": bar}}
+    raw["joints"] = {"pin": {"type": "revolute", "between": ["ground", "bar"], "at": [["off", 0.0], "end"]}}
+    model, away = symgen.load(mechanism_of(raw)), [0.0, 1e-3, 0.5, -2.0]
+    chosen = {"step": 1e-2, "until": 0.02, "coordinates": coordinates}
+    found = symgen.sweep(model, {"off": away}, quantities=("bar.x",), **chosen)
+    np.testing.assert_allclose(found["bar.x"][:, -1], away, atol=1e-12)
+    assert [bool(row) for row in found.warnings] == [False, False, True, True]
+    assert "bar.x from 0 to 0.5 m" in found.warnings[2][0]
+    assert [model.simulate(parameters={"off": x}, **chosen).warnings for x in away] == list(found.warnings)
+
+
+def test_what_is_held_far_away_is_no_warning():
+    """What follows an angle that was asked for has to."""
+    chosen, angles = {"until": 0.01, "step": 1e-3}, [0.01, 1.0, 2.0]
+    held = symgen.sweep("four-bar", {"crank.theta": angles}, **chosen)
+    starts = [symgen.simulate("four-bar", start={"crank.theta": x}, **chosen) for x in angles]
+    assert list(held.warnings) == [run.warnings for run in starts]
+    assert list(held.warnings) == [()] * 3 and (held["start_moved"] == 0.0).all()
+
+
+def test_velocities_that_cannot_be_what_they_were_given_as_are_told():
+    found = symgen.sweep("pendulum", {"bob.vx": [0.0, 0.3]}, until=0.01)
+    assert found.counts["ok"] == 2
+    assert [len(row) for row in found.warnings] == [0, 1] and "were projected" in found.warnings[1][0]
+
+
+def test_outputs_that_a_device_does_not_integrate_do_not_count(monkeypatch):
+    monkeypatch.setattr("symgen.ensemble.device.check_target", lambda *_: None)
+    raw = {"mechanism": {"name": "free"}, "parameters": {"m": 1.0}, "outputs": {"way": "integral(abs(b.vx))"}}
+    raw["bodies"] = {"b": {"mass": "m", "inertia": 0.1, "velocity": [1.0, 0.0]}}
+    model = symgen.load(mechanism_of(raw))
+    with pytest.raises(InputError, match="integral"):
+        symgen.sweep(model, {"m": [1.0]}, quantities=("way",), target="cuda", **ADAPTIVE)
+    monkeypatch.setattr("symgen.ensemble.plan.kernel_of", lambda recipe: recipe.spec)  # there is no device
+    with pytest.raises(AttributeError, match="first"):
+        symgen.sweep(model, {"m": [1.0]}, quantities=("b.x",), target="cuda", **ADAPTIVE)
