@@ -22,7 +22,7 @@ from symgen.errors import InputError, nearest, quoted
 from symgen.integrators import INTEGRATORS
 from symgen.memory import require
 from symgen.methods import METHODS
-from symgen.runtime.foreseen import Foreseen, foreseen
+from symgen.runtime.foreseen import foreseen
 from symgen.runtime.run import MAX_STEPS, Array, RunSpec
 from symgen.settings import Settings, told_constant
 
@@ -38,8 +38,6 @@ DEFAULT_OUTPUTS = 1001
 ADAPTIVE_EVALUATIONS = 2000.0
 #: Default tolerances of adaptive runs.
 RTOL, ATOL = 1e-8, 1e-10
-#: Constant steps that see a smooth pulse: that many from where it begins to where it ends.
-RESOLVING = 4
 
 
 @dataclass(frozen=True)
@@ -58,6 +56,7 @@ class Plan:
     events: tuple[Event, ...] = ()
     coordinates: str = "absolute"
     coordinates_reason: str = ""
+    missed: tuple[str, ...] = ()  # those of the warnings that parameters decide
 
     @property
     def key(self) -> tuple[str, tuple[tuple[str, float], ...]]:
@@ -115,7 +114,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
     events = events_asked(mechanism, s)
     known = foreseen(mechanism, events)
     values = parameter_values(mechanism, s.parameters) if known else {}
-    warnings += _stepped_over(known, values, until, None if adaptive else step)
+    missed = known.missed(values, until, None if adaptive else step)
     spec = RunSpec(
         until=until,
         step=step,
@@ -155,7 +154,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         tableau,
         method_parameters,
         spec,
-        tuple(warnings),
+        (*warnings, *missed),
         free,
         shape.reason,
         holds,
@@ -163,6 +162,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         events,
         coordinates.name,
         coordinates.reason,
+        tuple(missed),
     )
 
 
@@ -170,23 +170,6 @@ def limit_of_velocities(method: Method, max_violation: float) -> float | None:
     """Return the largest violation of velocities that a run by a method may have, None where it is `max_violation`."""
     # where velocities follow it is an error of the discretisation, not drift: half the digits are asked of it
     return math.sqrt(max_violation) if method.velocities_follow else None
-
-
-def _stepped_over(known: Foreseen, values: Mapping[str, float], until: float, step: float | None) -> list[str]:
-    """Return what steps may not see, in words: constant ones what formulas do between two times within one."""
-    if not known.are_all(values, until):
-        often = "formulas change, or pass points of tables, more often than can be told apart"
-        return [f"{often}: steps do not end there, and may miss what is short"]
-    if step is None:
-        return []
-    told, near, pulse = list[str](), known.closest(values, until), known.shortest(values, until)
-    if near is not None and near[1] - near[0] < step:
-        what = f"formulas change at t = {near[0]:.9g} and {near[1]:.9g} s, within one step of {step:g} s"
-        told.append(f"{what}: constant steps may miss what lies between; adaptive ones do not")
-    if pulse is not None and pulse[1] - pulse[0] < RESOLVING * step:
-        what = f"a formula changes from t = {pulse[0]:.9g} to {pulse[1]:.9g} s, within {RESOLVING} steps of {step:g} s"
-        told.append(f"{what}: constant steps may miss that; adaptive ones do not")
-    return told
 
 
 def _asked(s: Settings, option: str) -> bool:

@@ -28,7 +28,7 @@ from symgen.runtime.held import Held
 from symgen.runtime.model_arrays import velocity_of
 from symgen.runtime.new_state import is_as_kept
 from symgen.runtime.pieces import Piece, pieces_of
-from symgen.runtime.start_words import half_turn
+from symgen.runtime.start_words import half_turn, opposite
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -146,7 +146,7 @@ def _sided(mechanism: Mechanism, info: ModelInfo, start: Start) -> Start:
     for joint, held in wrong_sides(mechanism, start.y.tolist()):
         if held:
             raise half_turn(info, joint).stopped_at(start.y.tolist())
-        lines.append(f"the axes of joint '{joint}' point opposite ways at the start: they are taken for one line")
+        lines.append(opposite(joint))
     return replace(start, warnings=(*start.warnings, *lines)) if lines else start
 
 

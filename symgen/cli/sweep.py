@@ -119,7 +119,7 @@ def command(
         )
     tell_idle_tolerances(settings, (found.ensemble.compiled.law.method, found.ensemble.plan.tableau.name))
     tell(found.ensemble.notes)
-    tell(_projected(found))
+    tell(f"warning: in {count} of {len(found)} runs: {sentence}" for sentence, count in found.told())
     if as_json:
         write_json({**found.to_json(), "output": output})
     else:
@@ -145,15 +145,6 @@ def _axes(words: tuple[str, ...]) -> dict[str, str]:
     for name, text in axes.items():
         parse(text, f"--vary {name}")
     return axes
-
-
-def _projected(found: Sweep) -> list[str]:
-    """Return a note where runs begin with other velocities than those that were asked for."""
-    count = int((found["start_velocities"] == 1.0).sum())
-    if not count:
-        return []
-    what = "contradicted the constraints and were projected; --strict lets such runs fail"
-    return [f"in {count} of {len(found)} runs given velocities {what}"]
 
 
 def _exit_code(found: Sweep, path: Path | None) -> int:

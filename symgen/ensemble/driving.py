@@ -11,6 +11,7 @@ import numpy as np
 
 from symgen.describe.derived import derived
 from symgen.describe.evaluate import parameter_values
+from symgen.errors import InputError
 from symgen.runtime.pieces import Piece, merged, pieces_of
 from symgen.vocabulary.expressions import names
 
@@ -83,17 +84,34 @@ class Driving:
         """
         if not self.own:
             return replace(rows, pieces=(self.pieces,)) if self.pieces else rows
-        driven = self.given.driven
         found = list[tuple[Piece, ...]]()
         for row in rows.parameters:
-            values = dict(zip(parameters, row.tolist(), strict=True))
-            # a row that is not defined fails at its start
             pieces: tuple[Piece, ...] = ()
             if np.all(np.isfinite(row)):
-                pieces = () if driven is None else pieces_of(driven, values, self.until)
-                if self.foreseen:
-                    pieces = merged(pieces, self.foreseen.pieces(values, self.until))
+                try:
+                    pieces = self._pieces_of(dict(zip(parameters, row.tolist(), strict=True)))
+                except InputError:
+                    row[:] = np.nan  # what is not defined fails at its start
             found.append(pieces)
             for name, value in (pieces[0].values if pieces else {}).items():
                 row[parameters.index(name)] = value
         return replace(rows, pieces=tuple(found))
+
+    def refusal(self, values: dict[str, float]) -> str:
+        """Return why inputs cannot be in a run what they are asked to be, empty where they can.
+
+        Parameters
+        ----------
+        values : dict of str to float
+            Of its parameters.
+        """
+        try:
+            self._pieces_of(values)
+        except InputError as error:
+            return str(error)
+        return ""
+
+    def _pieces_of(self, values: dict[str, float]) -> tuple[Piece, ...]:
+        driven = self.given.driven
+        pieces = () if driven is None else pieces_of(driven, values, self.until)
+        return merged(pieces, self.foreseen.pieces(values, self.until)) if self.foreseen else pieces

@@ -1,4 +1,4 @@
-"""Rows of an ensemble in which the motion of a driver jumps, where that depends on what varies."""
+"""What formulas of the time do in the rows of an ensemble, where that depends on what varies."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from symgen.describe.derived import derived
 from symgen.runtime.motions import jump_of, names_of_motions
 
 if TYPE_CHECKING:
-    from collections.abc import Container
+    from collections.abc import Container, Sequence
 
     from numpy.typing import NDArray
 
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 #: Rows whose parameters are looked at together.
 _TOGETHER = 65536
+#: Combinations of parameters for which steps that may miss something are looked for: 10 s of formulas like sin(w*t).
+MOST_LOOKS = 1000
 
 
 def read_by_motions(mechanism: Mechanism, varied: Container[str]) -> tuple[str, ...]:
@@ -33,8 +35,6 @@ def read_by_motions(mechanism: Mechanism, varied: Container[str]) -> tuple[str, 
 def rows_that_jump(ensemble: Ensemble, done: NDArray[np.bool_]) -> Iterator[tuple[NDArray[np.int64], str]]:
     """Yield rows in which the motion of a driver jumps, and what is said of each such group.
 
-    Each combination of the values that the motions read is looked at once.
-
     Parameters
     ----------
     ensemble : Ensemble
@@ -43,19 +43,65 @@ def rows_that_jump(ensemble: Ensemble, done: NDArray[np.bool_]) -> Iterator[tupl
         Rows that are asked for.
     """
     mechanism, until = ensemble.model.mechanism, ensemble.recipe.spec.until
-    read = read_by_motions(mechanism, ensemble.grid.names)
+    read, said = read_by_motions(mechanism, ensemble.grid.names), dict[tuple[float, ...], str]()
+    for rows, values in _groups(ensemble, read, done) if read else ():
+        if (key := tuple(values.values())) not in said:
+            said[key] = _said(mechanism, values, until)
+        if said[key]:
+            yield rows, said[key]
+
+
+def rows_whose_inputs_cannot_be(ensemble: Ensemble, failed: NDArray[np.bool_]) -> Iterator[tuple[int, str]]:
+    """Yield rows whose inputs jump too often, and what single runs say of each.
+
+    Parameters
+    ----------
+    ensemble : Ensemble
+        What was run.
+    failed : Array of bool, shape (n,)
+        Rows without a start.
+    """
+    for row in np.flatnonzero(failed).tolist() if ensemble.driving.own else ():
+        values = dict(zip(ensemble.parameters, ensemble.settled(row, row + 1).parameters[0].tolist(), strict=True))
+        if all(map(math.isfinite, values.values())) and (told := ensemble.driving.refusal(values)):
+            yield row, told
+
+
+def rows_that_may_miss(ensemble: Ensemble, done: NDArray[np.bool_]) -> Iterator[tuple[NDArray[np.int64], str]]:
+    """Yield rows whose steps may go across something short, and what single runs say of each such group.
+
+    Parameters
+    ----------
+    ensemble, done
+        As for `rows_that_jump`.
+    """
+    known, spec = ensemble.foreseen, ensemble.recipe.spec
+    if not known:
+        return
+    read = [name for name in ensemble.parameters if name in known.reads]
+    said = dict[tuple[float, ...], list[str]]()
+    for rows, values in _groups(ensemble, read, done):
+        if (key := tuple(values.values())) not in said and all(map(math.isfinite, key)):
+            often = f"times at which formulas change were looked for in {MOST_LOOKS} runs with other values alone"
+            told = [f"{often}: steps may miss what is short"]
+            looks = len(said) < MOST_LOOKS
+            said[key] = known.missed(values, spec.until, None if spec.adaptive else spec.step) if looks else told
+        for sentence in said.get(key, ()):
+            yield rows, sentence
+
+
+def _groups(
+    ensemble: Ensemble, read: Sequence[str], done: NDArray[np.bool_]
+) -> Iterator[tuple[NDArray[np.int64], dict[str, float]]]:
+    """Yield rows that are done and alike in the parameters that are read, with the values of these."""
     places = [list(ensemble.parameters).index(name) for name in read]
-    said = dict[tuple[float, ...], str]()
-    for first in range(0, len(ensemble) if read else 0, _TOGETHER):
+    for first in range(0, len(ensemble), _TOGETHER):
         last = min(first + _TOGETHER, len(ensemble))
-        found, which = np.unique(ensemble.settled(first, last).parameters[:, places], axis=0, return_inverse=True)
-        which, asked = which.ravel(), np.flatnonzero(done[first:last])
-        for k in np.unique(which[asked]).tolist():
-            values = tuple(found[k].tolist())
-            if values not in said:
-                said[values] = _said(mechanism, dict(zip(read, values, strict=True)), until)
-            if said[values]:
-                yield first + asked[which[asked] == k], said[values]
+        asked, alike = np.flatnonzero(done[first:last]), dict[tuple[float, ...], list[int]]()
+        for row, values in enumerate(ensemble.settled(first, last).parameters[asked][:, places].tolist()):
+            alike.setdefault(tuple(values), []).append(row)
+        for key, rows in alike.items():
+            yield first + asked[rows], dict(zip(read, key, strict=True))
 
 
 def _said(mechanism: Mechanism, values: dict[str, float], until: float) -> str:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -170,14 +171,25 @@ class Kernel:
             out.summary[light, e.LIGHT] = 1.0
         return Chunk(recipe.in_order(values, behind), np.hstack([out.summary, out.events]), complete)
 
-    def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:
-        """Close and run selected rows with one compiled model; those with light bodies only where there is no other."""
-        info, recipe = model.compiled.info, self.recipe
-        k, room = len(rows), max(len(rows), 1)
+    def closed(self, rows: Rows) -> tuple[Instant, Callable[[int], Assembly]]:
+        """Return the consistent starts of rows that have one, and how that of a row is made; nothing is run."""
+        everything, summary = np.arange(len(rows), dtype=np.int64), np.zeros((len(rows), e.N_SUMMARY))
+        now = self._described(self.first, rows)
+        self._close(self.first, rows, now, everything, summary, new_control())
+        return now, partial(self._closed, self.first, rows)
+
+    def _described(self, model: _Prepared, rows: Rows) -> Instant:
+        """Return rows as they are described."""
+        info, k, room = model.compiled.info, len(rows), max(len(rows), 1)
         now = Instant(
             np.zeros((room, info.ny)), np.tile(model.p, (room, 1)), np.empty((room, max(1, model.compiled.law.nw)))
         )
         now.p[:k, : len(info.parameters)], now.y[:k, : info.nq] = rows.parameters, rows.q
+        return now
+
+    def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:
+        """Close and run selected rows with one compiled model; those with light bodies only where there is no other."""
+        info, recipe, now = model.compiled.info, self.recipe, self._described(model, rows)
         if not self._close(model, rows, now, selected, out.summary, control):
             return False
         self._look_at_sides(info, now.y, selected, out.summary)

@@ -32,7 +32,7 @@ NUMBERS: Mapping[str, tuple[str, bool]] = {
 }
 #: What numbers are called that have the name of a quantity.
 _NUMBER = {"smallest_pivot": "smallest_pivot_min"}
-_TAKEN = {"run", "time", "status", "reason", *NUMBERS, *_NUMBER.values()}
+_TAKEN = {"run", "time", "status", "reason", "warnings", *NUMBERS, *_NUMBER.values()}
 
 
 def of_number(name: str) -> str:

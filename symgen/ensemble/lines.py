@@ -41,6 +41,7 @@ def csv_of(found: Sweep) -> tuple[list[str], Iterator[list[object]]]:
         *(headed(name, unit) for name, (_, unit) in found.events.items()),
         "status",
         "reason",
+        "warnings",
     ]
     end = column(found.summary, "end")
 
@@ -48,6 +49,7 @@ def csv_of(found: Sweep) -> tuple[list[str], Iterator[list[object]]]:
         for i in range(len(found)):
             before = [i, *(float(x[i]) for x in varied.values())]
             behind = [float(end[i]), *(_shown(x[i]) for x in events.values()), found.status[i], found.reason[i]]
+            behind.append("; ".join(found.warnings[i]))
             for k, t in enumerate(times):
                 yield [*before, float(t), *(_shown(x) for x in found.values[i, :, k]), *behind]
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
+from msgspec import structs
 from numpy.typing import ArrayLike
 
 from symgen.compiling.choose_shape import LARGEST_STRAIGHT
@@ -36,7 +37,7 @@ from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.plan import Plan, make_plan, refuse_events
 from symgen.run_setup import give_inputs
-from symgen.runtime.foreseen import foreseen
+from symgen.runtime.foreseen import Foreseen, foreseen
 from symgen.runtime.motions import refuse_jumps
 from symgen.settings import Settings
 
@@ -74,6 +75,8 @@ class Ensemble:
         What a run is apart from its row.
     driving : Driving
         What inputs are.
+    foreseen : Foreseen
+        What formulas pass at times that are known before a run begins.
     notes : tuple of str
         What was chosen, and why.
     """
@@ -86,6 +89,7 @@ class Ensemble:
     held: Held
     recipe: Recipe
     driving: Driving
+    foreseen: Foreseen
     notes: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
@@ -216,26 +220,24 @@ def make_ensemble(
         chosen = replace(chosen, coordinates="absolute")
         refuse_events(f"target '{target}'", mechanism, chosen)
     plan = make_plan(mechanism, chosen)
-    notes = (*notes, *(f"warning: {sentence}" for sentence in plan.warnings))
     names.check((*vary, *runs), taken)
     grid = make_grid(vary, runs, names.starts)
     # before anything is derived; where it depends on what varies, rows are told apart behind their runs
     if not read_by_motions(mechanism, grid.names):
         refuse_jumps(mechanism, chosen.parameters, plan.spec.until)
     kept_names, events = _events(mechanism, plan, quantities)
-    known = foreseen(mechanism, events) if plan.spec.adaptive else None
-    if known and target != "cpu":  # devices have nothing between two parts of a run
-        if Driving(given, grid.names, plan.spec.until, known).jumps:
-            across = f"target '{target}' goes across times at which formulas jump, have kinks or pass short pulses"
-            notes = (*notes, f"{across}; cpu stops there")
-        known = None
-    plan = replace(plan, spec=replace(plan.spec, pieces=()))
-    driving = Driving(given, grid.names, plan.spec.until, known)
+    acting = mechanism if target == "cpu" else structs.replace(mechanism, outputs=())  # others integrate no outputs
+    known = foreseen(acting, events)
+    looks = plan.spec.adaptive and bool(switches_of(acting) or knots_of(acting))
+    alike = tuple(sentence for sentence in plan.warnings if sentence not in plan.missed)  # others are of each row
+    plan = replace(plan, spec=replace(plan.spec, pieces=()), warnings=alike)
+    driving = Driving(given, grid.names, plan.spec.until, known if plan.spec.adaptive else None)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)
     held = held_of(names, grid.names, plan.holds, compiled.info)
     if target != "cpu":
-        _check_target(target, driving.jumps, bool(events), bool(held.joints))
+        inputs, passed = replace(driving, foreseen=None).jumps, looks or driving.jumps
+        _check_target(target, inputs, passed, bool(events), bool(held.joints))
     kept = choose_quantities(compiled.info, kept_names, partial(measurable, mechanism, compiled.info))
     integral = integrated(mechanism, kept)
     if integral is not None and target != "cpu":
@@ -244,7 +246,6 @@ def make_ensemble(
     integrator_of_rows(plan.tableau.name, plan.spec)
     if target == "lanes":
         check_lanes(plan.tableau.name, plan.spec)
-    looks = target == "cpu" and plan.spec.adaptive and bool(switches_of(mechanism) or knots_of(mechanism))
     parts = bool(events) or driving.jumps  # what Python does something between
     singly = Singly(mechanism, events, ends) if parts or joint else None
     # single runs add up all that outputs ask for, which their steps follow, too
@@ -269,7 +270,7 @@ def make_ensemble(
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first
-    return Ensemble(model, chosen, plan, made.first, grid, held, recipe, driving, notes)
+    return Ensemble(model, chosen, plan, made.first, grid, held, recipe, driving, known, notes)
 
 
 def _check_settings(settings: Settings, target: str) -> None:
@@ -286,15 +287,17 @@ def _check_settings(settings: Settings, target: str) -> None:
         raise InputError(f"target '{target}'", "absolute coordinates", "joint", "leave --target out")
 
 
-def _check_target(target: str, jumps: bool, events: bool, joints: bool) -> None:
+def _check_target(target: str, jumps: bool, passed: bool, events: bool, joints: bool) -> None:
     """Refuse what needs something to be done between two parts of a run, where nothing but loops can run."""
-    for what, there in (
-        ("inputs that jump", jumps),
-        ("events", events),
-        ("joint coordinates that are held at the start", joints),
+    constant = "leave --target out, or take constant steps: integrator.adaptive=false with --step"
+    for what, there, hint in (
+        ("inputs that jump", jumps, "leave --target out"),
+        ("jumps, kinks and short pulses of formulas, at which adaptive steps end", passed, constant),
+        ("events", events, "leave --target out"),
+        ("joint coordinates that are held at the start", joints, "leave --target out"),
     ):
         if there:
-            raise InputError(f"target '{target}'", f"no {what}", "some", "leave --target out")
+            raise InputError(f"target '{target}'", f"no {what}", "some", hint)
 
 
 def _events(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections import Counter
 from dataclasses import dataclass, fields
 from functools import cached_property
@@ -16,18 +17,20 @@ from numpy.typing import NDArray
 from symgen import __version__
 from symgen.arguments import path as argument_path
 from symgen.arguments import shown, whole
-from symgen.ensemble.jumps import rows_that_jump
+from symgen.ensemble.jumps import rows_that_jump, rows_that_may_miss, rows_whose_inputs_cannot_be
 from symgen.ensemble.labels import NUMBERS, of_dimension, of_number, of_quantities, of_varied
 from symgen.ensemble.lines import SAVED, csv_of
+from symgen.ensemble.moved import warnings_of_starts
 from symgen.ensemble.names import Names
 from symgen.ensemble.singly import event_columns
-from symgen.ensemble.verdicts import NOT_RUN, column, judge_all
+from symgen.ensemble.verdicts import NOT_RUN, column, judge_all, warnings_all
 from symgen.errors import InputError, nearest
 from symgen.files import write_csv, write_whole
 from symgen.result.contract import finite
 from symgen.result.export import check_path, need, netcdf
 from symgen.result.labelled import html_table
 from symgen.result.result import FAILED, OK, UNVERIFIED
+from symgen.runtime.ensemble_abi import ASSEMBLED
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -83,6 +86,10 @@ class Sweep:
         status, reason = judge_all(self.summary, self.done, compiled.info, compiled.law, recipe.spec, events)
         for rows, told in rows_that_jump(self.ensemble, self.done):
             status[rows], reason[rows] = FAILED, told
+        for row, told in rows_whose_inputs_cannot_be(
+            self.ensemble, self.done & (column(self.summary, "start") != ASSEMBLED)
+        ):
+            reason[row] = told
         return status, reason
 
     @cached_property
@@ -100,6 +107,22 @@ class Sweep:
         """Why a run is not ok, empty where it is."""
         return self._verdicts[1]
 
+    @cached_property
+    def warnings(self) -> NDArray[np.object_]:
+        """What there is to say of every run, ok or not: a tuple of sentences, as a single run has them."""
+        ensemble, found = self.ensemble, np.empty(len(self), dtype=object)
+        begun = self.done & (column(self.summary, "start") == ASSEMBLED)
+        found[:] = [ensemble.plan.warnings if there else () for there in begun]
+        for rows, sentence in rows_that_may_miss(ensemble, begun):
+            for i in rows:
+                found[i] += (sentence,)
+        for i, sentences in warnings_of_starts(ensemble, self.summary, begun):
+            found[i] += sentences
+        law, spec = ensemble.compiled.law, ensemble.recipe.spec
+        for i, sentences in warnings_all(self.summary, begun, law, spec).items():
+            found[i] += sentences
+        return found
+
     @property
     def counts(self) -> dict[str, int]:
         """Number of runs by status."""
@@ -110,6 +133,15 @@ class Sweep:
         found = Counter(_kind(reason) for reason in self.reason if reason)
         most = whole("most", most, 0, 10**9)
         return found.most_common(most)
+
+    def told(self) -> list[tuple[str, int]]:
+        """Return one of the warnings of each kind, that of the first run, with the number of runs it is said of."""
+        first, count = dict[str, str](), Counter[str]()
+        for sentences, runs in Counter(self.warnings).items():  # most have none, or the same
+            for kind, sentence in {_FIGURES.sub("", sentence): sentence for sentence in sentences}.items():
+                first.setdefault(kind, sentence)
+                count[kind] += runs
+        return [(first[kind], runs) for kind, runs in count.most_common()]
 
     def __getitem__(self, name: str) -> Array:
         """Return a quantity over the grid and time, shape (*grid, times), or a number of every run, shape grid.
@@ -182,6 +214,7 @@ class Sweep:
                 },
                 "status": {name.replace(" ", "_"): count for name, count in counts.items()},
                 "reasons": [{"reason": reason, "runs": count} for reason, count in self.reasons()],
+                "warnings": [{"warning": sentence, "runs": count} for sentence, count in self.told()],
                 "seconds": self.seconds,
                 "interrupted": self.interrupted,
             }
@@ -191,8 +224,8 @@ class Sweep:
     def to_xarray(self) -> xr.Dataset:
         """Return everything as a data set with a dimension for each axis and ``time``.
 
-        Variables are the quantities, ``status``, ``reason`` and the numbers of every run; coordinates are what varied.
-        A parameter or output that has one of these names is called ``parameter.NAME`` or ``output.NAME``.
+        Variables are the quantities, ``status``, ``reason``, ``warnings`` and the numbers of every run; coordinates are
+        what varied. A parameter or output of such a name is called ``parameter.NAME`` or ``output.NAME``.
 
         Raises
         ------
@@ -213,6 +246,8 @@ class Sweep:
         }
         variables["status"] = (dimensions, self.status.reshape(shape))
         variables["reason"] = (dimensions, self.reason.reshape(shape))
+        words = np.array(["; ".join(sentences) for sentences in self.warnings], dtype=object)
+        variables["warnings"] = (dimensions, words.reshape(shape))
         for name, (unit, counts) in NUMBERS.items():
             numbers = column(self.summary, name).reshape(shape)
             variables[of_number(name)] = (dimensions, numbers.astype(np.int64) if counts else numbers, {"units": unit})
@@ -253,6 +288,10 @@ class Sweep:
         known |= {f"{q.name}.rate": f"{q.unit}/s" for q in info.joint_coordinates}
         names = Names.of(self.ensemble.model.mechanism)
         return {name: known.get(names.one(name), "") for name in self.ensemble.grid.names}
+
+
+#: Figures in sentences, which differ from run to run.
+_FIGURES = re.compile(r"\d[\d.e+-]*")
 
 
 def _kind(reason: str) -> str:

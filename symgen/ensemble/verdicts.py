@@ -78,6 +78,20 @@ def judge_all(
     return status, reason
 
 
+def warnings_all(summary: Array, done: NDArray[np.bool_], law: LawInfo, spec: RunSpec) -> dict[int, tuple[str, ...]]:
+    """Return what there is to say of runs by what their loops saw, by run.
+
+    Parameters
+    ----------
+    summary, done, law, spec
+        As for `judge_all`.
+    """
+    odd = (column(summary, "rank_event_count") > 0.0) | (column(summary, "smallest_pivot") < WARN)
+    odd |= (column(summary, "energy_jump") > 0.0) | (column(summary, "light_evaluations") > 0.0)
+    rows = np.flatnonzero(done & odd & (column(summary, "start") == e.ASSEMBLED))
+    return {int(i): judge_alone(_seen(summary[i], spec), law.position_correction).warnings for i in rows}
+
+
 def _of_events(row: Array, events: Sequence[str]) -> str | None:
     """Return why an event, or an input, ended a run as failed, None where none did."""
     code, time, further = int(column(row, "code")), float(column(row, "end")), row[e.N_SUMMARY :]

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo
 
 Array = NDArray[np.float64]
+#: What is told of coordinates as described and as closed beside these: names, by how much, and units.
+Moved = Callable[[Array, Array], Iterable[tuple[str, float, str]]]
 
 
 @dataclass(frozen=True, repr=False)
@@ -113,7 +115,7 @@ def assemble(
     strict: bool = False,
     held: Held | None = None,
     ask_light: bool = False,
-    moved: Callable[[Array, Array], Iterable[tuple[str, float, str]]] | None = None,
+    moved: Moved | None = None,
     instant: tuple[float, Sequence[float]] = (0.0, ()),
 ) -> Start:
     """Return the consistent start of a single run.
@@ -169,11 +171,33 @@ def assemble(
         notes=notes_of(fixed, summary, changes, info),
         changes=changes,
         light=bool(summary[e.LIGHT]),
-        warnings=()
-        if _asked_far(start, q, p, w)
-        else warnings_of(changes, info, float(w[abi.LENGTH]), moved(q, y[: info.nq]) if moved and changes else ()),
+        warnings=moved_far(start, q, y, p, w, changes, moved),
         t=instant[0],
     )
+
+
+def moved_far(
+    start: Assembly, q: Array, y: Array, p: Array, w: Array, changes: Sequence[Change], moved: Moved | None = None
+) -> tuple[str, ...]:
+    """Return a sentence where closing moved bodies far, unless something is held that is far from where it is.
+
+    Parameters
+    ----------
+    start : Assembly
+        How it was closed.
+    q, y : Array
+        Coordinates as described, and the consistent state.
+    p, w : Array
+        Parameters, and the scratch that closing left.
+    changes : sequence of Change
+        What differs.
+    moved : callable, optional
+        As for `assemble`.
+    """
+    info = start.compiled.info
+    if not changes or _asked_far(start, q, p, w):
+        return ()
+    return warnings_of(changes, info, float(w[abi.LENGTH]), moved(q, y[: info.nq]) if moved else ())
 
 
 def _contradiction(start: Assembly, q: Array, v: Array, p: Array, summary: Array) -> AssemblyError | None:

@@ -28,6 +28,8 @@ from symgen.vocabulary.expressions import Expr, names
 
 #: So far beside a jump, as a part of the run, a step ends and another begins.
 _BESIDE = 1e-12
+#: Constant steps that see a smooth pulse: that many from where it begins to where it ends.
+RESOLVING = 4
 
 
 class _Found(NamedTuple):
@@ -54,6 +56,8 @@ class Foreseen:
         From `symgen.describe.pulses.pulses_of`.
     known : dict
         What was found last, by what it depends on.
+    whole : dict
+        Whether that was all, of everything that was looked for.
     """
 
     mechanism: Mechanism
@@ -61,6 +65,7 @@ class Foreseen:
     sides: tuple[Jump, ...] = ()
     pulses: tuple[Expr, ...] = ()
     known: dict[tuple[float, ...], _Found] = field(default_factory=dict, repr=False, compare=False)
+    whole: dict[tuple[float, ...], bool] = field(default_factory=dict, repr=False, compare=False)
 
     def __bool__(self) -> bool:
         """Whether there is anything."""
@@ -92,17 +97,49 @@ class Foreseen:
         values, until
             As for `pieces`.
         """
-        return self._found(values, until, 0.0).all
+        key = self._key(values, until, 0.0)
+        return self.whole[key] if key in self.whole else self._found(values, until, 0.0).all
+
+    def _key(self, values: Mapping[str, float], until: float, first: float) -> tuple[float, ...]:
+        return until, first, *(values[name] for name in sorted(self.reads & values.keys()))
 
     def _found(self, values: Mapping[str, float], until: float, first: float) -> _Found:
         if not self:
             return _Found()
-        key = (until, first, *(values[name] for name in sorted(self.reads & values.keys())))
-        if key not in self.known:  # runs that are compared, or of a sweep, often differ in nothing of that
+        key = self._key(values, until, first)
+        found = self.known.get(key)
+        if found is None:  # runs that are compared, or of a sweep, often differ in nothing of that
             found = self._looked_for(values, until, first)
-            self.known.clear()
+            self.known.clear()  # threads of a sweep do so, too
             self.known[key] = found
-        return self.known[key]
+            if first == 0.0:  # runs without end ask for one window after the other
+                self.whole[key] = found.all
+        return found
+
+    def missed(self, values: Mapping[str, float], until: float, step: float | None) -> list[str]:
+        """Return what steps of a run may not see, in words: constant ones what is shorter than one, or than a few.
+
+        Parameters
+        ----------
+        values, until
+            As for `pieces`.
+        step : float or None
+            The constant step [s]; none where steps are adaptive.
+        """
+        if not self.are_all(values, until):
+            often = "formulas change, or pass points of tables, more often than can be told apart"
+            return [f"{often}: steps do not end there, and may miss what is short"]
+        if step is None:
+            return []
+        told, near, pulse = list[str](), self.closest(values, until), self.shortest(values, until)
+        if near is not None and near[1] - near[0] < step:
+            what = f"formulas change at t = {near[0]:.9g} and {near[1]:.9g} s, within one step of {step:g} s"
+            told.append(f"{what}: constant steps may miss what lies between; adaptive ones do not")
+        if pulse is not None and pulse[1] - pulse[0] < RESOLVING * step:
+            what = f"a formula changes from t = {pulse[0]:.9g} to {pulse[1]:.9g} s"
+            what += f", within {RESOLVING} steps of {step:g} s"
+            told.append(f"{what}: constant steps may miss that; adaptive ones do not")
+        return told
 
     def closest(self, values: Mapping[str, float], until: float) -> tuple[float, float] | None:
         """Return the two times inside a run [s] that are closest to each other, points of tables left aside.

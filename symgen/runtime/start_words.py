@@ -95,6 +95,11 @@ def notes_of(held: Held, summary: Array, changes: Sequence[Change], info: ModelI
     return tuple(notes)
 
 
+def opposite(joint: str) -> str:
+    """Return what is said of a joint whose axes are one line, but not one direction."""
+    return f"the axes of joint '{joint}' point opposite ways at the start: they are taken for one line"
+
+
 def _told(changes: Sequence[Change]) -> str:
     """Return the first changes one by one, and how many more there are."""
     told = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:_TOLD])

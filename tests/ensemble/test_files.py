@@ -89,7 +89,7 @@ def test_names_of_a_mechanism_give_way_to_those_that_every_data_set_has(tmp_path
         np.testing.assert_array_equal(data["steps"], 3)
         assert data["smallest_pivot"].shape == (2, 2) and data["smallest_pivot_min"].shape == (2,)
         lines = found.save(tmp_path / "few.csv").read_text(encoding="utf-8").splitlines()
-        heading = f"run,{label},t [s],smallest_pivot [1],output.end,end [s],status,reason"
+        heading = f"run,{label},t [s],smallest_pivot [1],output.end,end [s],status,reason,warnings"
         assert lines[0] == heading
         np.testing.assert_allclose([float(line.split(",")[4]) for line in lines[1:]], twice.ravel(), rtol=1e-12)
         assert [line.split(",")[5] for line in lines[1:]] == ["0.3"] * 4
