@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from support.emitted import mechanism_of
@@ -102,7 +104,7 @@ def test_pieces_are_those_asked_for_whatever_other_threads_ask():
             pass
 
     known = foreseen(short_push().mechanism)
-    other = type(known)(known.mechanism, known.kinks, known.sides, Forgetful())
+    other = replace(known, known=Forgetful())
     for values in ({"at": 0.2, "long": 0.1}, {"at": 0.5, "long": 0.1}):
         assert other.pieces(values, 1.0) == known.pieces(values, 1.0) != ()
 
