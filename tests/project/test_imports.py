@@ -37,7 +37,7 @@ ALLOWED = {
     "describe": {"msgspec"},
     "drawing": {"matplotlib", "msgspec", "numpy"},
     "emit": {"jinja2"},
-    "ensemble": {"distributed", "filelock", "numba", "numpy", "xarray"},
+    "ensemble": {"distributed", "filelock", "msgspec", "numba", "numpy", "xarray"},
     "errors": set(),
     "files": set(),
     "forces": {"msgspec"},
