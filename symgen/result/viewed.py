@@ -191,7 +191,6 @@ def _live_on_tree(
 ) -> tuple[Live | None, str]:
     """Return the live part in joint coordinates, which cannot close bodies: without sliders that move their start."""
     from symgen.run_setup import ready
-    from symgen.runtime.assembly import state_scales
     from symgen.tree_run import begin_on_tree, tree_code
 
     bodies, start = ready(mechanism, plan, parameters)
@@ -200,8 +199,7 @@ def _live_on_tree(
     def begins(at: Start) -> Start:
         return begin_on_tree(mechanism, *carried, bodies, at, plan.method_parameters).start
 
-    first, values, moving = begins(start), parameter_values(mechanism, parameters), list[str]()
-    described, units = first.y, state_scales(carried[1], first.w, mechanism.defaults.until)
+    described, values, moving = begins(start).y, parameter_values(mechanism, parameters), list[str]()
     for name, x in values.items():
         try:
             other = begins(ready(mechanism, plan, {**parameters, name: 1.01 * x if x else 0.01})[1])
@@ -210,7 +208,7 @@ def _live_on_tree(
             continue
         y = described.copy()  # which pages correct
         carried[1].law_module.accept(other.t, y, other.p, other.w.copy(), np.zeros(16, dtype=np.int64))
-        if np.abs((y - other.y)[: len(units)] / units).max(initial=0.0) > 1e-7:
+        if np.abs(y - other.y).max() > 1e-7 * np.abs(y).max(initial=1.0):
             moving.append(name)
     if begun is not None:
         start = replace(start, y=np.concatenate([begun, start.y[len(begun) :]]))
