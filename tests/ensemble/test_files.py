@@ -109,7 +109,7 @@ def test_an_output_called_as_a_parameter_that_varies_has_a_label_of_its_own(tmp_
         np.testing.assert_array_equal(data["output.x"], np.zeros((2, 1)))
         np.testing.assert_allclose(data["output.output.x"][:, 0], twice, rtol=1e-12)
     lines = found.save(tmp_path / "few.csv").read_text(encoding="utf-8").splitlines()
-    assert lines[0] == "run,x,t [s],output.output.x,output.x [m],t0,end [s],status,reason"
+    assert lines[0] == "run,x,t [s],output.output.x,output.x [m],t0,end [s],status,reason,warnings"
 
 
 def test_any_number_of_threads_gives_the_same_bits():

@@ -71,7 +71,7 @@ def test_a_sweep_as_lines_has_units_and_every_number(tmp_path):
     )
     heading, rows = table(tmp_path / "runs.csv")
     names = ["run", "bob_mass [kg]", "bob.vx(0) [m/s]", "t [s]", "bob.x [m]", "energy.total [J]", "end [s]"]
-    assert heading == [*names, "status", "reason"] and len(rows) == 12
+    assert heading == [*names, "status", "reason", "warnings"] and len(rows) == 12
     assert [float(row[3]) for row in rows[:2]] == [0.01, 0.02] and rows[2][:3] == ["1", "1.0", "0.2"]
     values = np.array([float(row[4]) for row in rows[:6]]).reshape(3, 2)
     np.testing.assert_array_equal(values, found["bob.x"][0])
