@@ -75,5 +75,5 @@ def test_a_sweep_as_lines_has_units_and_every_number(tmp_path):
     assert [float(row[3]) for row in rows[:2]] == [0.01, 0.02] and rows[2][:3] == ["1", "1.0", "0.2"]
     values = np.array([float(row[4]) for row in rows[:6]]).reshape(3, 2)
     np.testing.assert_array_equal(values, found["bob.x"][0])
-    assert rows[-1][4] == "" and rows[-1][-2] == "failed" and "above 0" in rows[-1][-1]
+    assert rows[-1][4] == "" and rows[-1][-3] == "failed" and "above 0" in rows[-1][-2]
     assert not (tmp_path / "runs.csv.parts").exists()
