@@ -9,7 +9,7 @@ import msgspec
 
 from symgen.describe.inputs import MOST_KNOTS, Jump, compared, replaced
 from symgen.describe.mechanism import Event, Mechanism
-from symgen.describe.outputs import integrals
+from symgen.describe.outputs import integrated
 from symgen.describe.tables import Table
 from symgen.vocabulary.expressions import Call, Expr, Reading, names, readings, table_of
 from symgen.vocabulary.measures import Effort
@@ -59,8 +59,7 @@ def _in_time(
     Words are what is written where there is one: most mechanisms have none, and walking through large ones takes a
     while.
     """
-    formulas: tuple[Any, ...] = mechanism.joints, mechanism.forces
-    formulas = *formulas, tuple(integral.of for integral in integrals(mechanism)), tuple(e.when for e in events)
+    formulas = *integrated(mechanism), tuple(e.when for e in events)
     text = msgspec.msgpack.encode(formulas)
     if not any(word in text for word in words):
         return ()
@@ -114,7 +113,7 @@ def _over_state(
     mechanism: Mechanism, words: Iterable[bytes], argument_of: Callable[[Call], Expr | None]
 ) -> Iterator[tuple[Call, Expr]]:
     """Yield functions of joints, forces and integrals with what they take, where that depends on the state."""
-    formulas = mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
+    formulas = integrated(mechanism)
     text = msgspec.msgpack.encode(formulas)
     if not any(word in text for word in words):
         return

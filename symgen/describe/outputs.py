@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.readings import OUTPUT, Table, of_force, of_joint, of_point
@@ -46,6 +46,11 @@ def integrals(mechanism: Mechanism) -> dict[Integral, int]:
     """Return the integrals that outputs ask for, numbered in their order, each once."""
     found = (r.source for output in mechanism.outputs for r in readings(output.value))
     return {source: i for i, source in enumerate(dict.fromkeys(s for s in found if isinstance(s, Integral)))}
+
+
+def integrated(mechanism: Mechanism) -> tuple[Any, ...]:
+    """Return what a run integrates: joints, forces, and the formulas of integrals."""
+    return mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
 
 
 def _columns(table: Table) -> Iterator[Column]:

@@ -13,7 +13,7 @@ from typing import Any
 import msgspec
 
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.outputs import integrals
+from symgen.describe.outputs import integrated
 from symgen.vocabulary.expressions import Call, Expr, Name, Number, names, table_of
 
 #: How formulas of the time are written where they are kept.
@@ -43,7 +43,7 @@ def pulses_of(mechanism: Mechanism) -> tuple[Expr, ...]:
     They are formulas of t and parameters; of nested ones each is named, as one may be small beside the other.
     """
     timely = {p.name for p in mechanism.parameters if not p.input} | {"t"}
-    formulas = mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
+    formulas = integrated(mechanism)
     if _TIME not in msgspec.msgpack.encode(formulas):
         return ()
     parts = (part for parts in formulas for part in parts if _TIME in msgspec.msgpack.encode(part))

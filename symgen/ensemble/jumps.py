@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -43,12 +43,15 @@ def rows_that_jump(ensemble: Ensemble, done: NDArray[np.bool_]) -> Iterator[tupl
         Rows that are asked for.
     """
     mechanism, until = ensemble.model.mechanism, ensemble.recipe.spec.until
-    read, said = read_by_motions(mechanism, ensemble.grid.names), dict[tuple[float, ...], str]()
-    for rows, values in _groups(ensemble, read, done) if read else ():
-        if (key := tuple(values.values())) not in said:
-            said[key] = _said(mechanism, values, until)
-        if said[key]:
-            yield rows, said[key]
+    read = read_by_motions(mechanism, ensemble.grid.names)
+    if not read:
+        return iter(())
+
+    def jumping(values: dict[str, float], _: int) -> list[str]:
+        told = jump_of(mechanism, values, until)
+        return [] if told is None else [str(told)]
+
+    return _told(ensemble, read, done, jumping)
 
 
 def rows_whose_inputs_cannot_be(ensemble: Ensemble, failed: NDArray[np.bool_]) -> Iterator[tuple[int, str]]:
@@ -77,15 +80,29 @@ def rows_that_may_miss(ensemble: Ensemble, done: NDArray[np.bool_]) -> Iterator[
     """
     known, spec = ensemble.foreseen, ensemble.recipe.spec
     if not known:
-        return
-    read = [name for name in ensemble.parameters if name in known.reads]
+        return iter(())
+    often = f"times at which formulas change were looked for in {MOST_LOOKS} runs with other values alone"
+
+    def missed(values: dict[str, float], looked: int) -> list[str]:
+        if looked >= MOST_LOOKS:
+            return [f"{often}: steps may miss what is short"]
+        return known.missed(values, spec.until, None if spec.adaptive else spec.step)
+
+    return _told(ensemble, [name for name in ensemble.parameters if name in known.reads], done, missed)
+
+
+def _told(
+    ensemble: Ensemble, read: Sequence[str], done: NDArray[np.bool_], say: Callable[[dict[str, float], int], list[str]]
+) -> Iterator[tuple[NDArray[np.int64], str]]:
+    """Yield rows and what is said of them, by the values they read and how many others were asked about before.
+
+    Each combination is asked about once; what is not defined fails at its start, and nothing more is said of it.
+    """
     said = dict[tuple[float, ...], list[str]]()
     for rows, values in _groups(ensemble, read, done):
-        if (key := tuple(values.values())) not in said and all(map(math.isfinite, key)):
-            often = f"times at which formulas change were looked for in {MOST_LOOKS} runs with other values alone"
-            told = [f"{often}: steps may miss what is short"]
-            looks = len(said) < MOST_LOOKS
-            said[key] = known.missed(values, spec.until, None if spec.adaptive else spec.step) if looks else told
+        key = tuple(values.values())
+        if key not in said and all(map(math.isfinite, key)):
+            said[key] = say(values, len(said))
         for sentence in said.get(key, ()):
             yield rows, sentence
 
@@ -102,9 +119,3 @@ def _groups(
             alike.setdefault(tuple(values), []).append(row)
         for key, rows in alike.items():
             yield first + asked[rows], dict(zip(read, key, strict=True))
-
-
-def _said(mechanism: Mechanism, values: dict[str, float], until: float) -> str:
-    """Return what jumps, empty where nothing does; what is not defined fails at its start."""
-    told = jump_of(mechanism, values, until) if all(map(math.isfinite, values.values())) else None
-    return "" if told is None else str(told)
