@@ -34,7 +34,7 @@ from benchmarks.show import show
 from symgen.api import Model, load
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.plan import make_plan
+from symgen.running.prepare import prepare
 from symgen.runtime.run import RunSpec, integrate
 from symgen.settings import Settings
 
@@ -102,8 +102,8 @@ def declared_order(method: str, integrator: str) -> int:
 
 def positions(model: Model, method: str, integrator: str, count: int) -> Array:
     """Return q at the times of comparison, from `count` constant steps; not a number where the run broke off."""
-    plan = make_plan(model.mechanism, Settings(method=method, integrator=integrator, options=OPTIONS.get(method, {})))
-    compiled, start = model.ready(plan)
+    settings = Settings(method=method, integrator=integrator, options=OPTIONS.get(method, {}))
+    run = prepare(model.mechanism, settings)
     spec = RunSpec(
         until=UNTIL,
         step=UNTIL / count,
@@ -112,8 +112,8 @@ def positions(model: Model, method: str, integrator: str, count: int) -> Array:
         max_violation=math.inf,
         max_energy_error=math.inf,
     )
-    outcome = integrate(compiled, plan.tableau, start, spec)
-    nq = compiled.info.nq
+    outcome = integrate(run.compiled, run.plan.integrator, run.start, spec)
+    nq = run.compiled.info.nq
     return outcome.states[:, :nq] if len(outcome.states) == OUTPUTS else np.full((OUTPUTS, nq), math.nan)
 
 

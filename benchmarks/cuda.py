@@ -160,7 +160,7 @@ def run_all(runs: int, until: float) -> None:
         cpu, device = found["cpu"], found["cuda"]
         both = np.isfinite(cpu.values) & np.isfinite(device.values)
         largest = np.abs(cpu.values - device.values)[both].max(initial=0.0)
-        integrator = device.ensemble.plan.tableau.name
+        integrator = device.ensemble.plan.integrator.name
         table.add_row(
             *(model, device.ensemble.compiled.law.method, integrator),
             *(f"{runs / cpu.seconds:.4g}", f"{runs / device.seconds:.4g}", f"{cpu.seconds / device.seconds:.2f}"),

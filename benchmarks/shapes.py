@@ -1,9 +1,9 @@
 """Straight and looped code of growing mechanisms: derivation, compilation, an evaluation, memory; all in one run.
 
 Every line is a process of its own with a cache of its own. ``cold`` finds nothing in it; ``shared`` finds what runs of
-other mechanisms have left. ``--pieces`` compiles mechanisms one after the other on one cache and says what each found
-missing of the pieces that looped code shares, beside straight code of the same. Seconds are those of the processor, as
-the wall's depend on what else the machine does.
+other mechanisms have left. ``--pieces`` compiles mechanisms one after the other on one cache, each with kernels that
+those before it have not, beside straight code of the same. Seconds are those of the processor, as the wall's depend on
+what else the machine does.
 The constants of `symgen.compiling.choose_shape` come from these figures.
 """
 
@@ -72,22 +72,19 @@ def measure(model: str, shape: str, method: str) -> dict[str, Any]:
 
 
 def compile_pieces(model: str, method: str, form: str, shape: str) -> dict[str, Any]:
-    """Compile a model, count what was missing and what it took; called in a process of its own."""
+    """Compile a model and say what it took; called in a process of its own."""
     from symgen.api import load
-    from symgen.compiling.choose_shape import missing_pieces
     from symgen.compiling.pipeline import choose_method
-    from symgen.store.entries import Entries
 
     loaded = load(model)
     choice = replace(choose_method(method, implicit=form == "implicit"), shape=shape)
-    missing = missing_pieces(loaded.mechanism, choice, Entries()) if shape == "looped" else {}
     began = time.process_time()
     compiled = loaded.compiled(choice)
     for name in ("rhs", "accept", "residual", "tangent"):
         getattr(compiled.law_module, name, None)
     loaded.assemble(compiled)
     taken = time.process_time() - began
-    return {"coordinates": loaded.mechanism.body_coordinates, "missing": missing, "seconds": taken}
+    return {"coordinates": loaded.mechanism.body_coordinates, "seconds": taken}
 
 
 def print_pieces(method: str) -> None:
@@ -95,7 +92,7 @@ def print_pieces(method: str) -> None:
 
     The first model in the plane and the first in space compile loops of the runtime for their starts besides.
     """
-    print("| model | form | coordinates | straight | looped | again | missing before |\n" + "| --- " * 7 + "|")
+    print("| model | form | coordinates | straight | looped | again |\n" + "| --- " * 6 + "|")
     for form in ("ode", "implicit"):
         with tempfile.TemporaryDirectory() as shared:
             for model in PIECES:
@@ -103,8 +100,7 @@ def print_pieces(method: str) -> None:
                     process(shared, "--piece", model, method, form, shape) for shape in ("looped", "looped", "straight")
                 )
                 seconds = " | ".join(f"{r['seconds']:.2f}" for r in (straight, first, again))
-                missing = ", ".join(f"{count} {piece}" for piece, count in first["missing"].items() if count)
-                print(f"| {model} | {form} | {first['coordinates']} | {seconds} | {missing} |", flush=True)
+                print(f"| {model} | {form} | {first['coordinates']} | {seconds} |", flush=True)
 
 
 def process(cache: str, *arguments: str) -> dict[str, Any]:

@@ -20,7 +20,7 @@ from typing import Any
 import msgspec
 
 from benchmarks.gallery import slim
-from symgen.auto import AUTO
+from symgen.running.automatic import AUTO
 from symgen.study.stress.findings import cause
 from symgen.study.stress.map import map_rows, outcomes_of_models
 from symgen.study.stress.outcome import GOOD, OUTCOMES, REFUSED, UNJUDGED

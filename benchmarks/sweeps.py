@@ -25,8 +25,7 @@ import symgen
 from benchmarks.show import show
 from symgen.ensemble.kernel import kernel_of
 from symgen.memory import processors
-from symgen.plan import make_plan
-from symgen.runtime.run import integrate
+from symgen.running.prepare import prepare
 from symgen.settings import Settings
 
 #: Single runs that are timed from Python; the time of one does not depend on their number.
@@ -68,10 +67,9 @@ def main(words: list[str]) -> None:
             row(f"{name}, {jobs} thread{'s' if jobs > 1 else ''} (+{grown:.0f} MiB)", len(found), wall, processor)
 
     questions(model, side, settings)
-    plan = make_plan(model.mechanism, settings)
-    compiled, start = model.ready(plan)
-    integrate(compiled, plan.tableau, start, plan.spec)
-    wall, processor, _ = timed(lambda: [integrate(compiled, plan.tableau, start, plan.spec) for _ in range(SINGLE)])
+    run = prepare(model.mechanism, settings)
+    run.integrate()
+    wall, processor, _ = timed(lambda: [run.integrate() for _ in range(SINGLE)])
     row("the same loop from Python, start given", SINGLE, wall, processor)
 
     def singles() -> None:

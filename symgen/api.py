@@ -19,14 +19,12 @@ from symgen.describe.load import load as load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
 from symgen.errors import AssemblyError, InputError, nearest
-from symgen.plan import Plan, make_plan
-from symgen.run_setup import give_inputs, ready, start_of
+from symgen.running.plan import Purpose
+from symgen.running.prepare import prepare
+from symgen.running.starts import start_of
 from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.motions import refuse_jumps
-from symgen.runtime.pieces import merged
 from symgen.runtime.run import Array
 from symgen.settings import SHAPES, Settings, changed, is_given
-from symgen.tree_run import begun
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
@@ -155,7 +153,7 @@ class Model(Analysed):
         held: Held | Mapping[str, float] | None = None,
         ask_light: bool = False,
     ) -> Start:
-        """Return the consistent start of a run; see `symgen.run_setup.start_of`.
+        """Return the consistent start of a run; see `symgen.running.starts.start_of`.
 
         Parameters
         ----------
@@ -190,12 +188,6 @@ class Model(Analysed):
             asked = Settings(start=held or {}).start
             held = holds_of(self.mechanism, "start", asked)  # type: ignore[assignment]  # of names, by index later
         return start_of(self.mechanism, compiled, parameters, method_parameters, strict, held, ask_light)  # type: ignore[arg-type]
-
-    def ready(
-        self, plan: Plan, parameters: Mapping[str, float] | None = None, strict: bool = False
-    ) -> tuple[CompiledModel, Start]:
-        """Return the compiled model and the consistent start of a plan; see `symgen.run_setup.ready`."""
-        return ready(self.mechanism, plan, parameters, strict)
 
     def draw(
         self,
@@ -240,8 +232,8 @@ class Model(Analysed):
             q = arguments.numbers("q", list(q) if isinstance(q, np.ndarray) else q)
             return Drawing.of(self.mechanism, q, values, view=view)
         try:
-            asked = make_plan(self.mechanism, Settings(start=start or {}))
-            _, found = self.ready(asked, parameters)
+            settings = Settings(start=start or {}, parameters=parameters or {})
+            found = prepare(self.mechanism, settings, Purpose.STATE).start
         except AssemblyError as error:
             q = error.q or described
             scene = Drawing.of(self.mechanism, q, values).scene
@@ -290,50 +282,33 @@ class Model(Analysed):
             ``"crank.theta > 2*pi"``, one or several, at which the run ends or which are noted), ``events`` (tables as
             in ``[events]`` of a file, by name), ``strict`` (refuse an inconsistent start), ``verify`` (estimate
             the error by a second run with finer steps, which also settles an `unverified` run), ``max_violation`` and
-            ``max_energy_error`` (what ends a run as failed), ``max_steps`` (attempts at steps after which it has),
-            ``repeat`` (warm up, then time that many runs and report the shortest), ``shape`` (``auto``, ``straight``
-            or ``looped``), ``coordinates`` (``absolute``, ``joint`` or ``auto``: those of bodies, or of the joints of a
-            tree).
+            ``max_energy_error`` (what ends a run as failed), ``max_step`` [s] (the largest one of an adaptive run),
+            ``max_attempts`` (attempts at steps after which a run has failed), ``repeat`` (warm up, then time that many
+            runs and report the shortest), ``shape`` (``auto``, ``straight`` or ``looped``), ``coordinates``
+            (``absolute``, ``joint`` or ``auto``: those of bodies, or of the joints of a tree).
 
         Returns
         -------
         Result
             Also of a failed or interrupted run, with status and reason.
         """
-        from symgen.auto import resolve
-        from symgen.result.agreement import settle
+        from symgen.reruns.verification import verified
         from symgen.result.build import build_result
-        from symgen.runtime.hunting import with_events
         from symgen.runtime.timing import timed
-        from symgen.store import ahead
         from symgen.store.stats import seconds_in_cache
 
-        given = give_inputs(self.mechanism, changed(settings, changes))
-        mechanism, asked = given.mechanism, given.settings
         arguments.function("progress", progress)
-        chosen, reasons = resolve(mechanism, asked)
-        plan = make_plan(mechanism, chosen)
-        refuse_jumps(mechanism, chosen.parameters, plan.spec.until)
-        plan = replace(plan, spec=replace(plan.spec, pieces=merged(given.pieces, plan.spec.pieces)))
+        settings = changed(settings, changes)
         before = seconds_in_cache()
-        loop = plan.tableau.loop(plan.spec.adaptive)
-        ahead.start(with_events(loop) if plan.events else loop)
-        plan, compiled, start, tree = begun(mechanism, plan, chosen.parameters, chosen.strict)
-        start = replace(start, notes=(*reasons, *start.notes))
-        runs = timed(compiled, plan.tableau, start, plan.spec, chosen.repeat, progress)
-        outcome, spread = runs.outcome, runs.spread
-        second = None
-        if reasons or asked.verify:  # something was chosen automatically, or the error is asked for
-            free = bool(reasons) and asked.rtol is None and asked.atol is None
-            positions = None if tree is None else tree.positions
-            second = settle(mechanism, chosen.parameters, plan, compiled, outcome, free, positions)
-            plan, outcome = second.plan, second.outcome
+        run = prepare(self.mechanism, settings)
+        runs = timed(lambda: run.integrate(progress), settings.repeat)
+        outcome, verification = runs.outcome, None
+        if run.plan.notes or settings.verify:  # something was chosen automatically, or the error is asked for
+            free = bool(run.plan.notes) and settings.rtol is None and settings.atol is None
+            run, outcome, verification = verified(run, outcome, free)
         # assembly calls emitted functions too: compiling them belongs to the run
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
-        if tree is not None:
-            compiled, outcome = tree.bodies, tree.carried(outcome)
-        state = None if tree is None else tree.compiled
-        return build_result(mechanism, chosen, plan, compiled, outcome, spread, second, given.told, state)
+        return build_result(run, outcome, runs.spread, verification)
 
     def start(self, settings: Settings | None = None, **changes: object) -> SteppedRun:
         """Return a run that goes on step by step, at its start.
@@ -358,24 +333,10 @@ class Model(Analysed):
         StepError
             If the start violates a limit of the run.
         """
-        from symgen.auto import resolve
-        from symgen.runtime.hunting import with_events
         from symgen.stepping.run import SteppedRun
-        from symgen.store import ahead
 
-        asked = changed(settings, changes)
+        settings = changed(settings, changes)
         for name in ("output_step", "times", "verify", "repeat"):
-            if is_given(asked, name):
+            if is_given(settings, name):
                 raise InputError(f"start: {name}", "settings of a run without outputs", f"one with {name}")
-        given = give_inputs(self.mechanism, asked)
-        mechanism = given.mechanism
-        chosen, reasons = resolve(mechanism, given.settings)
-        plan = make_plan(mechanism, replace(chosen, times=()))
-        refuse_jumps(mechanism, chosen.parameters, plan.spec.until)
-        plan = replace(plan, spec=replace(plan.spec, pieces=given.pieces))
-        loop = plan.tableau.loop(plan.spec.adaptive)
-        ahead.start(with_events(loop) if plan.events else loop)
-        plan, compiled, start, tree = begun(mechanism, plan, chosen.parameters, chosen.strict)
-        moved = mechanism if tree is None else tree.mechanism
-        start = replace(start, notes=(*reasons, *start.notes))
-        return SteppedRun(moved, plan, compiled, start, chosen.parameters, chosen.step is None, given)
+        return SteppedRun(prepare(self.mechanism, replace(settings, times=())))

@@ -10,6 +10,7 @@ import importlib
 import pkgutil
 import re
 from collections.abc import Iterator, Mapping
+from importlib.util import find_spec
 from typing import Generic, TypeVar, cast
 
 from symgen.arguments import text
@@ -95,6 +96,13 @@ class Registry(Generic[T]):
             module = importlib.import_module(f"{self.package}.{self._scan()[resolved]}")
             self._loaded[resolved] = cast(T, getattr(module, self.attribute))
         return self._loaded[resolved]
+
+    def summary(self, name: str) -> str:
+        """Return the first line of the docstring of a kind's module, which is read and not imported."""
+        spec = find_spec(f"{self.package}.{self._scan()[name]}")
+        assert spec is not None and spec.origin is not None, "the folder has it"
+        with open(spec.origin, encoding="utf-8") as file:
+            return file.readline().strip('"\n')
 
     def items(self) -> Iterator[tuple[str, T]]:
         """Yield every name and kind in alphabetical order; imports all of them."""

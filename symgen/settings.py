@@ -199,7 +199,15 @@ class Settings:
     max_energy_error: float = _setting(
         0.05, "Largest energy error that is tolerated, as a fraction of the energy in motion.", float, _positive
     )
-    max_steps: float | None = _setting(
+    max_step: float | None = _setting(
+        None,
+        "Largest step{unit} of an adaptive integrator.",
+        float,
+        _positive,
+        unit="s",
+        otherwise="of the mechanism; none, or a thousandth of the run where formulas of t may pass something short",
+    )
+    max_attempts: float | None = _setting(
         None,
         "Attempts at steps after which a run ends as failed; constant steps that would be more are refused.",
         float,

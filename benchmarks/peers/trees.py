@@ -32,10 +32,10 @@ from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
 from symgen.methods import METHODS
-from symgen.plan import make_plan
+from symgen.running.prepare import prepare
+from symgen.running.tree import TreeRun
 from symgen.runtime import abi
 from symgen.settings import Settings
-from symgen.tree_run import TreeRun, tree_run
 
 
 def mjcf(limbs: list[Limb]) -> str:
@@ -357,7 +357,8 @@ def main() -> None:
     count = parser.parse_args().states
     for name, limbs in TREES.items():
         described = mechanism(name.replace(" ", "-"), limbs)
-        run = tree_run(described, make_plan(described, Settings(method="lagrange", coordinates="joint")))
+        run = prepare(described, Settings(method="lagrange", coordinates="joint")).tree
+        assert run is not None, "the state is that of joints"
         rng = np.random.default_rng(7)
         states = [draw(limbs, rng) for _ in range(count)]
         ours = [of_symgen(run, limbs, state) for state in states]

@@ -1,6 +1,6 @@
 """Right-hand side, for model `andrews`. Emitted by symgen; do not edit.
 
-digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 3, templates 329873645fe3a239
+digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 3, templates 774f5f3a0a6c3684
 """
 
 import math

@@ -2,7 +2,7 @@
 
 constraints at acceleration level only; violations grow with time
 Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall, 1988
-digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 3, templates 329873645fe3a239
+digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 3, templates 774f5f3a0a6c3684
 option solver = elimination
 """
 

@@ -1,6 +1,6 @@
 """Numbers that depend on parameters alone, for model `bricard`. Emitted by symgen; do not edit.
 
-digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 3, templates 329873645fe3a239
+digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 3, templates 774f5f3a0a6c3684
 """
 
 from numba import njit

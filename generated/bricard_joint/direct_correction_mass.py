@@ -2,13 +2,13 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest dc50b4bafc3843d522248ecf36306546216a47158252a42fd3a8f555947a7488, format 3, templates 329873645fe3a239
+digest dc50b4bafc3843d522248ecf36306546216a47158252a42fd3a8f555947a7488, format 3, templates 774f5f3a0a6c3684
 option solver = elimination
 option weight = mass
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_mass_373393990a0e0f55 import accept
+from .accept_mass_bb023a5c91abe0b2 import accept
 from .confirm_2d15bb1cba1f7e63 import confirm
 from .metric_mass_28bb27a708302091 import geometry, spread
 from .prepare_069764e87980f98a import prepare

@@ -2,7 +2,7 @@
 
 constraints at acceleration level only; violations grow with time
 Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall, 1988
-digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 3, templates 329873645fe3a239
+digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 3, templates 774f5f3a0a6c3684
 option solver = elimination
 """
 

@@ -2,7 +2,7 @@
 
 Baumgarte's gains bounded by a multiple of one over the step
 Chang, Nikravesh, J. Mech. Trans. Autom. Des. 107 (1985) 488-492; Lin, Huang, J. Mech. Des. 124 (2002) 633-640, doi 10.1115/1.1519277
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 774f5f3a0a6c3684
 option solver = augmented
 p[24] gain (default 20.0)
 p[25] a (default 1.0)

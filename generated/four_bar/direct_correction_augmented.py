@@ -2,13 +2,13 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 774f5f3a0a6c3684
 option solver = augmented
 option weight = identity
 p[24] tolerance (default 1e-13)
 """
 
-from .accept_identity_736c92003a817568 import accept
+from .accept_identity_35c62e4432773656 import accept
 from .metric_identity_0a5690aa82831f05 import geometry, spread
 from .prepare_9026ae072063da35 import prepare
 from .rhs_iterated_c3fb399e1ddeaa14 import rhs

@@ -2,7 +2,7 @@
 
 iterated multipliers for accelerations, mass-orthogonal projections of positions and velocities
 Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130; Cuadrado, Cardenal, Bayo, Multibody Syst. Dyn. 1 (1997) 259-280
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 774f5f3a0a6c3684
 p[24] penalty (default 10000000.0)
 p[25] iteration_tolerance (default 1e-13)
 p[26] tolerance (default 1e-13)

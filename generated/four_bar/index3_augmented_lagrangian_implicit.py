@@ -2,7 +2,7 @@
 
 trapezoidal rule in positions with iterated multipliers, velocities and accelerations projected (ALI3-P)
 Cuadrado, Cardenal, Morer, Bayo, Multibody Syst. Dyn. 4 (2000) 55-73; Dopico, Gonzalez, Cuadrado, Kovecses, J. Comput. Nonlinear Dyn. 9 (2014) 041006
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 774f5f3a0a6c3684
 option solver = elimination
 p[28] penalty (default 1000000000.0)
 """

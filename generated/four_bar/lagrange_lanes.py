@@ -2,7 +2,7 @@
 
 constraints at acceleration level only; violations grow with time
 Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall, 1988
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 774f5f3a0a6c3684
 option solver = elimination
 
 All that a run has stands in one array z, since the compiler would otherwise have to make sure of too many pairs of

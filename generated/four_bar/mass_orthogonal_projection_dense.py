@@ -2,7 +2,7 @@
 
 positions and velocities projected in the metric of M by iterations with M + a D^T D
 Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130, doi 10.1007/BF01833296
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 774f5f3a0a6c3684
 option solver = dense
 p[21] penalty (default 10000000.0)
 p[22] tolerance (default 1e-13)

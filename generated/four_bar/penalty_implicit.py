@@ -2,7 +2,7 @@
 
 constraints as stiff elements; the error falls like 1 / penalty
 Bayo, Garcia de Jalon, Serna, Comput. Methods Appl. Mech. Eng. 71 (1988) 183-195; Ruzzeh, Kovecses, J. Comput. Nonlinear Dyn. 6 (2011) 021011
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 774f5f3a0a6c3684
 p[23] penalty (default 1000000000.0)
 p[24] omega (default 10.0)
 p[25] mu (default 1.0)

@@ -2,12 +2,12 @@
 
 one correction of positions and velocities after each step, not iterated
 Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 774f5f3a0a6c3684
 option solver = elimination
 option weight = mass
 """
 
-from .accept_mass_90bd179524adcdb9 import accept
+from .accept_mass_7d6d07e6637ae5d9 import accept
 from .confirm_5ac0ffb69a572f13 import confirm
 from .metric_mass_ff018d814c36552d import geometry, spread
 from .prepare_763b84c4155bae06 import prepare

@@ -2,12 +2,12 @@
 
 velocities are projected after each step; positions are left
 Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 774f5f3a0a6c3684
 option solver = augmented
 option weight = identity
 """
 
-from .accept_identity_74bc252a4ac18208 import accept
+from .accept_identity_4d7435a104b7709a import accept
 from .metric_identity_0a5690aa82831f05 import geometry, spread
 from .prepare_9026ae072063da35 import prepare
 from .rhs_iterated_c3fb399e1ddeaa14 import rhs

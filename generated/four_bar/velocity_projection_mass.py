@@ -2,12 +2,12 @@
 
 velocities are projected after each step; positions are left
 Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 774f5f3a0a6c3684
 option solver = elimination
 option weight = mass
 """
 
-from .accept_mass_8fb73e727edb07ba import accept
+from .accept_mass_b147bbf24cf432cd import accept
 from .confirm_5ac0ffb69a572f13 import confirm
 from .metric_mass_ff018d814c36552d import geometry, spread
 from .prepare_763b84c4155bae06 import prepare

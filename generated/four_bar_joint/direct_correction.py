@@ -2,13 +2,13 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 5a0879e70ad1e49683b99a216dbef576387e1c5c3a858c6fd5e65bf95f500c9d, format 3, templates 329873645fe3a239
+digest 5a0879e70ad1e49683b99a216dbef576387e1c5c3a858c6fd5e65bf95f500c9d, format 3, templates 774f5f3a0a6c3684
 option solver = elimination
 option weight = identity
 p[23] tolerance (default 1e-13)
 """
 
-from .accept_identity_5776183ea8792282 import accept
+from .accept_identity_105116eda9b22c38 import accept
 from .confirm_48554f294619cfb9 import confirm
 from .metric_identity_0ac93156ebf9c3f7 import geometry, spread
 from .prepare_5e969626a44f5ea9 import prepare

@@ -1,9 +1,9 @@
 """Kernels of mechanism `bricard`, and how many instances each has; tables stand in the metadata.
 
-body_body_ee54a870bc60d9ef: 5
-joint_revolute_7e6e081c3e08c9d7: 1
-joint_revolute_cee0e665349d55cb: 2
-joint_revolute_43da9c9f3d0a6473: 1
-joint_revolute_d6a421250eeb96ac: 1
-joint_revolute_a4dc1f6279ee1b73: 1
+body_body_f715eb486c2b480a: 5
+joint_revolute_65e94ceb3a7d4c60: 1
+joint_revolute_d7f92934ebcba418: 2
+joint_revolute_8f2c71f8ac7b906d: 1
+joint_revolute_0188572cec748091: 1
+joint_revolute_63fa1630dd66dc96: 1
 """

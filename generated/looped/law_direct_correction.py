@@ -8,7 +8,7 @@ option weight = identity
 parameter 0: tolerance (default 1e-13)
 """
 
-from .accept_identity_f80cc1f5ad695a07 import accept
+from .accept_identity_72d4f05a19e47e9d import accept
 from .confirm_921e44bd2082aeab import confirm
 from .metric_identity_d9ffd2c418c22c08 import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare

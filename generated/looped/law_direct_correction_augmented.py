@@ -8,7 +8,7 @@ option weight = identity
 parameter 0: tolerance (default 1e-13)
 """
 
-from .accept_identity_0362a72622a9f578 import accept
+from .accept_identity_2bbaedda78e51723 import accept
 from .metric_identity_3fda7db334446b39 import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare
 from .rhs_iterated_647ee94490eb9244 import rhs

@@ -8,7 +8,7 @@ option weight = mass
 parameter 0: tolerance (default 1e-13)
 """
 
-from .accept_mass_ecc1fa79cb20c660 import accept
+from .accept_mass_976787c293b41767 import accept
 from .confirm_b760304a2fbff870 import confirm
 from .metric_mass_c7faa0aba1f9ae61 import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare

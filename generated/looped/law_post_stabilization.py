@@ -7,7 +7,7 @@ option solver = elimination
 option weight = identity
 """
 
-from .accept_identity_b1a3e761dec35dbf import accept
+from .accept_identity_f9dacbbc00f39c10 import accept
 from .confirm_921e44bd2082aeab import confirm
 from .metric_identity_d9ffd2c418c22c08 import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare

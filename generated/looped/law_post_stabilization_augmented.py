@@ -7,7 +7,7 @@ option solver = augmented
 option weight = identity
 """
 
-from .accept_identity_5edba10d91829dcb import accept
+from .accept_identity_1810517e3900c3ca import accept
 from .metric_identity_3fda7db334446b39 import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare
 from .rhs_iterated_647ee94490eb9244 import rhs

@@ -7,7 +7,7 @@ option solver = elimination
 option weight = identity
 """
 
-from .accept_identity_2357cc70a8f1a305 import accept
+from .accept_identity_2b5e52d19ab9de15 import accept
 from .confirm_921e44bd2082aeab import confirm
 from .metric_identity_d9ffd2c418c22c08 import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare

@@ -7,7 +7,7 @@ option solver = augmented
 option weight = identity
 """
 
-from .accept_identity_4474aff72dca3ec5 import accept
+from .accept_identity_8007248f92ffffec import accept
 from .metric_identity_3fda7db334446b39 import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare
 from .rhs_iterated_647ee94490eb9244 import rhs

@@ -7,7 +7,7 @@ option solver = elimination
 option weight = mass
 """
 
-from .accept_mass_f916fcfacf31bd63 import accept
+from .accept_mass_48a72437bfecd8a3 import accept
 from .confirm_b760304a2fbff870 import confirm
 from .metric_mass_c7faa0aba1f9ae61 import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare

@@ -2,7 +2,7 @@
 
 violations decay like a damped oscillator with gains alpha, beta
 Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7
-digest 80662021c19a455162caa1f92b72ba31e49f4d38e94b865825f0146154f94f36, format 3, templates 329873645fe3a239
+digest 80662021c19a455162caa1f92b72ba31e49f4d38e94b865825f0146154f94f36, format 3, templates 774f5f3a0a6c3684
 option solver = elimination
 p[2] alpha (default 5.0)
 p[3] beta (default 5.0)

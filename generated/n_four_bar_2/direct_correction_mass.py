@@ -2,13 +2,13 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 80662021c19a455162caa1f92b72ba31e49f4d38e94b865825f0146154f94f36, format 3, templates 329873645fe3a239
+digest 80662021c19a455162caa1f92b72ba31e49f4d38e94b865825f0146154f94f36, format 3, templates 774f5f3a0a6c3684
 option solver = elimination
 option weight = mass
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_mass_0c38e69bf79e7e7a import accept
+from .accept_mass_3a9a83e4b665f5a7 import accept
 from .confirm_6d91f86253bdf55c import confirm
 from .metric_mass_5fc31c7468bfb7b3 import geometry, spread
 from .prepare_069764e87980f98a import prepare

@@ -2,14 +2,14 @@
 
 independent coordinates are integrated, dependent ones follow from the constraints
 Wehage, Haug, J. Mech. Des. 104 (1982) 247-255, doi 10.1115/1.3256318
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 329873645fe3a239
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 774f5f3a0a6c3684
 option solver = dense
 p[4] tolerance (default 1e-13)
 """
 
-from .accept_independent_98c868838218cd47 import accept
+from .accept_independent_8b21095df4a4854d import accept
 from .metric_independent_eacfba207047309a import geometry, spread
 from .prepare_0ab9ab4f69bf87e4 import prepare
-from .rhs_closed_4dca656fc874cdc6 import rhs
+from .rhs_closed_8211b133d59c5ab2 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

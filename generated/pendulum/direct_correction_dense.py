@@ -2,13 +2,13 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 329873645fe3a239
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 774f5f3a0a6c3684
 option solver = dense
 option weight = identity
 p[4] tolerance (default 1e-13)
 """
 
-from .accept_identity_980bfe43ae74b0ce import accept
+from .accept_identity_e04200c9578254e6 import accept
 from .metric_identity_f2e8c58f7dcdc2c5 import geometry, spread
 from .prepare_0ab9ab4f69bf87e4 import prepare
 from .rhs_dense_65c3f5cb0dd1cf11 import rhs

@@ -2,7 +2,7 @@
 
 iterated multipliers for accelerations, mass-orthogonal projections of positions and velocities
 Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130; Cuadrado, Cardenal, Bayo, Multibody Syst. Dyn. 1 (1997) 259-280
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 329873645fe3a239
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 774f5f3a0a6c3684
 p[5] penalty (default 10000000.0)
 p[6] iteration_tolerance (default 1e-13)
 p[7] tolerance (default 1e-13)

@@ -2,7 +2,7 @@
 
 positions and velocities projected in the metric of M by iterations with M + a D^T D
 Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130, doi 10.1007/BF01833296
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 329873645fe3a239
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 774f5f3a0a6c3684
 option solver = elimination
 p[6] penalty (default 10000000.0)
 p[7] tolerance (default 1e-13)

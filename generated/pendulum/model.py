@@ -1,6 +1,6 @@
 """Model `pendulum`: what every method of it shares. Emitted by symgen; do not edit.
 
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 329873645fe3a239
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 774f5f3a0a6c3684
 2 coordinates, 2 velocities, 1 constraint rows, 1 parameters,
 0 fill-ins in the factor of D D^T
 

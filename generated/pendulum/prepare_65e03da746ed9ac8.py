@@ -1,6 +1,6 @@
 """Numbers that depend on parameters alone, for model `pendulum`. Emitted by symgen; do not edit.
 
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 329873645fe3a239
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 774f5f3a0a6c3684
 """
 
 from numba import njit

@@ -2,12 +2,12 @@
 
 velocities are projected after each step; positions are left
 Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 329873645fe3a239
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 774f5f3a0a6c3684
 option solver = elimination
 option weight = mass
 """
 
-from .accept_mass_57fa7a8f194da7b3 import accept
+from .accept_mass_e40547c76c6a1f6f import accept
 from .metric_mass_6f4957d414e14d81 import geometry, spread
 from .prepare_2c9fe628787beb52 import prepare
 from .rhs_direct_86a2e0a578b6e7d2 import rhs

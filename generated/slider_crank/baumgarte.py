@@ -2,7 +2,7 @@
 
 violations decay like a damped oscillator with gains alpha, beta
 Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7
-digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 3, templates 329873645fe3a239
+digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 3, templates 774f5f3a0a6c3684
 option solver = elimination
 p[27] alpha (default 5.0)
 p[28] beta (default 5.0)

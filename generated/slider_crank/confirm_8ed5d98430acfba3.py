@@ -1,6 +1,6 @@
 """Second evaluation without rows that come out doubtful, for model `slider-crank`. Emitted by symgen; do not edit.
 
-digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 3, templates 329873645fe3a239
+digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 3, templates 774f5f3a0a6c3684
 """
 
 import math

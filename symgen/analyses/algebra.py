@@ -12,10 +12,13 @@ Complex = NDArray[np.complex128]
 
 #: Singular values of D below this fraction of the largest one count as zero.
 DEPENDENT = 1e-9
-#: Singular values of a linear system's matrix of n rows below n times this part of the largest one count as zero.
+#: Singular values of a linear system's matrix of n rows below n times this part of the largest one count as zero; so do
+#: stiffnesses.
 ZERO = 1e-14
 #: A stiffness along a shape below this part of the numbers that it is the sum of is their rounding.
 ROUNDED = 1e-13
+#: Squares of frequencies below this part of the largest one are computed again, among themselves.
+LOW = 1e-3
 #: What of a stiffness is not symmetric is rounding below this part of what its shapes are restored by.
 EVEN = 1e-9
 
@@ -77,7 +80,8 @@ def squares_along(mass: Any, stiffness: Any, directions: Array) -> tuple[Array, 
     Returns
     -------
     squares : Array, shape (n,)
-        In increasing order [1/s^2]; 0 where it is the rounding of what it is the sum of, or of the largest one.
+        In increasing order [1/s^2]; 0 where it is the rounding of its parts, or all of these are rounding beside the
+        largest stiffness along the directions, whatever the masses.
     vectors : Array, shape (n, n)
         Shapes in terms of the directions, normalised by masses, one a column.
     even : bool
@@ -88,16 +92,31 @@ def squares_along(mass: Any, stiffness: Any, directions: Array) -> tuple[Array, 
     scipy.linalg.LinAlgError
         If masses are not definite.
     """
-    from scipy import linalg
-
     along = directions.T @ (stiffness @ directions)
-    squares, vectors = linalg.eigh(symmetric(along), symmetric(directions.T @ (mass @ directions)))
+    squares, vectors = _graded(mass, stiffness, directions)
     sizes = summed(stiffness, directions @ vectors)
     restored = np.abs(squares)
-    limit = EVEN * np.maximum.outer(restored, restored) + ROUNDED * np.sqrt(np.outer(sizes, sizes))
+    least = len(squares) * ZERO * np.abs(along).max(initial=0.0) * np.sum(vectors**2, axis=0)
+    rounding = np.maximum(ROUNDED * sizes, least)
+    limit = EVEN * np.maximum.outer(restored, restored) + np.sqrt(np.outer(rounding, rounding))
     even = not np.any(np.abs(vectors.T @ (along - along.T) @ vectors) > limit)
-    nothing = np.abs(squares) <= np.maximum(ROUNDED * sizes, len(squares) * ZERO * np.abs(squares).max(initial=0.0))
-    return np.where(nothing, 0.0, squares), vectors, even
+    return np.where((restored <= ROUNDED * sizes) | (sizes <= least), 0.0, squares), vectors, even
+
+
+def _graded(mass: Any, stiffness: Any, directions: Array) -> tuple[Array, Array]:
+    """Return squares of frequencies along directions in increasing order, and their shapes in terms of these.
+
+    Each eigenvalue has an error that is a part of the largest one. Those far below it are computed again along their
+    own shapes: the error of these enters as its square, and the largest eigenvalue is no longer there.
+    """
+    from scipy import linalg
+
+    squares, vectors = linalg.eigh(*(symmetric(directions.T @ (a @ directions)) for a in (stiffness, mass)))
+    low = np.abs(squares) < LOW * np.abs(squares).max(initial=0.0)
+    if low.any():
+        squares[low], within = _graded(mass, stiffness, directions @ vectors[:, low])
+        vectors[:, low] = vectors[:, low] @ within
+    return squares, vectors
 
 
 def summed(matrix: Any, shapes: Array) -> Array:
@@ -111,9 +130,9 @@ def eigenvalues_of(a: Array, sizes: Array | None = None) -> tuple[Complex, Compl
 
     A cyclic coordinate or a body that is free to go gives two zeros and one vector, which rounding parts into a pair of
     the square root of its own size. How many zeros there are is a decision of rank: the dimension of what the matrix
-    maps to zero, then that of what it maps there, and so on. In double numbers that is the square of a frequency below
-    1e-14 n of the largest singular value: beside vibrations of 1e6 rad/s, a swing of less than 0.1 or 0.2 rad/s counts
-    as none.
+    maps to zero, then that of what it maps there, and so on. In double numbers that is a frequency below 1e-14 n of the
+    largest one where each shape's size is its own, or else its square below that part of the largest square: beside
+    vibrations of 1e6 rad/s, a swing of less than 0.1 or 0.2 rad/s counts as none.
 
     Parameters
     ----------

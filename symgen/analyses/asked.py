@@ -10,15 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import arguments
-from symgen.analyses.algebra import eigenvalues_of
 from symgen.analyses.cyclic import steady_motion
-from symgen.analyses.edges import edges, edges_of_outputs
+from symgen.analyses.edges import edges
 from symgen.analyses.equilibrium import Equilibrium, at_rest_from, equilibria, judged, stability_in_motion
 from symgen.analyses.linearise import LinearSystem, linear_system, named_states
 from symgen.analyses.modes import Modes, modes
 from symgen.analyses.reduced import tangent
-from symgen.analyses.steady import at_rest, system
+from symgen.analyses.steady import at_rest
 from symgen.analyses.subject import LARGE, Subject, subject_of
+from symgen.analyses.vibration import eigenvectors
 from symgen.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
 
 if TYPE_CHECKING:
@@ -157,7 +157,7 @@ def asked_steady(mechanism: Mechanism, settings: Settings, cyclic: Sequence[str]
     if at_rest(subject, x):
         return told
     # what turns on may slow down as the rest moves out: the stiffness at constant speeds does not tell
-    return replace(told, stability=stability_in_motion(eigenvalues_of(system(x, names)[0], x.sizes_of(names))[0]))
+    return replace(told, stability=stability_in_motion(eigenvectors(x, names, None)[0]))
 
 
 def scanned(
@@ -242,4 +242,5 @@ def asked_system(
     states = arguments.words("states", states)
     subject, y = subject_at(asked, arguments.words("by", by))
     found = linear_system(subject, y, None, states, arguments.switch("instantaneous", instantaneous))
-    return replace(found, notes=(*edges(subject, y), *edges_of_outputs(tangent(subject, y), found.outputs)))
+    accelerations = tangent(subject, y).a if found.outputs else None
+    return replace(found, notes=edges(subject, y, accelerations, found.outputs))

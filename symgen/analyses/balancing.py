@@ -21,8 +21,9 @@ from symgen.describe.columns import PREFIX
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, nearest, quoted
 from symgen.lower.windings import winding_order
-from symgen.plan import make_plan
 from symgen.result.recorded import Recorded, accelerations
+from symgen.running.plan import Purpose
+from symgen.running.prepare import make_plan
 from symgen.runtime import abi
 from symgen.runtime.assembly import assemble
 from symgen.runtime.outcome import PrescribedMotion
@@ -136,7 +137,7 @@ def checked_weights(made: Actuated, weights: Mapping[str, float] | None) -> dict
 def _motions(made: Actuated, settings: Settings, found: Recorded) -> list[PrescribedMotion]:
     """Return the motion without efforts, with an effort of 1 of each, and of 2 of each input."""
     mechanism = made.mechanism
-    plan = make_plan(mechanism, settings)
+    plan = make_plan(mechanism, settings, Purpose.STATE)
     compiled = compile_model(mechanism, plan.choice)
     values = parameter_values(mechanism, settings.parameters)
     info = compiled.info

@@ -11,13 +11,12 @@ from numpy.typing import NDArray
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.start import described_start
 from symgen.errors import AssemblyError, InputError, nearest
-from symgen.run_setup import compiled_for, start_of
+from symgen.running.starts import compiled_for, start_of
 from symgen.runtime import abi
 from symgen.runtime.probe import Ready
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Mechanism
-    from symgen.plan import Plan
+    from symgen.running.plan import Plan
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
 
@@ -29,19 +28,13 @@ TRIES, ENOUGH = 200, 40
 SAME = 1e-6
 
 
-def branch_near(
-    mechanism: Mechanism, plan: Plan, parameters: Mapping[str, float], asked: Mapping[str, float]
-) -> tuple[Array, str]:
+def branch_near(plan: Plan, asked: Mapping[str, float]) -> tuple[Array, str]:
     """Return the coordinates of the way to close a mechanism at t = 0 that is nearest to a start.
 
     Parameters
     ----------
-    mechanism : Mechanism
-        With drivers for all its freedom.
     plan : Plan
-        How it is compiled; nothing is held.
-    parameters : mapping
-        Values of parameters that differ from the described ones.
+        Of a mechanism with drivers for all its freedom; nothing is held.
     asked : mapping of str to float
         Coordinates of bodies or joints.
 
@@ -59,7 +52,7 @@ def branch_near(
     AssemblyError
         If it cannot be closed at all.
     """
-    compiled = compiled_for(mechanism, plan.choice)
+    mechanism, parameters, compiled = plan.mechanism, plan.parameters, compiled_for(plan.mechanism, plan.choice)
     info = compiled.info
     known = {q.name: q.unit for q in (*info.coordinates, *info.joint_coordinates)}
     for name in asked:

@@ -23,14 +23,14 @@ from symgen.result.labelled import Labelled, labelled
 from symgen.result.reactions import Forces, seats
 from symgen.result.recorded import Recorded, read_recorded, recorded
 from symgen.result.tables import Tables
-from symgen.run_setup import give_inputs
+from symgen.running.inputs import put_inputs
 from symgen.runtime.pieces import pieces_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.run_setup import Given
+    from symgen.running.inputs import Inputs
     from symgen.settings import Settings
 
 Array = NDArray[np.float64]
@@ -242,7 +242,7 @@ def _of_record(
         raise InputError(found.whence, "a motion", "no outputs")
     end = float(found.t[-1]) if found.t[-1] > 0.0 else 1.0
     asked = replace(settings, method="lagrange", integrator=None, until=end, times=(end,), step=end, output_step=None)
-    given = give_inputs(mechanism, replace(asked, start={}, coordinates="absolute", inputs=known))
+    given = put_inputs(mechanism, replace(asked, start={}, coordinates="absolute", inputs=known))
     made = actuated(given.mechanism, names)
     balanced = balance(made, _during(given, found, end), found, checked_weights(made, weights))
     motion, info = balanced.motion, balanced.motion.compiled.info
@@ -265,7 +265,7 @@ def _of_record(
     )
 
 
-def _during(given: Given, found: Recorded, end: float) -> Settings:
+def _during(given: Inputs, found: Recorded, end: float) -> Settings:
     """Return settings with what inputs that jump elsewhere are during a motion.
 
     Raises
@@ -278,7 +278,7 @@ def _during(given: Given, found: Recorded, end: float) -> Settings:
     values = parameter_values(given.mechanism, given.settings.parameters)
     pieces = pieces_of(given.driven, values, end, float(found.t[0]))
     if any(piece.values for piece in pieces[1:] if piece.begin < found.t[-1]):  # at a kink no number becomes another
-        raise InputError("inverse: inputs", "inputs without jumps", ", ".join(given.told))
+        raise InputError("inverse: inputs", "inputs without jumps", ", ".join(given.words))
     now = pieces[0].values if pieces else {}
     return replace(given.settings, parameters={**given.settings.parameters, **now})
 

@@ -19,13 +19,13 @@ from symgen.analyses.tracing import trace
 from symgen.analyses.transmission import transmission_angles
 from symgen.errors import InputError, nearest
 from symgen.memory import require
-from symgen.plan import multiples, output_size
 from symgen.result.derived import Derived
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.measured import Measured
 from symgen.result.reactions import Forces, multiplier_unit, seats
-from symgen.result.result import accelerations_of
+from symgen.result.run_data import accelerations_of
 from symgen.result.tables import Tables
+from symgen.running.outputs import multiples, output_size
 from symgen.runtime import abi
 from symgen.runtime.outcome import PrescribedMotion
 

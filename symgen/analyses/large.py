@@ -66,7 +66,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     about = {name: float(x) for name, x in zip(names, y, strict=False)}
     shapes = (motion @ vectors).T.astype(np.complex128)
     owners = np.array([v.name.partition(".")[0] for v in sparse.compiled.info.velocities])
-    notes, energy = edges_of_large(sparse, y, lam), vectors * (mass @ vectors)
+    notes, energy = edges_of_large(sparse, mechanism, settings, y, lam), vectors * (mass @ vectors)
     bodies = {body: energy[owners == body].sum(axis=0) / energy.sum(axis=0) for body in dict.fromkeys(owners.tolist())}
     return Modes(
         in_order(np.concatenate([roots, -roots])), squares, free, names, shapes, bodies, about=about, notes=notes
@@ -115,7 +115,7 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         not_unique=tuple(j.name for j in mechanism.joints if j.name in joints),
         y=y,
         lam=lam,
-        notes=edges_of_large(sparse, y, lam),
+        notes=edges_of_large(sparse, mechanism, settings, y, lam),
     )
 
 

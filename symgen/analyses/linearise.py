@@ -13,6 +13,7 @@ from symgen.analyses.algebra import eigenvalues_of, ranking
 from symgen.analyses.reduced import Tangent, tangent
 from symgen.analyses.steady import after, at_rest, check_steady, chosen, found_states, system, with_rates
 from symgen.analyses.subject import Subject
+from symgen.analyses.vibration import eigenvectors, vibration
 from symgen.errors import InputError
 
 Array = NDArray[np.float64]
@@ -38,8 +39,8 @@ class LinearSystem:
         Those of the inputs that are parameters: constants, changed once and for all while the states stay.
     notes : tuple of str
         Forces and outputs that have no derivative at that state, as of `symgen.analyses.edges`.
-    sizes : tuple of float
-        What counts as large of each state, so that eigenvalues that are 0 are told in any units; all are 1 without.
+    poles : tuple of complex
+        Eigenvalues with more digits than A alone gives them; those of A without.
     """
 
     A: Array
@@ -54,11 +55,11 @@ class LinearSystem:
     left_out: tuple[str, ...] = field(default=())
     parameters: tuple[str, ...] = field(default=())
     notes: tuple[str, ...] = field(default=())
-    sizes: tuple[float, ...] = field(default=(), repr=False)
+    poles: tuple[complex, ...] = field(default=(), repr=False)
 
     def eigenvalues(self) -> NDArray[np.complex128]:
         """Return the eigenvalues of A, by decreasing real part, then by decreasing imaginary part."""
-        return in_order(eigenvalues_of(self.A, np.array(self.sizes) if self.sizes else None)[0])
+        return in_order(np.array(self.poles) if self.poles else eigenvalues_of(self.A)[0])
 
     def state_space(self) -> Any:
         """Return the system as `scipy.signal.StateSpace`."""
@@ -198,5 +199,5 @@ def _with_outputs(subject: Subject, x: Tangent, names: Sequence[str], a: Array, 
         x.t,
         tuple(left_out),
         subject.by,
-        sizes=tuple(float(size) for size in sizes),
+        poles=tuple(eigenvectors(x, names, vibration(x))[0].tolist()),
     )

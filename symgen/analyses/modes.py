@@ -1,7 +1,7 @@
 """Modes: eigenvalues of the reduced first-order system, shapes, and who takes part in them.
 
-At rest, where nothing damps and nothing turns, the eigenvalues come from the symmetric problem K - omega^2 M along the
-free directions, which keeps all digits of omega^2; elsewhere from the system of first order.
+At rest the eigenvalues come from the symmetric problem K - omega^2 M along the free directions, which keeps all digits
+of omega^2, and where something damps from its shapes; elsewhere from the system of first order.
 """
 
 from __future__ import annotations
@@ -13,18 +13,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import ROUNDED, eigenvalues_of, ranking, squares_along, summed
+from symgen.analyses.algebra import ranking
 from symgen.analyses.linearise import in_order, named_states
 from symgen.analyses.reduced import Tangent, tangent
 from symgen.analyses.shares import shares
-from symgen.analyses.steady import at_rest, system
+from symgen.analyses.steady import at_rest
 from symgen.analyses.subject import Subject
+from symgen.analyses.vibration import Vibration, eigenvectors, vibration
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-
-#: What damping along two shapes may be of the faster one's frequency where there is none.
-NONE = 1e-11
 
 
 @dataclass(frozen=True)
@@ -138,20 +136,15 @@ def modes(
         nothing = np.zeros(0, dtype=np.complex128)
         return Modes(nothing, np.zeros(0), 0, (), nothing.reshape(0, 0), about=subject.named(y), t=x.t)
     resting = at_rest(subject, x)
-    if not states and resting and x.positions == x.velocities:
-        still = _undamped(x)
-        if still is not None:
-            return _of_squares(x, *still, bodies)
+    still = vibration(x)
+    if still is not None and not states and not still.damping.any():
+        return _of_squares(x, still, bodies)
+    values, vectors = eigenvectors(x, names, still)
     if states or not resting:
-        values, shapes = eigenvalues_of(system(x, names)[0], x.sizes_of(names))
-        rows = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(len(names), x.size)
-        sizes = x.sizes_of(names)[:, np.newaxis]
-        alike = np.linalg.lstsq(rows * x.sizes / sizes, shapes / sizes, rcond=1e-11)[0]
-        vectors = np.asarray(alike * x.sizes[:, np.newaxis], dtype=np.complex128)
+        shapes = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(-1, x.size) @ vectors
         about = {name: x.quantity(name).value for name in names}
         largest = np.abs(shapes).max(axis=0, initial=0.0)
     else:
-        values, vectors = eigenvalues_of(x.matrix, x.sizes)
         names, shapes, about = _coordinates(subject), x.q[:, : x.size] @ vectors, subject.named(y)
         largest = np.sqrt([_twice_kinetic(x, change) for change in _velocities(x, vectors)])
     kept = [int(i) for i in ranking(values) if values[i].imag >= 0.0]
@@ -168,15 +161,13 @@ def modes(
     )
 
 
-def _of_squares(x: Tangent, squares: Array, directions: Array, bodies: Callable[[], Subject] | None) -> Modes:
+def _of_squares(x: Tangent, still: Vibration, bodies: Callable[[], Subject] | None) -> Modes:
     """Return the modes of symmetric stiffness and masses."""
-    e, subject = x.base, x.subject
-    along = subject.free(e) @ directions
+    subject, squares = x.subject, still.squares
     roots = np.sqrt(-squares.astype(np.complex128))
-    shapes = (e.by("motion", "v") @ along).T.astype(np.complex128)
+    shapes = (x.base.by("motion", "v") @ still.shapes).T.astype(np.complex128)
     # both positions and velocities change along the mode, as they do one after the other
-    speeds = np.linalg.lstsq(x.basis, along, rcond=None)[0]
-    found = shares(x, np.vstack([_positions(x, along), speeds]), bodies)
+    found = shares(x, np.vstack(still.changes(x)), bodies)
     return Modes(
         in_order(np.concatenate([roots, -roots])),
         squares,
@@ -187,11 +178,6 @@ def _of_squares(x: Tangent, squares: Array, directions: Array, bodies: Callable[
         subject.named(x.y),
         x.t,
     )
-
-
-def _positions(x: Tangent, along: Array) -> Array:
-    """Return s of changes of position that are given in terms of velocities."""
-    return np.asarray(np.linalg.lstsq(x.free, along, rcond=None)[0])
 
 
 def _coordinates(subject: Subject) -> tuple[str, ...]:
@@ -205,21 +191,3 @@ def _velocities(x: Tangent, vectors: Complex) -> Complex:
 
 def _twice_kinetic(x: Tangent, change: Complex) -> float:
     return float(np.real(change.conj() @ x.base.by("balance", "a") @ change))
-
-
-def _undamped(x: Tangent) -> tuple[Array, Array] | None:
-    """Return squares of frequencies and directions, None where something damps, turns or follows."""
-    e = x.base
-    basis = x.subject.free(e)
-    if not basis.shape[1]:
-        return np.zeros(0), np.zeros((0, 0))
-    damping, stiffness = e.by("balance", "v"), e.by("balance", "q") @ e.by("motion", "v")
-    try:
-        squares, vectors, even = squares_along(e.by("balance", "a"), stiffness, basis)
-    except np.linalg.LinAlgError:
-        return None
-    along = basis @ vectors
-    fast, sizes = np.sqrt(np.abs(squares)), summed(damping, along)
-    limit = NONE * np.maximum.outer(fast, fast) + ROUNDED * np.sqrt(np.outer(sizes, sizes))
-    damped = bool(np.any(np.abs(along.T @ damping @ along) > limit))
-    return (squares, vectors) if even and not damped else None

@@ -14,8 +14,9 @@ from symgen.analyses.branches import branch_near
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.errors import AssemblyError, InputError
-from symgen.plan import make_plan
-from symgen.run_setup import give_inputs, ready
+from symgen.running.inputs import put_inputs
+from symgen.running.plan import Purpose
+from symgen.running.prepare import assemble, make_plan
 from symgen.runtime import abi
 from symgen.runtime.pieces import pieces_of
 from symgen.runtime.probe import Ready
@@ -121,14 +122,15 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
     end = until if until > 0.0 else 1.0
     asked = replace(settings, method="lagrange", integrator=None, until=end, times=(end,), step=end)
     asked = replace(asked, output_step=None, coordinates="absolute")
-    given = give_inputs(mechanism, asked)
+    given = put_inputs(mechanism, asked)
     found = instantaneous(given.mechanism)
-    plan = make_plan(found, given.settings)
+    plan = make_plan(found, given.settings, Purpose.STATE)
     near, notes = None, tuple[str, ...]()
     if asked_start:
-        near, words = branch_near(found, plan, given.settings.parameters, asked_start)
+        near, words = branch_near(plan, asked_start)
         notes = (words,)
-    compiled, start = ready(found, plan, given.settings.parameters, settings.strict, near)
+    run = assemble(plan, near)
+    compiled, start = run.compiled, run.start
     held, p, pieces = list[tuple[float, Array]](), start.p, given.pieces[1:]
     numbers = {q.name: i for i, q in enumerate(compiled.info.parameters)}
     if first < 0.0 and given.driven is not None:  # the start is at 0, others hold before
@@ -143,7 +145,7 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
         compiled.prepare(p)
     values = {q.name: float(x) for q, x in zip(compiled.info.parameters, start.p, strict=False)}
     parameters = {name: x for name, x in values.items() if name not in found.inputs}
-    return Prescribed(found, compiled, start, parameters, tuple(held), p, dict(given.told), (*notes, *start.notes))
+    return Prescribed(found, compiled, start, parameters, tuple(held), p, dict(given.words), (*notes, *start.notes))
 
 
 def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: str, first: float = 0.0) -> Prescribed:

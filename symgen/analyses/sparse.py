@@ -19,11 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.settle import EXACT, NEAR, OPENED
-from symgen.analyses.subject import described_state, given_at_start
+from symgen.analyses.subject import at_start, given_at_start
 from symgen.analyses.yardsticks import Yardsticks
-from symgen.errors import AnalysisError, AssemblyError
-from symgen.plan import make_plan
-from symgen.run_setup import ready
+from symgen.errors import AnalysisError
 from symgen.runtime import abi
 from symgen.runtime.newton import Pattern
 from symgen.runtime.probe import Ready
@@ -128,14 +126,9 @@ class Sparse(Yardsticks):
 def _at_start(mechanism: Mechanism, settings: Settings) -> Sparse:
     """Return a mechanism's descriptor form at its start, closed or not."""
     given = given_at_start(mechanism, settings)
-    mechanism = given.mechanism
     asked = replace(given.settings, method="lagrange", integrator="radau5", shape="looped", coordinates="absolute")
-    plan = make_plan(mechanism, asked)
-    try:
-        compiled, start = ready(mechanism, plan, asked.parameters)
-        y, p, w = start.y.copy(), start.p, start.w
-    except AssemblyError:
-        compiled, y, p, w = described_state(mechanism, plan, asked.parameters)
+    found = at_start(given.mechanism, asked)
+    compiled, y, p, w = found.compiled, found.y.copy(), found.p, found.w
     pattern = Pattern.of(compiled, w)
     y[pattern.nq :] = 0.0
     kept = np.setdiff1d(np.arange(pattern.m), pattern.masked)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from msgspec.structs import replace as replaced
@@ -20,13 +20,14 @@ from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
 from symgen.errors import AssemblyError, InputError, nearest
 from symgen.lower.windings import winding_order
-from symgen.plan import Plan, make_plan
-from symgen.run_setup import Given, give_inputs, held_of, ready
+from symgen.running.inputs import Inputs, put_inputs
+from symgen.running.plan import Plan, Purpose
+from symgen.running.prepare import assemble, begin, make_plan
+from symgen.running.starts import held_of
 from symgen.runtime import abi
 from symgen.runtime.model_arrays import lengths_of
 from symgen.runtime.probe import Ready
 from symgen.settings import Settings
-from symgen.tree_run import tree_run
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -248,36 +249,25 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
         size = mechanism.body_coordinates
         looped = size > LARGE and settings.coordinates == "absolute"
         settings = replace(settings, shape="looped" if looped else "straight")
-    plan = make_plan(mechanism, settings)
-    notes: tuple[str, ...] = ()
-    closed = True
-    if plan.coordinates == "joint":
-        tree = tree_run(mechanism, plan, settings.parameters)
-        mechanism, compiled, start = tree.mechanism, tree.compiled, tree.start
-        t, y, p, w, notes = start.t, start.y, start.p, start.w, start.notes
-    else:
-        try:
-            compiled, start = ready(mechanism, plan, settings.parameters)
-            t, y, p, w, notes = start.t, start.y, start.p, start.w, start.notes
-        except AssemblyError:
-            compiled, y, p, w = described_state(mechanism, plan, settings.parameters)
-            t, closed = 0.0, False
-    p = _at(compiled, p.copy(), given, t)
+    found = at_start(mechanism, settings)
+    mechanism, compiled, t = found.mechanism, found.compiled, found.t
+    p = _at(compiled, found.p.copy(), given, t)
     names = _parameters(mechanism, by)
     form = compile_linearised(_as_given(_varied(mechanism, given), settings.parameters), compiled, (*inputs, *names))
-    return Subject(mechanism, compiled, form, t, y.copy(), p, w.copy(), notes, closed, names, inputs)
+    state = t, found.y.copy(), p, found.w.copy()
+    return Subject(mechanism, compiled, form, *state, found.notes, found.closed, names, inputs)
 
 
-def given_at_start(mechanism: Mechanism, settings: Settings) -> Given:
+def given_at_start(mechanism: Mechanism, settings: Settings) -> Inputs:
     """Return a mechanism and settings with inputs in their places: known up to the start, which may be one of a run."""
     if isinstance(settings.start, Mapping) or (begin := settings.start.last_state.t) <= 0.0:
-        return give_inputs(mechanism, settings)
+        return put_inputs(mechanism, settings)
     # a run from here on begins behind what jumps here; smooth data may end here
-    found = give_inputs(mechanism, replace(settings, until=begin), behind=BEYOND)
+    found = put_inputs(mechanism, replace(settings, until=begin), behind=BEYOND)
     return replace(found, settings=replace(found.settings, until=2.0 * begin))  # nothing is run
 
 
-def _at(compiled: CompiledModel, p: Array, given: Given, t: float) -> Array:
+def _at(compiled: CompiledModel, p: Array, given: Inputs, t: float) -> Array:
     """Return parameters with what inputs that jump are at a time."""
     places = {q.name: i for i, q in enumerate(compiled.info.parameters)}
     for piece in given.pieces[1:]:
@@ -288,7 +278,7 @@ def _at(compiled: CompiledModel, p: Array, given: Given, t: float) -> Array:
     return p
 
 
-def _varied(mechanism: Mechanism, given: Given) -> Mechanism:
+def _varied(mechanism: Mechanism, given: Inputs) -> Mechanism:
     """Return a mechanism in which inputs that follow formulas may be other than these by what stands in their slots."""
     if given.driven is None or not mechanism.given:
         return mechanism
@@ -328,12 +318,57 @@ def _extent(mechanism: Mechanism, values: Mapping[str, float], info: ModelInfo, 
     return max(float(np.abs(y[: info.nq] * lengths_of(info)).max(initial=0.0)), *sizes, 0.0)
 
 
-def described_state(
-    mechanism: Mechanism, plan: Plan, parameters: Mapping[str, float]
-) -> tuple[CompiledModel, Array, Array, Array]:
-    """Return what is described where nothing closes, with y, p and w: a static search closes it as it goes on."""
-    compiled = compile_model(mechanism, plan.choice)
-    info, values = compiled.info, parameter_values(mechanism, parameters)
+class AtStart(NamedTuple):
+    """Code of a mechanism with its state at the start.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        With its tree where the state is that of joints.
+    compiled : CompiledModel
+        Its code.
+    t : float
+        Time [s].
+    y, p, w : Array
+        State, parameters and scratch.
+    notes : tuple of str
+        What was changed to close the mechanism.
+    closed : bool
+        Whether the state satisfies the constraints.
+    """
+
+    mechanism: Mechanism
+    compiled: CompiledModel
+    t: float
+    y: Array
+    p: Array
+    w: Array
+    notes: tuple[str, ...] = ()
+    closed: bool = True
+
+
+def at_start(mechanism: Mechanism, settings: Settings) -> AtStart:
+    """Return a mechanism at its start; as described where nothing closes it, which a static search does on its way.
+
+    Raises
+    ------
+    AssemblyError
+        If nothing closes a mechanism in joint coordinates.
+    """
+    plan = make_plan(mechanism, settings, Purpose.STATE)
+    try:
+        run = begin(plan, assemble(plan))
+    except AssemblyError:
+        if plan.coordinates == "joint":
+            raise
+        return _as_described(plan)
+    start = run.start
+    return AtStart(run.mechanism, run.compiled, start.t, start.y, start.p, start.w, start.notes)
+
+
+def _as_described(plan: Plan) -> AtStart:
+    mechanism, compiled = plan.mechanism, compile_model(plan.mechanism, plan.choice)
+    info, values = compiled.info, parameter_values(mechanism, plan.parameters)
     numbers = scalars(values)
     q, v = described_start(mechanism, numbers)
     held = held_of(info, plan.holds or holds_of(mechanism), numbers, v)
@@ -344,4 +379,4 @@ def described_state(
     w[abi.LENGTH] = _extent(mechanism, values, info, y) or 1.0
     p = compiled.parameter_array(values, plan.method_parameters)
     compiled.prepare(p)
-    return compiled, y, p, w
+    return AtStart(mechanism, compiled, 0.0, y, p, w, closed=False)

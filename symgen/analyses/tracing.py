@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from symgen.analyses.passing import Curve, Passage, curve_through, rates_of
 from symgen.analyses.prescribed import CUTOFF, DRIVER, Prescribed, jacobian_at
-from symgen.analyses.travelling import with_stops
 from symgen.runtime import abi, decisions
 from symgen.runtime import following as f
 from symgen.runtime.exact import compiled_form
@@ -30,6 +29,10 @@ NODES, SPACING = 3, 0.05
 NEAR, ATTEMPTS = 0.01, 4
 #: The state extrapolated over a singular position has to be corrected by less than this part of the sine.
 CONTINUED = 0.1
+#: A motion is followed at so many times, where those asked for are farther apart: drivers may go and come back there.
+FOLLOWED = 200
+#: Times nearer than this part of a motion are the same.
+SAME = 1e-9
 #: Times that compiled code goes through at once.
 PIECE = 500_000
 #: The shortest step beside the time that a motion takes.
@@ -89,6 +92,27 @@ def trace(found: Prescribed, times: Array) -> Traced:
     )
 
 
+def followed(times: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Return times with others wherever they are far apart, and which of them are those given.
+
+    Parameters
+    ----------
+    times : Array, shape (k,)
+        All behind 0, or all before it, in the order in which they are met [s].
+    """
+    end = float(times[-1])
+    if end == 0.0:
+        return times, np.ones(len(times), dtype=bool)
+    given = np.append(0.0, times / end)
+    more = np.arange(1, FOLLOWED) / FOLLOWED
+    k = np.clip(np.searchsorted(given, more), 1, len(given) - 1)
+    apart = np.minimum(more - given[k - 1], given[k] - more)
+    more = more[(apart > SAME) & (given[k] - given[k - 1] > 1.0 / FOLLOWED + SAME)]
+    together = np.concatenate([times, more * end])
+    order = np.argsort(np.abs(together), kind="stable")
+    return together[order], order < len(times)
+
+
 @dataclass
 class Tracer:
     """The loop over times that all lie on one side of 0, with what it has found.
@@ -110,7 +134,7 @@ class Tracer:
         info, model = compiled.info, compiled.model
         self.info, self.p, self.w = info, start.p, start.w.copy()
         self.span = max(float(np.abs(self.times).max()), 1e-9)
-        self.times, self.asked = with_stops(self.found, self.times)
+        self.times, self.asked = followed(self.times)
         sections = (info.sections[name][0] for name in ("residual", "change", "mask", "jacobian"))
         length = float(self.w[abi.LENGTH])
         numbers = (info.nq, info.nv, info.m, info.ny, info.windings, *sections, len(start.redundant_rows), info.nv)
@@ -349,7 +373,7 @@ class Tracer:
         if rows:
             who = ", ".join(dict.fromkeys(f"'{self.info.rows[i].joint}'" for i in rows))
             least, rates = self.course.least, np.abs(self.found.compiled.section(self.w, "nu"))
-            if all(rates[i] * least > JUMP * self._size(i, self.w) for i in rows):
+            if all(2.0 * rates[i] * least > JUMP * self._size(i, self.w) for i in rows):
                 return (
                     f"{who} goes too far behind t = {t:.9g} s in {least:.3g} s, the shortest step of so long a motion"
                 )
@@ -359,7 +383,7 @@ class Tracer:
     def _jumps(self, row: int) -> bool:
         """Whether a row is open a moment later although nothing has moved."""
         w = self.w.copy()
-        later = float(self.clock[f.TIME]) + self.sign * self.course.least
+        later = float(self.clock[f.TIME]) + self.sign * 2.0 * self.course.least  # the last attempt was nearer
         Ready(self.functions[0], abi.MEASURE)(later, self.stand.y.copy(), self.p, w)
         return bool(abs(self.found.compiled.section(w, "residual")[row]) > JUMP * self._size(row, w))
 

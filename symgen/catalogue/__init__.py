@@ -107,9 +107,9 @@ def raw(name: str, size: int | None = None) -> dict[str, Any]:
         return family.build(wanted)
     if size is not None:
         raise InputError("model", f"'{name}' without a size", f"'{name}:{size}'")
-    from symgen.describe.load import read_toml
+    import tomllib
 
-    return read_toml((_files(STUDIED) | _files(MACHINES))[name])
+    return tomllib.loads((_files(STUDIED) | _files(MACHINES))[name].read_text(encoding="utf-8"))
 
 
 def entries(group: str = STUDIED) -> tuple[Entry, ...]:

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from symgen.catalogue import Sized
-from symgen.describe.orientation import EulerParameters, Matrix, matrix, multiply, rotate
+from symgen.vocabulary.rotations import EulerParameters, Matrix, matrix, multiply, rotate
 
 #: Angle of every hinge at the start [rad]: the chain is curled, so that nothing stays in a plane.
 BEND = 0.3

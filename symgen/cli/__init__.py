@@ -11,54 +11,49 @@ import sys
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import click
 
-from symgen import __version__
+from symgen.analyses.kinds import ANALYSES
 from symgen.cli._garbage import sparing
 from symgen.errors import SymgenError, nearest, printable
+from symgen.registry import Registry
+from symgen.version import __version__
 
 OK, FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
-#: Sub-command -> (module, one line for ``symgen --help``), in the order of the help.
-COMMANDS = {
-    "list": ("symgen.cli.list", "Show the mechanisms that come with symgen."),
-    "new": ("symgen.cli.new", "Write a commented mechanism file to start from."),
-    "check": ("symgen.cli.check", "Validate and assemble a mechanism; say its degrees of freedom."),
-    "draw": ("symgen.cli.draw", "Draw a mechanism."),
-    "view": ("symgen.cli.view", "Make a page that plays a motion, or a GIF."),
-    "inspect": ("symgen.cli.inspect", "Show the equations of a mechanism, and what was left out."),
-    "generate": ("symgen.cli.generate", "Write the emitted code of a mechanism."),
-    "run": ("symgen.cli.run", "Simulate a mechanism."),
-    "equilibrium": ("symgen.cli.equilibrium", "Find where a mechanism rests, and whether it stays there."),
-    "modes": ("symgen.cli.modes", "Find frequencies, damping and shapes about a state."),
-    "linearise": ("symgen.cli.linearise", "Find the linear system about a state."),
-    "kinematics": ("symgen.cli.kinematics", "Move a driven mechanism without integrating."),
-    "inverse": ("symgen.cli.inverse", "Find the efforts that a motion needs."),
-    "compare": ("symgen.cli.compare", "Compare methods and integrators: error against run time."),
-    "stress": ("symgen.cli.stress", "Find where methods stop being stable: stiff and extreme cases."),
-    "sweep": ("symgen.cli.sweep", "Run a mechanism for many parameters and starts."),
-    "schema": ("symgen.cli.schema", "Print the JSON schema of mechanism files."),
-    "cache": ("symgen.cli.cache", "Show or empty the cache of generated and compiled code."),
-    "completion": ("symgen.cli.completion", "Print the shell's completion script."),
-}
+#: Commands in the order of the help; one that is not named here comes last.
+ORDER = (
+    *("list", "new", "check", "draw", "view", "inspect", "generate", "run"),
+    *("equilibrium", "modes", "linearise", "kinematics", "inverse"),
+    *("compare", "stress", "sweep", "schema", "cache", "completion"),
+)
+
+#: Commands that are files of this folder; every analysis is one as well.
+OWN: Registry[click.Command] = Registry(__name__, "command", attribute="command")
+COMMANDS = tuple(sorted((*OWN, *ANALYSES), key=lambda name: (ORDER.index(name) if name in ORDER else len(ORDER), name)))
 
 
 class LazyGroup(click.Group):
-    """A group that imports a command when it is used and knows one line about each without doing so."""
+    """A group that imports a command when it is used and reads one line about each without doing so."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Return all names in the order of the table."""
+        """Return all names in the order of the help."""
         return [*COMMANDS]  # the built-in `list` is hidden by the command of that name once it is imported
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """Import and return a command, None where there is none of that name."""
         if cmd_name not in COMMANDS:
             return None
-        command: click.Command = import_module(COMMANDS[cmd_name][0]).command
+        if cmd_name in OWN:
+            command = OWN.get(cmd_name)
+        else:
+            from symgen.cli._analyses import command_of
+
+            command = command_of(cmd_name)
+        command.short_help = summary(cmd_name)
         return command
 
     def resolve_command(
@@ -72,7 +67,12 @@ class LazyGroup(click.Group):
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the table without importing anything."""
         with formatter.section("Commands"):
-            formatter.write_dl([(name, line) for name, (_, line) in COMMANDS.items()])
+            formatter.write_dl([(name, summary(name)) for name in COMMANDS])
+
+
+def summary(name: str) -> str:
+    """Return what ``symgen --help`` says of a command: the first line of its file."""
+    return (OWN if name in OWN else ANALYSES).summary(name)
 
 
 @click.group(
@@ -183,9 +183,7 @@ def _sentence(error: click.ClickException) -> str:
 
 def _elsewhere(option: str, own: Sequence[str]) -> str:
     """Return what is to be done where single runs have an option that other runs have not, empty where none has."""
-    if "--max-violation" not in own or option not in {
-        o for p in import_module(COMMANDS["run"][0]).command.params for o in p.opts
-    }:
+    if "--max-violation" not in own or option not in {o for p in OWN.get("run").params for o in p.opts}:
         return ""
     if option == "--input" and "--set" in own:
         return "'symgen run' has it; here an input is a number, which --set NAME=VALUE gives"

@@ -1,86 +1,99 @@
-"""What the commands of analyses share: options of where and of what, and tables."""
+"""Commands of analyses, made of what their files declare: options that are read, output that is shown."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import wraps
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from symgen.cli._options import setting_options, words
+from symgen.analyses.kinds import ANALYSES, Note, Option, Table
+from symgen.cli import FAILURE, OK, complain, write_files, write_json
+from symgen.cli._options import (
+    assignments,
+    differ,
+    examples,
+    json_option,
+    output_file,
+    setting_options,
+    tell,
+    time_list,
+    words,
+)
 from symgen.errors import InputError, quoted
+from symgen.settings import Settings
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-F = TypeVar("F", bound=Callable[..., Any])
+#: Kinds of options that are files to write.
+FILES = ("plot", "tables")
+#: Kind of an option -> what click has to know of it; others are one text.
+OF_KIND: dict[str, dict[str, Any]] = {
+    "switch": {"is_flag": True},
+    "whole": {"type": int},
+    "texts": {"multiple": True},
+    "numbers": {"multiple": True},
+}
 
 
-def place_options(function: F) -> F:
-    """Give a command the options that say about which state an analysis is.
+def command_of(name: str) -> click.Command:
+    """Return the command of the analysis called `name`."""
+    analysis = ANALYSES.get(name)
 
-    They arrive as one value, the arguments ``place`` of `symgen.api.Model.modes` and its like.
-    """
+    def run(model: str, as_json: bool, **given: Any) -> int:
+        from symgen.api import load
 
-    @wraps(function)
-    def command(*, at: str, states: str | None, cyclic: str | None, **further: Any) -> Any:
-        place = {"at": at, "states": words("--states", states), "cyclic": words("--cyclic", cyclic)}
-        return function(place=place, **further)
+        settings = Settings(**{o.name: given.pop(o.name) for o in analysis.options if o.is_setting})
+        differ({o.name: given[o.argument] for o in analysis.options if o.kind in FILES})
+        output = analysis.command(lambda: load(model), settings, **given)
+        tell(output.notes)
+        if as_json:
+            write_json(output.json)
+        else:
+            for item in output.shown:
+                _show(item)
+        code = complain(output.ended, FAILURE) if output.ended else OK
+        return write_files(code, output.files, None if as_json else lambda path: click.echo(f"written: {path}"))
 
-    for option in (
-        click.option(
-            "--cyclic", metavar="NAME,NAME", help="With --at steady: coordinates that turn on. [default: found]"
-        ),
-        click.option("--states", metavar="NAME,NAME", help="Quantities that are the states. [default: found]"),
-        click.option(
-            "--at",
-            default="equilibrium",
-            show_default=True,
-            metavar="PLACE",
-            help="About what: equilibrium, start, steady, or a time of a run [s].",
-        ),
-        setting_options("parameters", "start", "coordinates", "shape"),
-    ):
-        command = option(command)
-    return cast("F", command)
+    command: Callable[..., int] = json_option(run)
+    for option in reversed(analysis.options):
+        command = _option(option)(command)
+    made = click.command(name, help=analysis.command.__doc__, epilog=examples(*analysis.examples))
+    return made(click.argument("model")(command))
 
 
-def motion_options(start: str) -> Callable[[F], F]:
-    """Return a decorator that gives a command the settings of a motion that drivers prescribe.
-
-    Parameters
-    ----------
-    start : str
-        What the help says of ``--start``.
-    """
-    return setting_options("parameters", "inputs", "start", "strict", "shape", text={"start": start})
-
-
-def table_options(shown: str, drawn: str) -> Callable[[F], F]:
-    """Return a decorator that gives a command the options of what is done with tables over time.
-
-    Parameters
-    ----------
-    shown, drawn : str
-        What the help says of ``--quantity`` and ``--plot``.
-    """
-    options = (
-        click.option(*("--quantity", "quantities"), multiple=True, metavar="NAME", help=shown),
-        click.option("--save", metavar="FILE", help="Write tables to FILE: .csv, with units, or .parquet."),
-        click.option("--plot", metavar="FILE", help=f"Draw {drawn} over time into FILE: .png, .svg or .pdf."),
+def _option(option: Option) -> Callable[[Callable[..., int]], Callable[..., int]]:
+    if option.is_setting:
+        return setting_options(option.name, text={option.name: option.help} if option.help else None)
+    further = OF_KIND.get(option.kind, {})
+    if option.default is not None:
+        further = {"default": option.default, "show_default": True}
+    return click.option(
+        *(option.name, option.argument),
+        help=option.help,
+        metavar=option.metavar or None,
+        callback=lambda context, parameter, value: _read(option, value),
+        **further,
     )
 
-    def decorate(function: F) -> F:
-        for option in reversed(options):
-            function = option(function)
-        return function
 
-    return decorate
+def _read(option: Option, given: Any) -> Any:
+    """Return what an analysis takes of what was typed for an option."""
+    flag, kind = option.name, option.kind
+    if kind == "words":
+        return words(flag, given)
+    if kind == "numbers":
+        return assignments(flag, given)
+    if kind in FILES:
+        return output_file(flag, given, kind)
+    if given is not None and kind in ("times", "range"):
+        return time_list(flag, given) if kind == "times" else _range(flag, given)
+    return given
 
 
-def axis(option: str, text: str) -> tuple[str, NDArray[np.float64]]:
+def _range(flag: str, text: str) -> tuple[str, NDArray[np.float64]]:
     """Return name and values of a word such as ``crank.theta=lin(0,6.28,25)``.
 
     Raises
@@ -92,5 +105,18 @@ def axis(option: str, text: str) -> tuple[str, NDArray[np.float64]]:
 
     name, equals, values = text.partition("=")
     if not equals or not name.strip() or not values.strip():
-        raise InputError(option, "NAME=VALUES, such as crank.theta=lin(0,6.28,25)", quoted(text))
-    return name.strip(), parse(values.strip(), f"{option} {name.strip()}")
+        raise InputError(flag, "NAME=VALUES, such as crank.theta=lin(0,6.28,25)", quoted(text))
+    return name.strip(), parse(values.strip(), f"{flag} {name.strip()}")
+
+
+def _show(item: str | Table | Note | Mapping[str, Mapping[str, Any]]) -> None:
+    from symgen.cli._tables import show_quantities, show_table
+
+    if isinstance(item, str):
+        click.echo(item)
+    elif isinstance(item, Note):
+        tell([item.text])
+    elif isinstance(item, Table):
+        show_table(item)
+    else:
+        show_quantities(item)

@@ -211,8 +211,8 @@ def tell(notes: Iterable[str]) -> None:
         click.echo(f"symgen: {sentence}", err=True)
 
 
-def tell_idle_tolerances(settings: Settings, chosen: tuple[str, str] | None = None) -> None:
-    """Say on standard error that tolerances which are given to a run with constant steps count for nothing there.
+def tell_idle(settings: Settings, chosen: tuple[str, str] | None = None) -> None:
+    """Say on standard error that settings of adaptive steps which a run with constant ones has count for nothing.
 
     Parameters
     ----------
@@ -226,11 +226,11 @@ def tell_idle_tolerances(settings: Settings, chosen: tuple[str, str] | None = No
     InputError
         If there is no such method or integrator.
     """
-    from symgen.auto import AUTO
     from symgen.integrators import INTEGRATORS
     from symgen.methods import METHODS
+    from symgen.running.automatic import AUTO
 
-    given = [name for name in ("rtol", "atol") if is_given(settings, name)]
+    given = [name for name in ("rtol", "atol", "max_step") if is_given(settings, name)]
     automatic = AUTO in (settings.method, settings.integrator)
     if not given or automatic is (chosen is None):
         return
@@ -238,7 +238,7 @@ def tell_idle_tolerances(settings: Settings, chosen: tuple[str, str] | None = No
     named = integrator or METHODS.get(method, "--method").default_integrator
     known = INTEGRATORS.get(named, "--integrator")
     if not known.adaptive or told_constant(settings.options, known.name):
-        counts = "--rtol and --atol count" if len(given) > 1 else f"{flag(given[0])} counts"
+        counts = " and ".join(map(flag, given)) + (" count" if len(given) > 1 else " counts")
         click.echo(f"symgen: {counts} for nothing: {known.name} has constant steps, which --step gives", err=True)
 
 

@@ -238,7 +238,7 @@ def _settled(model: Model, choice: MethodChoice, choices: Sequence[MethodChoice]
     import numpy as np
 
     from symgen.ir.program import COUNTERS, STATUS
-    from symgen.plan import limit_of_velocities
+    from symgen.running.plan import limit_of_velocities
     from symgen.runtime import abi
     from symgen.runtime.frame import SETTING_OUT
     from symgen.runtime.simulation import Simulation
@@ -246,7 +246,7 @@ def _settled(model: Model, choice: MethodChoice, choices: Sequence[MethodChoice]
 
     begun = _begun(model, choice, coordinates)
     info, defaults, spec = begun.compiled.info, model.mechanism.defaults, begun.plan.spec
-    run = Simulation(begun.compiled, begun.plan.tableau, begun.start, spec)
+    run = Simulation(begun.compiled, begun.plan.integrator, begun.start, spec)
     run.enter(run.outputs(np.zeros(0)), until=0.0)
     state, most = run.state, spec.max_violation
     kept = {name: info.sections[name] for name in _SETTLED if name in info.sections}
@@ -257,7 +257,7 @@ def _settled(model: Model, choice: MethodChoice, choices: Sequence[MethodChoice]
         "step": defaults.step,
         "parameters": model.parameters(),
         "events": _events(model),
-        "warnings": list(begun.plan.warnings),
+        "warnings": list(begun.plan.all_warnings),
         "names": [q.name for q in (*info.coordinates, *info.velocities)] + ["work"],
         "y": state.y[: info.work + 1].tolist(),
         "counters": len(COUNTERS),

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from symgen.api import Model
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Mechanism
-    from symgen.plan import Plan
+    from symgen.running.plan import Plan
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
 
@@ -83,34 +83,32 @@ class Started:
     @classmethod
     def of(cls, model: Model, asked: Asked, integrator: str | None = None) -> Started:
         """Return a model at its start; raises as `symgen.api.Model.start` does."""
-        from symgen.plan import make_plan
-        from symgen.run_setup import ready
+        from symgen.running.plan import Purpose
+        from symgen.running.prepare import make_plan, prepare
         from symgen.settings import Settings
-        from symgen.tree_run import tree_run
 
-        choice, parameters = asked.chosen(), asked.parameters
+        choice, mechanism = asked.chosen(), model.mechanism
         settings = Settings(
             choice.method.name,
             integrator,
             options={f"method.{k}": v for k, v in asked.options.items()},
             shape=asked.shape,
             coordinates=asked.coordinates,
-            parameters=parameters,
+            parameters=asked.parameters,
         )
-        plan = make_plan(model.mechanism, settings)
-        if plan.coordinates == "joint":
-            run = tree_run(model.mechanism, plan, settings.parameters)
-            mechanism, compiled, start = run.mechanism, run.compiled, run.start
-            bodies = run.body_start.y[: run.bodies.info.nq]
-        else:
-            mechanism, without = model.mechanism, msgspec.structs.replace(model.mechanism, outputs=())
-            compiled, start = ready(without, plan, parameters)
-            bodies = start.y[: compiled.info.nq]
-        solver = str(compiled.law.options.get("solver", ""))
+        plan = make_plan(mechanism, settings, Purpose.STATE)
+        absolute = plan.coordinates == "absolute"
+        run = prepare(
+            msgspec.structs.replace(mechanism, outputs=()) if absolute else mechanism, settings, Purpose.STATE
+        )
+        bodies, of_bodies = run.assembled.of_bodies
+        q = of_bodies.y[: bodies.info.nq]
+        solver = str(run.compiled.law.options.get("solver", ""))
         choice = replace(choice, shape=plan.choice.shape, options=plan.choice.options)
         if solver and solver != choice.options["solver"]:  # bodies are light
             choice = choice.given(solver=solver)
-        return cls(plan, choice, mechanism, compiled, start, tuple(map(float, bodies)))
+        mechanism = mechanism if absolute else run.mechanism
+        return cls(plan, choice, mechanism, run.compiled, run.start, tuple(map(float, q)))
 
 
 def refuse(wanted: bool, shape: str) -> None:

@@ -12,6 +12,7 @@ from rich.text import Text
 from symgen.cli._columns import Column, fitting, in_parts, show
 
 if TYPE_CHECKING:
+    from symgen.analyses.kinds import Table as Shown
     from symgen.result.result import Result
     from symgen.study.comparison.compare import Study
     from symgen.study.comparison.rows import Row
@@ -53,17 +54,21 @@ def show_quantities(found: Mapping[str, Mapping[str, Any]]) -> None:
         show(out, part)
 
 
-def show_summary(found: Mapping[str, Mapping[str, Any]]) -> None:
-    """Print what sizes each actuator: its largest effort and when, root mean square, peak power and energy."""
-    columns = [Column("effort", tuple(found), left=True)]
-    for heading, key in (("largest", "max"), ("rms", "rms")):
-        columns.append(Column(heading, tuple(f"{entry[key]:.6g}" for entry in found.values())))
-    columns.append(Column("unit", tuple(str(entry["unit"]) for entry in found.values()), left=True))
-    for heading, key in (("at [s]", "at"), ("peak power [W]", "peak_power"), ("energy [J]", "energy")):
-        columns.append(Column(heading, tuple(f"{entry[key]:.6g}" if key in entry else "" for entry in found.values())))
+def show_table(found: Shown) -> None:
+    """Print a table of an analysis."""
     out = console()
-    for part in in_parts(columns, out.width):
-        show(out, part)
+    if found.parts:
+        cells = zip(*found.rows, strict=True) if found.rows else ((),) * len(found.headings)
+        columns = [Column(h, tuple(c), left=h in found.left) for h, c in zip(found.headings, cells, strict=True)]
+        for part in in_parts(columns, out.width):
+            show(out, part)
+        return
+    table = Table(box=None, header_style="dim", pad_edge=False)
+    for heading in found.headings:
+        table.add_column(heading, justify="left" if heading in found.left else "right")
+    for row in found.rows:
+        table.add_row(*row)
+    out.print(table)
 
 
 def _final(result: Result, most: int = 12) -> list[Column]:

@@ -1,4 +1,4 @@
-"""``symgen cache info`` and ``symgen cache clear``."""
+"""Show or empty the cache of generated and compiled code."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from symgen.cli._options import examples, json_option
 @click.group(
     "cache",
     epilog=examples("symgen cache info", "symgen cache clear"),
-    short_help="Show or empty the cache of generated and compiled code.",
 )
 def command() -> None:
     """Show or empty the cache of generated and compiled code; SYMGEN_CACHE_DIR says where it is."""

@@ -1,4 +1,4 @@
-"""``symgen check MODEL``: say whether the description is right and the mechanism closes."""
+"""Validate and assemble a mechanism; say its degrees of freedom."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from symgen.cli._options import examples, json_option, setting_options
 @click.command(
     "check",
     epilog=examples("symgen check four-bar", "symgen check crane.toml --set length=2 --draw crane.svg"),
-    short_help="Validate and assemble a mechanism; say its degrees of freedom.",
 )
 @click.argument("model")
 @setting_options("parameters", "start", "strict")

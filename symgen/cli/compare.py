@@ -1,4 +1,4 @@
-"""``symgen compare MODEL``: error against run time."""
+"""Compare methods and integrators: error against run time."""
 
 from __future__ import annotations
 
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
         "symgen compare four-bar",
         "symgen compare four-bar --methods lagrange,baumgarte --steps 1e-3,1e-4 -o report.html",
     ),
-    short_help="Compare methods and integrators: error against run time.",
 )
 @click.argument("models", metavar="MODEL...", nargs=-1, required=True)
 @click.option("--methods", metavar="A,B", help="Methods, or all; by default the six of the source.")
@@ -39,8 +38,8 @@ if TYPE_CHECKING:
 @click.option("--steps", metavar="H,H", help="Constant steps [s]; multiples of the mechanism's own by default.")
 @click.option("--rtols", metavar="R,R", help="Relative tolerances of adaptive integrators.")
 @setting_options(
-    *("until", "output_step", "parameters", "start", "options", "max_violation", "max_energy_error", "max_steps"),
-    *("repeat", "shape"),
+    *("until", "output_step", "parameters", "start", "options", "max_violation", "max_energy_error", "max_step"),
+    *("max_attempts", "repeat", "shape"),
     text={
         "output_step": "Time between the outputs that are compared [s].",
         "options": "Option, such as baumgarte.alpha=10.",

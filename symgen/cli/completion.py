@@ -1,4 +1,4 @@
-"""``symgen completion SHELL``: completion of commands and options."""
+"""Print the shell's completion script."""
 
 from __future__ import annotations
 
@@ -17,7 +17,6 @@ _HOW = {
 @click.command(
     "completion",
     epilog=examples("symgen completion bash >> ~/.bashrc"),
-    short_help="Print the shell's completion script.",
 )
 @click.argument("shell", type=click.Choice(list(_HOW)))
 def command(shell: str) -> int:

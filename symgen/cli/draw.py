@@ -1,4 +1,4 @@
-"""``symgen draw MODEL``: a picture of a mechanism."""
+"""Draw a mechanism."""
 
 from __future__ import annotations
 
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     epilog=examples(
         "symgen draw four-bar -o four-bar.svg", "symgen draw crane.toml --at described --set length=2 -o crane.png"
     ),
-    short_help="Draw a mechanism.",
 )
 @click.argument("model")
 @click.option("-o", "--output", metavar="FILE", help="The picture: .svg, or with matplotlib .png or .pdf.  [MODEL.svg]")
@@ -71,7 +70,7 @@ def command(
 def _drawing(
     model: Model, at: str, parameters: dict[str, float], start: dict[str, float], view: View | None
 ) -> Drawing:
-    from symgen.result.result import FAILED
+    from symgen.result.run_data import FAILED
 
     if at in ("start", "described"):
         return model.draw(parameters, start, at=at, view=view)

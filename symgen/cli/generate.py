@@ -1,4 +1,4 @@
-"""``symgen generate MODEL``: write the emitted modules."""
+"""Write the emitted code of a mechanism."""
 
 from __future__ import annotations
 
@@ -21,7 +21,6 @@ from symgen.ir.program import PART
 @click.command(
     "generate",
     epilog=examples("symgen generate four-bar --output code", "symgen generate pendulum --target cuda --output code"),
-    short_help="Write the emitted code of a mechanism.",
 )
 @click.argument("model")
 @click.option("--method", "methods", multiple=True, help="Method to emit; may be repeated. All by default.")

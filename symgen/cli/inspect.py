@@ -1,4 +1,4 @@
-"""``symgen inspect MODEL``: the equations as they are compiled, and what was left out."""
+"""Show the equations of a mechanism, and what was left out."""
 
 from __future__ import annotations
 
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 @click.command(
     "inspect",
     epilog=examples("symgen inspect pendulum", "symgen inspect slider-crank --method lagrange --format latex"),
-    short_help="Show the equations of a mechanism, and what was left out.",
 )
 @click.argument("model")
 @click.option("--format", "form", type=click.Choice(["text", "latex", "json"]), show_default="text")

@@ -1,4 +1,4 @@
-"""``symgen list``: the mechanisms that come with symgen."""
+"""Show the mechanisms that come with symgen."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ WIDE = 120
 @click.command(
     "list",
     epilog=examples("symgen list", "symgen list --json"),
-    short_help="Show the mechanisms that come with symgen.",
 )
 @json_option
 def command(as_json: bool) -> int:

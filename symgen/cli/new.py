@@ -1,4 +1,4 @@
-"""``symgen new NAME``: a commented mechanism file to start from."""
+"""Write a commented mechanism file to start from."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from symgen.cli._options import examples
 @click.command(
     "new",
     epilog=examples("symgen new crane", "symgen new robot --space spatial"),
-    short_help="Write a commented mechanism file to start from.",
 )
 @click.argument("name")
 @click.option("-o", "--output", metavar="FILE", help="File to write; NAME.toml by default, - for standard output.")

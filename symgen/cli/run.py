@@ -1,4 +1,4 @@
-"""``symgen run MODEL``: simulate a mechanism."""
+"""Simulate a mechanism."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from symgen.cli._options import (
     output_file,
     setting_options,
     tell,
-    tell_idle_tolerances,
+    tell_idle,
     units_option,
 )
 from symgen.errors import InputError
@@ -24,8 +24,8 @@ from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.api import Model
-    from symgen.plan import Plan
     from symgen.result.result import Result
+    from symgen.running.plan import Plan
 
 #: What the first loop that looks for events takes to compile on the machine it was measured on [s]: 10 to 25.
 FIRST_LOOP = 20.0
@@ -38,13 +38,12 @@ FIRST_LOOP = 20.0
         "symgen run slider-crank --method baumgarte --step 1e-3 --until 5 --save a.nc --plot a.svg",
         "symgen run pendulum --set bob_mass=2 --start bob.vx=0.5 --json",
     ),
-    short_help="Simulate a mechanism.",
 )
 @click.argument("model")
 @setting_options(
     *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "parameters", "inputs", "start"),
     *("options", "stop_when", "record_when", "strict", "verify", "max_violation", "max_energy_error"),
-    *("max_steps", "repeat", "shape", "coordinates"),
+    *("max_step", "max_attempts", "repeat", "shape", "coordinates"),
 )
 @click.option(
     "--from",
@@ -80,7 +79,7 @@ def command(
     """
     # before anything expensive: what is wrong with the words of the command
     settings = Settings(**asked)
-    tell_idle_tolerances(settings)
+    tell_idle(settings)
     if whence is not None and settings.start:
         raise InputError("--from", "one way of saying where a run begins", "--start as well")
     save_path = output_file("--save", save, "data")
@@ -98,14 +97,14 @@ def command(
 
         settings = replace(settings, start=read_last_state("--from", Path(whence)))  # type: ignore[arg-type]  # one of two
     if save_path is not None:
-        from symgen.plan import check_saving
+        from symgen.running.outputs import check_saving
 
         check_saving(loaded.mechanism, settings)
     _prepare(loaded, settings, quantities)
     solver = settings.method + (f", {settings.integrator}" if settings.integrator else "")
     with Bar(f"{loaded.name}, {solver}", settings.until or loaded.mechanism.defaults.until) as bar:
         result = loaded.simulate(settings, progress=bar)
-    tell_idle_tolerances(settings, (result.method, result.integrator))
+    tell_idle(settings, (result.method, result.integrator))
     found = _proposals(loaded, settings, result)
     tell((*result.notes, *(f"warning: {w}" for w in result.warnings)))
     chosen = extremes(result.select(quantities)) if quantities else {}
@@ -129,16 +128,15 @@ def _prepare(model: Model, settings: Settings, quantities: tuple[str, ...]) -> N
     events = bool(model.mechanism.events or settings.stop_when or settings.record_when)
     if not quantities and not (events and sys.stderr.isatty()):
         return
-    from symgen.auto import resolve
-    from symgen.plan import make_plan
-    from symgen.run_setup import compiled_for, give_inputs
+    from symgen.running.plan import Purpose
+    from symgen.running.prepare import make_plan
+    from symgen.running.starts import compiled_for
 
-    given = give_inputs(model.mechanism, settings)
-    plan = make_plan(given.mechanism, resolve(given.mechanism, given.settings)[0])
+    plan = make_plan(model.mechanism, settings, Purpose.ROWS)
     if quantities:
         from symgen.result.select import choose, columns_of
 
-        choose(columns_of(given.mechanism, compiled_for(given.mechanism, plan.choice).info), quantities, model.name)
+        choose(columns_of(plan.mechanism, compiled_for(plan.mechanism, plan.choice).info), quantities, model.name)
     if plan.events and sys.stderr.isatty() and (seconds := seconds_of_loop(plan)):
         click.echo(f"symgen: compiling a loop that looks for events, once: about {seconds:g} s", err=True)
 
@@ -147,7 +145,7 @@ def seconds_of_loop(plan: Plan) -> float:
     """Return about how long a run waits for a loop that looks for events to be compiled [s], 0 if it is cached."""
     from symgen.runtime.hunting import with_events
 
-    loop = with_events(plan.tableau.loop(plan.spec.adaptive))
+    loop = with_events(plan.integrator.loop(plan.spec.adaptive))
     return FIRST_LOOP if loop is not None and loop.wanting() else 0.0
 
 
@@ -155,7 +153,7 @@ def _proposals(model: Model, settings: Settings, result: Result) -> tuple[str, .
     """Return what makes a run that failed come to its end."""
     if result.status != "failed" or result.interrupted:
         return ()
-    from symgen.result.proposals import proposals
+    from symgen.reruns.proposals import proposals
 
     try:
         return proposals(model.mechanism, settings, result.outcome)

@@ -1,4 +1,4 @@
-"""``symgen schema``: the JSON schema of mechanism files, for editors."""
+"""Print the JSON schema of mechanism files."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from symgen.cli._options import examples
 @click.command(
     "schema",
     epilog=examples("symgen schema > symgen.schema.json"),
-    short_help="Print the JSON schema of mechanism files.",
 )
 def command() -> int:
     """Print the JSON schema (draft 2020-12) of mechanism files; editors complete and check files with it."""

@@ -1,4 +1,4 @@
-"""``symgen stress MODEL``: stability on stiff and extreme cases."""
+"""Find where methods stop being stable: stiff and extreme cases."""
 
 from __future__ import annotations
 
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 @click.command(
     "stress",
     epilog=examples("symgen stress four-bar --quick", "symgen stress --cases mass-ratio,stiffness -o stress.html"),
-    short_help="Find where methods stop being stable: stiff and extreme cases.",
 )
 @click.argument("models", metavar="[MODEL...]", nargs=-1)
 @click.option("--cases", metavar="A,B", help="Families of cases, such as stiffness,mass-ratio; all by default.")
@@ -31,7 +30,7 @@ if TYPE_CHECKING:
 @click.option("--catalogue", is_flag=True, help="Take every studied model of the catalogue.")
 @click.option("--compilation", type=float, metavar="SECONDS", help="Leave out pairs that would take longer to compile.")
 @study_files("cell")
-@setting_options("max_violation", "max_energy_error", "max_steps", "coordinates")
+@setting_options("max_violation", "max_energy_error", "max_step", "max_attempts", "coordinates")
 @jobs_option("Processes.")
 @json_option
 def command(
@@ -96,7 +95,7 @@ def command(
 
 
 def _exit_code(study: Stress, kept: bool) -> int:
-    from symgen.auto import AUTO
+    from symgen.running.automatic import AUTO
 
     if study.interrupted:
         return interrupted("cell", kept)

@@ -1,4 +1,4 @@
-"""``symgen sweep MODEL``: many runs over parameters and starts."""
+"""Run a mechanism for many parameters and starts."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import examples, jobs_option, json_option, setting_options, tell, tell_idle_tolerances
+from symgen.cli._options import examples, jobs_option, json_option, setting_options, tell, tell_idle
 from symgen.cli._target import target_option
 from symgen.errors import InputError, quoted
 from symgen.settings import Settings
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
         'symgen sweep pendulum --vary "bob_mass=lin(1,2,11)" --until 1',
         'symgen sweep four-bar --vary "crank.omega=uniform(0,5,100,1)" -o sweep',
     ),
-    short_help="Run a mechanism for many parameters and starts.",
 )
 @click.argument("model")
 @click.option(
@@ -37,8 +36,8 @@ if TYPE_CHECKING:
 @click.option("--zip", "together", is_flag=True, help="Let all names vary together instead of in all combinations.")
 @setting_options(
     *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "times", "parameters", "inputs"),
-    *("start", "options", "stop_when", "record_when", "strict", "max_violation", "max_energy_error", "max_steps"),
-    "coordinates",
+    *("start", "options", "stop_when", "record_when", "strict", "max_violation", "max_energy_error", "max_step"),
+    *("max_attempts", "coordinates"),
     text={
         "parameters": "Value of a parameter that does not vary.",
         "strict": "Let runs fail whose start is not consistent.",
@@ -77,7 +76,7 @@ def command(
     # before anything expensive: what is wrong with the words of the command
     axes = _axes(varied)
     settings = Settings(**asked)
-    tell_idle_tolerances(settings)
+    tell_idle(settings)
     if settings.times is not None and settings.output_step is not None:
         raise InputError("--times", "one way of choosing outputs", "--output-step as well")
     if resume and output is None:
@@ -117,7 +116,7 @@ def command(
             settings=settings,
             progress=progress,
         )
-    tell_idle_tolerances(settings, (found.ensemble.compiled.law.method, found.ensemble.plan.tableau.name))
+    tell_idle(settings, (found.ensemble.compiled.law.method, found.ensemble.plan.integrator.name))
     tell(found.ensemble.notes)
     tell(f"warning: in {count} of {len(found)} runs: {sentence}" for sentence, count in found.told())
     if as_json:

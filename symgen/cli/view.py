@@ -1,4 +1,4 @@
-"""``symgen view MODEL``: a page that plays a motion, one file that works offline."""
+"""Make a page that plays a motion, or a film."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import examples, json_option, setting_options, tell_idle_tolerances
+from symgen.cli._options import examples, json_option, setting_options, tell_idle
 from symgen.errors import InputError
 from symgen.settings import Settings, flag, is_given, names
 
@@ -30,7 +30,6 @@ _OF_MODES = ("parameters", "inputs", "start", "coordinates")
         "symgen view pendulum --until 3 -o pendulum.gif",
         "symgen view four-bar --mode 1 -o mode.html",
     ),
-    short_help="Make a page that plays a motion, or a film.",
 )
 @click.argument("what", metavar="MODEL|RESULT.nc")
 @click.option(
@@ -74,7 +73,7 @@ def command(
 
     stored = Path(what) if what.lower().endswith(".nc") else None
     settings = Settings(**asked)
-    tell_idle_tolerances(settings)
+    tell_idle(settings)
     if stored is not None:
         from symgen.result.viewed import mechanism_name
 
@@ -104,7 +103,7 @@ def command(
 
     with Bar(f"{model.name}, {settings.method}", settings.until or model.mechanism.defaults.until) as bar:
         result = model.simulate(settings, progress=bar)
-    tell_idle_tolerances(settings, (result.method, result.integrator))
+    tell_idle(settings, (result.method, result.integrator))
     if not len(result.t):
         return complain(f"failed: {result.reason}", FAILURE)
     if file.suffix.lower() != ".html":

@@ -3,8 +3,9 @@
 Straight code is two to four times as fast and has to be compiled for every mechanism, which takes time that grows with
 it; looped code is compiled once for all. A step of an implicit integrator costs about the same in both, as most of it
 is the solution of its equations, and its Jacobian makes straight code longer. ``auto`` takes the shape whose
-compilation and run together are expected to be shorter. The figures below come from ``benchmarks/shapes.py``; they need
-not be exact, as the shapes differ by factors where the choice matters, and another machine changes all of them alike.
+compilation and run together are expected to be shorter, as if nothing had been compiled yet: what the cache holds must
+not change the digits of a run. The figures below come from ``benchmarks/shapes.py``; they need not be exact, as the
+shapes differ by factors where the choice matters, and another machine changes all of them alike.
 """
 
 from __future__ import annotations
@@ -12,9 +13,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from symgen.compiling.choose_coordinates import Taken
-from symgen.compiling.pipeline import folder_of, for_coordinates, generator_digest
+from symgen.compiling.pipeline import for_coordinates
 from symgen.errors import InputError
-from symgen.store.entries import Entries
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
@@ -41,13 +41,15 @@ class Seconds(NamedTuple):
 #: Seconds to derive, emit and compile any mechanism straight.
 STRAIGHT_LEAST = 0.3
 EACH = {"planar": Seconds(0.011, 0.013, 0.8e-8, 1.8e-8), "spatial": Seconds(0.03, 0.036, 2.5e-8, 1.0e-7)}
-#: Seconds to compile each piece of what the looped shape shares; a form is a kernel's part of a descriptor form.
-LOOPED = {"generic code": 0.2, "law": 0.35, "kernel": 0.2, "form": 0.2}
+#: Seconds to derive and compile what looped code shares, where none of it is there: one figure for 1 to 4, whatever is.
+LOOPED_LEAST = 2.2
 #: Seconds of a looped evaluation whatever the size.
 LOOPED_CALL = 1.0e-7
 #: From this many coordinates on straight code is not considered: eight seconds here, most of a minute at three times as
 #: many, for a mechanism in the plane.
 LARGEST_STRAIGHT = 600
+#: More coordinates are refused where matrices stay dense.
+LARGEST_DENSE = 400
 
 
 def straight_seconds(mechanism: Mechanism, implicit: bool = False) -> float:
@@ -76,12 +78,13 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, asked: str, evaluat
         If there is no such shape, or the method cannot have it at this size.
     """
     coordinates, choice = mechanism.body_coordinates, for_coordinates(mechanism, choice)
-    store = Entries()
-    compiled = asked == "auto" and _is_compiled(mechanism, choice, store)
-    if compiled and coordinates <= LARGEST_STRAIGHT:
-        return Taken("straight", f"it is compiled already ({_size(coordinates, evaluations)})")
-    # what only looped code asks for is not loaded where straight code is there to be run
-    from symgen.lower.looped.law import LARGEST_DENSE, is_loopable, refuse_dense
+    size = f"{coordinates} coordinates, about {evaluations:.2g} evaluations"
+    faster = Taken("straight", f"faster runs outweigh compilation ({size})")
+    straight = coordinates <= LARGEST_STRAIGHT and not _looped_is_sooner(mechanism, choice, evaluations)
+    if asked == "auto" and straight and coordinates <= LARGEST_DENSE:
+        return faster
+    # what only looped code asks for is not loaded where straight code is taken
+    from symgen.lower.looped.law import is_loopable, refuse_dense
 
     dense = not is_loopable(choice.method, choice.options, choice.implicit)
     if asked == "looped":
@@ -98,46 +101,12 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, asked: str, evaluat
         return Taken("straight", f"{choice.method.name} needs what the looped shape does without")
     if coordinates > LARGEST_STRAIGHT:
         return Taken("looped", f"straight code for {coordinates} coordinates would take long to compile")
-    return _shorter(mechanism, choice, coordinates, evaluations, store)
+    return faster if straight else Taken("looped", f"compilation would outweigh faster runs ({size})")
 
 
-def _shorter(mechanism: Mechanism, choice: MethodChoice, coordinates: int, evaluations: float, store: Entries) -> Taken:
-    """Return the shape that is expected to be done sooner."""
+def _looped_is_sooner(mechanism: Mechanism, choice: MethodChoice, evaluations: float) -> bool:
+    """Whether the looped shape is expected to be done sooner, from an empty cache."""
     each = EACH[mechanism.space]
-    looped = evaluations * (LOOPED_CALL + coordinates * each.looped)
-    straight = looped if choice.implicit else evaluations * coordinates * each.straight
-    straight += straight_seconds(mechanism, choice.implicit)
-    if looped < straight:  # what is missing is looked up only where it can matter
-        looped += sum(LOOPED[piece] * count for piece, count in missing_pieces(mechanism, choice, store).items())
-    if looped < straight:
-        return Taken("looped", f"compilation would outweigh faster runs ({_size(coordinates, evaluations)})")
-    return Taken("straight", f"faster runs outweigh compilation ({_size(coordinates, evaluations)})")
-
-
-def missing_pieces(mechanism: Mechanism, choice: MethodChoice, store: Entries) -> dict[str, int]:
-    """Return how many pieces of what looped code shares the cache does not have, by the names in `LOOPED`."""
-    from symgen.compiling.looped import Needs, shared_folder
-
-    needs = Needs.of(mechanism, choice)
-    stems = {
-        "generic code": ["model"],
-        "law": [needs.law],
-        "kernel": list(needs.elements),
-        "form": list(needs.forms.values()),
-    }
-    shared = shared_folder(generator_digest())
-    return {piece: sum(not _known(store, shared, stem) for stem in each) for piece, each in stems.items()}
-
-
-def _size(coordinates: int, evaluations: float) -> str:
-    return f"{coordinates} coordinates, about {evaluations:.2g} evaluations"
-
-
-def _is_compiled(mechanism: Mechanism, choice: MethodChoice, store: Entries) -> bool:
-    """Whether straight code of a mechanism for a method is in the cache."""
-    folder = folder_of(mechanism)
-    return _known(store, folder, "model") and _known(store, folder, choice.stem)
-
-
-def _known(store: Entries, folder: str, stem: str) -> bool:
-    return store.path(folder, stem).with_suffix(".json").exists()
+    looped = evaluations * (LOOPED_CALL + mechanism.body_coordinates * each.looped)
+    straight = looped if choice.implicit else evaluations * mechanism.body_coordinates * each.straight
+    return looped + LOOPED_LEAST < straight + straight_seconds(mechanism, choice.implicit)

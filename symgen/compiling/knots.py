@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from symgen.compiling.side import compile_side
-from symgen.describe.kinks import knots_of, switches_of
+from symgen.describe.kinks import jumps_over_state, knots_of, switches_of
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.printer import to_text
 from symgen.ir.interpolation import Interpolation
@@ -74,5 +74,5 @@ def compile_switches(mechanism: Mechanism, compiled: CompiledModel) -> Switches 
     if not found:
         return None
     formulas = [(to_text(argument), argument) for argument in found]
-    side = compile_side(mechanism, compiled, "switches", "What forces and integrals compare", formulas, 1)
-    return Switches(side.function, len(found), "ydot" in side.reads)
+    side = compile_side(mechanism, compiled, "switches", "What forces and integrals compare", formulas, 1, True)
+    return Switches(side.function, len(found), "ydot" in side.reads, jumps_over_state(mechanism))

@@ -106,6 +106,7 @@ def compile_side(
     purpose: str,
     formulas: Sequence[tuple[str, Expr]],
     rates: int = 0,
+    sizes: bool = False,
 ) -> Side:
     """Return a function that evaluates formulas of a run, generated only if the cache does not have it.
 
@@ -122,6 +123,8 @@ def compile_side(
     rates : int
         How many derivatives of all formulas along the motion follow behind their values; they take v' from ``ydot``,
         as constant, and q' from the velocities.
+    sizes : bool
+        Whether what rounding of each formula is a part of follows behind these.
 
     Raises
     ------
@@ -129,6 +132,7 @@ def compile_side(
         If numbers that meet in a formula overflow.
     """
     labels = ["rate of " * k + label for k in range(rates + 1) for label, _ in formulas]
+    labels += ["size of " + label for label, _ in formulas if sizes]
     around, texts = beside(mechanism, compiled), [to_text(e) for _, e in formulas]
 
     def make() -> tuple[str, dict[str, Any]]:
@@ -136,7 +140,7 @@ def compile_side(
         from symgen.lower.side import lower_side
 
         with finite_numbers(purpose):
-            program = lower_side(mechanism, name, purpose, formulas, around, rates)
+            program = lower_side(mechanism, name, purpose, formulas, around, rates, sizes)
         return emit_side(program), {"reads": list(program.reads)}
 
     said = purpose, rates, around, list(integrals(mechanism)), *labels, *texts

@@ -9,11 +9,12 @@ from symgen.describe.fields import found, read
 from symgen.describe.mechanism import Body, SpatialBody, Vec
 from symgen.describe.names import check_identifier
 from symgen.describe.numbers import Scalars
-from symgen.describe.orientation import CONVENTIONS, IDENTITY, Matrix, Orientation, euler_parameters, matrix
+from symgen.describe.orientation import CONVENTIONS, IDENTITY, Orientation, euler_parameters
 from symgen.describe.scope import CENTRE
 from symgen.describe.sections import BodySection, OrientationSection, SpatialBodySection
 from symgen.errors import nearest, quoted
 from symgen.vocabulary.expressions import ZERO, Expr, call, number
+from symgen.vocabulary.rotations import Matrix, matrix
 
 if TYPE_CHECKING:
     from symgen.describe.scope import Scope

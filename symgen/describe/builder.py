@@ -47,7 +47,7 @@ class MechanismBuilder:
         return f"<MechanismBuilder {str(self._raw['mechanism']['name'])[:60]}: {told or 'nothing yet'}>"
 
     def run(self, **keys: float) -> Self:
-        """Set run defaults: ``until``, ``step``, ``output_step``, ``predictable_until`` [s]."""
+        """Set run defaults: ``until``, ``step``, ``output_step``, ``max_step``, ``predictable_until`` [s]."""
         self._raw["run"] = self._raw.get("run", {}) | _plain(keys)
         return self
 

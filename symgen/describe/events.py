@@ -7,12 +7,13 @@ from typing import Any, Literal
 
 import msgspec
 
+from symgen.describe.context import Context
 from symgen.describe.fields import Condition, NewVelocities, found, read
 from symgen.describe.inputs import put
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.names import check_identifier
 from symgen.describe.printer import to_text
-from symgen.describe.scope import Model, Scope
+from symgen.describe.scope import Scope
 from symgen.errors import InputError, quoted
 from symgen.vocabulary.expressions import Call, Expr, Name, Number, call, names
 
@@ -93,7 +94,7 @@ def watched(mechanism: Mechanism, settings: str, when: str, action: str) -> Even
     action : {"record", "stop"}
         What is done.
     """
-    switching, condition = _switching(Scope(Model.of(mechanism), settings), "", when)
+    switching, condition = _switching(Scope(Context.of(mechanism), settings), "", when)
     text = " ".join(when.split())
     return put(Event(text, switching, RISING if condition else ANY, action, (), text), dict(mechanism.given))
 
@@ -106,7 +107,7 @@ def events_of(mechanism: Mechanism, tables: Mapping[str, Any]) -> tuple[Event, .
         if any(name == event.name for event in mechanism.events):
             where = f"{mechanism.name}: events.{name}"
             raise InputError(where, "a name that no event of the mechanism has", f"'{name}' again")
-        event = read_event(Scope(Model.of(mechanism), f"events.{name}", name), name, table)
+        event = read_event(Scope(Context.of(mechanism), f"events.{name}", name), name, table)
         result.append(put(event, dict(mechanism.given)))
     return tuple(result)
 
@@ -123,7 +124,7 @@ def in_words(events: Iterable[Event]) -> str:
 def _switching(scope: Scope, key: str, text: str) -> tuple[Expr, bool]:
     """Return a function that is above 0 where the condition holds, and whether there is one."""
     expression = scope.of_state(key, text, conditions=True)
-    if not any(name in ("t", *scope.model.inputs) or "." in name for name in names(expression)):
+    if not any(name in ("t", *scope.context.inputs) or "." in name for name in names(expression)):
         raise scope.error(key, "a condition that time or motion changes", quoted(text))
     condition = isinstance(expression, Call) and expression.function in _LOGIC
     return (_positive(expression), True) if condition else (expression, False)
@@ -140,7 +141,7 @@ def _positive(condition: Expr) -> Expr:
         return _difference(a[0], a[1])
     if condition.function == "not":
         return call("neg", _positive(a[0]))
-    return call("min" if condition.function == "and" else "max", *(_positive(e) for e in a))
+    return call("both" if condition.function == "and" else "either", *(_positive(e) for e in a))
 
 
 def _difference(a: Expr, b: Expr) -> Expr:
@@ -153,6 +154,6 @@ def _velocity(scope: Scope, key: str, value: float | str) -> tuple[Expr, Expr]:
     where = f"reset.{quoted(key)[1:-1]}"
     quantity = scope.of_state(where, key)
     body, _, speed = quantity.name.rpartition(".") if isinstance(quantity, Name) else ("", "", "")
-    if body not in scope.model.bodies or speed not in scope.model.bodies[body].speeds:
+    if body not in scope.context.bodies or speed not in scope.context.bodies[body].speeds:
         raise scope.error(where, "the name of a velocity, such as ball.vy", found(key))
     return quantity, scope.of_state(where, value)

@@ -14,13 +14,13 @@ from typing import Any, TypeVar
 import msgspec
 
 from symgen import arguments
+from symgen.describe.context import Context
 from symgen.describe.input_data import Data, data_of
 from symgen.describe.mechanism import Mechanism, Parameter
 from symgen.describe.parser import Names, parse
 from symgen.describe.readings import Readings
-from symgen.describe.scope import Model
 from symgen.errors import InputError, nearest
-from symgen.vocabulary.expressions import ZERO, Call, Expr, Name, Number, call, names, table_of
+from symgen.vocabulary.expressions import BENT, ZERO, Call, Expr, Name, Number, call, names, table_of
 
 T = TypeVar("T")
 #: Parts of a mechanism whose formulas may read inputs.
@@ -179,7 +179,7 @@ def _names(mechanism: Mechanism) -> Names:
     what = "a number or an expression of t, parameters and body coordinates"
     hints = dict.fromkeys(mechanism.inputs, "an input does not depend on others")
     tables = {table.name: table.function for table in mechanism.tables}
-    readings = Readings(Model.of(mechanism))
+    readings = Readings(Context.of(mechanism))
     return Names(what, plain, bodies, tables, frozenset(mechanism.inputs), readings=readings, hints=hints)
 
 
@@ -205,7 +205,7 @@ class _Switching:
             if e.function in (*_COMPARISONS, "sign"):
                 return self.switch(e)
             table = self.tables.get(table_of(e.function) or "")
-            if e.function in ("abs", "min", "max"):
+            if e.function in BENT:
                 self.note(Jump(compared(e)))
             elif table is not None and table.interpolation != "cubic" and len(table.x) <= MOST_KNOTS:
                 self.note(Jump(e.arguments[0], table.x))

@@ -11,15 +11,14 @@ from symgen.describe.inputs import MOST_KNOTS, Jump, compared, replaced
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.outputs import integrated
 from symgen.describe.tables import Table
-from symgen.vocabulary.expressions import Call, Expr, Reading, names, readings, table_of
+from symgen.vocabulary.expressions import BENT, Call, Expr, Reading, names, readings, table_of
 from symgen.vocabulary.measures import Effort
 
 #: What is written where a formula has a kink, and what where it may jump.
-_WORDS = (b"abs", b"min", b"max", b"table:")
+_WORDS = (*(name.encode() for name in BENT), b"table:")
 _SIDES = ("lt", "le", "gt", "ge", "sign")
-_BENT = ("abs", "min", "max")
 #: What compares something with zero, or two values with each other, and what is written there.
-_COMPARED = (*_SIDES, *_BENT)
+_COMPARED = (*_SIDES, *BENT)
 _CHANGING = [name.encode() for name in _COMPARED]
 
 
@@ -33,7 +32,7 @@ def kinks_of(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[Jump, 
     tables = {table.name: table for table in mechanism.tables}
 
     def kink(e: Call) -> Jump | None:
-        if e.function in _BENT:
+        if e.function in BENT:
             return Jump(compared(e))
         if (table := tables.get(table_of(e.function) or "")) is not None and len(table.x) <= MOST_KNOTS:
             return Jump(e.arguments[0], table.x, period=table.x[-1] - table.x[0] if table.periodic else 0.0)
@@ -82,7 +81,7 @@ def knots_of(mechanism: Mechanism) -> tuple[tuple[Expr, Table | None], ...]:
     tables = {table.name: table for table in mechanism.tables if len(table.x) <= MOST_KNOTS}
 
     def read(e: Call) -> Expr | None:
-        if e.function in _BENT:
+        if e.function in BENT:
             return compared(e)
         return e.arguments[0] if (table_of(e.function) or "") in tables else None
 
@@ -96,8 +95,12 @@ def switches_of(mechanism: Mechanism) -> tuple[Expr, ...]:
     That is what comparisons and `sign` pass as a jump, and `abs`, `min` and `max` as a kink. Arguments are formulas of
     a run, as those of `knots_of`.
     """
-    found = _over_state(mechanism, _CHANGING, lambda e: compared(e) if e.function in _COMPARED else None)
-    return tuple(dict.fromkeys(argument for _, argument in found))
+    return tuple(dict.fromkeys(argument for _, argument in _over_state(mechanism, _CHANGING, _compared)))
+
+
+def jumps_over_state(mechanism: Mechanism) -> bool:
+    """Return whether such formulas may jump where the state passes something, and not only have kinks there."""
+    return any(e.function in _SIDES for e, _ in _over_state(mechanism, _CHANGING, _compared))
 
 
 def changes_of(formula: Expr) -> tuple[Jump, ...]:
@@ -107,6 +110,22 @@ def changes_of(formula: Expr) -> tuple[Jump, ...]:
         return ()
     found = (e for e, _ in _calls(formula) if e.function in _COMPARED and "t" in set(names(e)))
     return tuple(dict.fromkeys(Jump(compared(e)) for e in found))
+
+
+def changing(part: Any) -> Iterator[Expr]:
+    """Yield whole formulas in a part of a mechanism that compare something or read a table, as formulas of a run."""
+    waiting: list[tuple[Any, Effort | None]] = [(part, None)]
+    while waiting:
+        value, effort = waiting.pop()
+        if isinstance(value, Call):
+            if any(e.function in _COMPARED or table_of(e.function) for e, _ in _calls(value)):
+                yield value if effort is None else _of_a_run(value, effort)
+        else:
+            waiting += _inside(value, effort)
+
+
+def _compared(e: Call) -> Expr | None:
+    return compared(e) if e.function in _COMPARED else None
 
 
 def _over_state(
@@ -146,8 +165,15 @@ def _calls(*parts: Any) -> Iterator[tuple[Call, Effort | None]]:
         if isinstance(value, Call):
             yield value, effort
             waiting += [(argument, effort) for argument in value.arguments]
-        elif isinstance(value, tuple):
-            waiting += [(item, effort) for item in value]
-        elif isinstance(value, msgspec.Struct):
-            own = value if isinstance(value, Effort) else effort
-            waiting += [(getattr(value, field), own) for field in value.__struct_fields__]
+        else:
+            waiting += _inside(value, effort)
+
+
+def _inside(value: Any, effort: Effort | None) -> list[tuple[Any, Effort | None]]:
+    """Return what stands in a part of a mechanism, and in which effort."""
+    if isinstance(value, tuple):
+        return [(item, effort) for item in value]
+    if isinstance(value, msgspec.Struct):
+        own = value if isinstance(value, Effort) else effort
+        return [(getattr(value, field), own) for field in value.__struct_fields__]
+    return []

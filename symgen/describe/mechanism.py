@@ -281,13 +281,21 @@ class Hold(msgspec.Struct, frozen=True):
 
 
 class Defaults(msgspec.Struct, frozen=True):
-    """What a run uses where nothing else is asked for."""
+    """What a run uses where nothing else is asked for; `max_step` bounds its adaptive steps."""
 
     until: float = 10.0
     step: float = 1e-3
     output_step: float | None = None
     predictable_until: float | None = None  # None: not chaotic, or not known to be
+    max_step: float | None = None
     source: str = ""
+
+
+def bounded(mechanism: Mechanism, max_step: float | None) -> Mechanism:
+    """Return a mechanism with another largest step of adaptive runs [s]; itself where that is None."""
+    if max_step is None:
+        return mechanism
+    return msgspec.structs.replace(mechanism, defaults=msgspec.structs.replace(mechanism.defaults, max_step=max_step))
 
 
 class Event(msgspec.Struct, frozen=True):

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.describe.numbers import Scalars
-from symgen.describe.orientation import matrix, rotate
+from symgen.vocabulary.rotations import matrix, rotate
 
 
 def moved(

@@ -10,6 +10,7 @@ from symgen.vocabulary.expressions import FUNCTIONS
 
 #: Tree functions that are written as operators, not by name.
 OPERATORS = frozenset({"add", "sub", "mul", "div", "pow", "neg", "lt", "le", "gt", "ge", "and", "or", "not", "where"})
+OPERATORS |= {"both", "either"}
 #: Functions a formula may call.
 CALLABLE = frozenset(FUNCTIONS) - OPERATORS | {"piecewise"}
 #: What outputs may write besides.

@@ -9,11 +9,7 @@ import msgspec
 
 from symgen.describe.numbers import Numbers
 from symgen.vocabulary.expressions import ONE, ZERO, Expr, Number
-
-#: Four Euler parameters.
-EulerParameters = tuple[float, float, float, float]
-#: Rows of a rotation matrix.
-Matrix = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
+from symgen.vocabulary.rotations import EulerParameters, Matrix, multiply
 
 #: Orders of axes that Euler angles may be taken about: all twelve.
 CONVENTIONS = tuple(a + b + c for a in "xyz" for b in "xyz" for c in "xyz" if a != b and b != c)
@@ -103,26 +99,6 @@ def _axes(along: tuple[float, ...], towards: tuple[float, ...], numbers: Numbers
     return (a[0], b[0], c[0]), (a[1], b[1], c[1]), (a[2], b[2], c[2])
 
 
-def multiply(a: EulerParameters, b: EulerParameters) -> EulerParameters:
-    """Return the orientation of a turn `b` about axes that `a` has turned already."""
-    return (
-        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
-    )
-
-
-def matrix(e: EulerParameters) -> Matrix:
-    """Return the rotation matrix of Euler parameters of length 1, numbers or arrays of them."""
-    a, b, c, d = e
-    return (
-        (a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)),
-        (2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)),
-        (2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d),
-    )
-
-
 def from_matrix(m: Matrix, numbers: Numbers) -> EulerParameters:
     """Return the Euler parameters of a rotation matrix, from its largest diagonal term as Shepperd (1978) does."""
     (a, b, c), (d, e, f), (g, h, i) = m
@@ -141,15 +117,3 @@ def from_matrix(m: Matrix, numbers: Numbers) -> EulerParameters:
     size = _length(row, numbers)
     sign = numbers.apply("where", numbers.apply("lt", row[0], 0.0), -1.0, 1.0)
     return sign * row[0] / size, sign * row[1] / size, sign * row[2] / size, sign * row[3] / size
-
-
-def rotate(m: Matrix, v: tuple[float, ...]) -> tuple[float, float, float]:
-    """Return the matrix times a vector."""
-    x, y, z = (sum(a * b for a, b in zip(row, v, strict=True)) for row in m)
-    return x, y, z
-
-
-def rotate_back(m: Matrix, v: tuple[float, ...]) -> tuple[float, float, float]:
-    """Return the transposed matrix times a vector."""
-    x, y, z = (sum(m[i][j] * v[i] for i in range(3)) for j in range(3))
-    return x, y, z

@@ -40,7 +40,7 @@ from symgen.vocabulary.measures import (
 )
 
 if TYPE_CHECKING:
-    from symgen.describe.scope import Model
+    from symgen.describe.context import Context
 
 #: What begins the names of a point's coordinates, by the order of the derivative, and their units.
 ORDERS = {"": "m", "v": "m/s", "a": "m/s^2"}
@@ -132,26 +132,26 @@ class Readings:
 
     Parameters
     ----------
-    model : Model
+    context : Context
         What is known of the mechanism.
     order : int
         `STATE`, or `OUTPUT` where v' and what is exerted are known.
     """
 
-    def __init__(self, model: Model, order: int = STATE) -> None:
-        self._model, self._order = model, order
-        self._dimension = 3 if model.space == "spatial" else 2
+    def __init__(self, context: Context, order: int = STATE) -> None:
+        self._context, self._order = context, order
+        self._dimension = 3 if context.space == "spatial" else 2
 
     def owners(self) -> Iterator[str]:
         """Yield the names of all bodies, joints and forces that have something to read."""
-        yield from self._model.bodies
-        yield from self._model.joint_names
-        yield from self._model.forces
+        yield from self._context.bodies
+        yield from self._context.joint_names
+        yield from self._context.forces
 
     def known(self, owner: str, where: str) -> tuple[str, ...]:
         """Return what can be read of a body, joint or force beside a body's own coordinates."""
-        if owner in self._model.bodies:
-            points = self._model.points[owner]
+        if owner in self._context.bodies:
+            points = self._context.points[owner]
             return tuple(f"{p}.{label}" for p in points for label in self._of_point(owner, p))
         return tuple(self._of_element(owner, where))
 
@@ -166,19 +166,19 @@ class Readings:
             File and key, for messages about joints that are resolved on the way.
         """
         owner, *words = path
-        if owner not in self._model.bodies:
+        if owner not in self._context.bodies:
             found = self._of_element(owner, where).get(".".join(words))
-        elif len(words) == 2 and words[0] in self._model.points[owner]:
+        elif len(words) == 2 and words[0] in self._context.points[owner]:
             found = self._of_point(owner, words[0]).get(words[1])
         else:
             found = None
         return None if found is None else found[0]
 
     def _of_point(self, body: str, point: str) -> Table:
-        marker = Marker(body, self._model.points[body][point])
+        marker = Marker(body, self._context.points[body][point])
         return of_point(f"{body}.{point}", marker, self._dimension, self._order)
 
     def _of_element(self, owner: str, where: str) -> Table:
-        if owner in self._model.joint_names:
-            return of_joint(self._model.joint(owner, where), self._order)
-        return of_force(self._model.forces[owner], self._order)
+        if owner in self._context.joint_names:
+            return of_joint(self._context.joint(owner, where), self._order)
+        return of_force(self._context.forces[owner], self._order)

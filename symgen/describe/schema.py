@@ -10,6 +10,7 @@ import msgspec
 
 from symgen.describe.events import EventSection
 from symgen.describe.fields import Flag, JointStart
+from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.sections import (
     BodySection,
     InputSection,
@@ -28,9 +29,6 @@ _NAME = "^[A-Za-z][A-Za-z0-9_]{0,63}$"
 
 def schema() -> dict[str, Any]:
     """Return the JSON schema (draft 2020-12) of a mechanism file, with every joint and force type."""
-    from symgen.forces import FORCES
-    from symgen.joints import JOINTS
-
     parameter = {"anyOf": [{"type": ["number", "string"]}, _table(ParameterSection)]}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

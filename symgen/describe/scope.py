@@ -5,18 +5,14 @@ from __future__ import annotations
 import math
 import re
 from collections import ChainMap
-from collections.abc import Callable, Mapping
-from functools import cached_property
+from collections.abc import Mapping
 
-import msgspec
-
+from symgen.describe.context import Context
 from symgen.describe.evaluate import evaluate
 from symgen.describe.fields import found
-from symgen.describe.mechanism import ACCELERATIONS, AnyBody, Force, Joint, Mechanism, Vec
+from symgen.describe.mechanism import ACCELERATIONS, Joint, Vec
 from symgen.describe.parser import Names, parse
 from symgen.describe.readings import OUTPUT, Readings
-from symgen.describe.tables import Table
-from symgen.describe.triads import Triad, make_cross, make_triad, make_triads
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import ZERO, Expr, Number, call
 from symgen.vocabulary.measures import GROUND, Direction, Marker, Measure
@@ -25,88 +21,12 @@ from symgen.vocabulary.measures import GROUND, Direction, Marker, Measure
 CENTRE = "centre"
 
 
-class Model(msgspec.Struct, frozen=True, dict=True):
-    """What is known of the mechanism when joints and forces are resolved.
-
-    What every formula asks for is worked out once: a file may have thousands of parameters, bodies and formulas.
-    """
-
-    source: str
-    values: Mapping[str, float]  # parameters with their defaults
-    tables: Mapping[str, Table]
-    bodies: Mapping[str, AnyBody]
-    joint: Callable[[str, str], Joint]  # (name, where) -> the joint, resolved if it was not yet
-    space: str = "planar"
-    joint_names: frozenset[str] = frozenset()
-    forces: Mapping[str, Force] = {}  # empty while forces are resolved
-    inputs: tuple[str, ...] = ()
-
-    @classmethod
-    def of(cls, mechanism: Mechanism, source: str = "") -> Model:
-        """Return what is known of a mechanism that was read already, for formulas that come later."""
-        joints = {joint.name: joint for joint in mechanism.joints}
-        return cls(
-            source or mechanism.name,
-            {p.name: p.value for p in mechanism.parameters if not p.input},
-            {table.name: table for table in mechanism.tables},
-            {body.name: body for body in mechanism.bodies},
-            lambda name, where: joints[name],
-            mechanism.space,
-            frozenset(joints),
-            {force.name: force for force in mechanism.forces},
-            mechanism.inputs,
-        )
-
-    @cached_property
-    def coordinates(self) -> dict[str, tuple[str, ...]]:
-        """Body -> coordinates and velocities that formulas may use."""
-        return {name: body.coordinates + body.speeds for name, body in self.bodies.items()}
-
-    @cached_property
-    def points(self) -> dict[str, dict[str, Vec]]:
-        """Body -> its points by name."""
-        return {name: dict(body.points) for name, body in self.bodies.items()}
-
-    @cached_property
-    def constants(self) -> Names:
-        """Names of a formula of parameters."""
-        plain = {name: name for name in self.values}
-        elsewhere = frozenset({"t", *self.tables, *self.inputs})
-        return Names("a number or an expression of parameters", plain, elsewhere=elsewhere, hints=self._of_inputs)
-
-    @cached_property
-    def times(self) -> Names:
-        """Names of a formula of t and parameters."""
-        plain = {name: name for name in (*self.values, "t")}
-        smooth = {name: t.function for name, t in self.tables.items() if t.interpolation == "cubic"}
-        others = frozenset(self.tables) - frozenset(smooth)
-        hints = dict.fromkeys(others, "a motion needs two continuous derivatives, which interpolation = 'cubic' has")
-        what = "a number or an expression of t and parameters"
-        elsewhere = others | frozenset(self.inputs)
-        return Names(what, plain, tables=smooth, elsewhere=elsewhere, hints=hints | self._of_inputs)
-
-    @cached_property
-    def states(self) -> dict[str, str]:
-        """Names of a formula of t, parameters, inputs and state, coordinates apart."""
-        return {name: name for name in (*self.values, *self.inputs, "t")}
-
-    @property
-    def _of_inputs(self) -> dict[str, str]:
-        """What is said of inputs where they may not stand."""
-        return dict.fromkeys(self.inputs, "an input may stand in forces, torques and actuators")
-
-    @cached_property
-    def functions(self) -> dict[str, str]:
-        """Tables -> functions of a tree."""
-        return {name: table.function for name, table in self.tables.items()}
-
-
 class Scope:
     """One joint or force being resolved; every method raises `InputError` naming the file and the key.
 
     Parameters
     ----------
-    model : Model
+    context : Context
         The mechanism so far.
     path : str
         The table being read, e.g. ``"joints.A"``.
@@ -116,13 +36,13 @@ class Scope:
         Its type.
     """
 
-    def __init__(self, model: Model, path: str, name: str = "", kind: str = "") -> None:
-        self.model, self.path, self.name, self.kind = model, path, name, kind
+    def __init__(self, context: Context, path: str, name: str = "", kind: str = "") -> None:
+        self.context, self.path, self.name, self.kind = context, path, name, kind
 
     @property
     def spatial(self) -> bool:
         """Whether the mechanism lives in space."""
-        return self.model.space == "spatial"
+        return self.context.space == "spatial"
 
     @property
     def dimension(self) -> int:
@@ -131,9 +51,9 @@ class Scope:
 
     def check_space(self, spaces: tuple[str, ...]) -> None:
         """Refuse a kind that does not exist in this mechanism's space."""
-        if self.model.space not in spaces:
+        if self.context.space not in spaces:
             raise self.error(
-                "type", f"a type for {self.model.space} mechanisms", f"'{self.kind}', which is {spaces[0]}"
+                "type", f"a type for {self.context.space} mechanisms", f"'{self.kind}', which is {spaces[0]}"
             )
 
     def only(self, *keys: str, **given: object) -> None:
@@ -148,7 +68,7 @@ class Scope:
 
     def where(self, key: str) -> str:
         """Return file and key for a message."""
-        return f"{self.model.source}: {self.path}.{key}" if key else f"{self.model.source}: {self.path}"
+        return f"{self.context.source}: {self.path}.{key}" if key else f"{self.context.source}: {self.path}"
 
     def error(self, key: str, expected: str, got: str, hint: str = "") -> InputError:
         """Return the error to raise about `key`."""
@@ -162,16 +82,16 @@ class Scope:
             if not ground:
                 raise self.error(key, "a body that moves", f"'{GROUND}'")
             return name
-        if name not in self.model.bodies:
-            known = [*self.model.bodies, GROUND] if ground else list(self.model.bodies)
+        if name not in self.context.bodies:
+            known = [*self.context.bodies, GROUND] if ground else list(self.context.bodies)
             raise self.error(key, "the name of a body", f"the unknown body {quoted(name)}", nearest(name, known))
-        if turns and self.model.bodies[name].is_point:
+        if turns and self.context.bodies[name].is_point:
             raise self.error(key, f"a body with an angle for '{self.kind}'", f"the point mass '{name}'")
         return name
 
     def turns(self, name: str) -> bool:
         """Whether the body has an angle (the ground's is 0)."""
-        return name == GROUND or not self.model.bodies[name].is_point
+        return name == GROUND or not self.context.bodies[name].is_point
 
     def pair(self, key: str, names: tuple[str, str], *, turns: tuple[bool, bool] = (False, False)) -> tuple[str, str]:
         """Return two different bodies, so that at least one of them moves."""
@@ -187,9 +107,9 @@ class Scope:
         if body == GROUND:
             listed = "[x, y, z]" if self.spatial else "[x, y]"
             raise self.error(key, f"coordinates {listed} of a point of the ground", quoted(point))
-        known = self.model.points[body]
+        known = self.context.points[body]
         if point == CENTRE:
-            return Marker(body, self.model.bodies[body].centre_of_mass)
+            return Marker(body, self.context.bodies[body].centre_of_mass)
         if point not in known:
             got = f"{quoted(point)}, which is no point of '{body}'"
             raise self.error(key, "the name of a point", got, nearest(point, [*known, CENTRE]))
@@ -228,41 +148,9 @@ class Scope:
             return Direction(body, tuple(Number(e.value / size) for e in parts if isinstance(e, Number)))
         return Direction(body, tuple(call("div", e, length) for e in parts))
 
-    def triads(
-        self,
-        bodies: tuple[str, str],
-        axis: tuple[float | str | tuple[float | str, ...], ...],
-        reference: tuple[tuple[float | str, ...], tuple[float | str, ...]] | None = None,
-        keys: tuple[str, str] = ("axis", "reference"),
-        *,
-        fixed: bool = False,
-    ) -> tuple[Triad, Triad]:
-        """Return a right-handed triad in each of two bodies; see `symgen.describe.triads`."""
-        return make_triads(self, bodies, axis, reference, keys, fixed)
-
-    def cross(
-        self,
-        bodies: tuple[str, str],
-        axes: tuple[tuple[float | str, ...], tuple[float | str, ...]],
-        reference: tuple[tuple[float | str, ...], tuple[float | str, ...]] | None = None,
-        keys: tuple[str, str] = ("axes", "reference"),
-    ) -> tuple[Triad, Triad]:
-        """Return triads about two axes that cross, one of each body; see `symgen.describe.triads`."""
-        return make_cross(self, bodies, axes, reference, keys)
-
-    def triad(
-        self,
-        body: str,
-        axis: tuple[float | str | tuple[float | str, ...], ...],
-        reference: tuple[float | str, ...] | None = None,
-        keys: tuple[str, str] = ("axis", "reference"),
-    ) -> Triad:
-        """Return a right-handed triad about an axis of one body."""
-        return make_triad(self, body, axis, reference, keys)
-
     def joint(self, key: str, name: str) -> Joint:
         """Return another joint of the mechanism."""
-        return self.model.joint(name, self.where(key))
+        return self.context.joint(name, self.where(key))
 
     def joint_coordinate(
         self, name: str, label: str | None, keys: tuple[str, str] = ("joint", "coordinate"), unit: str = ""
@@ -291,7 +179,7 @@ class Scope:
 
         With `positive` it must be above 0; with `or_zero` besides it may be the number 0 itself, no expression.
         """
-        expression = self._expression(key, value, self.model.constants)
+        expression = self._expression(key, value, self.context.constants)
         size = self.value(expression, key)
         if positive and not size > 0 and not (or_zero and expression == ZERO):
             raise self.error(key, "a value above 0", repr(size))
@@ -312,7 +200,7 @@ class Scope:
 
     def of_time(self, key: str, value: float | str) -> Expr:
         """Return a number or an expression of t and parameters, with smooth tables: it must have two derivatives."""
-        return self._expression(key, value, self.model.times)
+        return self._expression(key, value, self.context.times)
 
     def of_state(
         self, key: str, value: float | str, words: Mapping[str, str] | None = None, *, conditions: bool = False
@@ -327,38 +215,38 @@ class Scope:
         listed = "".join(f", {word}" for word in own)
         kind = "a condition" if conditions else "a number"
         what = f"{kind} or an expression of t{listed}, parameters and body coordinates"
-        plain = ChainMap(own, self.model.states)
-        known = Names(what, plain, self.model.coordinates, self.model.functions, readings=Readings(self.model))
+        plain = ChainMap(own, self.context.states)
+        known = Names(what, plain, self.context.coordinates, self.context.functions, readings=Readings(self.context))
         return self._expression(key, value, known, conditions)
 
     def of_motion(self, key: str, value: float | str) -> Expr:
         """Return a number or an expression of t, parameters and all that is known at outputs."""
         what = "a number or an expression of t, parameters and what is known of the motion"
         own = {
-            name: (*known, *(ACCELERATIONS[speed] for speed in self.model.bodies[name].speeds))
-            for name, known in self.model.coordinates.items()
+            name: (*known, *(ACCELERATIONS[speed] for speed in self.context.bodies[name].speeds))
+            for name, known in self.context.coordinates.items()
         }
-        known = Readings(self.model, OUTPUT)
-        names = Names(what, self.model.states, own, self.model.functions, readings=known, integrals=True)
+        known = Readings(self.context, OUTPUT)
+        names = Names(what, self.context.states, own, self.context.functions, readings=known, integrals=True)
         return self._expression(key, value, names)
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:
         """Return an expression of parameters and the element's own coordinate."""
         own = self._own(key, value, words)
         what = f"an expression of parameters and {', '.join(own)}"
-        plain = ChainMap(own, self.model.constants.plain)  # type: ignore[arg-type]  # the second one is only read
-        return self._expression(key, value, self.model.constants.beside(what, plain))
+        plain = ChainMap(own, self.context.constants.plain)  # type: ignore[arg-type]  # the second one is only read
+        return self._expression(key, value, self.context.constants.beside(what, plain))
 
     def value(self, expression: Expr, key: str) -> float:
         """Return the number with the parameters' defaults."""
-        return evaluate(expression, self.model.values, self.where(key))
+        return evaluate(expression, self.context.values, self.where(key))
 
     def _own(self, key: str, value: float | str, words: Mapping[str, str] | None) -> dict[str, str]:
         """Return the element's own words, refusing a formula in which one of them could also mean a parameter."""
         own = dict(words or {})
         for word in own:
-            if word in self.model.states and isinstance(value, str) and _mentions(value, word):
-                what = "input" if word in self.model.inputs else "parameter"
+            if word in self.context.states and isinstance(value, str) and _mentions(value, word):
+                what = "input" if word in self.context.inputs else "parameter"
                 got = f"'{word}', which is {'an' if what == 'input' else 'a'} {what} too"
                 raise self.error(key, f"'{word}' to mean the element's own", got, f"rename the {what}")
         return own

@@ -50,6 +50,8 @@ class RunSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
     ----------
     until, step, output_step : float
         End, step size and distance between outputs; without a step a millisecond, or a hundredth of a shorter end.
+    max_step : float
+        Largest step of adaptive integrators.
     predictable_until : float
         How long a chaotic motion can be predicted; absent where it is not chaotic.
     """
@@ -57,6 +59,7 @@ class RunSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
     until: PositiveNumber = 10.0
     step: PositiveNumber | None = None
     output_step: PositiveNumber | None = None
+    max_step: PositiveNumber | None = None
     predictable_until: PositiveNumber | None = None
 
 

@@ -10,11 +10,11 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from symgen.describe.mechanism import Joint, Mechanism, SpatialBody
-from symgen.describe.orientation import matrix, rotate
 from symgen.describe.remembered import remembered
 from symgen.describe.topology import articulation_of
 from symgen.vocabulary.expressions import Number
 from symgen.vocabulary.measures import Direction, Dot, Holonomic, Sum
+from symgen.vocabulary.rotations import matrix, rotate
 
 
 class Arm(NamedTuple):

@@ -6,8 +6,9 @@ from typing import Any
 
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.describe.numbers import Numbers
-from symgen.describe.orientation import euler_parameters, matrix, rotate
+from symgen.describe.orientation import euler_parameters
 from symgen.vocabulary.expressions import Expr
+from symgen.vocabulary.rotations import matrix, rotate
 
 
 def described_start(mechanism: Mechanism, numbers: Numbers) -> tuple[list[Any], list[Any]]:

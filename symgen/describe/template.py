@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 
+from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.names import check_mechanism_name
 
 
@@ -17,9 +18,6 @@ def template(name: str = "my-mechanism", space: str = "planar") -> str:
     space : {"planar", "spatial"}
         Which of the two it describes.
     """
-    from symgen.forces import FORCES
-    from symgen.joints import JOINTS
-
     check_mechanism_name(name, "name")
     joints = _listed([k for k, kind in JOINTS.items() if space in kind.SPACES and k != "revolute"])
     forces = _listed([k for k, kind in FORCES.items() if space in kind.SPACES and k != "torsional-spring-damper"])
@@ -38,6 +36,7 @@ _GIVEN = """\
 until = 10.0
 step = 1e-3
 # output_step = 0.01
+# max_step = 1e-3                         # of adaptive integrators
 # predictable_until = 5.0                 # for a chaotic motion
 
 [parameters]                              # adjustable at run time; plain numbers elsewhere are compiled in

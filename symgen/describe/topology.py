@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
+from symgen.describe.kinds import JOINTS
 from symgen.describe.mechanism import Articulation, Joint, Link, Mechanism, Prescribed, SpatialBody, Topology
 from symgen.describe.outputs import integrals
 from symgen.vocabulary.expressions import Number, readings
@@ -25,8 +26,6 @@ UNITS = {
 
 def articulation_of(joint: Joint) -> Articulation | None:
     """Return how the bodies of a joint move against each other, None for a kind that is rows only."""
-    from symgen.joints import JOINTS
-
     articulate = getattr(JOINTS.get(joint.kind), "articulate", None)
     return None if articulate is None else articulate(joint)
 

@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING
 from symgen.describe.evaluate import scalars
 from symgen.describe.fields import found
 from symgen.describe.mechanism import SpatialBody
-from symgen.describe.orientation import euler_parameters, matrix, rotate, rotate_back
+from symgen.describe.orientation import euler_parameters
 from symgen.vocabulary.expressions import Number, number
 from symgen.vocabulary.measures import GROUND, Direction
+from symgen.vocabulary.rotations import matrix, rotate, rotate_back
 
 if TYPE_CHECKING:
     from symgen.describe.scope import Scope
@@ -41,8 +42,9 @@ def make_triads(
     scope: Scope,
     bodies: tuple[str, str],
     axis: tuple[float | str | tuple[float | str, ...], ...],
-    reference: tuple[tuple[float | str, ...], tuple[float | str, ...]] | None,
-    keys: tuple[str, str],
+    reference: tuple[tuple[float | str, ...], tuple[float | str, ...]] | None = None,
+    keys: tuple[str, str] = ("axis", "reference"),
+    *,
     fixed: bool = False,
 ) -> tuple[Triad, Triad]:
     """Return the triads of two bodies.
@@ -92,8 +94,8 @@ def make_triad(
     scope: Scope,
     body: str,
     axis: tuple[float | str | tuple[float | str, ...], ...],
-    reference: tuple[float | str, ...] | None,
-    keys: tuple[str, str],
+    reference: tuple[float | str, ...] | None = None,
+    keys: tuple[str, str] = ("axis", "reference"),
 ) -> Triad:
     """Return a triad of one body about an axis given in its frame, its first direction near `reference`, if given."""
     key = keys[0]
@@ -109,8 +111,8 @@ def make_cross(
     scope: Scope,
     bodies: tuple[str, str],
     axes: tuple[tuple[float | str, ...], tuple[float | str, ...]],
-    reference: tuple[tuple[float | str, ...], tuple[float | str, ...]] | None,
-    keys: tuple[str, str],
+    reference: tuple[tuple[float | str, ...], tuple[float | str, ...]] | None = None,
+    keys: tuple[str, str] = ("axes", "reference"),
 ) -> tuple[Triad, Triad]:
     """Return the triads about the two axes of a cross, one of each body.
 
@@ -143,7 +145,7 @@ def _unit(scope: Scope, key: str, vector: tuple[float | str, ...]) -> _Triple:
 
 def _known(scope: Scope, body: str) -> bool:
     """Whether the body's orientation at the start depends on no parameter."""
-    found_body = scope.model.bodies.get(body)
+    found_body = scope.context.bodies.get(body)
     return body == GROUND or (isinstance(found_body, SpatialBody) and found_body.orientation.is_numeric)
 
 
@@ -154,10 +156,10 @@ def _carried(scope: Scope, key: str, a: str, b: str, vector: _Triple) -> _Triple
             got = f"one, while the orientation of '{body}' at the start is a formula"
             raise scope.error(key, "two directions, one in the frame of each body", got)
     for body, turn in ((a, rotate), (b, rotate_back)):
-        described = scope.model.bodies.get(body)
+        described = scope.context.bodies.get(body)
         if isinstance(described, SpatialBody):
-            where = f"{scope.model.source}: bodies.{body}.orientation"
-            turned = euler_parameters(described.orientation, scalars(scope.model.values), where)
+            where = f"{scope.context.source}: bodies.{body}.orientation"
+            turned = euler_parameters(described.orientation, scalars(scope.context.values), where)
             vector = turn(matrix(turned), vector)
     return _tidy(vector)
 

@@ -11,15 +11,17 @@ import msgspec
 from symgen.describe.bodies import planar_body, spatial_body
 from symgen.describe.bounds import DEEPEST
 from symgen.describe.columns import check_columns
+from symgen.describe.context import Context
 from symgen.describe.derived import in_order
 from symgen.describe.evaluate import evaluate
 from symgen.describe.events import read_event
 from symgen.describe.fields import Flag, JointStart, OutputFunction, Scalar, found, read, read_value
 from symgen.describe.holds import body_holds, holds_of, joint_holds
+from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
 from symgen.describe.parser import Names, parse
-from symgen.describe.scope import Model, Scope
+from symgen.describe.scope import Scope
 from symgen.describe.sections import (
     NAMED,
     SECTIONS,
@@ -82,7 +84,7 @@ class _Validator:
         self.unique()
         parameters = self.parameters()
         tables = tuple(self.table(name, value) for name, value in self.entries("tables"))
-        self.model = Model(
+        self.context = Context(
             self.source,
             {p.name: p.value for p in parameters if not p.input},
             {t.name: t for t in tables},
@@ -92,18 +94,18 @@ class _Validator:
             frozenset(name for name, _ in self.entries("joints")),
             inputs=tuple(p.name for p in parameters if p.input),
         )
-        scope = Scope(self.model, "mechanism")
+        scope = Scope(self.context, "mechanism")
         gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
         read_body = spatial_body if head.space == "spatial" else planar_body
-        bodies = tuple(read_body(Scope(self.model, f"bodies.{n}", n), value) for n, value in self.entries("bodies"))
+        bodies = tuple(read_body(Scope(self.context, f"bodies.{n}", n), value) for n, value in self.entries("bodies"))
         if not bodies:
             raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
-        self.model = msgspec.structs.replace(self.model, bodies={body.name: body for body in bodies})
+        self.context = msgspec.structs.replace(self.context, bodies={body.name: body for body in bodies})
         joints = tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints"))
         forces = tuple(self.force(name, value) for name, value in self.entries("forces"))
-        self.model = msgspec.structs.replace(self.model, forces={force.name: force for force in forces})
+        self.context = msgspec.structs.replace(self.context, forces={force.name: force for force in forces})
         kept = [
-            body_holds(Scope(self.model, f"bodies.{body.name}", body.name), self.raw["bodies"][body.name], body)
+            body_holds(Scope(self.context, f"bodies.{body.name}", body.name), self.raw["bodies"][body.name], body)
             for body in bodies
         ]
         mechanism = Mechanism(
@@ -127,10 +129,10 @@ class _Validator:
                 (body.name, shape)
                 for body in bodies
                 for shape in shapes_of(
-                    Scope(self.model, f"bodies.{body.name}", body.name), self.raw["bodies"][body.name]
+                    Scope(self.context, f"bodies.{body.name}", body.name), self.raw["bodies"][body.name]
                 )
             ),
-            events=tuple(read_event(Scope(self.model, f"events.{n}", n), n, e) for n, e in self.entries("events")),
+            events=tuple(read_event(Scope(self.context, f"events.{n}", n), n, e) for n, e in self.entries("events")),
         )
         check_columns(mechanism, self.source)
         holds_of(mechanism, self.source)  # says what is held twice
@@ -162,7 +164,7 @@ class _Validator:
     def defaults(self, source: str) -> Defaults:
         where = self.where("run")
         run = read(RunSection, self.raw.get("run", {}), where)
-        for key in ("until", "step", "output_step", "predictable_until"):
+        for key in ("until", "step", "output_step", "max_step", "predictable_until"):
             value = getattr(run, key)
             if value is not None and not math.isfinite(value):
                 raise InputError(f"{where}.{key}", "a finite number", str(value))
@@ -170,7 +172,7 @@ class _Validator:
         step = run.step or (usual if run.until >= usual else 0.01 * run.until)
         if step > run.until:
             raise InputError(f"{where}.step", f"at most until = {run.until!r}", repr(step))
-        return Defaults(run.until, step, run.output_step, run.predictable_until, source)
+        return Defaults(run.until, step, run.output_step, run.predictable_until, run.max_step, source)
 
     def parameters(self) -> tuple[Parameter, ...]:
         """Return the parameters in the order of the file, then the inputs, formulas worked out with the defaults."""
@@ -250,7 +252,7 @@ class _Validator:
             section, key = read(OutputSection, raw, where), "value"
         else:
             section, key = OutputSection(value=read_value(OutputFunction, raw, where)), ""
-        value = Scope(self.model, f"outputs.{name}", name).of_motion(key, section.value)
+        value = Scope(self.context, f"outputs.{name}", name).of_motion(key, section.value)
         return Output(name, value, check_unit(section.unit, f"{where}.unit"))
 
     # Joints and forces ---------------------------------------------------------------------------------------------
@@ -268,8 +270,6 @@ class _Validator:
 
     def joint(self, name: str, where: str) -> Joint:
         """Return the joint `name`, resolved now if another one asks for it first."""
-        from symgen.joints import JOINTS
-
         if name not in self.raw.get("joints", {}):
             got = f"the unknown joint {quoted(name)}"
             raise InputError(where, "the name of a joint", got, nearest(name, self.raw.get("joints", {})))
@@ -285,7 +285,7 @@ class _Validator:
         path = f"joints.{name}"
         kind, table = self.split(path, self.raw["joints"][name], "joint type", "start", "cut")
         struct = JOINTS.get(kind, self.where(f"{path}.type"))
-        scope = Scope(self.model, path, name, JOINTS.canonical(kind))
+        scope = Scope(self.context, path, name, JOINTS.canonical(kind))
         scope.check_space(struct.SPACES)
         section = read(struct, table, self.where(path), ("type", "start", "cut"))
         joint = section.build(scope)
@@ -306,11 +306,9 @@ class _Validator:
         return joint
 
     def force(self, name: str, raw: object) -> Force:
-        from symgen.forces import FORCES
-
         path = f"forces.{name}"
         kind, table = self.split(path, raw, "force type")
         struct = FORCES.get(kind, self.where(f"{path}.type"))
-        scope = Scope(self.model, path, name, FORCES.canonical(kind))
+        scope = Scope(self.context, path, name, FORCES.canonical(kind))
         scope.check_space(struct.SPACES)
         return read(struct, table, self.where(path), ("type",)).build(scope)

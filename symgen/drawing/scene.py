@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.describe.mechanism import Mechanism, SpatialBody
-from symgen.describe.orientation import matrix
+from symgen.vocabulary.rotations import matrix
 
 Array = NDArray[np.float64]
 #: Components of a point of a body, from its centre of mass along its axes, of the ground in its frame [m].

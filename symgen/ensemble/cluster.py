@@ -11,7 +11,8 @@ from contextlib import suppress
 from secrets import token_hex
 from typing import TYPE_CHECKING, Any
 
-from symgen.ensemble.kernel import Chunk, kernel_of, new_control
+from symgen.ensemble.chunks import Chunk
+from symgen.ensemble.kernel import kernel_of, new_control
 from symgen.ensemble.recipe import Recipe, code_identity
 from symgen.errors import InputError, SimulationError
 

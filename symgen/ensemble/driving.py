@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -12,12 +12,14 @@ import numpy as np
 from symgen.describe.derived import derived
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError
+from symgen.runtime.motions import names_of_motions
 from symgen.runtime.pieces import Piece, merged, pieces_of
 from symgen.vocabulary.expressions import names
 
 if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.starts import Rows
-    from symgen.run_setup import Given
+    from symgen.running.inputs import Inputs
     from symgen.runtime.foreseen import Foreseen
 
 
@@ -27,7 +29,7 @@ class Driving:
 
     Attributes
     ----------
-    given : Given
+    given : Inputs
         What the settings give, put into the mechanism.
     varied : tuple of str
         What varies.
@@ -37,7 +39,7 @@ class Driving:
         What formulas pass at times that are known beforehand, where runs stop at them.
     """
 
-    given: Given
+    given: Inputs
     varied: tuple[str, ...]
     until: float
     foreseen: Foreseen | None = None
@@ -115,3 +117,10 @@ class Driving:
         driven = self.given.driven
         pieces = () if driven is None else pieces_of(driven, values, self.until)
         return merged(pieces, self.foreseen.pieces(values, self.until)) if self.foreseen else pieces
+
+
+def read_by_motions(mechanism: Mechanism, varied: Container[str]) -> tuple[str, ...]:
+    """Return the parameters that motions which may jump read, if some of them differ from row to row; else none."""
+    read, formulas = names_of_motions(mechanism), {name for name, _ in derived(mechanism.parameters)}
+    known = tuple(p.name for p in mechanism.parameters if p.name in read)
+    return known if any(name in varied or name in formulas for name in known) else ()

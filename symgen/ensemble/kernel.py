@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.knots import with_looks
+from symgen.ensemble.chunks import Chunk, Results
 from symgen.ensemble.lanes import run_in_lanes
 from symgen.ensemble.recipe import Code, Recipe
 from symgen.errors import InputError
@@ -39,47 +39,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
-
-
-@dataclass(frozen=True)
-class Chunk:
-    """What the rows of a chunk gave.
-
-    Attributes
-    ----------
-    values : Array, shape (k, quantities, times)
-        Quantities at the output times; nan where a run did not get there.
-    summary : Array, shape (k, N_SUMMARY + width)
-        See `symgen.runtime.ensemble_abi`.
-    complete : bool
-        Whether all rows were run.
-    """
-
-    values: Array
-    summary: Array
-    complete: bool = True
-
-
-@dataclass(frozen=True)
-class Results:
-    """What the rows of a chunk give, to be written.
-
-    Attributes
-    ----------
-    values : Array, shape (k, columns, times)
-        What loops leave at the output times.
-    summary : Array, shape (k, N_SUMMARY)
-        See `symgen.runtime.ensemble_abi`.
-    events : Array, shape (k, width)
-        What happened; see there.
-    behind : Array, shape (k, quantities, times)
-        What is worked out behind the loops.
-    """
-
-    values: Array
-    summary: Array
-    events: Array
-    behind: Array
 
 
 @dataclass
@@ -170,13 +129,6 @@ class Kernel:
             complete = self._run_with(spare, rows, light.astype(np.int64), out, control)
             out.summary[light, e.LIGHT] = 1.0
         return Chunk(recipe.in_order(values, behind), np.hstack([out.summary, out.events]), complete)
-
-    def closed(self, rows: Rows) -> tuple[Instant, Callable[[int], Assembly]]:
-        """Return the consistent starts of rows that have one, and how that of a row is made; nothing is run."""
-        everything, summary = np.arange(len(rows), dtype=np.int64), np.zeros((len(rows), e.N_SUMMARY))
-        now = self._described(self.first, rows)
-        self._close(self.first, rows, now, everything, summary, new_control())
-        return now, partial(self._closed, self.first, rows)
 
     def _described(self, model: _Prepared, rows: Rows) -> Instant:
         """Return rows as they are described."""

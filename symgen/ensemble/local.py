@@ -8,7 +8,8 @@ from itertools import islice
 from queue import SimpleQueue
 from typing import TYPE_CHECKING
 
-from symgen.ensemble.kernel import Chunk, Integers, kernel_of, new_control
+from symgen.ensemble.chunks import Chunk
+from symgen.ensemble.kernel import Integers, kernel_of, new_control
 from symgen.memory import processors
 from symgen.runtime import abi
 from symgen.runtime.ensemble_abi import RUNS_DONE

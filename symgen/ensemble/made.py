@@ -12,13 +12,13 @@ from symgen.compiling.integrals import with_integrals
 from symgen.compiling.pipeline import compile_model
 from symgen.ensemble.measures import make_measures
 from symgen.ensemble.recipe import Code, Module, Tree
-from symgen.tree_run import tree_code
+from symgen.running.tree import tree_code
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.quantities import Quantity
-    from symgen.plan import Plan
+    from symgen.running.plan import Plan
     from symgen.runtime.compiled import CompiledModel
 
 

@@ -21,22 +21,20 @@ from symgen.describe.events import RECORD
 from symgen.describe.kinks import knots_of, switches_of
 from symgen.describe.sides import sides_of
 from symgen.ensemble.axes import Grid, make_grid
-from symgen.ensemble.driving import Driving
-from symgen.ensemble.jumps import read_by_motions
+from symgen.ensemble.driving import Driving, read_by_motions
 from symgen.ensemble.kernel import integrator_of_rows, kernel_of
 from symgen.ensemble.lanes import check_lanes
 from symgen.ensemble.made import Made
 from symgen.ensemble.measures import integrated, measurable
 from symgen.ensemble.names import Held, Names, held_of
 from symgen.ensemble.quantities import choose_quantities
-from symgen.ensemble.recipe import Recipe, code_identity
-from symgen.ensemble.singly import Singly
+from symgen.ensemble.recipe import Recipe, Singly, code_identity
 from symgen.ensemble.starts import Rows, make_rows
 from symgen.ensemble.tree_rows import are_plain
 from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
-from symgen.plan import Plan, make_plan, refuse_events
-from symgen.run_setup import give_inputs
+from symgen.running.plan import Plan, Purpose, refuse_events
+from symgen.running.prepare import make_plan
 from symgen.runtime.foreseen import Foreseen, foreseen
 from symgen.runtime.motions import refuse_jumps
 from symgen.settings import Settings
@@ -75,8 +73,8 @@ class Ensemble:
         What a run is apart from its row.
     driving : Driving
         What inputs are.
-    foreseen : Foreseen
-        What formulas pass at times that are known before a run begins.
+    warnings : tuple of str
+        What there is to say of all runs alike.
     notes : tuple of str
         What was chosen, and why.
     """
@@ -89,7 +87,7 @@ class Ensemble:
     held: Held
     recipe: Recipe
     driving: Driving
-    foreseen: Foreseen
+    warnings: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
@@ -123,7 +121,7 @@ class Ensemble:
     def chunk(self) -> int:
         """Runs in a chunk; it depends on nothing but the ensemble, so that another process can continue it."""
         spec, info, law = self.recipe.spec, self.compiled.info, self.compiled.law
-        stages = self.plan.tableau.stages
+        stages = self.plan.integrator.stages
         evaluations = spec.until * _EVALUATIONS
         if not spec.adaptive and spec.step is not None:
             evaluations = stages * spec.until / spec.step
@@ -199,39 +197,32 @@ def make_ensemble(
     InputError
         If a name, number or combination is wrong.
     """
-    from symgen.auto import resolve
-
     _check_settings(settings, target)
     taken = (*settings.inputs, *settings.parameters, *settings.start)
-    given = give_inputs(model.mechanism, settings)
-    model, settings, mechanism = replace(model, mechanism=given.mechanism), given.settings, given.mechanism
-    names = Names.of(mechanism)
-    if len(names.coordinates) > LARGEST_STRAIGHT:
-        found = f"{len(names.coordinates)} coordinates"
-        raise InputError("sweep", f"a mechanism of at most {LARGEST_STRAIGHT} coordinates", found)
-    chosen, notes = resolve(
-        mechanism, replace(settings, shape="straight")
-    )  # loops over rows are those of one mechanism
-    ends = chosen.times is None and chosen.output_step is None
+    size = model.mechanism.body_coordinates
+    if size > LARGEST_STRAIGHT:
+        raise InputError("sweep", f"a mechanism of at most {LARGEST_STRAIGHT} coordinates", f"{size} coordinates")
+    settings = replace(settings, shape="straight")  # loops over rows are those of one mechanism
+    ends = settings.times is None and settings.output_step is None
     if ends:
-        end = mechanism.defaults.until if chosen.until is None else chosen.until
-        chosen = replace(chosen, times=(end,))
+        end = model.mechanism.defaults.until if settings.until is None else settings.until
+        settings = replace(settings, times=(end,))
     if target != "cpu":
-        chosen = replace(chosen, coordinates="absolute")
-        refuse_events(f"target '{target}'", mechanism, chosen)
-    plan = make_plan(mechanism, chosen)
+        settings = replace(settings, coordinates="absolute")
+        refuse_events(f"target '{target}'", model.mechanism, settings)
+    plan = make_plan(model.mechanism, settings, Purpose.ROWS)
+    mechanism, spec = plan.mechanism, plan.spec
+    names = Names.of(mechanism)
     names.check((*vary, *runs), taken)
     grid = make_grid(vary, runs, names.starts)
     # before anything is derived; where it depends on what varies, rows are told apart behind their runs
     if not read_by_motions(mechanism, grid.names):
-        refuse_jumps(mechanism, chosen.parameters, plan.spec.until)
+        refuse_jumps(mechanism, plan.parameters, spec.until)
     kept_names, events = _events(mechanism, plan, quantities)
     acting = mechanism if target == "cpu" else structs.replace(mechanism, outputs=())  # others integrate no outputs
     known = foreseen(acting, events)
-    looks = plan.spec.adaptive and bool(switches_of(acting) or knots_of(acting))
-    alike = tuple(sentence for sentence in plan.warnings if sentence not in plan.missed)  # others are of each row
-    plan = replace(plan, spec=replace(plan.spec, pieces=()), warnings=alike)
-    driving = Driving(given, grid.names, plan.spec.until, known if plan.spec.adaptive else None)
+    looks = spec.adaptive and bool(switches_of(acting) or knots_of(acting))
+    driving = Driving(plan.inputs, grid.names, spec.until, known if spec.adaptive else None)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)
     held = held_of(names, grid.names, plan.holds, compiled.info)
@@ -243,9 +234,9 @@ def make_ensemble(
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
         raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave --target out, or name others")
-    integrator_of_rows(plan.tableau.name, plan.spec)
+    integrator_of_rows(plan.integrator.name, spec)
     if target == "lanes":
-        check_lanes(plan.tableau.name, plan.spec)
+        check_lanes(plan.integrator.name, spec)
     parts = bool(events) or driving.jumps  # what Python does something between
     singly = Singly(mechanism, events, ends) if parts or joint else None
     # single runs add up all that outputs ask for, which their steps follow, too
@@ -253,14 +244,14 @@ def make_ensemble(
     made = Made(mechanism, compiled, plan, adds, kept if singly is None else ())
     recipe = Recipe(
         **made.codes(target, joint, not parts and are_plain(kept)),
-        integrator=plan.tableau.name,
-        spec=plan.spec,
+        integrator=plan.integrator.name,
+        spec=spec,
         method_parameters=dict(plan.method_parameters),
         quantities=kept,
         held=tuple(held.coordinates.values()),
         kept=held.kept,
         fixed=held.fixed,
-        strict=chosen.strict,
+        strict=plan.settings.strict,
         code=code_identity(),
         target=target,
         singly=singly,
@@ -270,7 +261,33 @@ def make_ensemble(
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first
-    return Ensemble(model, chosen, plan, made.first, grid, held, recipe, driving, known, notes)
+    model = replace(model, mechanism=mechanism)
+    missed, notes = _missed(plan, known, grid)
+    warnings = *plan.warnings, *missed
+    return Ensemble(
+        model,
+        plan.settings,
+        plan,
+        made.first,
+        grid,
+        held,
+        recipe,
+        driving,
+        warnings,
+        (*plan.notes, *plan.bound, *notes),
+    )
+
+
+def _missed(plan: Plan, known: Foreseen, grid: Grid) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return what steps of all runs may not see, as warnings, or as a note where that depends on what varies."""
+    if not known.reads & {*grid.names, *(name for name, _ in derived(plan.mechanism.parameters))}:
+        return plan.missed if known else (), ()
+    if plan.spec.adaptive:
+        return (), ()
+    said = (
+        f"formulas change at times that depend on what varies: steps of {plan.spec.step:g} s may miss what is shorter"
+    )
+    return (), (f"{said}; adaptive ones do not",)
 
 
 def _check_settings(settings: Settings, target: str) -> None:
@@ -292,7 +309,7 @@ def _check_target(target: str, jumps: bool, passed: bool, events: bool, joints: 
     constant = "leave --target out, or take constant steps: integrator.adaptive=false with --step"
     for what, there, hint in (
         ("inputs that jump", jumps, "leave --target out"),
-        ("jumps, kinks and short pulses of formulas, at which adaptive steps end", passed, constant),
+        ("jumps and kinks of formulas, at which adaptive steps end", passed, constant),
         ("events", events, "leave --target out"),
         ("joint coordinates that are held at the start", joints, "leave --target out"),
     ):

@@ -16,18 +16,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen import __version__
 from symgen.compiling.straight_model import load_compiled
 from symgen.describe.digest import identity
-from symgen.describe.mechanism import Mechanism
+from symgen.describe.events import in_words
+from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.sides import Side
 from symgen.ensemble.measures import Measures, stored
 from symgen.ensemble.quantities import Quantity
-from symgen.ensemble.singly import Singly
 from symgen.ir.numerics import WARN
+from symgen.runtime import ensemble_abi as e
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.ensemble_abi import SIDE
 from symgen.runtime.run import RunSpec
+from symgen.version import __version__
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -131,6 +132,35 @@ class Tree:
     def described(self) -> list[Any]:
         """What it is, as JSON can express it."""
         return [identity(self.mechanism), self.plain]
+
+
+@dataclass(frozen=True)
+class Singly:
+    """What runs need that are done one by one.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        What is run, with what it is given in the place of inputs.
+    events : tuple of Event
+        What is looked for.
+    ends : bool
+        Whether the only output is the end of a run, wherever an event puts it.
+    """
+
+    mechanism: Mechanism
+    events: tuple[Event, ...] = ()
+    ends: bool = False
+
+    @property
+    def width(self) -> int:
+        """Numbers that each run leaves beside those of every ensemble."""
+        return e.HEAD_OF_EVENTS + e.OF_EVENT * len(self.events) if self.events else 0
+
+    @property
+    def described(self) -> list[Any]:
+        """What it is, as JSON can express it."""
+        return [identity(self.mechanism), in_words(self.events), self.ends]
 
 
 @dataclass(frozen=True)
@@ -264,8 +294,7 @@ def code_identity() -> str:
     """Return a digest of all that computes runs: the version, and the sources of loops, schemes and ensembles."""
     package = Path(__file__).resolve().parent.parent
     found = hashlib.sha256(__version__.encode())
-    for folder in ("ensemble", "integrators", "result", "runtime"):
+    for folder in ("ensemble", "integrators", "result", "running", "runtime"):
         for path in sorted((package / folder).rglob("*.py")):
             found.update(path.relative_to(package).as_posix().encode() + b"\0" + path.read_bytes())
-    found.update((package / "tree_run.py").read_bytes())
     return found.hexdigest()

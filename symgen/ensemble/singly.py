@@ -20,23 +20,23 @@ from symgen.compiling.carrying import carrying_of
 from symgen.compiling.events import compile_events, masses_of
 from symgen.compiling.knots import with_looks
 from symgen.compiling.side import compile_side
-from symgen.describe.digest import identity
-from symgen.describe.events import RESET, in_words
+from symgen.describe.events import RESET
 from symgen.ensemble.measures import NAME, PURPOSE, formulas_of
 from symgen.errors import InputError
 from symgen.result.reactions import Forces, seats
+from symgen.running.tree import TreeRun, begin_on_tree
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembly import Start
+from symgen.runtime.hunting import undefined_event
 from symgen.runtime.rows import summarise
 from symgen.runtime.run import outcome_of
 from symgen.runtime.simulation import Simulation
-from symgen.tree_run import TreeRun, begin_on_tree
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Event, Mechanism
-    from symgen.ensemble.kernel import Results
-    from symgen.ensemble.recipe import Recipe
+    from symgen.describe.mechanism import Mechanism
+    from symgen.ensemble.chunks import Results
+    from symgen.ensemble.recipe import Recipe, Singly
     from symgen.ensemble.starts import Rows
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Watched
@@ -51,35 +51,6 @@ Integers = NDArray[np.int64]
 
 #: Steps between two looks at whether somebody wants it to stop.
 _STEPS = 1e5
-
-
-@dataclass(frozen=True)
-class Singly:
-    """What runs need that are done one by one.
-
-    Attributes
-    ----------
-    mechanism : Mechanism
-        What is run, with what it is given in the place of inputs.
-    events : tuple of Event
-        What is looked for.
-    ends : bool
-        Whether the only output is the end of a run, wherever an event puts it.
-    """
-
-    mechanism: Mechanism
-    events: tuple[Event, ...] = ()
-    ends: bool = False
-
-    @property
-    def width(self) -> int:
-        """Numbers that each run leaves beside those of every ensemble."""
-        return e.HEAD_OF_EVENTS + e.OF_EVENT * len(self.events) if self.events else 0
-
-    @property
-    def described(self) -> list[Any]:
-        """What it is, as JSON can express it."""
-        return [identity(self.mechanism), in_words(self.events), self.ends]
 
 
 @dataclass
@@ -276,6 +247,8 @@ def note_events(row: Array, outcome: Outcome, code: int) -> None:
     refused = [x for x in outcome.happened if x.t == outcome.end and x.action == RESET and x.after is None]
     if code == e.IMPOSSIBLE and refused:
         row[e.IMPOSSIBLE_EVENT] = numbers[refused[-1].name]
+    elif code == abi.UNDEFINED:
+        row[e.IMPOSSIBLE_EVENT] = undefined_event(outcome.simulation.state)
 
 
 def event_columns(names: Sequence[str]) -> dict[str, tuple[int, str]]:

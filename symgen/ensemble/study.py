@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections import Counter
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
 from os import PathLike
@@ -14,23 +15,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen import __version__
 from symgen.arguments import path as argument_path
 from symgen.arguments import shown, whole
-from symgen.ensemble.jumps import rows_that_jump, rows_that_may_miss, rows_whose_inputs_cannot_be
+from symgen.ensemble.jumps import rows_that_jump, rows_whose_inputs_cannot_be
 from symgen.ensemble.labels import NUMBERS, of_dimension, of_number, of_quantities, of_varied
-from symgen.ensemble.lines import SAVED, csv_of
-from symgen.ensemble.moved import warnings_of_starts
 from symgen.ensemble.names import Names
 from symgen.ensemble.singly import event_columns
 from symgen.ensemble.verdicts import NOT_RUN, column, judge_all, warnings_all
 from symgen.errors import InputError, nearest
-from symgen.files import write_csv, write_whole
+from symgen.files import headed, write_csv, write_whole
 from symgen.result.contract import finite
 from symgen.result.export import check_path, need, netcdf
 from symgen.result.labelled import html_table
-from symgen.result.result import FAILED, OK, UNVERIFIED
+from symgen.result.run_data import FAILED, OK, UNVERIFIED
 from symgen.runtime.ensemble_abi import ASSEMBLED
+from symgen.version import __version__
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -38,6 +37,10 @@ if TYPE_CHECKING:
     from symgen.ensemble.plan import Ensemble
 
 Array = NDArray[np.float64]
+
+
+#: Endings of files -> the libraries needed.
+SAVED: Mapping[str, tuple[str, ...]] = {".nc": ("xarray", "h5netcdf", "h5py"), ".csv": ()}
 
 
 @dataclass(frozen=True, repr=False)
@@ -84,8 +87,8 @@ class Sweep:
         compiled = self.ensemble.compiled
         recipe, events = self.ensemble.recipe, self.ensemble.events
         status, reason = judge_all(self.summary, self.done, compiled.info, compiled.law, recipe.spec, events)
-        for rows, told in rows_that_jump(self.ensemble, self.done):
-            status[rows], reason[rows] = FAILED, told
+        for row, told in rows_that_jump(self.ensemble, self.done):
+            status[row], reason[row] = FAILED, told
         for row, told in rows_whose_inputs_cannot_be(
             self.ensemble, self.done & (column(self.summary, "start") != ASSEMBLED)
         ):
@@ -109,15 +112,10 @@ class Sweep:
 
     @cached_property
     def warnings(self) -> NDArray[np.object_]:
-        """What there is to say of every run, ok or not: a tuple of sentences, as a single run has them."""
+        """What there is to say of every run, ok or not: a tuple of sentences."""
         ensemble, found = self.ensemble, np.empty(len(self), dtype=object)
         begun = self.done & (column(self.summary, "start") == ASSEMBLED)
-        found[:] = [ensemble.plan.warnings if there else () for there in begun]
-        for rows, sentence in rows_that_may_miss(ensemble, begun):
-            for i in rows:
-                found[i] += (sentence,)
-        for i, sentences in warnings_of_starts(ensemble, self.summary, begun):
-            found[i] += sentences
+        found[:] = [ensemble.warnings if there else () for there in begun]
         law, spec = ensemble.compiled.law, ensemble.recipe.spec
         for i, sentences in warnings_all(self.summary, begun, law, spec).items():
             found[i] += sentences
@@ -174,7 +172,7 @@ class Sweep:
             "mechanism": ensemble.model.name,
             "model_digest": ensemble.compiled.info.digest,
             "method": ensemble.compiled.law.method,
-            "integrator": ensemble.plan.tableau.name,
+            "integrator": ensemble.plan.integrator.name,
             "target": ensemble.target,
             "coordinates": ensemble.plan.coordinates,
             "step": None if spec.adaptive else spec.step,
@@ -182,7 +180,7 @@ class Sweep:
             "atol": spec.atol if spec.adaptive else None,
             "until": spec.until,
             "parameters": json.dumps({k: x for k, x in ensemble.parameters.items() if "~" not in k}),
-            "inputs": json.dumps(dict(ensemble.driving.given.told)),
+            "inputs": json.dumps(dict(ensemble.driving.given.words)),
             "options": json.dumps(dict(ensemble.settings.options)),
             "settings": json.dumps(finite(settings)),
             "versions": json.dumps(_versions()),
@@ -277,7 +275,7 @@ class Sweep:
         file = argument_path("save", path)
         check_path("save", file, SAVED, "data")
         if file.suffix.lower() == ".csv":
-            return write_csv(file, *csv_of(self))
+            return write_csv(file, *lines_of(self))
         return write_whole(file, netcdf(self.to_xarray()))
 
     def units(self) -> dict[str, str]:
@@ -311,3 +309,39 @@ def _versions() -> dict[str, str]:
         "numpy": np.__version__,
         "numba": numba.__version__,
     }
+
+
+def lines_of(found: Sweep) -> tuple[list[str], Iterator[list[object]]]:
+    """Return the heading of a table with units, and a line for each run and output time; missing numbers are empty."""
+    ensemble, units = found.ensemble, found.units()
+    times, quantities = ensemble.recipe.spec.times, ensemble.recipe.quantities
+    varied = ensemble.grid.values(0, len(found))
+    labels = of_quantities([q.name for q in quantities], ensemble.grid.axes)
+    names = {name: of_varied(name, axis) for axis in ensemble.grid.axes for name in axis.values}
+    events = {name: found.summary[:, at] for name, (at, _) in found.events.items()}
+    heading = [
+        "run",
+        *(headed(names[name], units[name]) for name in varied),
+        headed("t", "s"),
+        *(headed(label, q.unit) for label, q in zip(labels, quantities, strict=True)),
+        headed("end", "s"),
+        *(headed(name, unit) for name, (_, unit) in found.events.items()),
+        "status",
+        "reason",
+        "warnings",
+    ]
+    end = column(found.summary, "end")
+
+    def lines() -> Iterator[list[object]]:
+        for i in range(len(found)):
+            before = [i, *(float(x[i]) for x in varied.values())]
+            behind = [float(end[i]), *(_shown(x[i]) for x in events.values()), found.status[i], found.reason[i]]
+            behind.append("; ".join(found.warnings[i]))
+            for k, t in enumerate(times):
+                yield [*before, float(t), *(_shown(x) for x in found.values[i, :, k]), *behind]
+
+    return heading, lines()
+
+
+def _shown(x: float) -> float | None:
+    return float(x) if np.isfinite(x) else None

@@ -12,10 +12,9 @@ from numpy.typing import ArrayLike
 
 from symgen import arguments
 from symgen.ensemble.axes import RUN_SIZE
-from symgen.ensemble.lines import SAVED
 from symgen.ensemble.local import run_here
 from symgen.ensemble.plan import Ensemble, make_ensemble
-from symgen.ensemble.study import Sweep
+from symgen.ensemble.study import SAVED, Sweep
 from symgen.ensemble.table import FolderTable, Table, check_folder
 from symgen.errors import InputError
 from symgen.memory import require, require_disk

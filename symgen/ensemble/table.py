@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.ensemble.kernel import Chunk
+from symgen.ensemble.chunks import Chunk
 from symgen.errors import InputError, SimulationError
 from symgen.files import check_name, why, write_whole
 from symgen.runtime.ensemble_abi import N_SUMMARY

@@ -1,6 +1,6 @@
 """Rows of an ensemble in joint coordinates: starts of bodies carried to the tree, and its motion back, in loops.
 
-What single runs do in `symgen.tree_run`, with the same bits. Rows whose start has dependent rows of loops, and
+What single runs do in `symgen.running.tree`. Rows whose start has dependent rows of loops, and
 quantities beside coordinates, velocities and energies, are left to `symgen.ensemble.singly`.
 """
 

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from symgen.ir.numerics import WARN
 from symgen.result.judge import JUMP_FAILURE, judge_alone
-from symgen.result.result import FAILED, OK
+from symgen.result.run_data import FAILED, OK
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.events import gathered
+from symgen.runtime.events import gathered, undefined
 from symgen.runtime.outcome import Ended, RankEvent
 from symgen.runtime.run import end_reason
 from symgen.runtime.start_words import refusal
@@ -27,6 +27,8 @@ Array = NDArray[np.float64]
 
 #: Status of a run that has not been done.
 NOT_RUN = "not run"
+#: What is said of velocities that could not be what they were given as.
+_PROJECTED = "given velocities contradicted the constraints and were projected; --strict lets such runs fail"
 
 
 def column(summary: Array, name: str) -> Array:
@@ -88,8 +90,11 @@ def warnings_all(summary: Array, done: NDArray[np.bool_], law: LawInfo, spec: Ru
     """
     odd = (column(summary, "rank_event_count") > 0.0) | (column(summary, "smallest_pivot") < WARN)
     odd |= (column(summary, "energy_jump") > 0.0) | (column(summary, "light_evaluations") > 0.0)
-    rows = np.flatnonzero(done & odd & (column(summary, "start") == e.ASSEMBLED))
-    return {int(i): judge_alone(_seen(summary[i], spec), law.position_correction).warnings for i in rows}
+    ready, projected = done & (column(summary, "start") == e.ASSEMBLED), column(summary, "start_velocities") == 1.0
+    found: dict[int, tuple[str, ...]] = {int(i): (_PROJECTED,) for i in np.flatnonzero(ready & projected)}
+    for i in np.flatnonzero(ready & odd).tolist():
+        found[i] = (*found.get(i, ()), *judge_alone(_seen(summary[i], spec), law.position_correction).warnings)
+    return found
 
 
 def _of_events(row: Array, events: Sequence[str]) -> str | None:
@@ -98,6 +103,8 @@ def _of_events(row: Array, events: Sequence[str]) -> str | None:
     if code == abi.GATHERED:
         names = [name for i, name in enumerate(events) if int(further[e.GATHERING]) >> i & 1]
         return gathered(names, float(further[e.ACCUMULATION]))
+    if code == abi.UNDEFINED:
+        return undefined(events[int(further[e.IMPOSSIBLE_EVENT])], time)
     if code != e.IMPOSSIBLE:
         return None
     if not len(further) or np.isnan(further[e.IMPOSSIBLE_EVENT]):

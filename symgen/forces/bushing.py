@@ -9,6 +9,7 @@ import msgspec
 from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair, SixBySix, found
 from symgen.describe.mechanism import Force
 from symgen.describe.scope import Scope
+from symgen.describe.triads import make_triads
 from symgen.vocabulary.expressions import ONE, ZERO, Expr, Name, call, number
 from symgen.vocabulary.measures import Component, Dot, Effort, Measure, Sum
 
@@ -71,7 +72,7 @@ class Bushing(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
 
     def _displacements(self, scope: Scope, a: str, b: str) -> tuple[Measure, ...]:
         ends = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        of_a, of_b = scope.triads((a, b), self.axis or (0.0, 0.0, 1.0), self.reference, fixed=True)
+        of_a, of_b = make_triads(scope, (a, b), self.axis or (0.0, 0.0, 1.0), self.reference, fixed=True)
         u, v = ((t.first, t.second, t.axis) for t in (of_a, of_b))
         half = number(0.5), number(-0.5)
         turns = (

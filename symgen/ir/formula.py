@@ -31,6 +31,8 @@ class Functions:
 
     def call(self, function: str, *args: int) -> int:
         """Return the node of ``function(*args)`` for a name of `symgen.ir.graph.FUNCTIONS` or ``table:NAME``."""
+        if function in ("both", "either"):
+            return self._decided(function, *args)
         found = self.graph.call(function, *args)
         if function in ("where", "not"):
             return self._carried(function, args[0], found)
@@ -64,6 +66,19 @@ class Functions:
             both = self._all("and", (defined for defined, _ in unsure.values()))
             self._unsure[found] = self._all("or", [both, *ways]), g.total(witness for _, witness in unsure.values())
         return found
+
+    def _decided(self, function: str, a: int, b: int) -> int:
+        """Return what is above 0 where both, or either, of two numbers are; the other may be none where one decides."""
+        g, smaller = self.graph, function == "both"
+        found = g.call("min" if smaller else "max", a, b)
+        unsure = [x for x in (a, b) if not self._is_defined(x)]
+        for x, other in ((a, b), (b, a)):
+            found = g.call("where", g.call("defined", x), found, other) if x in unsure else found
+        if not unsure:
+            return found
+        decides = g.call("le" if smaller else "gt", found, g.zero)
+        sure = self._all("and", (g.call("defined", x) for x in unsure))
+        return g.call("where", g.call("or", sure, decides), found, g.total(unsure))
 
     def _all(self, function: str, conditions: Iterable[int]) -> int:
         return reduce(lambda a, b: self.graph.call(function, a, b), conditions)

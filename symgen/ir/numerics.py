@@ -18,6 +18,7 @@ NUMBERS: dict[str, float] = {
     # corrections
     "stalled": 0.5,  # an iteration that leaves more than this part of a violation gains nothing any more,
     "slack": 1e4,  # if the violation is within so many tolerances: then it is rounding
+    "tighter": 1e-2,  # part of the tolerance of violations near a singular position
     "falling": 0.9,  # the same part for mass-orthogonal projections, which converge linearly
     "most_projections": 20,
     # iterated laws

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
-from symgen.describe.triads import Triad
+from symgen.describe.triads import Triad, make_triad
 from symgen.vocabulary.expressions import Expr, Number, call, number
 from symgen.vocabulary.measures import GROUND, Component, Direction, Dot, Holonomic, Marker, Sum, Turn, axes
 
@@ -52,7 +52,7 @@ def plane_of_ground(
 
     A row on a velocity along an opposite direction has a multiplier that pushes the body along the direction itself.
     """
-    plane = scope.triad(GROUND, normal, reference, ("normal", "reference"))
+    plane = make_triad(scope, GROUND, normal, reference, ("normal", "reference"))
     opposite = [Direction(GROUND, tuple(call("neg", e) for e in d.vector)) for d in (plane.first, plane.second)]
     return scope.marker("on", GROUND, on), plane, (opposite[0], opposite[1])
 

@@ -9,6 +9,7 @@ import msgspec
 from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
+from symgen.describe.triads import make_triads
 from symgen.joints._space import coincident
 from symgen.vocabulary.expressions import number
 from symgen.vocabulary.measures import Dot, Holonomic, Sum
@@ -50,7 +51,7 @@ class ConstantVelocity(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         """
         a, b = scope.pair("between", self.between, turns=(True, True))
         centres = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        of_a, of_b = scope.triads((a, b), self.axis, self.reference, fixed=True)
+        of_a, of_b = make_triads(scope, (a, b), self.axis, self.reference, fixed=True)
         half = number(0.5), number(-0.5)
         twist = Sum(((half[0], Dot(of_a.second, of_b.first)), (half[1], Dot(of_a.first, of_b.second))))
         rows = (*coincident(*centres), Holonomic("twist", twist, unit="rad"))

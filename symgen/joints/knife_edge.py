@@ -9,6 +9,7 @@ import msgspec
 from symgen.describe.fields import Axis, BodyName, Point
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import CENTRE, Scope
+from symgen.describe.triads import make_triad
 from symgen.joints._space import plane_of_ground
 from symgen.vocabulary.expressions import call
 from symgen.vocabulary.measures import (
@@ -73,7 +74,7 @@ class KnifeEdge(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     def _on_plane(self, scope: Scope, body: str, point: Marker) -> Joint:
         scope.only("normal", normal=self.normal)
         origin, plane, _ = plane_of_ground(scope, self.on or (0.0, 0.0, 0.0), self.normal or (), None)
-        blade = scope.triad(body, self.axis).axis
+        blade = make_triad(scope, body, self.axis).axis
         backward = Direction(body, tuple(call("neg", e) for e in blade.vector))
         rows = (
             Holonomic("normal", Component(point, origin, plane.axis)),

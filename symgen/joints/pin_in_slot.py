@@ -9,6 +9,7 @@ import msgspec
 from symgen.describe.fields import Axis, BodyPair, PointPair
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
+from symgen.describe.triads import make_triad
 from symgen.joints._space import on_axis
 from symgen.vocabulary.measures import Angle, Component, Holonomic
 
@@ -45,7 +46,7 @@ class PinInSlot(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         a, b = scope.pair("between", self.between, turns=(False, True))
         pin, slot = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
         if scope.spatial:
-            triad = scope.triad(b, self.axis)
+            triad = make_triad(scope, b, self.axis)
             displacement = Component(slot, pin, triad.axis)
             rows = on_axis(pin, slot, triad)
             return Joint(scope.name, scope.kind, (a, b), rows, (("displacement", displacement),))

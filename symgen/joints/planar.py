@@ -9,6 +9,7 @@ import msgspec
 from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
+from symgen.describe.triads import make_triads
 from symgen.joints._space import angle, frames, markers, parallel
 from symgen.vocabulary.measures import Component, Holonomic
 
@@ -46,7 +47,7 @@ class Planar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
         """Resolve to the distance from the plane and two angles."""
         a, b = scope.pair("between", self.between, turns=(True, True))
         ends = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        triad_a, triad_b = scope.triads((a, b), self.normal, self.reference, ("normal", "reference"))
+        triad_a, triad_b = make_triads(scope, (a, b), self.normal, self.reference, ("normal", "reference"))
         return Joint(
             name=scope.name,
             kind=scope.kind,

@@ -9,6 +9,7 @@ import msgspec
 from symgen.describe.fields import Axis, BodyPair, PointPair
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
+from symgen.describe.triads import make_triad
 from symgen.vocabulary.measures import Component, Holonomic
 
 
@@ -40,7 +41,7 @@ class PointOnPlane(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
         """Resolve to the distance from the plane."""
         a, b = scope.pair("between", self.between, turns=(False, True))
         point, plane = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        triad = scope.triad(b, self.normal, keys=("normal", ""))
+        triad = make_triad(scope, b, self.normal, keys=("normal", ""))
         return Joint(
             name=scope.name,
             kind=scope.kind,

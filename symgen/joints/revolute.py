@@ -9,6 +9,7 @@ import msgspec
 from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
+from symgen.describe.triads import make_triads
 from symgen.joints._space import angle, coincident, frames, markers, parallel
 from symgen.vocabulary.measures import Angle
 
@@ -62,7 +63,7 @@ class Revolute(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         if self.axis is None:
             raise scope.error("axis", "an axis, as a revolute joint in space has one", "no such key")
         a, b = scope.pair("between", self.between, turns=(True, True))
-        triad_a, triad_b = scope.triads((a, b), self.axis, self.reference)
+        triad_a, triad_b = make_triads(scope, (a, b), self.axis, self.reference)
         return Joint(
             name=scope.name,
             kind=scope.kind,

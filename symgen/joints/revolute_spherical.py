@@ -9,6 +9,7 @@ import msgspec
 from symgen.describe.fields import Axis, BodyPair, PointPair, Scalar
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
+from symgen.describe.triads import make_triad
 from symgen.vocabulary.measures import Bearing, Component, Holonomic, LinkStretch
 
 
@@ -46,7 +47,7 @@ class RevoluteSpherical(msgspec.Struct, frozen=True, kw_only=True, forbid_unknow
         """Resolve to the height over the pin's plane and the stretch of the link."""
         a, b = scope.pair("between", self.between, turns=(True, False))
         pin, ball = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        triad = scope.triad(a, self.axis, self.reference)
+        triad = make_triad(scope, a, self.axis, self.reference)
         length = scope.constant("length", self.length, positive=True)
         return Joint(
             name=scope.name,

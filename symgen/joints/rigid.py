@@ -9,6 +9,7 @@ import msgspec
 from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair, Scalar
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
+from symgen.describe.triads import make_triads
 from symgen.joints._space import coincident, frames, markers, not_turned, parallel
 from symgen.vocabulary.measures import Angle, Holonomic
 
@@ -51,7 +52,7 @@ class Rigid(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
         weld_a, weld_b = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
         if scope.spatial:
             scope.only(angle=self.angle)
-            triads = scope.triads((a, b), self.axis or (0.0, 0.0, 1.0), self.reference, fixed=True)
+            triads = make_triads(scope, (a, b), self.axis or (0.0, 0.0, 1.0), self.reference, fixed=True)
             rows = (*coincident(weld_a, weld_b), *parallel(*triads), not_turned(*triads))
             return Joint(scope.name, scope.kind, (a, b), rows)
         scope.only(axis=self.axis, reference=self.reference)

@@ -7,6 +7,7 @@ from typing import ClassVar
 from symgen.describe.fields import Axis
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
+from symgen.describe.triads import make_triad
 from symgen.joints._rolling import Rolling
 from symgen.vocabulary.expressions import number
 from symgen.vocabulary.measures import Holonomic, RimHeight, Sum
@@ -34,7 +35,7 @@ class RollingDisc(Rolling, frozen=True, kw_only=True, forbid_unknown_fields=True
     def build(self, scope: Scope) -> Joint:
         """Resolve to the height of the rim's lowest point and two velocities of the point of contact."""
         found = self.contact(scope)
-        axis = scope.triad(found.body, self.axis).axis
+        axis = make_triad(scope, found.body, self.axis).axis
         # downwards, so that a positive multiplier pushes the disc along the normal
         rim = RimHeight(found.origin, found.plane.axis, found.centre, axis, found.radius)
         return found.joint(scope, Holonomic("normal", Sum(((number(-1.0), rim),))), axis)

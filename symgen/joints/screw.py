@@ -8,6 +8,7 @@ from typing import ClassVar
 from symgen.describe.fields import Scalar
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
+from symgen.describe.triads import make_triads
 from symgen.joints._axial import Axial
 from symgen.joints._space import angle, frames, markers, on_axis, parallel
 from symgen.vocabulary.expressions import ONE, call, number
@@ -39,7 +40,7 @@ class Screw(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True):
     def build(self, scope: Scope) -> Joint:
         """Resolve to the rows of a cylindrical joint and one that ties its two coordinates together."""
         bodies, points = self.resolved(scope)
-        triads = scope.triads(bodies, self.axis, self.reference)
+        triads = make_triads(scope, bodies, self.axis, self.reference)
         displacement, turn = Component(*points, triads[0].axis), angle(*triads)
         slope = call("div", scope.constant("pitch", self.pitch), number(-2.0 * math.pi))
         thread = Holonomic("screw", Sum(((ONE, displacement), (slope, turn))), scope.constant("offset", self.offset))

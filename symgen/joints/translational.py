@@ -7,6 +7,7 @@ from typing import ClassVar
 from symgen.describe.fields import Scalar
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
+from symgen.describe.triads import make_triads
 from symgen.joints._axial import Axial
 from symgen.joints._space import frames, markers, not_turned, on_axis, parallel
 from symgen.vocabulary.measures import Angle, Component, Holonomic
@@ -40,7 +41,7 @@ class Translational(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True
         rows: tuple[Holonomic, ...]
         if scope.spatial:
             scope.only(angle=self.angle)
-            triads = scope.triads(bodies, self.axis, self.reference, fixed=True)
+            triads = make_triads(scope, bodies, self.axis, self.reference, fixed=True)
             along = triads[0].axis
             rows = (*on_axis(*points, triads[0]), *parallel(*triads), not_turned(*triads))
         else:

@@ -9,6 +9,7 @@ import msgspec
 from symgen.describe.fields import BodyPair, DirectionPair, PointPair
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
+from symgen.describe.triads import make_cross
 from symgen.joints._space import coincident, markers, third
 from symgen.vocabulary.expressions import number
 from symgen.vocabulary.measures import Dot, Holonomic, Sum, Turn
@@ -48,7 +49,7 @@ class Universal(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         """Resolve to the components of the vector between the points and the product of the axes."""
         a, b = scope.pair("between", self.between, turns=(True, True))
         centres = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        of_a, of_b = scope.cross((a, b), self.axes, self.reference)
+        of_a, of_b = make_cross(scope, (a, b), self.axes, self.reference)
         return Joint(
             name=scope.name,
             kind=scope.kind,

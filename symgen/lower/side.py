@@ -18,7 +18,7 @@ from symgen.formulate.measures import Model
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.interpolation import Interpolation
-from symgen.ir.program import Block, Layout, Target
+from symgen.ir.program import STATUS, Block, Layout, Target
 from symgen.lower.windings import Beside
 from symgen.vocabulary.expressions import Expr, Reading
 from symgen.vocabulary.measures import Driven, Exerted, Integral, Measure
@@ -98,6 +98,26 @@ class SideModel(Model):
             for slopes in jacobian(g, nodes, known)
         ]
 
+    def sizes(self, nodes: Sequence[int]) -> list[int]:
+        """Return what rounding of `nodes` is a part of: a difference's terms, and what the state makes of the value.
+
+        Coordinates and velocities count with at least the mechanism's length and speed: they are rounded where others
+        are as large.
+        """
+        g = self.graph
+        length, speed = (g.input("status", STATUS.index(f"{scale}_scale")) for scale in ("length", "speed"))
+        least = {"m": length, "m/s": speed, "rad/s": g.div(speed, length)}
+        of: dict[Key, int] = {("t", 0): g.call("abs", g.input("t", 0))}
+        for space, part in zip("qv", quantities(self.mechanism), strict=True):
+            for i, quantity in enumerate(part):
+                of[space, i] = g.add(g.call("abs", g.input(space, i)), least.get(quantity.unit, g.one))
+        found = list[int]()
+        for node, slopes in zip(nodes, jacobian(g, nodes, of), strict=True):
+            op, terms, _ = g.nodes[node]
+            parts = [g.call("abs", term) for term in (terms if op in ("add", "sub") else (node,))]
+            found.append(g.total([*parts, *(g.mul(g.call("abs", slopes[key]), of[key]) for key in sorted(slopes))]))
+        return found
+
 
 def moved(
     source: Graph, nodes: Sequence[int], renamed: Callable[[Key], Key] = lambda key: key
@@ -108,7 +128,13 @@ def moved(
 
 
 def lower_side(
-    mechanism: Mechanism, name: str, purpose: str, formulas: Sequence[tuple[str, Expr]], beside: Beside, rates: int = 0
+    mechanism: Mechanism,
+    name: str,
+    purpose: str,
+    formulas: Sequence[tuple[str, Expr]],
+    beside: Beside,
+    rates: int = 0,
+    sizes: bool = False,
 ) -> SideProgram:
     """Lower formulas of a run.
 
@@ -124,6 +150,8 @@ def lower_side(
         What they may read of the compiled model.
     rates : int
         How many derivatives of all formulas along the motion follow behind their values; v' counts as constant.
+    sizes : bool
+        Whether sizes of what they add up follow behind that, see `SideModel.sizes`.
 
     Raises
     ------
@@ -136,6 +164,9 @@ def lower_side(
     for k in range(rates):
         nodes += model.rates(nodes[k * len(formulas) :])
         labels += [f"rate of {label}" for label in labels[k * len(formulas) :]]
+    if sizes:
+        nodes += model.sizes(nodes[: len(formulas)])
+        labels += [f"size of {label}" for label, _ in formulas]
     graph, images = moved(model.graph, nodes)
     outputs = tuple((Target("out", i), image) for i, image in enumerate(images))
     block = Block(name, purpose, graph, outputs, ("t", "y", "p", "w", "ydot", "out"))

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from symgen.auto import AUTO
 from symgen.report import words
 from symgen.report.document import Cell, Document, Section, Table
 from symgen.report.picture import sketched
 from symgen.report.stress_figures import maps, overview, regions
+from symgen.running.automatic import AUTO
 from symgen.study.machine import machine_class, versions
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 from symgen.study.stress.findings import FEW_MODELS, cause, findings

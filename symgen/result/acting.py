@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.describe.orientation import matrix
 from symgen.result.labelled import Array, Labelled
 from symgen.vocabulary.measures import GROUND
+from symgen.vocabulary.rotations import matrix
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism

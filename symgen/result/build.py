@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -17,70 +16,54 @@ from symgen.result.labelled import labelled
 from symgen.result.measured import Measured
 from symgen.result.parts import Rank, Seconds
 from symgen.result.reactions import Forces, seats
-from symgen.result.result import FAILED, Result
-from symgen.run_setup import made_of
+from symgen.result.result import Result
+from symgen.result.run_data import FAILED
+from symgen.running.continuation import made_of
+from symgen.running.tree import CarriedOutcome
 from symgen.runtime import abi
 from symgen.runtime.events import record_of, stopped
 from symgen.runtime.last_state import LastState
 from symgen.runtime.simulation import SHOWN
-from symgen.tree_run import CarriedOutcome
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from symgen.describe.mechanism import Mechanism
-    from symgen.plan import Plan
-    from symgen.result.agreement import Settled
+    from symgen.result.agreement import Verification
+    from symgen.running.prepare import Prepared
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.outcome import Outcome
-    from symgen.settings import Settings
 
 
 def build_result(
-    mechanism: Mechanism,
-    settings: Settings,
-    plan: Plan,
-    compiled: CompiledModel,
-    outcome: Outcome,
-    run_spread: float = 0.0,
-    second: Settled | None = None,
-    inputs: Mapping[str, str | float] | None = None,
-    state: CompiledModel | None = None,
+    run: Prepared, outcome: Outcome, run_spread: float = 0.0, verification: Verification | None = None
 ) -> Result:
     """Label and judge the outcome of a run.
 
     Parameters
     ----------
-    mechanism : Mechanism
+    run : Prepared
         What was run.
-    settings, plan : Settings, Plan
-        How it was asked for, and what the loop got.
-    compiled : CompiledModel
-        The emitted functions that were run.
     outcome : Outcome
-        What the loop gave.
+        What the loop gave, in the coordinates of the state.
     run_spread : float, optional
         Longest minus shortest run time of repeated runs [s].
-    second : Settled, optional
-        What a run with finer steps said of this one.
-    inputs : mapping, optional
-        What inputs were, in words or numbers.
-    state : CompiledModel, optional
-        What was run where it was in joint coordinates; `compiled` and `outcome` are of bodies then.
+    verification : Verification, optional
+        What a run with finer steps says of this one.
 
     Returns
     -------
     Result
         With status, reason, warnings and notes settled.
     """
-    info, spec, start = compiled.info, plan.spec, outcome.start
-    values = parameter_values(mechanism, settings.parameters)
+    plan, spec, outcome = run.plan, run.spec, run.of_bodies(outcome)
+    mechanism, compiled, start = plan.mechanism, outcome.compiled, outcome.start
+    info, own = compiled.info, run.compiled.info
+    values = parameter_values(mechanism, plan.parameters)
     parameters = {name: value for name, value in values.items() if name not in mechanism.inputs}
     forces = Forces(outcome, seats(mechanism, values))
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
-    verdict = judge(plan, compiled, outcome, second, settings.verify)
+    verdict = judge(run, outcome, verification)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
     verdict = replace(verdict, notes=(*notes, *verdict.notes, *stopped(outcome)))
+    derived = (compiled,) if run.tree is None else (compiled, run.compiled)
     states, status = outcome.states, outcome.status_columns
     q, v = info.parts(states)
     kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, info.work]
@@ -88,14 +71,14 @@ def build_result(
     return Result(
         mechanism=mechanism.name,
         method=law.method,
-        integrator=plan.tableau.name,
+        integrator=plan.integrator.name,
         step=spec.step,
         rtol=spec.rtol if spec.adaptive else None,
         atol=spec.atol if spec.adaptive else None,
         until=spec.until,
         status=verdict.status,
         reason=verdict.reason,
-        warnings=(*plan.warnings, *outcome.start.warnings, *verdict.warnings),
+        warnings=(*plan.all_warnings, *start.warnings, *verdict.warnings),
         notes=verdict.notes,
         parameters=parameters,
         t=outcome.times,
@@ -114,8 +97,8 @@ def build_result(
         evaluations=outcome.evaluations,
         iterations=outcome.counters.get("iterations", 0),
         seconds=Seconds(
-            compiled.derive_seconds + (0.0 if state is None else state.derive_seconds),
-            compiled.emit_seconds + (0.0 if state is None else state.emit_seconds),
+            sum(code.derive_seconds for code in derived),
+            sum(code.emit_seconds for code in derived),
             outcome.compile_seconds,
             outcome.run_seconds,
             run_spread,
@@ -123,31 +106,29 @@ def build_result(
         position_violation_max=outcome.position_violation_max,
         velocity_violation_max=outcome.velocity_violation_max,
         energy_drift_max=outcome.energy_drift_max,
-        error_estimate=None if second is None or verdict.status == FAILED else second.error,
+        error_estimate=None if verification is None or verdict.status == FAILED else verification.error,
         outcome=outcome,
         forces=forces,
         measured=measured,
         end=outcome.end,
         events=tuple(record_of(info, event) for event in outcome.happened),
         accumulation=outcome.accumulation,
-        inputs=dict(inputs or {}),
+        inputs=dict(plan.inputs.words),
         coordinates=plan.coordinates,
         watched=tuple((event.name, event.action) for event in plan.events),
-        state=tuple(x.name for own in [(state or compiled).info] for x in (*own.coordinates, *own.velocities)),
-        ended=partial(_last_state, mechanism, plan, compiled, outcome, parameters),
+        state=tuple(x.name for x in (*own.coordinates, *own.velocities)),
+        ended=partial(_last_state, run, outcome),
     )
 
 
-def _last_state(
-    mechanism: Mechanism, plan: Plan, compiled: CompiledModel, outcome: Outcome, parameters: Mapping[str, float]
-) -> LastState:
+def _last_state(run: Prepared, outcome: Outcome) -> LastState:
     """Return where a run ended, with all that it kept; of one that failed, the last state that it accepted."""
-    info, start = compiled.info, outcome.start
+    mechanism, info, start = run.plan.mechanism, outcome.compiled.info, outcome.start
     if isinstance(outcome, CarriedOutcome):  # in joint coordinates: where bodies are, and all that was kept of joints
         y, work, w = outcome.end_state, outcome.work, outcome.w
-        made, arrays = outcome.tree.made(plan, parameters), _arrays(outcome.inner) | outcome.tree.kept(outcome)
+        arrays = _arrays(outcome.inner) | outcome.tree.kept(outcome)
     else:
-        made, arrays = made_of(compiled, plan, parameters), _arrays(outcome)
+        arrays = _arrays(outcome)
         y, work, w = arrays["y"], arrays["y"][info.work], arrays["w"]
     whole = outcome.code in (abi.DONE, abi.STOPPED)
     return LastState(
@@ -160,7 +141,7 @@ def _last_state(
         work_before=start.work,
         windings=tuple(w[abi.WINDING : abi.WINDING + info.windings].tolist()),
         rank=start.rank,
-        made=made,
+        made=made_of(run.compiled, run.plan, run.spec),
         failed="" if whole else outcome.reason,
         arrays=arrays,
     )

@@ -6,10 +6,10 @@ import math
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from symgen.result.result import Result
+    from symgen.result.run_data import RunData
 
 
-def contract(result: Result) -> dict[str, Any]:
+def contract(result: RunData) -> dict[str, Any]:
     """Return a result as JSON has it; numbers that are not finite become None."""
     last = result.t.shape[0] - 1
     found: dict[str, Any] = finite(

@@ -17,13 +17,15 @@ from symgen.describe.columns import PREFIX
 from symgen.errors import InputError, nearest
 from symgen.files import check_writable, headed, write_whole
 from symgen.memory import require
-from symgen.result.result import SIDE
+from symgen.result.contract import contract
+from symgen.result.run_data import SIDE
+from symgen.result.select import select
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-    from symgen.result.result import Result
+    from symgen.result.run_data import RunData
 
 #: Endings of data files -> the libraries needed.
 SAVED: Mapping[str, tuple[str, ...]] = {
@@ -33,6 +35,9 @@ SAVED: Mapping[str, tuple[str, ...]] = {
 }
 #: Endings of plots -> the libraries needed.
 PLOTTED: Mapping[str, tuple[str, ...]] = {".png": ("matplotlib",), ".svg": ("matplotlib",), ".pdf": ("matplotlib",)}
+
+#: Attribute of a NetCDF file that describes the last state, and what its variables begin with.
+LAST_HEADER, LAST_PREFIX = "last_state", "last_"
 
 #: Table -> name of its second dimension in a dataset.
 _DIMENSION = {
@@ -112,7 +117,20 @@ def _in_this_process() -> AbstractContextManager[object]:
     return nullcontext() if dask is None else dask.config.set(scheduler="synchronous")
 
 
-def to_dataframe(result: Result) -> pd.DataFrame:
+def with_last_state(dataset: xr.Dataset, result: RunData) -> xr.Dataset:
+    """Return the dataset of a result with all that the run kept: variables ``last_...``, one dimension each."""
+    last = result.last_state
+    arrays = {
+        LAST_PREFIX + name: ((f"{LAST_PREFIX}{name}_index",), array)
+        for name, array in (last.arrays or {}).items()
+        if len(array)
+    }
+    found = dataset.assign(arrays)
+    found.attrs[LAST_HEADER] = json.dumps(last.header())
+    return found
+
+
+def to_dataframe(result: RunData) -> pd.DataFrame:
     """Return all tables side by side over time; ``attrs`` holds units and what was run."""
     need("to_dataframe", "pandas")
     import pandas as pd
@@ -129,11 +147,11 @@ def to_dataframe(result: Result) -> pd.DataFrame:
         for name, table in tables.items()
         for column, unit in zip(table.names, table.units, strict=True)
     }
-    frame.attrs["run"] = result.to_json()
+    frame.attrs["run"] = contract(result)
     return frame
 
 
-def to_xarray(result: Result) -> xr.Dataset:
+def to_xarray(result: RunData) -> xr.Dataset:
     """Return all tables as variables over time, their columns and units as coordinates."""
     need("to_xarray", "xarray")
     import xarray as xr
@@ -153,7 +171,7 @@ def to_xarray(result: Result) -> xr.Dataset:
         "status": result.status,
         "reason": result.reason or "",
         "error_estimate": np.nan if result.error_estimate is None else result.error_estimate,
-        "run": json.dumps(result.to_json(), allow_nan=False),
+        "run": json.dumps(contract(result), allow_nan=False),
     }
     return xr.Dataset(variables, coordinates, facts)
 
@@ -162,7 +180,7 @@ def _texts(names: tuple[str, ...]) -> np.ndarray[tuple[int], np.dtype[np.object_
     return np.array(names, dtype=object)
 
 
-def save(result: Result, path: Path, quantities: Sequence[str] = (), units: bool = False) -> Path:
+def save(result: RunData, path: Path, quantities: Sequence[str] = (), units: bool = False) -> Path:
     """Write all tables, or some columns, in the format that the ending of `path` names.
 
     Columns of CSV files that were chosen carry their units, all of them where `units` ask for it:
@@ -179,8 +197,6 @@ def save(result: Result, path: Path, quantities: Sequence[str] = (), units: bool
         columns += sum(len(result.columns(table)) for table in SIDE)
         require("save", f"{len(result.t)} outputs of {result.mechanism}", 40.0 * len(result.t) * columns)
         if ending == ".nc":
-            from symgen.result.resume import with_last_state
-
             return write_whole(path, netcdf(with_last_state(to_xarray(result), result)))
         frame = to_dataframe(result)
         if units:
@@ -192,12 +208,12 @@ def save(result: Result, path: Path, quantities: Sequence[str] = (), units: bool
     return write_whole(path, lambda file: frame.to_csv(file, mode="wb"))
 
 
-def chosen_frame(result: Result, quantities: Sequence[str], units: bool) -> pd.DataFrame:
+def chosen_frame(result: RunData, quantities: Sequence[str], units: bool) -> pd.DataFrame:
     """Return some columns over time, their units in the names where these are asked for."""
     need("save", "pandas")
     import pandas as pd
 
-    chosen = result.select(quantities)
+    chosen = select(result, quantities)
     names = [headed(n, u) if units else n for n, u in zip(chosen.names, chosen.units, strict=True)]
     index = pd.Index(result.t, name=headed("t", "s") if units else "t")
     frame = pd.DataFrame(chosen.values, columns=names, index=index)

@@ -11,13 +11,12 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from symgen.ir.numerics import WARN
-from symgen.result.result import FAILED, INTERRUPTED, OK, UNVERIFIED
+from symgen.result.run_data import FAILED, INTERRUPTED, OK, UNVERIFIED
 from symgen.runtime import abi
 
 if TYPE_CHECKING:
-    from symgen.plan import Plan
-    from symgen.result.agreement import Settled
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.result.agreement import Verification
+    from symgen.running.prepare import Prepared
     from symgen.runtime.outcome import Ended, Outcome
 
 #: Energy jump over a passage, as a fraction of the energy in motion: from the first on a warning, the second failure.
@@ -34,20 +33,20 @@ class Verdict:
     notes: tuple[str, ...] = ()
 
 
-def judge(plan: Plan, compiled: CompiledModel, outcome: Outcome, second: Settled | None, asked: bool) -> Verdict:
+def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -> Verdict:
     """Judge a run by what its loop saw, and by a second run where there was one.
 
     Parameters
     ----------
-    plan, compiled, outcome : Plan, CompiledModel, Outcome
+    run, outcome : Prepared, Outcome
         The run.
-    second : Settled or None
-        What a run with finer steps said of it.
-    asked : bool
-        Whether that was asked for, to settle doubts; doubts of its own count in any case.
+    second : Verification, optional
+        What a run with finer steps says of it. It settles doubts where the settings ask for it; doubts of its own count
+        in any case.
     """
-    verdict = judge_alone(outcome, compiled.law.position_correction)
-    verdict = replace(verdict, warnings=(*verdict.warnings, *_velocity_warning(plan, outcome)))
+    asked = run.plan.settings.verify
+    verdict = judge_alone(outcome, run.compiled.law.position_correction)
+    verdict = replace(verdict, warnings=(*verdict.warnings, *_velocity_warning(run, outcome)))
     if second is None or verdict.status == FAILED:
         return verdict
     verdict = replace(verdict, notes=() if second.note is None else (second.note,))
@@ -115,14 +114,15 @@ def _warnings(outcome: Ended, passed: bool) -> list[str]:
     return warnings
 
 
-def _velocity_warning(plan: Plan, outcome: Outcome) -> list[str]:
+def _velocity_warning(run: Prepared, outcome: Outcome) -> list[str]:
     """Say by how much velocities are off that only follow from positions, where it is more than other methods may."""
     speed, found = float(outcome.w[abi.SPEED]), outcome.velocity_violation_max
-    if not plan.choice.method.velocities_follow or found <= plan.spec.max_violation * speed:
+    method = run.plan.choice.method
+    if not method.velocities_follow or found <= run.spec.max_violation * speed:
         return []
     return [
         f"velocities are off their constraints by up to {found:.3g}, {found / speed:.2g} of the largest speed: "
-        f"{plan.choice.method.name} holds positions only, and this is an error of order {plan.tableau.order}"
+        f"{method.name} holds positions only, and this is an error of order {run.plan.integrator.order}"
     ]
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
-from symgen.describe.orientation import matrix
+from symgen.vocabulary.rotations import matrix
 
 Array = NDArray[np.float64]
 

@@ -1,4 +1,4 @@
-"""The last state of a run in its files: written beside the tables of a NetCDF file, read back to go on from."""
+"""The last state of a run, read back from its files to go on from."""
 
 from __future__ import annotations
 
@@ -11,29 +11,12 @@ import numpy as np
 
 from symgen.errors import InputError
 from symgen.files import unheaded
+from symgen.result.export import LAST_HEADER, LAST_PREFIX
 from symgen.result.saved import read_saved
 from symgen.runtime.last_state import LastState
 
 if TYPE_CHECKING:
-    import xarray as xr
-
-    from symgen.result.result import Result
-
-#: Attribute that describes the last state, and what its variables begin with.
-_HEADER, _PREFIX = "last_state", "last_"
-
-
-def with_last_state(dataset: xr.Dataset, result: Result) -> xr.Dataset:
-    """Return the dataset of a result with all that the run kept: variables ``last_...``, one dimension each."""
-    last = result.last_state
-    arrays = {
-        _PREFIX + name: ((f"{_PREFIX}{name}_index",), array)
-        for name, array in (last.arrays or {}).items()
-        if len(array)
-    }
-    found = dataset.assign(arrays)
-    found.attrs[_HEADER] = json.dumps(last.header())
-    return found
+    pass
 
 
 def read_last_state(option: str, path: Path) -> LastState:
@@ -54,15 +37,15 @@ def _of_dataset(option: str, path: Path) -> LastState:
     import xarray as xr
 
     dataset = xr.load_dataset(path, engine="h5netcdf")
-    if _HEADER not in dataset.attrs:
+    if LAST_HEADER not in dataset.attrs:
         tables = {name: dict(zip(dataset[of].values, dataset[name].values[-1], strict=True)) for name, of in _TABLES}
         return _plain(str(dataset.attrs["mechanism"]), float(dataset["time"].values[-1]), tables)
     arrays = {
-        str(name).removeprefix(_PREFIX): v.values
+        str(name).removeprefix(LAST_PREFIX): v.values
         for name, v in dataset.data_vars.items()
         if v.dims == (f"{name}_index",)
     }
-    found = LastState.of_header(json.loads(dataset.attrs[_HEADER]), arrays)
+    found = LastState.of_header(json.loads(dataset.attrs[LAST_HEADER]), arrays)
     if found is None:
         raise InputError(option, "the last state as it was written", f"'{path}', in which it was changed")
     return found

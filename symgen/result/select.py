@@ -15,20 +15,20 @@ from symgen.errors import InputError, nearest
 from symgen.result.acting import reaction_names
 from symgen.result.contract import finite
 from symgen.result.labelled import Labelled
-from symgen.result.result import ENERGIES, TABLES, VIOLATIONS, accelerations_of
+from symgen.result.run_data import ENERGIES, TABLES, VIOLATIONS, accelerations_of
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.result.result import Result
+    from symgen.result.run_data import RunData
     from symgen.runtime.compiled import ModelInfo
 
 
-def select(result: Result, names: Sequence[str]) -> Labelled:
+def select(result: RunData, names: Sequence[str]) -> Labelled:
     """Return columns called `names`, in this order.
 
     Parameters
     ----------
-    result, names : Result, sequence of str
+    result, names : RunData, sequence of str
         Of a run; of columns of a data frame, such as ``crank.theta``, ``lam.A.x``, ``spring.force`` or ``reach``, of a
         group, such as ``crank``, ``spring`` or ``energy``, or of a table, such as ``q`` or ``outputs``.
 
@@ -109,7 +109,7 @@ def extremes(table: Labelled) -> dict[str, dict[str, Any]]:
     return {name: finite(entry) for name, entry in found.items()}
 
 
-def _columns(result: Result) -> dict[str, str]:
+def _columns(result: RunData) -> dict[str, str]:
     """Return the names of all columns with their tables; nothing is generated for it."""
     found: dict[str, str] = {}
     for table in TABLES:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from symgen.result.result import FAILED
+from symgen.result.run_data import FAILED
 
 if TYPE_CHECKING:
-    from symgen.result.result import Result
+    from symgen.result.run_data import RunData
 
 
-def lines(result: Result) -> list[tuple[str, str]]:
+def lines(result: RunData) -> list[tuple[str, str]]:
     """Return (label, text) pairs that say what was run and how it went."""
     steps = f"step {result.step:g} s" if result.rtol is None else f"rtol {result.rtol:g}, atol {result.atol:g}"
     rejected = f", {result.rejected} rejected" if result.rejected else ""
@@ -41,13 +41,13 @@ def lines(result: Result) -> list[tuple[str, str]]:
     return found
 
 
-def _coordinates(result: Result) -> str:
+def _coordinates(result: RunData) -> str:
     """Return what the state was made of, in words."""
     count = len(result.state)
     return f"{result.coordinates}, {count} numbers of the state; the rank is that over all rows of the mechanism"
 
 
-def status_in_words(result: Result) -> str:
+def status_in_words(result: RunData) -> str:
     """Return status, reason, and how the error was estimated: ``ok (error about 3.2e-07 m, from ...)``."""
     said = result.status + (f": {result.reason}" if result.reason else "")
     if result.status == FAILED:
@@ -63,7 +63,7 @@ def status_in_words(result: Result) -> str:
     return f"{said} ({local}global error not estimated: --verify runs again with a tenth of it)"
 
 
-def html(result: Result) -> str:
+def html(result: RunData) -> str:
     """Return the summary as an HTML table."""
     from html import escape
 

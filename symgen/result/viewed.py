@@ -25,19 +25,19 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.plan import Plan
-    from symgen.result.result import Result
-    from symgen.runtime.assembly import Start
+    from symgen.result.run_data import RunData
+    from symgen.running.prepare import Prepared
+    from symgen.running.tree import TreeRun
 
 
-def view(result: Result, beside: Result | None = None, live: bool = True) -> Page:
+def view(result: RunData, beside: RunData | None = None, live: bool = True) -> Page:
     """Return the page of a result.
 
     Parameters
     ----------
-    result : Result
+    result : RunData
         Of this process.
-    beside : Result, optional
+    beside : RunData, optional
         Another motion of the same mechanism, drawn faintly behind.
     live : bool
         Whether the page shall be able to work out other motions.
@@ -55,7 +55,7 @@ def view(result: Result, beside: Result | None = None, live: bool = True) -> Pag
     return Page(page(first, part, note, second), first.mechanism.name, part is not None)
 
 
-def recorded(result: Result) -> Recording:
+def recorded(result: RunData) -> Recording:
     """Return a result as a page plays it.
 
     Raises
@@ -140,7 +140,7 @@ def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> l
 JUMPS = "what the run gave its inputs jumps, and pages do not look for times"
 
 
-def _live(result: Result, recording: Recording) -> tuple[Live | None, str]:
+def _live(result: RunData, recording: Recording) -> tuple[Live | None, str]:
     """Return the live part of a page of a result: with its coordinates, its start, its parameters and its inputs."""
     mechanism = recording.mechanism
     if _jump(mechanism, result.inputs):
@@ -165,8 +165,8 @@ def _live_of(
     begun: Mapping[str, Any],
     watched: Sequence[tuple[str, str]],
 ) -> tuple[Live | None, str]:
-    from symgen.plan import make_plan
-    from symgen.run_setup import ready
+    from symgen.running.plan import Purpose
+    from symgen.running.prepare import prepare
     from symgen.settings import Settings
 
     if begun["t"]:
@@ -175,44 +175,42 @@ def _live_of(
         if action in DOES:
             return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages do not look for events"
     parameters, step = said(mechanism, parameter_values(mechanism, parameters)), step or mechanism.defaults.step
-    plan = make_plan(mechanism, Settings(shape="straight", coordinates=coordinates, parameters=parameters, step=step))
+    settings = Settings(shape="straight", coordinates=coordinates, parameters=parameters, step=step)
+    run = prepare(mechanism, settings, Purpose.STATE)
     told = {**begun["q"], **begun["v"]}
     names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
     names += [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
     known = np.array([told[n] for n in names]) if set(names) <= set(told) else None
-    if coordinates == "joint":
-        return _live_on_tree(mechanism, plan, parameters, step, known)
-    compiled, start = ready(mechanism, plan, parameters)
-    return live_part(mechanism, compiled, start, step, known)
+    if run.tree is not None:
+        return _live_on_tree(run, run.tree, step, known)
+    return live_part(mechanism, run.compiled, run.start, step, known)
 
 
-def _live_on_tree(
-    mechanism: Mechanism, plan: Plan, parameters: Mapping[str, float], step: float, begun: Array | None
-) -> tuple[Live | None, str]:
+def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None) -> tuple[Live | None, str]:
     """Return the live part in joint coordinates, which cannot close bodies: without sliders that move their start."""
-    from symgen.run_setup import ready
-    from symgen.tree_run import begin_on_tree, tree_code
+    from symgen.running.plan import Purpose
+    from symgen.running.prepare import prepare
+    from symgen.running.tree import begin_on_tree
 
-    bodies, start = ready(mechanism, plan, parameters)
-    carried = tree_code(mechanism, plan.choice, bodies)
-
-    def begins(at: Start) -> Start:
-        return begin_on_tree(mechanism, *carried, bodies, at, plan.method_parameters).start
-
-    described, values, moving = begins(start).y, parameter_values(mechanism, parameters), list[str]()
+    mechanism, settings, start = run.plan.mechanism, run.plan.settings, run.start
+    values, moving = parameter_values(mechanism, run.plan.parameters), list[str]()
     for name, x in values.items():
+        parameters = {**settings.parameters, name: 1.01 * x if x else 0.01}
         try:
-            other = begins(ready(mechanism, plan, {**parameters, name: 1.01 * x if x else 0.01})[1])
+            other = prepare(mechanism, replace(settings, parameters=parameters), Purpose.STATE).start
         except (AssemblyError, InputError):
             moving.append(name)
             continue
-        y = described.copy()  # which pages correct
-        carried[1].law_module.accept(other.t, y, other.p, other.w.copy(), np.zeros(16, dtype=np.int64))
+        y = start.y.copy()  # which pages correct
+        run.compiled.law_module.accept(other.t, y, other.p, other.w.copy(), np.zeros(16, dtype=np.int64))
         if np.abs(y - other.y).max() > 1e-7 * np.abs(y).max(initial=1.0):
             moving.append(name)
     if begun is not None:
-        start = replace(start, y=np.concatenate([begun, start.y[len(begun) :]]))
-    live, note = live_part(mechanism, carried[1], begins(start), step, still=moving)
+        y = np.concatenate([begun, tree.body_start.y[len(begun) :]])
+        of_bodies = replace(tree.body_start, y=y)
+        own = run.plan.method_parameters
+        start = begin_on_tree(mechanism, tree.mechanism, tree.compiled, tree.bodies, of_bodies, own).start
+    live, note = live_part(mechanism, run.compiled, start, step, still=moving)
     if live is not None and moving:
         note = f"no sliders for {', '.join(moving)}: they move the start, which pages close in coordinates of bodies"
     return live, note
@@ -266,7 +264,7 @@ def _as_given(
     mechanism: Mechanism, values: Mapping[str, float], inputs: Mapping[str, str | float], until: float | None
 ) -> tuple[Mechanism, dict[str, float], str]:
     """Return a mechanism with formulas in the places of inputs, the numbers of others, and why pages have not these."""
-    from symgen.run_setup import give_inputs
+    from symgen.running.inputs import put_inputs
     from symgen.settings import Settings
 
     numbers = {name: float(x) for name, x in inputs.items() if not isinstance(x, str)}
@@ -275,7 +273,7 @@ def _as_given(
         return mechanism, numbers, "what the run gave its inputs over time is not in the file"
     if not formulas:
         return mechanism, numbers, ""
-    found = give_inputs(mechanism, Settings(parameters={**values, **numbers}, inputs=formulas, until=until))
+    found = put_inputs(mechanism, Settings(parameters={**values, **numbers}, inputs=formulas, until=until))
     return found.mechanism, numbers, JUMPS if _jump(found.mechanism, inputs) else ""
 
 

@@ -133,7 +133,8 @@ MAX_EVENTS = 1000
     NO_PROGRESS,
     VANISHED,
     GATHERED,
-) = range(12)
+    UNDEFINED,
+) = range(13)
 #: A loop that can go on when it is entered again: after so many steps, once there is more room for a matrix, and once
 #: other rows stand for all; and a run in a lane that is left to the loop over single runs.
 PAUSED, NO_ROOM, LEFT, CHOOSE = -1, -2, -3, -4
@@ -152,5 +153,6 @@ REASONS = {
     TINY_STEP: "the step size fell below what the time can resolve",
     NO_PROGRESS: "the run makes no progress",
     GATHERED: "events accumulate",
+    UNDEFINED: "the condition of an event is undefined",
     VANISHED: "a row that is an angle has lost its gradient: the joint stands where it determines nothing",
 }

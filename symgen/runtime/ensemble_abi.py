@@ -59,7 +59,8 @@ START, START_MOVED, START_VELOCITIES, START_WHERE, START_SIZE, REDUNDANT_ROWS, L
 IMPOSSIBLE = 50
 
 # -- behind that row, where events are looked for ----------------------------------------------------------------------
-#: First where they accumulate, which of them do (a sum of powers of 2), and which one asked for what cannot be.
+#: First where they accumulate, which of them do (a sum of powers of 2), and which one asked for what cannot be or is
+#: undefined.
 ACCUMULATION, GATHERING, IMPOSSIBLE_EVENT = range(3)
 HEAD_OF_EVENTS = 3
 #: Then for each of them: how often it happened, and when first and last.

@@ -261,6 +261,10 @@ class Events:
         names = {e.name for e in self.happened[-_SHRINKING:] if e.action == RESET}
         return tuple(name for name in self.watched.names if name in names)
 
+    def undefined(self, state: Any, t: float) -> str:
+        """Return why a run ended that met an event whose condition is undefined."""
+        return undefined(self.watched.names[hunting.undefined_event(state)], t)
+
     @property
     def reason(self) -> str:
         """Why a run ended whose events accumulate."""
@@ -278,6 +282,11 @@ def gathered(names: Sequence[str], t: float) -> str:
     """Return why a run ended whose events of some names accumulate at a time [s]."""
     told = " and ".join(f"'{name}'" for name in names)
     return f"events of {told} accumulate at t = {t:.13g} s: nothing says how the motion goes on behind that"
+
+
+def undefined(name: str, t: float) -> str:
+    """Return why a run ended that met an event whose condition is undefined, at a time [s]."""
+    return f"the condition of the event '{name}' is undefined at t = {t:.6g} s"
 
 
 # -- events that happened, labelled as people and programs read them ---------------------------------------------------

@@ -1,8 +1,8 @@
 """Times at which formulas of a run have kinks or jump, as far as they are known before it begins.
 
 An error estimate sees a kink or a jump where stages of a step lie on both sides of it, and one between two stages, as a
-push that is shorter than a step, not at all, however smooth it is. What is known beforehand needs no estimate: adaptive
-runs go in pieces from one such time to the next.
+push that is shorter than a step, not at all. What is known beforehand needs no estimate: adaptive runs go in pieces
+from one such time to the next.
 """
 
 from __future__ import annotations
@@ -18,26 +18,21 @@ from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import Jump
 from symgen.describe.kinks import kinks_of, sides_of
 from symgen.describe.mechanism import Event, Mechanism
-from symgen.describe.pulses import pulses_of
 from symgen.describe.remembered import remembered
 from symgen.errors import InputError
 from symgen.runtime.in_time import MOST_PIECES, InTime, line_of
 from symgen.runtime.pieces import SAME, Piece
-from symgen.runtime.pulses import Bounded, TooFast
-from symgen.vocabulary.expressions import Expr, names
+from symgen.vocabulary.expressions import names
 
 #: So far beside a jump, as a part of the run, a step ends and another begins.
 _BESIDE = 1e-12
-#: Constant steps that see a smooth pulse: that many from where it begins to where it ends.
-RESOLVING = 4
 
 
 class _Found(NamedTuple):
-    """The pieces of a motion, whether they end at all that formulas pass, and where smooth pulses begin and end."""
+    """The pieces of a motion, and whether they end at all that formulas pass."""
 
     pieces: tuple[Piece, ...] = ()
     all: bool = True
-    smooth: Sequence[tuple[float, float]] = ()
 
 
 @dataclass(frozen=True)
@@ -52,8 +47,6 @@ class Foreseen:
         Whose tables they may read.
     kinks, sides : tuple of Jump
         From `kinks_of` and `sides_of` of `symgen.describe.kinks`.
-    pulses : tuple of expressions
-        From `symgen.describe.pulses.pulses_of`.
     known : dict
         What was found last, by what it depends on.
     whole : dict
@@ -63,19 +56,17 @@ class Foreseen:
     mechanism: Mechanism
     kinks: tuple[Jump, ...] = ()
     sides: tuple[Jump, ...] = ()
-    pulses: tuple[Expr, ...] = ()
     known: dict[tuple[float, ...], _Found] = field(default_factory=dict, repr=False, compare=False)
     whole: dict[tuple[float, ...], bool] = field(default_factory=dict, repr=False, compare=False)
 
     def __bool__(self) -> bool:
         """Whether there is anything."""
-        return bool(self.kinks or self.sides or self.pulses)
+        return bool(self.kinks or self.sides)
 
     @cached_property
     def reads(self) -> frozenset[str]:
         """What the times depend on: names of parameters, and t."""
-        read = (*(jump.argument for jump in (*self.kinks, *self.sides)), *self.pulses)
-        return frozenset(name for formula in read for name in names(formula))
+        return frozenset(name for jump in (*self.kinks, *self.sides) for name in names(jump.argument))
 
     def pieces(self, values: Mapping[str, float], until: float, first: float = 0.0) -> tuple[Piece, ...]:
         """Return the pieces of a motion from `first` to `until`, in which no number changes; none where it is whole.
@@ -117,7 +108,7 @@ class Foreseen:
         return found
 
     def missed(self, values: Mapping[str, float], until: float, step: float | None) -> list[str]:
-        """Return what steps of a run may not see, in words: constant ones what is shorter than one, or than a few.
+        """Return what steps of a run may not see, in words: constant ones what is shorter than one.
 
         Parameters
         ----------
@@ -131,15 +122,11 @@ class Foreseen:
             return [f"{often}: steps do not end there, and may miss what is short"]
         if step is None:
             return []
-        told, near, pulse = list[str](), self.closest(values, until), self.shortest(values, until)
-        if near is not None and near[1] - near[0] < step:
-            what = f"formulas change at t = {near[0]:.9g} and {near[1]:.9g} s, within one step of {step:g} s"
-            told.append(f"{what}: constant steps may miss what lies between; adaptive ones do not")
-        if pulse is not None and pulse[1] - pulse[0] < RESOLVING * step:
-            what = f"a formula changes from t = {pulse[0]:.9g} to {pulse[1]:.9g} s"
-            what += f", within {RESOLVING} steps of {step:g} s"
-            told.append(f"{what}: constant steps may miss that; adaptive ones do not")
-        return told
+        near = self.closest(values, until)
+        if near is None or near[1] - near[0] >= step:
+            return []
+        what = f"formulas change at t = {near[0]:.9g} and {near[1]:.9g} s, within one step of {step:g} s"
+        return [f"{what}: constant steps may miss what lies between; adaptive ones do not"]
 
     def closest(self, values: Mapping[str, float], until: float) -> tuple[float, float] | None:
         """Return the two times inside a run [s] that are closest to each other, points of tables left aside.
@@ -153,27 +140,15 @@ class Foreseen:
         times, _ = times_between(jumps, self.mechanism, values, until)
         return min(pairwise(times), key=_length, default=None)
 
-    def shortest(self, values: Mapping[str, float], until: float) -> tuple[float, float] | None:
-        """Return begin and end [s] of the shortest smooth pulse inside a run.
-
-        Parameters
-        ----------
-        values, until
-            As for `pieces`.
-        """
-        return min(self._found(values, until, 0.0).smooth, key=_length, default=None)
-
     def times(self, values: Mapping[str, float], until: float, first: float) -> tuple[float, ...]:
-        """Return all times inside a motion at which formulas pass something [s], those in pulses among them.
+        """Return all times inside a motion at which formulas pass something [s].
 
         Parameters
         ----------
         values, until, first
             As for `pieces`.
         """
-        jumps, _ = times_between((*self.kinks, *self.sides), self.mechanism, values, until, first)
-        found, _ = self._smooth(values, until, first)
-        return tuple(sorted({*jumps, *(t for pulse in found for t in pulse if first < t < until)}))
+        return times_between((*self.kinks, *self.sides), self.mechanism, values, until, first)[0]
 
     def _looked_for(self, values: Mapping[str, float], until: float, first: float) -> _Found:
         kinks, all_kinks = times_between(self.kinks, self.mechanism, values, until, first)
@@ -182,24 +157,9 @@ class Foreseen:
         # a short piece around each: no stage of those beside it is at the very time, which belongs to one side
         for t in sides:
             times |= {beside for way in (-1.0, 1.0) if first < (beside := t + way * _BESIDE * until) < until}
-        smooth, all_smooth = self._smooth(values, until, first)
-        within = {t for pulse in smooth for t in pulse if first < t < until} - times
-        if len(times) + len(within) > MOST_PIECES:
-            within, all_smooth = set(), False
-        begins = sorted(times | within)
-        pieces = tuple(Piece(t, {}, t in within) for t in (first, *begins)) if begins else ()
-        return _Found(pieces, all_kinks and all_sides and all_smooth, [(pulse[0], pulse[-1]) for pulse in smooth])
-
-    def _smooth(self, values: Mapping[str, float], until: float, first: float) -> tuple[list[list[float]], bool]:
-        """Return the times in each smooth pulse of a motion, and whether these are all pulses."""
-        found, whole = list[list[float]](), True
-        bounded = Bounded({table.name: table for table in self.mechanism.tables}, values)
-        for formula in self.pulses:
-            try:
-                found += bounded.pulses(formula, until, first)
-            except TooFast:
-                whole = False
-        return found, whole
+        begins = sorted(times)
+        pieces = tuple(Piece(t, {}) for t in (first, *begins)) if begins else ()
+        return _Found(pieces, all_kinks and all_sides)
 
 
 def _length(pair: tuple[float, float]) -> float:
@@ -221,12 +181,12 @@ def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
         if "t" in (read := {*names(jump.argument)}) and read <= timely and line_of(jump, values) is None
     )
     sides = *sides_of(mechanism, events), *happening
-    return Foreseen(mechanism, kinks_of(mechanism, events), sides, _passed(mechanism)[2])
+    return Foreseen(mechanism, kinks_of(mechanism, events), sides)
 
 
 @remembered
-def _passed(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], tuple[Expr, ...], dict[Any, Any]]:
-    return kinks_of(mechanism), sides_of(mechanism), pulses_of(mechanism), {}
+def _passed(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], dict[Any, Any]]:
+    return kinks_of(mechanism), sides_of(mechanism), {}
 
 
 def times_between(

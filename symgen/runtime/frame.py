@@ -33,7 +33,7 @@ from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, Run, System
 from symgen.runtime.redundancy import rows_fell
 from symgen.runtime.scales import settle
 from symgen.runtime.vectors import copied, received
-from symgen.runtime.watch import approach, begin, keep_maxima, remember_rank, stuck, watch
+from symgen.runtime.watch import approach, begin, keep_maxima, meets, remember_rank, stuck, watch
 
 #: Where the step to try stands in what is kept of events (`symgen.runtime.searching`).
 TRY = 0
@@ -41,8 +41,7 @@ TRY = 0
 # -- what a loop decides by itself; schemes may give other numbers -----------------------------------------------------
 #: Whether steps follow the error estimate.
 ADAPTIVE = False
-#: Whether outputs inside a step are interpolated; else they are reached by a shortened step of their own. Schemes with
-#: dense output cross the zone around a singular position in one step.
+#: Whether outputs inside a step are interpolated; else they are reached by a shortened step of their own.
 DENSE = False
 #: Whether events are looked for; without, nothing of that is compiled.
 EVENTS = False
@@ -53,18 +52,20 @@ SHRINK, SHRINK_ACCEPTED, GROW, FLOOR = 0.2, 0.2, 10.0, 1e-10
 #: Constant steps at the beginning of a run in which its energy is not judged: from rest, n steps of a scheme of first
 #: order are off by an n-th of an energy that is only building up.
 SETTING_OUT = 100
-#: Above this multiple of the tolerance even a step across a singular position is refused: it leads nowhere.
-_HOPELESS = 1e6
+#: A step across a singular position is refused only above this multiple of the tolerance, or, where that is tighter, an
+#: error of this part of the state: it leads nowhere. What rounding leaves of such a step follows no tolerance.
+_HOPELESS, _ASTRAY = 1e6, 1e-2
 #: A zone is crossed in so many times the distance to its middle: not 2, so that no stage at half the step meets it.
 _ACROSS = 2.3
 #: What an attempt returns where an iteration did not converge, and where a matrix does not fit into its room.
 DIVERGED, TOO_LARGE = -1.0, -2.0
 #: What `happened` finds: nothing; something, so that the step is tried again, shorter, to find out where; the same, the
-#: next attempt being one to take; that the state ends in an event; and that there is little room for more notes.
-NOTHING, SEEK, TAKE, MEET, CROWD = range(5)
+#: next attempt being one to take; that the state ends in an event; that there is little room for more notes; and a
+#: condition that is undefined there.
+NOTHING, SEEK, TAKE, MEET, CROWD, FAIL = range(6)
 #: What else is done for events: look on which side of each of them a run begins; keep what emitted functions remember
 #: at the beginning of a step; have that again.
-LOOK, REMEMBER, RECALL = range(CROWD + 1, CROWD + 4)
+LOOK, REMEMBER, RECALL = range(FAIL + 1, FAIL + 4)
 
 
 def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
@@ -97,8 +98,9 @@ def happened(system: Any, run: Any, t: float, following: float, h: float, huntin
     return NOTHING
 
 
-def attend(system: Any, run: Any, doing: int) -> None:
+def attend(system: Any, run: Any, doing: int) -> int:
     """Do nothing: where events are looked for, see on which side of each a run begins, or what `REMEMBER` is for."""
+    return NOTHING
 
 
 # -- what depends on where a loop runs ---------------------------------------------------------------------------------
@@ -216,7 +218,8 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         if ADAPTIVE:
             clock[abi.NEXT] = span.step
         prepare(system, scheme, span, run)
-        attend(system, run, LOOK)
+        if attend(system, run, LOOK) == FAIL:
+            return abi.UNDEFINED
         control[abi.BEGUN] = 1
     t, out = clock[abi.TIME], control[abi.OUTPUTS]
     hunting, crossing, whole, whole_following = NOTHING, False, 0.0, 0.0
@@ -236,7 +239,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         elif ADAPTIVE:
             if stuck(span, run, t):
                 return abi.NO_PROGRESS
-            crossing = DENSE and control[abi.BARRED] == 0 and control[abi.IN_ZONE] == 1 and run.gauges[abi.FALL] > 0.0
+            crossing = control[abi.BARRED] == 0 and control[abi.IN_ZONE] == 1 and run.gauges[abi.FALL] > 0.0
             h = approach(min(clock[abi.NEXT], span.largest), run.gauges)
             if crossing:
                 h = min(span.largest, _ACROSS * run.gauges[abi.LAST_SINE] / run.gauges[abi.FALL])
@@ -268,7 +271,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             clock[abi.NEXT] = 0.25 * h
             hunting, out = NOTHING, refused(run, times, out, t, phi, drift, energy)
             continue
-        good = error <= 1.0 or (crossing and error <= _HOPELESS)
+        good = error <= 1.0 or (crossing and error <= max(_HOPELESS, _ASTRAY / span.rtol))
         if ADAPTIVE and not between and hunting == NOTHING and not good:
             if crossing:
                 control[abi.BARRED] = 1
@@ -286,7 +289,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             # the work's error is judged by the energies of the state that the step began with, whatever outputs it has
             run.w[abi.KINETIC], run.w[abi.POTENTIAL] = kinetic, potential
             continue
-        if bits & 1:
+        if bits & 1 != 0 or (ADAPTIVE and hunting == NOTHING and meets(run)):
             if not ADAPTIVE:
                 return abi.CORRECTION if math.isfinite(run.w[abi.PHI]) else abi.NOT_FINITE
             control[abi.BARRED] = 1
@@ -297,6 +300,9 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             hunting = happened(system, run, t, following, h, hunting)
             if hunting == SEEK or hunting == TAKE:
                 continue
+            if hunting == FAIL:
+                clock[abi.TIME] = following
+                return abi.UNDEFINED
         # -- it is: the state at `following` is accepted
         control[abi.STEPS] += 1
         code = watch(sizes, run, run.trial, following)

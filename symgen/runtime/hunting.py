@@ -79,14 +79,14 @@ def happened(system: Any, run: Any, t: float, following: float, h: float, huntin
     return decided(system, run, following, h, hunting, run.trial)
 
 
-def attend(system: Any, run: Any, doing: int) -> None:
+def attend(system: Any, run: Any, doing: int) -> int:
     """Look on which side of each event a run begins, or goes on after its velocities or parameters were changed.
 
     Or keep what emitted functions remember at the beginning of a step (`REMEMBER`), or have that again (`RECALL`).
     """
     if doing == LOOK:
         evaluate_events(system, run, run.clock[abi.TIME], run.y)
-    decided(system, run, run.clock[abi.TIME], 0.0, doing, run.y)
+    return decided(system, run, run.clock[abi.TIME], 0.0, doing, run.y)
 
 
 def notes_at(n: int, width: int, nw: int) -> int:
@@ -140,6 +140,12 @@ def without_notes(state: Any) -> Array:
     """Return what a run keeps of its events but notes; empty where none are looked for."""
     hunt: Array = getattr(state, "hunt", np.zeros(0))
     return hunt[: notes_at(int(hunt[searching.COUNT]), len(state.y), len(state.w))] if len(hunt) else hunt
+
+
+def undefined_event(state: Any) -> int:
+    """Return the number of the first event whose condition is undefined at what a run looked at last."""
+    n = int(state.hunt[searching.COUNT])
+    return int(np.argmax(np.isnan(state.hunt[searching.N_HEAD + searching.N_COLUMNS * n :][:n])))
 
 
 def taken_notes(hunt: Array, width: int, nw: int) -> list[tuple[float, int, Array]]:

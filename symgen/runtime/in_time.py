@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from functools import partial
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +12,8 @@ from numpy.typing import NDArray
 from symgen.describe.evaluate import evaluate
 from symgen.describe.inputs import Jump
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.pulses import sharp_in
 from symgen.errors import InputError
 from symgen.runtime.columns import Columns
-from symgen.runtime.pulses import Bounded, TooFast
 from symgen.vocabulary.expressions import Call, Expr, Name, Number, names
 
 Array = NDArray[np.float64]
@@ -40,14 +36,14 @@ class InTime:
     Parameters
     ----------
     mechanism : Mechanism
-        Whose tables they may read.
+        Whose tables they may read, and whose largest step says what may be short.
     values : mapping of str to float
         Of the parameters.
     """
 
     def __init__(self, mechanism: Mechanism, values: Mapping[str, float]) -> None:
         self._tables = {table.name: table for table in mechanism.tables}
-        self._values = dict(values)
+        self._values, self._shortest = dict(values), mechanism.defaults.max_step or math.inf
 
     def at(self, e: Expr, t: float) -> float:
         """Return a formula's value at a time [s]; not a number where it is undefined."""
@@ -63,12 +59,8 @@ class InTime:
 
     def crossings(self, jump: Jump, until: float, first: float = 0.0) -> list[float]:
         """Return the times from `first` to `until` at which what `jump` reads passes its levels; see `crossings`."""
-        over, line, within = partial(self.over, jump.argument), line_of(jump, self._values), list[float]()
-        bounded = Bounded(self._tables, self._values)
-        for formula in sharp_in(jump.argument) if line is None else ():  # its pulses are where looks would miss them
-            with suppress(TooFast):
-                within += (t for pulse in bounded.pulses(formula, until, first) for t in pulse)
-        return crossings(over, line, jump.levels, until, first, within)
+        over, line = partial(self.over, jump.argument), line_of(jump, self._values)
+        return crossings(over, line, jump.levels, until, first, self._shortest)
 
     def range(self, jump: Jump, until: float, first: float = 0.0) -> tuple[float, float]:
         """Return the least and the largest value of what `jump` reads, as far as looks tell; nan where undefined."""
@@ -85,7 +77,7 @@ def crossings(
     levels: Sequence[float],
     until: float,
     first: float = 0.0,
-    within: Sequence[float] = (),
+    shortest: float = math.inf,
 ) -> list[float]:
     """Return the times from `first` to `until` at which a function passes one of some levels.
 
@@ -99,8 +91,8 @@ def crossings(
         What it passes.
     until, first : float
         End and begin [s].
-    within : sequence of float
-        Where it is looked at beside others, and between each two of these [s].
+    shortest : float
+        It is looked at so often at least [s], as far as that is possible.
 
     Raises
     ------
@@ -110,14 +102,13 @@ def crossings(
     if line is not None or not levels:
         value, slope = line or (0.0, 0.0)
         return [t for level in levels if slope and first <= (t := (level - value) / slope) <= until]
-    count, before, span, sorted_levels = _FIRST, -1, until - first, np.sort(np.asarray(levels, dtype=np.float64))
+    before, span, sorted_levels = -1, until - first, np.sort(np.asarray(levels, dtype=np.float64))
+    count = max(_FIRST, math.ceil(min(span / shortest, 0.5 * _MOST)))
     often = "a formula that changes sides more often"
-    known_short = np.unique([*within, *(0.5 * (a + b) for a, b in pairwise(sorted(within)))])
     while count <= _MOST:
         # anywhere in equal parts, so that what is faster than the looks is seen to be, whatever its frequency
         anywhere = np.random.default_rng(count).random(count)
         times = np.concatenate([[first], first + span * (np.arange(count) + anywhere) / count, [until]])
-        times = np.union1d(times, known_short) if len(known_short) else times
         looks = _Samples(times, samples := over(times), sorted_levels)
         if len(looks.passes) > MOST_PIECES:
             raise InputError("inputs", f"at most {MOST_PIECES} jumps", often)

@@ -46,7 +46,7 @@ class Looks(NamedTuple):
     head : Array
         Numbers: `KNOWN` and those behind it.
     before, after : Array
-        Values and rates of switches at the beginning and at the end of a step.
+        Values, rates and sizes of switches at the beginning and at the end of a step.
     out : Array
         Arguments of tables with two rates.
     levels, starts, tables : Array
@@ -258,7 +258,7 @@ def looking(
         rates, source = rates_of(law), _ASKED
     floats = state.y, state.w, state.clock, state.gauges, state.memory, hunt
     looks = Looks(
-        *(np.array([0.0, 0.0, 0.0, source]), np.zeros(2 * count), np.zeros(2 * count), np.zeros(len(tables))),
+        *(np.array([0.0, 0.0, 0.0, source]), np.zeros(3 * count), np.zeros(3 * count), np.zeros(len(tables))),
         *(levels, starts.astype(np.int64), tables, np.zeros(sum(map(len, floats)) + _ROW)),
         *(np.zeros(len(state.iw) + len(state.control), dtype=np.int64), hunt),
         *(np.zeros_like(array) for array in (state.y, state.w, state.iw, state.y)),

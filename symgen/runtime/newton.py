@@ -133,7 +133,7 @@ def stage_plan(pattern: Pattern, a: Array, one: int) -> tuple[Indices, Array]:
             columns = j * n + pattern.columns[by_y] - n
             parts.append((i * n + pattern.rows[by_y], columns, 1 + s * i + int(j), first + by_y))
     left_out = (n * np.arange(s)[:, None] + pattern.left_out).ravel()
-    return make_plan(n, s, Terms.joined(parts), left_out, one)
+    return make_plan(n, s, Terms.joined(parts), left_out, one, motion=(pattern.nq, pattern.width, pattern.m))
 
 
 def alpha_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
@@ -145,7 +145,8 @@ def alpha_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
     nq = pattern.nq
     parts, products = _along_motion(pattern, pattern.rows >= nq, pattern.unknowns)
     one, left_out = pattern.size + products.count, pattern.nv + pattern.masked
-    return *make_plan(pattern.unknowns - nq, 1, Terms.joined(parts), left_out, one, products), one + 1
+    motion = (0, pattern.nv, pattern.m)
+    return *make_plan(pattern.unknowns - nq, 1, Terms.joined(parts), left_out, one, products, motion), one + 1
 
 
 def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
@@ -229,7 +230,13 @@ def _along_motion(
 
 
 def make_plan(
-    n: int, stages: int, terms: Terms, left_out: Indices, one: int, products: Products | None = None
+    n: int,
+    stages: int,
+    terms: Terms,
+    left_out: Indices,
+    one: int,
+    products: Products | None = None,
+    motion: tuple[int, int, int] = (0, 0, 0),
 ) -> tuple[Indices, Array]:
     """Return a plan and its numbers.
 
@@ -245,6 +252,8 @@ def make_plan(
         The source that is 1.
     products : Products, optional
         Sources that are computed first.
+    motion : (int, int, int)
+        Where the equations of motion and their accelerations begin and end in a stage, and how many multipliers follow.
 
     Notes
     -----
@@ -265,12 +274,19 @@ def make_plan(
     position[order] = np.arange(size)
     entries, slots = np.unique(position[columns] * size + rows, return_inverse=True)
     begins = np.searchsorted(entries, size * np.arange(size + 1))
+    first, end, multipliers = motion
+    column, place = entries // size, order % n
+    own = np.where((place >= end) & (place < end + multipliers), sparse.MULTIPLIER, sparse.OTHER)
+    place = place[column]
+    masses = np.flatnonzero((order[column] == entries % size) & (place >= first) & (place < end))
+    own[column[masses]] = masses
     room = 2 * stages * stages * (fill + n)
     plan = [
         *((sparse.COLUMNS, begins), (sparse.ROWS, entries % size), (sparse.PLACES, np.zeros(len(entries)))),
         *((sparse.ORDER, order), (sparse.SLOTS, slots), (sparse.FACTORS, factors), (sparse.SOURCES, sources)),
         *((sparse.TARGETS, given.targets), (sparse.LEFT, given.left), (sparse.RIGHT, given.right)),
-        *((sparse.TRIPLES, given.triples), (sparse.WORK, np.zeros(9 * size)), (sparse.POOL, np.zeros(room))),
+        *((sparse.TRIPLES, given.triples), (sparse.OWN, own)),
+        *((sparse.WORK, np.zeros(9 * size)), (sparse.POOL, np.zeros(room))),
     ]
     head = np.zeros(sparse.N_HEAD, dtype=np.int64)
     head[[sparse.SIZE, sparse.ENTRIES, sparse.TERMS]] = size, len(entries), len(sources)
@@ -280,7 +296,7 @@ def make_plan(
         head[where] = at
         at += len(part)
     whole = np.concatenate([head, *(np.asarray(part, dtype=np.int64) for _, part in plan)])
-    return whole, np.zeros(len(entries) + 4 * size + room)
+    return whole, np.zeros(len(entries) + 5 * size + room)
 
 
 def elimination_order(n: int, rows: Indices, columns: Indices) -> tuple[list[int], int]:

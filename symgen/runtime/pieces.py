@@ -29,13 +29,10 @@ class Piece:
         Where it begins [s].
     values : mapping of str to float
         Inputs that are others than in the piece before; in the first one all that vary.
-    smooth : bool
-        Whether nothing jumps or has a kink there: a step ends, and what schemes know of the past holds.
     """
 
     begin: float
     values: Mapping[str, float]
-    smooth: bool = False
 
 
 def pieces_of(

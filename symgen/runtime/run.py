@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 Progress = Callable[[float], None]
 
 #: Attempts at an adaptive step that a run may take, unless it is asked for otherwise.
-MAX_STEPS = 1e8
+MAX_ATTEMPTS = 1e8
 #: What is said of runs that make no progress, and of those whose forces or joints compare the state.
 _STIFF = "where the motion is stiff, an implicit integrator (radau5) takes longer steps"
 _JUMPING = (
@@ -71,7 +71,7 @@ class RunSpec:
         Values of the integrator's parameters that differ from the defaults.
     max_evaluations : int or None
         The run is stopped some time after it took more right-hand sides than this.
-    max_steps : float
+    max_attempts : float
         An adaptive run is stopped when it has taken, or at its present rate would take, more attempts at a step.
     duration : float or None
         In which a motion that begins at rest counts as one that crosses the mechanism [s]; until `until` by default.
@@ -100,7 +100,7 @@ class RunSpec:
     max_energy_error: float = 0.05
     integrator_parameters: Mapping[str, float] = field(default_factory=dict)
     max_evaluations: int | None = None
-    max_steps: float = MAX_STEPS
+    max_attempts: float = MAX_ATTEMPTS
     duration: float | None = None
     pieces: tuple[Piece, ...] = ()
     events: Watched | None = None
@@ -234,6 +234,8 @@ def reason_of(simulation: Simulation, code: int, end: float) -> str:
     scale = float(state.gauges[abi.ENERGY_SCALE])
     if code == abi.GATHERED and simulation.events is not None:
         return simulation.events.reason
+    if code == abi.UNDEFINED and simulation.events is not None:
+        return simulation.events.undefined(state, end)
     reason = end_reason(code, end, tuple(float(state.w[i]) for i in measures), scale, attempts, simulation.spec)
     return reason + (f" (row {_shortest_row(simulation.compiled, state.w)})" if code == abi.VANISHED else "")
 
@@ -314,6 +316,7 @@ def end_reason(
     where = f" at t = {time:.6g} s"
     sentence = abi.REASONS[code]
     phi, drift, length, speed = violations
+    jumps = spec.switches is not None and spec.switches.jump
     if code == abi.POSITION:
         return f"{sentence} ({phi:.3g} > {spec.max_violation:g} x {length:.3g}){where}"
     if code == abi.VELOCITY:
@@ -321,12 +324,12 @@ def end_reason(
             sentence = sentence.replace("max_violation", "the root of max_violation")
         return f"{sentence} ({drift:.3g} > {spec.velocity_limit:g} x {speed:.3g}){where}"
     if code == abi.NO_PROGRESS:
-        more = "at the present rate the rest would take more than" if attempts < spec.max_steps else "that is all of"
+        more = "at the present rate the rest would take more than" if attempts < spec.max_attempts else "that is all of"
         return (
             f"{sentence}: {attempts} attempts at a step brought it to t = {time:.6g} of {spec.until:g} s, and {more} "
-            f"max_steps = {spec.max_steps:g}; {_STIFF if spec.switches is None else _JUMPING}"
+            f"max_attempts = {spec.max_attempts:g}; {_JUMPING if jumps else _STIFF}"
         )
-    if (code == abi.TINY_STEP and spec.switches is not None) or (code == abi.NEWTON and spec.compares):
+    if (code == abi.TINY_STEP and jumps) or (code == abi.NEWTON and spec.compares):
         return f"{sentence}{where}; {_JUMPING}"
     if code == abi.ENERGY:
         return f"{sentence} ({spec.max_energy_error:g} of {scale:.3g} J){where}"

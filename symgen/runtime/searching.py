@@ -18,7 +18,7 @@ import math
 from typing import Any
 
 from symgen.runtime import abi
-from symgen.runtime.frame import CROWD, LOOK, MEET, NOTHING, RECALL, REMEMBER, SEEK, TAKE, TRY
+from symgen.runtime.frame import CROWD, FAIL, LOOK, MEET, NOTHING, RECALL, REMEMBER, SEEK, TAKE, TRY
 from symgen.runtime.switching import asked, first_root, hidden, is_finite, side_of
 from symgen.store.emitted import plain
 
@@ -92,7 +92,7 @@ def concealed(hunt: A, n: int) -> float:
             d0, d1 = (high - low) * hunt[at + D_LOW * n + k], (high - low) * hunt[at + D_HIGH * n + k]
             side, direction = hunt[at + LOCAL * n + k], hunt[at + DIRECTION * n + k]
             if is_finite(d0 + d1) == 1 and asked(direction, side, side_of(g1, side)) == 0:
-                x = min(x, hidden(g0, d0, g1, d1, side, direction))
+                x = min(x, hidden(g0, d0, g1, d1, side, direction, 0.0))
     return float(low + x * (high - low)) if x < 1.0 else float(high)
 
 
@@ -222,6 +222,16 @@ def look(hunt: A, n: int) -> int:
 
 
 @plain
+def is_undefined(hunt: A, n: int) -> int:
+    """Return 1 where a switching function is no number at the state that was tried, else 0."""
+    for k in range(n):
+        g = hunt[N_HEAD + N_COLUMNS * n + k]
+        if not g == g:
+            return 1
+    return 0
+
+
+@plain
 def keep(hunt: A, first: int, nw: int, w: A, iw: A) -> int:
     """Keep what emitted functions remember."""
     for i in range(nw):
@@ -243,7 +253,7 @@ def give_back(hunt: A, first: int, nw: int, w: A, iw: A) -> int:
 
 @plain
 def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int, width: int, y: A, w: A, iw: A) -> int:
-    """Take in what was found at a state and return what to do next, one of `NOTHING`, `SEEK`, `TAKE`, `MEET`, `CROWD`.
+    """Take in what was found at a state and return what to do next, one of `NOTHING` to `FAIL`.
 
     All that loops do with what is kept is done here, so that it is compiled once and by itself.
 
@@ -263,6 +273,8 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
     w, iw : Array
         What emitted functions remember.
     """
+    if hunting <= LOOK and is_undefined(hunt, n) == 1:
+        return FAIL
     if hunting >= LOOK:
         first = N_HEAD + (N_COLUMNS + 2) * n + 2 * width
         size = (notes - first) // 2

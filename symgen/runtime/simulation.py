@@ -271,7 +271,7 @@ class Simulation:
         while (begin := self.next_piece) < math.inf and (begin <= reached or not self.is_ahead(begin)):
             piece = self.spec.pieces[self._pieces_taken]
             values |= piece.values
-            self._pieces_taken, last = self._pieces_taken + 1, last if piece.smooth else begin
+            self._pieces_taken, last = self._pieces_taken + 1, begin
         self.changes.give(values)
         # a kink changes no number, but what multistep schemes know of the past ends there as well
         if self._clock[abi.TIME] - last <= self.same(self._clock[abi.TIME]) and self.state.control[abi.BEGUN] == 1:

@@ -37,16 +37,20 @@ from symgen.store.jit import jit
     LEFT,
     RIGHT,
     TRIPLES,  # sources of a rotation vector's entries of one row, and where its body's velocities begin
+    OWN,  # at each position the entry of an acceleration in its own equation, or else `OTHER` or `MULTIPLIER`
     WORK,  # working memory: nine times `SIZE`
     POOL,  # positions of the entries of L and U
-) = range(20)
-N_HEAD = 20
+) = range(21)
+N_HEAD = 21
 #: Parts of the working memory, each as long as there are unknowns.
 _PLACE, _UPPER, _LOWER, _END, _FOUND, _MARK, _STACK, _NEXT, _PIVOT_ROW = range(9)
 
+#: In place of the entry of an acceleration: an unknown of another kind.
+OTHER, MULTIPLIER = -1, -2
 #: In place of `KNOWN`: there was no room for the factors.
 _TOO_SMALL = -1
-#: A pivot below this belongs to a dependent equation (rows and columns are scaled to 1): its unknown is set to 0.
+#: A pivot below this belongs to a dependent equation (rows and columns are scaled to 1): its unknown is set to 0. For
+#: accelerations the limit is this part of the mass.
 SKIPPED = 1e-13
 #: The diagonal entry is the pivot if it is at least this part of the largest candidate: it keeps the fill low.
 PREFERRED = 1e-3
@@ -149,21 +153,29 @@ def factorise(plan: Any, numbers: Any) -> int:
 
     Notes
     -----
-    Rows, then columns are scaled so that the largest entry of each is 1. A pivot below `SKIPPED` then belongs to a
-    dependent equation: its unknown is set to 0 by `solve`, and its row waits for another column. Without scales of
-    columns, unknowns that stiff springs dwarf, multipliers first of all, would be taken for undetermined ones.
+    The largest mass is the unit of multipliers, so that results do not depend on the unit of mass. Rows, then columns
+    are scaled so that the largest entry of each is 1. A pivot below `SKIPPED` then belongs to a dependent equation: its
+    unknown is set to 0 by `solve`, and its row waits for another column. Without scales of columns, unknowns that stiff
+    springs dwarf, multipliers first of all, would be taken for undetermined ones. The pivot of an acceleration is
+    compared with its own mass, as a light body beside a heavy one is not dependent.
     """
     n, size = plan[SIZE], plan[ENTRIES]
     columns, rows, work = part(plan, plan[COLUMNS], n + 1), part(plan, plan[ROWS], size), plan[WORK]
     values, row_scale = part(numbers, 0, size), part(numbers, size, n)
-    column_scale = part(numbers, size + n, n)
-    total = 0.0
-    for i in range(n):
-        row_scale[i] = 0.0
-    for i in range(size):
-        entry = abs(values[i])
-        row_scale[rows[i]] = max(row_scale[rows[i]], entry)
-        total += entry
+    column_scale, least = part(numbers, size + n, n), part(numbers, size + 4 * n, n)
+    own = part(plan, plan[OWN], n)
+    total, unit = 0.0, 0.0
+    for k in range(n):
+        row_scale[k] = 0.0
+        if own[k] >= 0:
+            unit = max(unit, abs(values[own[k]]))
+    for k in range(n):
+        column_scale[k] = unit if own[k] == MULTIPLIER and 0.0 < unit < math.inf else 1.0
+        for i in range(columns[k], columns[k + 1]):
+            values[i] *= column_scale[k]
+            entry = abs(values[i])
+            row_scale[rows[i]] = max(row_scale[rows[i]], entry)
+            total += entry
     if not math.isfinite(total):  # nothing is known of the solution, and nothing shall be made up
         inverse = part(numbers, size + 2 * n, n)
         for k in range(n):
@@ -180,9 +192,11 @@ def factorise(plan: Any, numbers: Any) -> int:
             values[i] *= row_scale[rows[i]]
             largest = max(largest, abs(values[i]))
         scale = 1.0 / largest if largest > 0.0 else 0.0
-        column_scale[k] = scale
+        column_scale[k] *= scale
         for i in range(columns[k], columns[k + 1]):
             values[i] *= scale
+        mass = abs(values[own[k]]) if own[k] >= 0 else 0.0
+        least[k] = SKIPPED * (mass if mass > 0.0 else 1.0)
     if plan[KNOWN] == 1 and factorise_again(plan, numbers):
         return 0
     return int(factorise_anew(plan, numbers))
@@ -197,7 +211,7 @@ def factorise_again(plan: Any, numbers: Any) -> bool:
     end = part(plan, work + _END * n, n)
     positions = part(plan, plan[POOL], room)
     values, inverse, x = part(numbers, 0, size), part(numbers, size + 2 * n, n), part(numbers, size + 3 * n, n)
-    pool = part(numbers, size + 4 * n, room)
+    least, pool = part(numbers, size + 4 * n, n), part(numbers, size + 5 * n, room)
     for k in range(n):
         for i in range(columns[k], columns[k + 1]):
             x[places[i]] = values[i]
@@ -216,7 +230,7 @@ def factorise_again(plan: Any, numbers: Any) -> bool:
             x[positions[e]] = 0.0
             largest = max(largest, abs(entry))
             pool[e] = entry * reciprocal
-        if not abs(pivot) >= max(SKIPPED, KEPT * largest):
+        if not (abs(pivot) > least[k] and abs(pivot) >= KEPT * largest):
             return False
         inverse[k] = reciprocal
     return True
@@ -234,7 +248,7 @@ def factorise_anew(plan: Any, numbers: Any) -> int:
     found, mark = part(plan, work + _FOUND * n, n), part(plan, work + _MARK * n, n)
     positions = part(plan, plan[POOL], room)
     values, inverse, x = part(numbers, 0, size), part(numbers, size + 2 * n, n), part(numbers, size + 3 * n, n)
-    pool = part(numbers, size + 4 * n, room)
+    least, pool = part(numbers, size + 4 * n, n), part(numbers, size + 5 * n, room)
     plan[KNOWN] = 0
     for i in range(n):
         place[i] = pivot_row[i] = mark[i] = -1
@@ -266,7 +280,7 @@ def factorise_anew(plan: Any, numbers: Any) -> int:
                     best, at = abs(x[r]), r
                 if r == order[k]:
                     diagonal = abs(x[r])
-        if best < SKIPPED:
+        if best <= least[k]:
             used = lower[k] = end[k] = upper[k]
             inverse[k] = 0.0
             skipped += 1
@@ -355,7 +369,7 @@ def solve(plan: Any, numbers: Any, right: Any, x: Any) -> None:
     positions = part(plan, plan[POOL], room)
     row_scale, column_scale = part(numbers, size, n), part(numbers, size + n, n)
     inverse, y = part(numbers, size + 2 * n, n), part(numbers, size + 3 * n, n)
-    pool = part(numbers, size + 4 * n, room)
+    pool = part(numbers, size + 5 * n, room)
     for k in range(n):
         y[k] = right[pivot_row[k]] * row_scale[pivot_row[k]]
     for k in range(n):

@@ -13,10 +13,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from symgen.runtime.instances import called
-from symgen.runtime.switching import first_root, hidden, side_of
+from symgen.runtime.switching import beyond, first_root, hidden, side_of
 
 #: How often a step is taken again at most: passages are known to the fourth power of a step.
 MOST_AGAIN = 20
+#: Below this part of the size of what is compared, which side it is on is rounding.
+ROUNDING = 1e-13
 
 
 @dataclass(frozen=True)
@@ -26,16 +28,19 @@ class Switches:
     Attributes
     ----------
     function : emitted function
-        ``(t, y, p, w, ydot, out)``: values of all switches, then their rates.
+        ``(t, y, p, w, ydot, out)``: values of all switches, then their rates, then sizes of what they compare.
     count : int
         How many there are.
     needs_rates : bool
         Whether the function reads accelerations.
+    jump : bool
+        Whether something may jump there, and not only have a kink.
     """
 
     function: Any
     count: int
     needs_rates: bool
+    jump: bool
 
 
 @called
@@ -51,7 +56,7 @@ def passed(before: Any, after: Any, h: float, least: float) -> float:
     least : float
         What lasts for a smaller part of the step than this is not looked at.
     """
-    n, first, second, probe, twice = before.shape[0] // 2, 2.0, 2.0, False, False
+    n, first, second, probe, twice = before.shape[0] // 3, 2.0, 2.0, False, False
     for i in range(n):
         g0, g1, d0, d1 = before[i], after[i], h * before[n + i], h * after[n + i]
         # most switches are far away: both tangents stay on their side
@@ -61,11 +66,13 @@ def passed(before: Any, after: Any, h: float, least: float) -> float:
             continue
         if not math.isfinite(g0 + g1 + d0 + d1):
             continue
-        side = side_of(g0, side_of(d0, 1.0))
-        x = hidden(g0, d0, g1, d1, side, 0.0)
+        # what has not left zero yet is where it goes, or comes to
+        nothing = ROUNDING * max(before[2 * n + i], after[2 * n + i])
+        side = beyond(g0, nothing, beyond(d0, nothing, side_of(g1, 1.0)))
+        x = hidden(g0, d0, g1, d1, side, 0.0, nothing)
         inside = x < 1.0
         if not inside:
-            if side_of(g1, side) == side:
+            if beyond(g1, nothing, side) == side:
                 continue
             x = first_root(g0, d0, g1, d1, side)
         if x < first:

@@ -40,6 +40,12 @@ def side_of(g: float, before: float) -> float:
 
 
 @plain
+def beyond(g: float, least: float, before: float) -> float:
+    """Return the side that g is on, 1 or -1; that of before where it is nearer to 0 than rounding, or no number."""
+    return before if abs(g) <= least else side_of(g, before)
+
+
+@plain
 def asked(direction: float, before: float, after: float) -> int:
     """Return 1 where a change of sides is one that is asked for, else 0."""
     return 1 if before != after and (direction == 0.0 or direction == after) else 0
@@ -73,21 +79,21 @@ def first_root(g0: float, d0: float, g1: float, d1: float, side: float) -> float
 
 
 @plain
-def hidden(g0: float, d0: float, g1: float, d1: float, side: float, direction: float) -> float:
+def hidden(g0: float, d0: float, g1: float, d1: float, side: float, direction: float, nothing: float) -> float:
     """Return where g is first on the other side for a while, where this hides a change that is asked for; else 2.
 
     That is at an extremum of the cubic, or, as conditions of several parts have corners, where straight lines from both
-    ends meet: at the first of the two, as what is behind it is looked at again.
+    ends meet: at the first of the two, as what is behind it is looked at again. What is below `nothing` is rounding.
     """
     first, found, before = 2.0, 0, side
-    least = _ROUNDING * (abs(g0) + abs(g1))
+    least = max(nothing, _ROUNDING * (abs(g0) + abs(g1)))
     for k in range(3):
         x = 1.0 if k == 2 else extremum(g0, d0, g1, d1, k)
         if x > 1.0:
             continue
         g = g1 if k == 2 else cubic(g0, d0, g1, d1, x)
         g = d1 if k == 2 and abs(g) <= least else g  # on zero: where it goes
-        after = side_of(g, before) if abs(g) > least else before
+        after = beyond(g, least, before)
         if after != before:
             found = max(found, asked(direction, before, after))
             first = x if first > 1.0 and k < 2 else first

@@ -7,14 +7,8 @@ from dataclasses import dataclass, replace
 from statistics import median
 from typing import TYPE_CHECKING
 
-from symgen.runtime.run import integrate
-
 if TYPE_CHECKING:
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.integrator import Integrator
     from symgen.runtime.outcome import Outcome
-    from symgen.runtime.run import RunSpec
 
 #: Timed runs at most, unless more are asked for.
 MOST = 30
@@ -46,33 +40,25 @@ class Timed:
         return median(self.seconds) if self.seconds else self.outcome.run_seconds
 
 
-def timed(
-    compiled: CompiledModel,
-    tableau: Integrator,
-    start: Start,
-    spec: RunSpec,
-    repeat: int,
-    progress: Callable[[float], None] | None = None,
-    at_least: float = 0.0,
-) -> Timed:
+def timed(run: Callable[[], Outcome], repeat: int, at_least: float = 0.0) -> Timed:
     """Run once to warm up and `repeat` times for the clock.
 
     Parameters
     ----------
-    compiled, tableau, start, spec, progress
-        As for `symgen.runtime.run.integrate`.
+    run : callable
+        Integrates, and returns the outcome.
     repeat : int
         How many runs are timed; 1 runs once and has no warm-up.
     at_least : float, optional
         Seconds that the timed runs take together at least, so that short ones are repeated more often, up to `MOST`
         times.
     """
-    first = integrate(compiled, tableau, start, spec, progress)
+    first = run()
     if repeat <= 1 or first.interrupted:
         return Timed(first, ())
     outcome, seconds = first, list[float]()
     while len(seconds) < repeat or (sum(seconds) < at_least and len(seconds) < MOST):
-        last = integrate(compiled, tableau, start, spec, progress)
+        last = run()
         if last.interrupted:  # an earlier run is whole, so nothing is lost but repetitions
             shortest = min([*seconds, first.run_seconds])
             return Timed(replace(outcome, run_seconds=shortest, interrupted=True), tuple(seconds))

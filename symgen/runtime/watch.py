@@ -64,6 +64,11 @@ def approach(h: float, gauges: Any) -> float:
     return h
 
 
+def meets(run: Any) -> bool:
+    """Return whether a step ends on a singular position, as good as: rounding would decide which way it goes on."""
+    return bool(run.w[abi.PIVOT] < SKIP <= run.gauges[abi.LAST_SINE] ** 2)
+
+
 def stuck(span: Any, run: Any, t: float) -> bool:
     """Return whether an adaptive run has taken, or at its present rate would take, more attempts than it may.
 

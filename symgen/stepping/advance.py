@@ -39,7 +39,7 @@ class Advance:
     def __init__(self, loop: Simulation) -> None:
         self.loop, self.unsure = loop, False
         self._clock, self._control = memoryview(loop.state.clock), memoryview(loop.state.control)
-        self._until, self._most, self._steps_at_once = 0.0, loop.spec.max_steps, FIRST_STEPS
+        self._until, self._most, self._steps_at_once = 0.0, loop.spec.max_attempts, FIRST_STEPS
 
     def recover(self) -> None:
         """Go back to an accepted state, where an interrupt came between a failure and what is done about it."""
@@ -80,7 +80,7 @@ class Advance:
         if loop.spec.adaptive:
             if not loop.is_ahead(until):
                 return None
-            self._most = control[_STEPS] + control[abi.REJECTED] + loop.spec.max_steps
+            self._most = control[_STEPS] + control[abi.REJECTED] + loop.spec.max_attempts
         began = 0.0
         try:
             while True:

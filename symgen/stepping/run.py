@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen import __version__, arguments
+from symgen import arguments
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import in_words
@@ -20,20 +20,16 @@ from symgen.runtime.events import EventRecord, record_of
 from symgen.runtime.foreseen import Foreseen, foreseen
 from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.pieces import merged, pieces_of
-from symgen.runtime.simulation import Simulation
 from symgen.stepping.advance import Advance
 from symgen.stepping.carried import CarriedBodies
 from symgen.stepping.clock import Clock, Controller
 from symgen.stepping.named import Named
 from symgen.stepping.saved import Saved
 from symgen.stepping.windows import Windows
+from symgen.version import __version__
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Mechanism
-    from symgen.plan import Plan
-    from symgen.run_setup import Given
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.running.prepare import Prepared
     from symgen.runtime.run import RunSpec
     from symgen.vocabulary.quantities import Quantity
 
@@ -50,21 +46,8 @@ class SteppedRun:
 
     Parameters
     ----------
-    mechanism : Mechanism
-        What is run.
-    plan : Plan
-        How.
-    compiled : CompiledModel
-        Model and method.
-    start : Start
-        A consistent start; not changed.
-    parameters : mapping of str to float
-        Values that differ from the described ones.
-    free : bool
-        Whether no constant step was asked for: then each call of `step` is one step.
-    given : Given, optional
-        What inputs of the mechanism are: numbers, which may be set on the way, or formulas and data; and the mechanism
-        as it is described, whatever the state is made of.
+    prepared : Prepared
+        The run. Where it has constant steps and its settings no ``step``, each call of `step` is one step.
 
     Attributes
     ----------
@@ -75,30 +58,21 @@ class SteppedRun:
         What there is to say of the start and the settings.
     """
 
-    def __init__(
-        self,
-        mechanism: Mechanism,
-        plan: Plan,
-        compiled: CompiledModel,
-        start: Start,
-        parameters: Mapping[str, float],
-        free: bool = False,
-        given: Given | None = None,
-    ) -> None:
+    def __init__(self, prepared: Prepared) -> None:
+        plan, compiled, start, mechanism = prepared.plan, prepared.compiled, prepared.start, prepared.mechanism
         info = compiled.info
         self._mechanism, self._plan, self._compiled = mechanism, plan, compiled
-        self._changed, self._adaptive = dict(parameters), plan.spec.adaptive
-        self._free = free and not self._adaptive
-        self._loop = Simulation(compiled, plan.tableau, start, plan.spec)
+        self._changed, self._adaptive = dict(plan.parameters), plan.spec.adaptive
+        self._free = plan.settings.step is None and not self._adaptive
+        self._loop = prepared.simulation()
         self._loop.span = self._loop.span._replace(end=math.inf)  # `until` is none
         state = self._loop.state
         self._carried = CarriedBodies(mechanism, compiled, self._loop) if mechanism.topology is not None else None
         self._clock, self._control = memoryview(state.clock), memoryview(state.control)
         self._clocks, self._calling, self._advance = list[Clock](), False, Advance(self._loop)
-        inputs: Mapping[str, str | float] = {} if given is None else given.told
-        self._described, self._driven = (mechanism, None) if given is None else (given.mechanism, given.driven)
-        known = foreseen(self._described, plan.events) if self._adaptive else Foreseen(mechanism)
-        self._jumps, self._windows = plan.spec.pieces, Windows(known, plan.spec.until, self.t)
+        inputs, self._driven = plan.inputs.words, plan.inputs.driven
+        known = foreseen(plan.mechanism, plan.events) if self._adaptive else Foreseen(mechanism)
+        self._jumps, self._windows = plan.inputs.pieces, Windows(known, plan.spec.until, self.t)
         if known:
             self._loop.spec = self._divided(parameter_values(mechanism, self._changed))
         self._given = {name: words for name, words in inputs.items() if isinstance(words, str)}
@@ -110,7 +84,7 @@ class SteppedRun:
         self.q = _view(state.y, 0, info.coordinates)
         self.v = _view(state.y, info.nq, info.velocities)
         self.state = _view(state.y, 0, both)
-        self.warnings, self.notes = (*plan.warnings, *start.warnings), start.notes
+        self.warnings, self.notes = (*plan.all_warnings, *start.warnings), start.notes
         if not self._free:  # else the first step says how long it is
             self._advance.begin()
 
@@ -146,7 +120,7 @@ class SteppedRun:
         return () if found is None else tuple(record_of(self._compiled.info, event) for event in found.happened)
 
     def __repr__(self) -> str:
-        law, integrator = self._compiled.law.method, self._plan.tableau.name
+        law, integrator = self._compiled.law.method, self._plan.integrator.name
         return f"SteppedRun({self._mechanism.name}, {law}, {integrator}, t={self.t:.6g} s)"
 
     # -- going on ------------------------------------------------------------------------------------------------------
@@ -270,7 +244,7 @@ class SteppedRun:
         p = self._compiled.parameter_array(found, self._plan.method_parameters)
         p[self._varying] = loop.state.p[self._varying]
         if not np.array_equal(p[:count], loop.state.p[:count]):
-            refuse_jumps(self._described, changed, loop.spec.until)
+            refuse_jumps(self._plan.mechanism, changed, loop.spec.until)
             spec = self._divided(found)
             if self._carried is not None:
                 self._carried.check(p[:count])
@@ -342,7 +316,7 @@ class SteppedRun:
             "mechanism": f"{self._mechanism.name} ({digest(self._mechanism)[:16]})",
             "code of shape": self._compiled.shape,
             "method": f"{law.method} ({law.key})",
-            "integrator": f"{self._plan.tableau.name} with {steps} steps",
+            "integrator": f"{self._plan.integrator.name} with {steps} steps",
             "events": in_words(self._plan.events) or "of no kind",
         }
 

@@ -18,10 +18,10 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, TYPE_CHECKING, Any
 
-from symgen import __version__
 from symgen.describe.digest import identity
 from symgen.errors import InputError, SimulationError
 from symgen.files import check_name
+from symgen.version import __version__
 
 if TYPE_CHECKING:
     from filelock import BaseFileLock
@@ -92,12 +92,12 @@ def code_identity() -> str:
     package = Path(__file__).resolve().parent.parent
     found = hashlib.sha256(f"{__version__} {FORMAT} {generator_digest()}".encode())
     # `native` and `store` make machine code: run times are theirs as well
-    for folder in ("compiling", "integrators", "native", "result", "runtime", "store", "study"):
+    for folder in ("compiling", "integrators", "native", "reruns", "result", "running", "runtime", "store", "study"):
         for path in sorted((package / folder).rglob("*.py")):
             name = path.relative_to(package).as_posix()
             if name not in TELLING:
                 found.update(name.encode() + b"\0" + path.read_bytes())
-    for name in ("auto.py", "plan.py", "api.py", "run_setup.py", "settings.py", "tree_run.py"):
+    for name in ("api.py", "settings.py"):
         found.update((package / name).read_bytes())
     return found.hexdigest()
 

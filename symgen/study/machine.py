@@ -33,7 +33,7 @@ def machine_class() -> str:
 
 def versions() -> dict[str, str]:
     """Return the versions of symgen, Python and the libraries by name."""
-    from symgen import __version__
+    from symgen.version import __version__
 
     found = {"symgen": __version__, "Python": platform.python_version()}
     for name in LIBRARIES:

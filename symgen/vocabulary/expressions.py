@@ -90,7 +90,12 @@ FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
     "or": (2, lambda a, b: float(bool(a) or bool(b))),
     "not": (1, lambda a: float(not a)),
     "where": (3, _where),
+    # what is above 0 where `and`, `or` hold of what is above 0
+    "both": (2, min),
+    "either": (2, max),
 }
+#: Functions with a kink where their argument is 0, or their two arguments are equal.
+BENT = ("abs", "min", "max", "both", "either")
 
 
 def names(expression: Expr) -> Iterator[str]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 
 import pytest
 
@@ -88,3 +90,55 @@ def test_tables_are_readable(cli, tmp_path):
 def test_bad_use_ends_in_a_sentence(cli, words, code, says):
     got, out, err = cli(*words)
     assert got == code and not out and says in err and err.count("\n") == 1
+
+
+# -- one file an analysis ----------------------------------------------------------------------------------------------
+
+MASS = '''"""Find the mass of a mechanism."""
+
+from symgen.analyses.kinds import Analysis, Option, Output
+from symgen.analyses.kinds._settings import settings_of
+
+
+def mass(model, settings=None, **changes):
+    """Return the mass of all bodies [kg]."""
+    from symgen.describe.evaluate import parameter_values, scalars
+
+    whole = settings_of("mass", settings, changes, ("parameters",))
+    value = scalars(parameter_values(model.mechanism, whole.parameters)).value
+    return sum(value(body.mass, body.name) for body in model.mechanism.bodies)
+
+
+def command(load, settings, grams):
+    """Find the mass of all bodies of MODEL."""
+    model = load()
+    found = mass(model, settings) * (1e3 if grams else 1.0)
+    return Output({"mechanism": model.mechanism.name, "mass": found}, (f"{found:.6g}",))
+
+
+KIND = Analysis(
+    methods=(mass,),
+    command=command,
+    options=(Option("parameters"), Option("--grams", "In grams.", "switch")),
+    examples=("symgen mass four-bar",),
+)
+'''
+
+
+def test_an_analysis_with_its_command_is_one_file(tmp_path):
+    (tmp_path / "mass.py").write_text(MASS, encoding="utf-8")
+    found = "import sys, symgen.analyses.kinds as kinds; kinds.__path__.append(sys.argv.pop(1))\n"
+
+    def python(code, *words):
+        done = [sys.executable, "-c", found + code, str(tmp_path), *words]
+        return subprocess.run(done, capture_output=True, text=True, check=True, timeout=600).stdout
+
+    command = "from symgen.cli import main; assert main() == 0; print('numpy' in sys.modules)"
+    shown = python(command, "--help")
+    assert "\n  mass         Find the mass of a mechanism.\n" in shown and shown.endswith("False\n")
+    shown = python(command, "mass", "--help")
+    assert "  --grams" in shown and shown.endswith("False\n")
+    line, _ = python(command, "mass", "pendulum", "--set", "bob_mass=2.5", "--grams", "--json").splitlines()
+    assert json.loads(line) == {"mechanism": "pendulum", "mass": 2500.0}
+    method = "import symgen; m = symgen.load('pendulum'); print(m.mass(parameters={'bob_mass': 2.5}), m.mass.__doc__)"
+    assert python(method) == "2.5 Return the mass of all bodies [kg].\n"

@@ -217,3 +217,12 @@ def test_states_that_were_chosen_can_be_given_back_where_bodies_have_euler_param
     assert_allclose(turned.A, found.A[::-1, ::-1], rtol=0.0, atol=1e-12)
     with pytest.raises(InputError, match="do not depend on each other"):
         model.linearise(states=[*found.states, "rod.z"])
+
+
+@pytest.mark.parametrize("size", [1, 3])
+def test_a_chain_that_turns_about_the_vertical_has_squares_and_one_of_them_is_zero(size):
+    """The shape without stiffness leaves no rounding to compare with; the other squares are those of eigenvalues."""
+    found = symgen.load(f"chain:{size}").modes()
+    assert len(found.omega_squared) == found.degrees_of_freedom and found.omega_squared[0] == 0.0
+    oscillating = np.array([x.imag for x in found.eigenvalues if x.imag > 0.0])
+    assert_allclose(np.sort(oscillating**2), found.omega_squared[1:], rtol=1e-12)

@@ -205,13 +205,13 @@ def test_single_settings_that_count_for_nothing_are_refused():
         (lambda: driven.inverse(times=[0.0], method="baumgarte"), "inverse: method: "),
         (lambda: model.equilibrium(rtol=1e-3), "equilibrium: rtol: "),
         (lambda: model.modes(until=1.0), "modes: until: "),
-        (lambda: model.modes(max_steps=10), "modes: max_steps: "),
+        (lambda: model.modes(max_attempts=10), "modes: max_attempts: "),
     ):
         with pytest.raises(InputError, match=told):
             call()
     assert model.equilibrium(Settings(rtol=1e-3)).stability == "stable"
     with pytest.raises(AnalysisError, match=r"the run to t = .* failed"):
-        model.linearise(at=0.1, max_steps=1, start={"block.vx": 1.0})
+        model.linearise(at=0.1, max_attempts=1, start={"block.vx": 1.0})
 
 
 ORBIT = """

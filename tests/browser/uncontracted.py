@@ -21,10 +21,9 @@ from typing import Any, Self
 import numpy as np
 
 from symgen.api import load
-from symgen.plan import make_plan
-from symgen.run_setup import ready
+from symgen.running.plan import Purpose
+from symgen.running.prepare import prepare
 from symgen.settings import Settings
-from symgen.tree_run import tree_run
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -32,12 +31,9 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 def prepared(name: str, coordinates: str) -> tuple[Any, Any, Array]:
     """Return a compiled model of the catalogue, its start, and the coordinates of its bodies there."""
     mechanism = load(name).mechanism
-    plan = make_plan(mechanism, Settings(coordinates=coordinates, shape="straight"))
-    if coordinates == "joint":
-        tree = tree_run(mechanism, plan)
-        return tree.compiled, tree.start, tree.body_start.y[: tree.bodies.info.nq]
-    compiled, start = ready(mechanism, plan)
-    return compiled, start, start.y[: compiled.info.nq]
+    run = prepare(mechanism, Settings(coordinates=coordinates, shape="straight"), Purpose.STATE)
+    bodies, start = run.assembled.of_bodies
+    return run.compiled, run.start, start.y[: bodies.info.nq]
 
 
 def rates(compiled: Any, start: Any, states: Array) -> Array:

@@ -2,10 +2,12 @@
 
 import json
 import re
+from importlib import import_module
 
 import pytest
 
 import symgen
+from symgen.analyses.kinds import ANALYSES
 from symgen.cli import COMMANDS, main
 from symgen.settings import Settings
 
@@ -25,8 +27,10 @@ def cli(capsys):
 def test_help_names_every_command(cli):
     code, out, err = cli("--help")
     assert code == 0 and err == ""
-    for name, (_, line) in COMMANDS.items():
-        assert re.search(rf"^  {name} +{re.escape(line)}$", out, re.MULTILINE), name
+    for name in COMMANDS:
+        folder = "symgen.analyses.kinds" if name in ANALYSES else "symgen.cli"
+        line = import_module(f"{folder}.{name}").__doc__.splitlines()[0]
+        assert line.endswith(".") and re.search(rf"^  {name} +{re.escape(line)}$", out, re.MULTILINE), name
 
 
 @pytest.mark.parametrize("name", list(COMMANDS))

@@ -122,7 +122,7 @@ def test_rows_of_an_earlier_study_are_shown_where_preparing_is_interrupted(cli, 
 
     monkeypatch.setattr(module, "timed", sometimes)
     first = json.loads(cli(*arguments, "--jobs", "1")[1])
-    monkeypatch.setattr(module, "prepare", never)
+    monkeypatch.setattr(module, "work_through", never)
     code, out, err = cli(*arguments, "--jobs", "2")
     assert code == 130 and "the rows that were done are shown" in err
     assert json.loads(out)["rows"] == first["rows"] and len(first["rows"]) == 2

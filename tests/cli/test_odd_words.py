@@ -83,6 +83,7 @@ def test_what_contradicts_or_counts_for_nothing_is_refused(said, tmp_path, words
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
+        ("run rod.toml --max-step 1e-2", "--max-step counts for nothing: rk4 has constant steps, which --step gives"),
         ("run rod.toml --rtol 1e-9", "--rtol counts for nothing: rk4 has constant steps, which --step gives"),
         ("run rod.toml --integrator heun --rtol 1e-9 --atol 1", "--rtol and --atol count for nothing: heun has"),
         ("sweep rod.toml --vary bar.omega=lin(0,1,2) --rtol 1e-9", "--rtol counts for nothing: rk4 has"),

@@ -31,7 +31,7 @@ WITHOUT = {
         *("method", "integrator", "step", "rtol", "atol", "times", "strict", "verify", "inputs", "coordinates"),
         *EVENTS,
     },
-    "stress": {*settings.names()} - {"max_violation", "max_energy_error", "max_steps", "coordinates"},
+    "stress": {*settings.names()} - {"max_violation", "max_energy_error", "max_step", "max_attempts", "coordinates"},
     "sweep": {"verify", "repeat", "shape", "events"},
 }
 #: Defaults of commands that are not those of a single run.
@@ -136,17 +136,57 @@ def test_steps_are_bounded_by_every_command_that_runs(capsys):
         ["sweep", "four-bar", "--vary", "crank_mass=values(1)", "--integrator", "dopri5"],
         ["compare", "four-bar", "--methods", "lagrange", "--integrators", "dopri5", "--rtols", "1e-6", "--repeat", "1"],
     ):
-        assert main([*words, "--until", "1", "--max-steps", "5"]) == 1, words
+        assert main([*words, "--until", "1", "--max-attempts", "5"]) == 1, words
         said = capsys.readouterr()
-        assert "max_steps" in said.out + said.err, words
-    assert main(["run", "four-bar", "--step", "0.01", "--until", "1", "--max-steps", "5"]) == 2
-    assert "step: expected at most max_steps = 5 steps, got 100" in capsys.readouterr().err
+        assert "max_attempts" in said.out + said.err, words
+    assert main(["run", "four-bar", "--step", "0.01", "--until", "1", "--max-attempts", "5"]) == 2
+    assert "step: expected at most max_attempts = 5 steps, got 100" in capsys.readouterr().err
+
+
+def test_adaptive_steps_are_no_longer_than_max_step(tmp_path):
+    """By a setting, by the file; constant steps are what they were."""
+    text = '[mechanism]\nname = "free"\n[run]\nuntil = 2.0\nmax_step = 0.05\n'
+    text += '[bodies.a]\ntype = "point"\nmass = 1.0\nposition = [0.0, 0.0]\nvelocity = [0.1, 0.0]\n'
+    (tmp_path / "free.toml").write_text(text, encoding="utf-8")
+    free, asked = symgen.load(tmp_path / "free.toml"), {"method": "lagrange", "times": [2.0]}
+    assert symgen.load("pendulum").mechanism.defaults.max_step is None
+    for scheme in ("dop853", "dopri5", "abm", "radau5", "sdirk"):
+        steps = [free.simulate(integrator=scheme, **asked, **more).steps for more in ({}, {"max_step": 0.01})]
+        assert 40 <= steps[0] < 60 and 200 <= steps[1] < 260, scheme
+    run = free.start(method="lagrange", integrator="dop853", max_step=0.01)
+    run.run(2.0)
+    assert run.steps >= 200
+    many = symgen.sweep(free, {"a.vx": [0.1, 0.2]}, method="lagrange", integrator="dop853", max_step=0.01)
+    assert many["steps"].min() >= 200
+    rows = symgen.compare(free, "lagrange", "dopri5", rtols=[1e-6], repeat=1, max_step=0.01).rows
+    assert rows[0].evaluations >= 1200
+    swinging = symgen.compare("pendulum", "lagrange", "dopri5", rtols=[1e-6], until=0.5, repeat=1, max_step=0.01)
+    assert "Jacobi" in swinging.how  # a formula is what it was
+    assert free.simulate(method="lagrange", step=0.1, max_step=0.01).steps == 20
+    with pytest.raises(InputError, match="max_step: expected a finite number above 0"):
+        free.simulate(max_step=0.0)
+
+
+def test_the_old_name_of_attempts_is_refused(capsys):
+    assert main(["run", "pendulum", "--max-steps", "5"]) == 2
+    assert "--max-step" in capsys.readouterr().err
+    with pytest.raises(InputError, match="max_step"):
+        symgen.load("pendulum").simulate(max_steps=5)
+
+
+def test_cases_of_stress_studies_have_the_largest_step(monkeypatch):
+    from symgen.study.stress import study
+
+    seen = []
+    monkeypatch.setattr(study, "run_cells", lambda cells, *_: (seen.extend(cells), ({}, True))[1])
+    stress_study(["pendulum"], ["gravity"], ["lagrange"], quick=True, max_step=0.01)
+    assert seen and all(cell.task.level.mechanism.defaults.max_step == 0.01 for cell in seen)
 
 
 @pytest.mark.slow
 def test_steps_are_bounded_in_stress_studies():
-    found = stress_study(["pendulum"], ["gravity"], ["lagrange"], quick=True, max_steps=5.0)
-    assert found.rows and all(row.outcome == "refused" and "max_steps" in row.reason for row in found.rows)
+    found = stress_study(["pendulum"], ["gravity"], ["lagrange"], quick=True, max_attempts=5.0)
+    assert found.rows and all(row.outcome == "refused" and "max_attempts" in row.reason for row in found.rows)
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from support.checks import assert_same_motion
 from support.emitted import mechanism_of
 
 import symgen
@@ -114,8 +115,8 @@ def test_rows_are_the_described_starts_of_single_runs(description):
     rows = make_rows(model.mechanism, model.parameters(), {"k": values}, {}, {})
     for i, k in enumerate(values):
         q, v = model.initial_state(model.parameters({"k": k}))
-        np.testing.assert_array_equal(rows.q[i], q)
-        np.testing.assert_array_equal(rows.v[i], [np.nan if x is None else x for x in v])
+        assert_same_motion(rows.q[i], q)
+        assert_same_motion(rows.v[i], [np.nan if x is None else x for x in v])
         assert rows.parameters[i, 0] == k
 
 

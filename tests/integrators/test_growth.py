@@ -6,10 +6,8 @@ from scipy.special import ellipj
 
 from symgen import Settings, load
 from symgen.describe.builder import MechanismBuilder
-from symgen.plan import make_plan
-from symgen.run_setup import ready
+from symgen.running.prepare import prepare
 from symgen.runtime import abi
-from symgen.runtime.simulation import Simulation
 
 UNTIL = 10.0
 
@@ -44,9 +42,7 @@ def test_no_output_is_far_off(oscillator, coordinates):
 def test_what_is_allowed_grows_slowly(oscillator):
     """The step that the tolerance allows grows by a quarter at most, once the run has found its step."""
     settings = Settings(method="lagrange", integrator="dop853", rtol=1e-10, atol=1e-10, until=UNTIL)
-    plan = make_plan(oscillator.mechanism, settings)
-    compiled, start = ready(oscillator.mechanism, plan)
-    simulation = Simulation(compiled, plan.tableau, start, plan.spec)
+    simulation = prepare(oscillator.mechanism, settings).simulation()
     nothing, allowed = simulation.outputs(np.zeros(0)), []
     for k in range(1, 1000):
         code = simulation.enter(nothing, pause=k)

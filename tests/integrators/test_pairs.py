@@ -9,7 +9,7 @@ from symgen.api import load
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.plan import make_plan
+from symgen.running.prepare import make_plan
 from symgen.settings import Settings
 
 ALL = [(m, i) for m in METHODS.names for i in INTEGRATORS.names]

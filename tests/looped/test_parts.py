@@ -11,10 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.checks import RANDOM
 
-from symgen import auto
 from symgen.api import load
 from symgen.compiling.choose_shape import choose_shape
-from symgen.compiling.looped import Needs, generate_looped, shared_folder
+from symgen.compiling.looped import generate_looped
 from symgen.compiling.pipeline import MethodChoice, choose_method, compile_model, generator_digest
 from symgen.errors import InputError
 from symgen.lower.looped.forms import form_key
@@ -23,10 +22,10 @@ from symgen.lower.looped.law import is_loopable, refuse_dense
 from symgen.lower.looped.pattern import Elimination
 from symgen.methods import METHODS
 from symgen.methods._base import MultiplierMethod
-from symgen.plan import make_plan
+from symgen.running import automatic
+from symgen.running.prepare import make_plan
 from symgen.runtime import decisions
 from symgen.settings import Settings
-from symgen.store.entries import Entries
 from symgen.store.jit import cache_stats
 from symgen.store.paths import ENVIRONMENT_VARIABLE
 
@@ -193,20 +192,21 @@ def test_the_metric_of_bodies_is_the_identity_in_their_own_coordinates(weight, e
     mechanism = load("pendulum").mechanism
     asked, identity = (choose_method("direct-correction", {"weight": name}) for name in (weight, "identity"))
     assert choose_shape(mechanism, asked, "looped", 1e4).name == "looped"
-    assert choose_shape(mechanism, asked, "auto", 1.0).reason.startswith("faster runs outweigh")
-    compile_model(mechanism, identity)
-    assert "compiled already" in choose_shape(mechanism, asked, "auto", 1.0).reason
+    assert choose_shape(mechanism, asked, "auto", 1.0) == choose_shape(mechanism, identity, "auto", 1.0)
+    assert compile_model(mechanism, asked).law == compile_model(mechanism, identity).law
 
 
-def test_short_runs_are_looped_once_the_shared_code_is_there(empty_cache):
-    entries, choice = Entries(), choose_method("lagrange")
-    mechanism = load("four-bar").mechanism
-    folder = shared_folder(generator_digest())
-    assert choose_shape(mechanism, choice, "auto", 1e4).name == "straight"
-    for stem, (source, data) in generate_looped(mechanism, [choice], generator_digest()).items():
-        entries.put(folder, stem, source, data)
-    assert entries.path(folder, Needs.of(mechanism, choice).law).exists()
-    assert choose_shape(mechanism, choice, "auto", 1e4).name == "looped"
+@pytest.mark.parametrize(
+    ("model", "evaluations", "shape"), [("four-bar", 1e4, "straight"), ("chain:10", 1e4, "looped")]
+)
+def test_the_shape_is_the_same_whatever_the_cache_holds(model, evaluations, shape, empty_cache):
+    """Shapes differ by rounding: a run has the same digits on another day."""
+    mechanism, choice = load(model).mechanism, choose_method("lagrange")
+    before = choose_shape(mechanism, choice, "auto", evaluations)
+    assert before.name == shape
+    for other in ("looped", "straight"):
+        compile_model(mechanism, replace(choice, shape=other))
+        assert choose_shape(mechanism, choice, "auto", evaluations) == before
     assert choose_shape(mechanism, choice, "auto", 1e12).name == "straight"
 
 
@@ -262,10 +262,10 @@ def test_auto_takes_large_mechanisms_without_their_eigenvalues(monkeypatch):
     def refused(*_):
         raise AssertionError("eigenvalues of a large mechanism were asked for")
 
-    monkeypatch.setattr(auto, "linearised", refused)
-    settings, reasons = auto.resolve(load("n-four-bar:60").mechanism, Settings(method="auto", integrator="auto"))
-    assert (settings.method, settings.integrator) == ("direct-correction", "dop853")
-    assert "with 1088 unknowns a stage nobody looked whether the motion is stiff" in reasons[-1]
+    monkeypatch.setattr(automatic, "linearised", refused)
+    plan = make_plan(load("n-four-bar:60").mechanism, Settings(method="auto", integrator="auto"))
+    assert (plan.settings.method, plan.settings.integrator) == ("direct-correction", "dop853")
+    assert "with 1088 unknowns a stage nobody looked whether the motion is stiff" in plan.notes[-1]
 
 
 # -- large mechanisms --------------------------------------------------------------------------------------------------

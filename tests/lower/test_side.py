@@ -14,8 +14,8 @@ from support.models import EVERYTHING, ROUGH
 from symgen import catalogue
 from symgen.api import load
 from symgen.compiling.side import compile_side
-from symgen.describe.parser import parse
-from symgen.describe.scope import Model, Names
+from symgen.describe.context import Context
+from symgen.describe.parser import Names, parse
 from symgen.formulate.formulate import formulate
 from symgen.formulate.measures import Model as Derivation
 from symgen.lower.looped.instances import instances
@@ -28,7 +28,7 @@ CRANK = "sin(crank.theta)*rod.vx + k*t**2"
 
 
 def names_of(mechanism) -> Names:
-    known = Model(
+    known = Context(
         "test", {p.name: p.value for p in mechanism.parameters}, (), {b.name: b for b in mechanism.bodies}, None
     )
     return Names("a formula", {n: n for n in (*known.values, "t")}, known.coordinates)

@@ -16,7 +16,7 @@ from benchmarks import stiff
 from symgen.api import load
 from symgen.compiling.pipeline import choose_method, generate
 from symgen.errors import InputError
-from symgen.plan import make_plan
+from symgen.running.prepare import make_plan
 from symgen.runtime.compiled import ModelInfo
 from symgen.settings import Settings
 from symgen.vocabulary.infos import LawInfo

@@ -1,7 +1,7 @@
 """Who imports what: read from the sources, and seen in a process that really runs.
 
 ``lint-imports`` (pyproject.toml) holds the direction between packages; here the libraries that each package may use are
-held, and what one really pays for.
+held, which the table of packages in docs/architecture.md names, and what one really pays for.
 """
 
 from __future__ import annotations
@@ -23,85 +23,62 @@ from symgen.compiling.pipeline import GENERATING, TEMPLATES
 
 PACKAGE = Path(__file__).resolve().parents[2] / "symgen"
 
-#: Top-level folder or module of symgen -> libraries from outside the standard library that it may import.
-ALLOWED = {
-    "__init__": set(),
-    "__main__": set(),
-    "analyses": {"control", "matplotlib", "msgspec", "numpy", "scipy"},
-    "api": {"numpy"},
-    "arguments": set(),
-    "auto": {"numpy"},
-    "catalogue": {"msgspec"},
-    "compiling": {"msgspec", "numpy"},
-    "cli": {"click", "msgspec", "numpy", "rich"},
-    "describe": {"msgspec"},
-    "drawing": {"matplotlib", "msgspec", "numpy"},
-    "emit": {"jinja2"},
-    "ensemble": {"distributed", "filelock", "msgspec", "numba", "numpy", "xarray"},
-    "errors": set(),
-    "files": set(),
-    "forces": {"msgspec"},
-    "formulate": {"sympy"},
-    "integrators": {"numpy"},
-    "ir": set(),
-    "joints": {"msgspec"},
-    "lower": {"msgspec"},
-    "memory": set(),
-    "methods": set(),
-    "native": {"llvmlite", "msgspec", "numba", "numpy"},
-    "plan": {"numpy"},
-    "player": {"PIL", "matplotlib", "numpy"},
-    "reading": {"numpy", "sympy"},
-    "registry": set(),
-    "report": {"jinja2", "matplotlib", "numpy"},
-    "result": {"matplotlib", "numpy", "pandas", "pyarrow", "xarray"},
-    "run_setup": {"numpy"},
-    "runtime": {"llvmlite", "msgspec", "numba", "numpy"},
-    "settings": set(),
-    "stepping": {"numpy"},
-    "store": {"filelock", "llvmlite", "numba", "numpy", "platformdirs"},
-    "study": {"numpy", "pandas", "scipy"},
-    "tree_run": {"msgspec", "numpy"},
-    "vocabulary": {"msgspec"},
-}
-#: What single files may import beyond that: the references of studies rest on a second, independent derivation.
-FURTHER = {
-    "analyses/linearise.py": {"control"},
-    "analyses/locus.py": {"matplotlib"},
-    "study/references/independent.py": {"sympy"},
-    "study/references/independent_space.py": {"sympy"},
-    "study/journal.py": {"filelock"},
-    "study/references/motion.py": {"numba", "sympy"},
-}
 SOURCES = sorted(PACKAGE.rglob("*.py"))
+#: Libraries that one folder of a package alone imports: references rest on a second, independent derivation.
+NARROW = {("study", "sympy"): "study/references", ("study", "numba"): "study/references"}
 
 
 def owner(path: Path) -> str:
-    """Return the key of `ALLOWED` for a source file."""
+    """Return the package or module of symgen that a source file belongs to."""
     part = path.relative_to(PACKAGE).parts[0]
     return part.removesuffix(".py")
 
 
 def imported(path: Path) -> Iterator[str]:
-    """Yield the modules that a file imports when it runs; what is imported for types alone does not count."""
-    waiting: list[ast.AST] = [ast.parse(path.read_text(encoding="utf-8"))]
-    while waiting:
-        node = waiting.pop()
-        if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
-            waiting.extend(node.orelse)
-        elif isinstance(node, ast.Import):
+    """Yield the modules that a file imports, at any place, for types as for values."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{path} imports relatively"
             yield node.module or ""
-        else:
-            waiting.extend(ast.iter_child_nodes(node))
+
+
+def libraries(path: Path) -> set[str]:
+    """Return the libraries from outside the standard library that a file imports, by the names of packages."""
+    found = {name.partition(".")[0] for name in imported(path)} - set(sys.stdlib_module_names) - {"symgen"}
+    return {{"PIL": "pillow"}.get(name, name) for name in found}
+
+
+def table() -> dict[str, set[str]]:
+    """Return the libraries of each package, by the table in docs/architecture.md; words that are none do not count."""
+    page = (PACKAGE.parent / "docs" / "architecture.md").read_text(encoding="utf-8")
+    known = set[str]().union(*map(libraries, SOURCES))
+    found = dict[str, set[str]]()
+    for line in page.partition("| package |")[2].partition("\n\n")[0].splitlines()[2:]:
+        names, *_, uses = line.strip("| ").split(" | ")
+        found |= dict.fromkeys(re.findall(r"`(\w+)`", names), known & set(re.findall(r"\w+", uses.lower())))
+    return found
+
+
+USES = table()
+
+
+def test_the_table_names_every_package_and_what_it_uses() -> None:
+    used = dict[str, set[str]]()
+    for path in SOURCES:
+        used.setdefault(owner(path), set()).update(libraries(path))
+    assert not used.pop("__init__") | used.pop("__main__")
+    assert set(USES) == set(used)
+    for name, uses in USES.items():  # of packages in one row, one at least
+        assert uses == set().union(*(used[other] for other, same in USES.items() if same is uses)), name
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda p: p.relative_to(PACKAGE).as_posix())
 def test_a_file_imports_only_the_libraries_of_its_package(path: Path) -> None:
-    found = {name.partition(".")[0] for name in imported(path)} - set(sys.stdlib_module_names) - {"symgen"}
-    assert found <= ALLOWED[owner(path)] | FURTHER.get(path.relative_to(PACKAGE).as_posix(), set())
+    found, where = libraries(path), path.relative_to(PACKAGE).as_posix()
+    assert found <= USES.get(owner(path), set())
+    assert all(where.startswith(NARROW.get((owner(path), name), "")) for name in found)
 
 
 def test_benchmarks_import_what_their_page_says() -> None:
@@ -119,14 +96,12 @@ def test_benchmarks_import_what_their_page_says() -> None:
             assert found <= known, path
 
 
-def test_every_package_has_its_list() -> None:
-    assert {owner(path) for path in SOURCES} == set(ALLOWED)
-
-
 def test_a_file_that_imports_more_is_noticed(tmp_path: Path) -> None:
     text = "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import pandas\ndef f():\n    import sympy.core\n"
     (tmp_path / "x.py").write_text(text)
-    assert sorted(imported(tmp_path / "x.py")) == ["sympy.core", "typing"]
+    assert sorted(imported(tmp_path / "x.py")) == ["pandas", "sympy.core", "typing"]
+    assert libraries(tmp_path / "x.py") == {"pandas", "sympy"}
+    assert USES["store"] >= {"numba", "filelock"} and USES["lower"] == {"msgspec"} and USES["ir"] == set()
 
 
 # -- what is loaded ----------------------------------------------------------------------------------------------------

@@ -168,7 +168,7 @@ def test_this_machine_says_something():
 
 def test_a_method_s_own_integrator_has_an_output_at_every_step(monkeypatch):
     """Only an integrator that was named counted: of runs by default a thousand outputs were expected."""
-    from symgen.plan import check_saving
+    from symgen.running.outputs import check_saving
     from symgen.settings import Settings
 
     mechanism = msgspec.structs.replace(load("four-bar").mechanism, defaults=Defaults(until=10.0, step=1e-3))

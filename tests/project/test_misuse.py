@@ -11,12 +11,14 @@ import pickle
 import subprocess
 import sys
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 import pytest
 from support.processes import python
 
 import symgen
+from symgen.analyses.kinds import ANALYSES
 from symgen.errors import InputError, SymgenError
 from symgen.settings import Settings
 from symgen.study.stress.study import stress
@@ -446,6 +448,7 @@ def rows():
 
 
 ROWS = list(rows())
+ANALYSIS_METHODS = [method for _, analysis in ANALYSES.items() for method in analysis.methods]
 
 
 @pytest.fixture(scope="module")
@@ -471,6 +474,24 @@ def test_everything_else(things, tmp_path, monkeypatch, call, sentence):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("method", ANALYSIS_METHODS, ids=lambda method: method.__name__)
+def test_every_analysis_takes_settings_and_refuses_others(model, method):
+    needed = [
+        None
+        for p in inspect.signature(method).parameters.values()
+        if p.default is p.empty and p.kind < p.VAR_POSITIONAL
+    ]
+    call = partial(getattr(model, method.__name__), *needed[1:])
+    for changes, sentence in (
+        ({"settings": 3}, "settings: expected Settings, got 3"),
+        ({"nope": 1}, "settings: expected the name of a setting, got 'nope'"),
+        ({"verify": True}, f"{method.__name__}: verify: expected one of parameters, "),
+    ):
+        with pytest.raises(InputError) as error:
+            call(**changes)
+        assert sentence in str(error.value)
+
+
 def test_no_function_with_arguments_is_left_out():
     """Every public name that can be called, and every method of a public class that takes something, has rows."""
     tested = {
@@ -486,15 +507,12 @@ def test_no_function_with_arguments_is_left_out():
             "Mechanism.joint_named",
         ),
         *("Result.save", "Result.plot", "Result.reaction", "Labelled.row", "Labelled.unit", "Study.save"),
-        *("Sweep.save", "Sweep.reasons", "Model.start", "Model.kinematics", "Model.inverse"),
-        *(
-            f"Model.{name}"
-            for name in ("equilibrium", "equilibria", "steady", "modes", "linearise", "locus", "view_mode")
-        ),
+        *("Sweep.save", "Sweep.reasons", "Model.start"),
         *(f"SteppedRun.{name}" for name in ("step", "run", "every", "set", "restore")),
         *(f"MechanismBuilder.{name}" for name in ("run", "parameter", "input", "table", "body", "joint", "force")),
         *("MechanismBuilder.output", "MechanismBuilder.event", "Result.columns", "Result.select", "Result.view"),
     }
+    tested |= {f"Model.{method.__name__}" for method in ANALYSIS_METHODS}
     # what only the package makes or calls
     inner = {
         "Result",

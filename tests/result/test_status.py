@@ -6,30 +6,24 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen.plan import make_plan
-from symgen.result.agreement import settle
+from symgen.reruns.verification import verified
 from symgen.result.judge import JUMP_FAILURE, JUMP_WARNING, judge
 from symgen.result.points import Points
+from symgen.running.prepare import prepare
 from symgen.runtime.outcome import RankEvent
-from symgen.runtime.run import integrate
 from symgen.settings import Settings
 from symgen.study.references.reference import reference
 
 
-def outcome_of(model, method="direct-correction", **changes):
+def outcome_of(model, method="direct-correction", verify=False, **changes):
     """An honest run with some of what its loop saw replaced, as `judge` takes it."""
-    settings = Settings(method=method, until=0.05)
-    plan = make_plan(model.mechanism, settings)
-    compiled = model.compile(method)
-    start = model.assemble(compiled)
-    outcome = replace(integrate(compiled, plan.tableau, start, plan.spec), **changes)
-    return plan, compiled, outcome
+    run = prepare(model.mechanism, Settings(method=method, until=0.05, verify=verify))
+    return run, replace(run.integrate(), **changes)
 
 
-def judged(plan, compiled, outcome, model=None):
-    """The verdict, with a second run of `model` where it is given."""
-    second = None if model is None else settle(model.mechanism, {}, plan, compiled, outcome)
-    return judge(plan, compiled, outcome, second, asked=model is not None)
+def judged(run, outcome):
+    """The verdict, with a second run where the settings ask for it."""
+    return judge(run, outcome, verified(run, outcome)[2] if run.plan.settings.verify else None)
 
 
 @pytest.fixture(scope="module")
@@ -84,26 +78,26 @@ def test_energy_jumps_over_a_passage(four_bar, share, status, warnings):
 
 
 def test_light_bodies_are_said(four_bar):
-    *found, outcome = outcome_of(four_bar)
+    run, outcome = outcome_of(four_bar)
     counters = {**outcome.counters, "light": 7}
-    verdict = judged(*found, replace(outcome, counters=counters))
+    verdict = judged(run, replace(outcome, counters=counters))
     assert verdict.status == "ok"
     assert "light bodies made D M^-1 D^T ill-conditioned in 7 evaluations" in verdict.warnings[0]
 
 
 def test_a_second_run_that_agrees_settles_it(four_bar):
-    verdict = judged(*outcome_of(four_bar, "lagrange", **PASSAGE), four_bar)
+    verdict = judged(*outcome_of(four_bar, "lagrange", verify=True, **PASSAGE))
     assert verdict.status == "ok" and verdict.reason is None
     assert "verified: a run with step = 0.0005 s agrees within" in verdict.notes[0]
 
 
 @pytest.mark.parametrize("seen", [PASSAGE, {}])
 def test_a_second_run_that_differs_does_not(four_bar, seen):
-    plan, compiled, outcome = outcome_of(four_bar, **seen)
+    run, outcome = outcome_of(four_bar, verify=True, **seen)
     shift = np.zeros(outcome.states.shape[1])
     shift[3] = 1e-3  # the coupler, by a millimetre
     wrong = replace(outcome, states=outcome.states + shift)
-    verdict = judged(plan, compiled, wrong, four_bar)
+    verdict = judged(run, wrong)
     assert verdict.status == "unverified"
     assert verdict.reason == "a run with step = 0.0005 s differs by 0.001 m"
 

@@ -7,9 +7,10 @@ import pytest
 
 from symgen.api import load
 from symgen.errors import InputError
-from symgen.plan import Settings, make_plan
+from symgen.running.prepare import prepare
 from symgen.runtime import abi
 from symgen.runtime.simulation import Simulation
+from symgen.settings import Settings
 
 PAIRS = [
     *(("direct-correction", name) for name in ("rk4", "abm4", "abm", "dop853", "radau5", "sdirk", "rkmk4")),
@@ -84,11 +85,9 @@ def simulation(model, method, integrator, parameters=None, y=None):
     settings = Settings(
         method=method, integrator=integrator, until=UNTIL, times=[UNTIL], shape="straight", max_violation=1e-3, **more
     )
-    plan = make_plan(model.mechanism, settings)
-    compiled, start = model.ready(plan, parameters)
-    if y is not None:
-        start = replace(start, y=y.copy())
-    return Simulation(compiled, plan.tableau, start, plan.spec)
+    run = prepare(model.mechanism, replace(settings, parameters=parameters or {}))
+    start = run.start if y is None else replace(run.start, y=y.copy())
+    return Simulation(run.compiled, run.plan.integrator, start, run.spec)
 
 
 def parameters(simulation, values):

@@ -11,9 +11,9 @@ from support.remembering import CONSTANT, PAIRS
 from symgen.api import load
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.plan import Settings, make_plan
+from symgen.running.prepare import prepare
 from symgen.runtime import abi
-from symgen.runtime.simulation import Simulation
+from symgen.settings import Settings
 
 STEP, STEPS = 2e-3, 12
 
@@ -21,9 +21,7 @@ STEP, STEPS = 2e-3, 12
 def prepared(model, method, integrator, **more):
     """Return what makes simulations of a run, which does not start at rest."""
     settings = Settings(method=method, integrator=integrator, max_violation=1.0, max_energy_error=1e9, **more)
-    plan = make_plan(model.mechanism, settings)
-    compiled, start = model.ready(plan)
-    return lambda: Simulation(compiled, plan.tableau, start, plan.spec)
+    return prepare(model.mechanism, settings).simulation
 
 
 def arrays(simulation):

@@ -17,11 +17,9 @@ from symgen.describe.toml import to_toml
 from symgen.describe.validate import validate
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
-from symgen.plan import make_plan
-from symgen.run_setup import watching
+from symgen.running.prepare import prepare
 from symgen.runtime.probe import rate_function
 from symgen.runtime.resets import strike
-from symgen.runtime.simulation import Simulation
 from symgen.settings import Settings
 from symgen.study.stress.study import stress
 
@@ -572,10 +570,8 @@ def test_contradictory_velocities_are_refused_with_amounts():
 
 def test_a_run_with_events_is_left_saved_and_gone_on_with():
     model = ball(**BOUNCE, top={"when": "ball.vy", "direction": "falling"})
-    plan = make_plan(model.mechanism, Settings(method="lagrange", step=1e-2, until=2.0))
-    compiled, start = model.ready(plan)
-    plan = watching(model.mechanism, plan, compiled)
-    whole, first, second = (Simulation(compiled, plan.tableau, start, plan.spec) for _ in range(3))
+    run = prepare(model.mechanism, Settings(method="lagrange", step=1e-2, until=2.0))
+    whole, first, second = (run.simulation() for _ in range(3))
     nothing = whole.outputs(np.zeros(0))
     whole.enter(nothing)
     first.enter(nothing, pause=70)

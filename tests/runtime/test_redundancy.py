@@ -14,13 +14,12 @@ from benchmarks.plain.motion import integrate
 from benchmarks.plain.system import read
 from symgen.api import Model
 from symgen.describe import MechanismBuilder
-from symgen.plan import make_plan
+from symgen.running.prepare import prepare
 from symgen.runtime import abi
 from symgen.runtime.exact import plain_form
 from symgen.runtime.redundancy import choose_rows
 from symgen.runtime.tree_start import settle_tree
 from symgen.settings import Settings
-from symgen.tree_run import tree_run
 from tests.verification.running import DEFECTS, off, raw, reference
 
 SETTINGS = (
@@ -94,7 +93,7 @@ def test_rows_of_which_rounding_is_left_stand_for_none() -> None:
     """In joint coordinates rows of loops vanish for ever; their direction is rounding's, and of length 1 if weighed."""
     settings = Settings(method="lagrange", integrator="dop853", coordinates="joint")
     model = symgen.load(DEFECTS / "flat_loop.toml")
-    run = tree_run(model.mechanism, make_plan(model.mechanism, settings))
+    run = prepare(model.mechanism, settings).tree
     compiled, start = run.compiled, run.start
     turned = start.w[abi.WINDING : abi.WINDING + compiled.info.windings]
     scales = start.w[abi.LENGTH], start.w[abi.SPEED], compiled.section(start.w, "gauge").copy()

@@ -16,7 +16,7 @@ from symgen.api import load
 from symgen.catalogue import raw
 from symgen.integrators import INTEGRATORS as SCHEMES
 from symgen.methods import METHODS as KNOWN
-from symgen.plan import make_plan
+from symgen.running.prepare import make_plan
 from symgen.runtime import abi
 from symgen.runtime.run import integrate
 from symgen.settings import Settings
@@ -193,7 +193,7 @@ def test_an_interrupt_keeps_what_was_computed(integrator):
         if len(calls) == 1:
             raise KeyboardInterrupt
 
-    outcome = integrate(compiled, plan.tableau, model.assemble(compiled), plan.spec, interrupt)
+    outcome = integrate(compiled, plan.integrator, model.assemble(compiled), plan.spec, interrupt)
     assert outcome.code == abi.STOPPED and "interrupted" in outcome.reason
     assert 0 < len(outcome.times) < 200_000 and outcome.end < 2e5
     assert outcome.times[-1] <= outcome.end < outcome.times[-1] + 1.0 + 1e-9

@@ -21,11 +21,11 @@ NOTHING = np.zeros(0, dtype=np.int64)
 class Solver:
     """Plan and numbers for the nonzeros of a matrix."""
 
-    def __init__(self, matrix, left_out=NOTHING):
+    def __init__(self, matrix, left_out=NOTHING, motion=(0, 0, 0)):
         self.rows, self.columns = (x.astype(np.int64) for x in np.nonzero(matrix))
         terms = Terms(self.rows, self.columns, np.zeros_like(self.rows), np.arange(len(self.rows)))
         self.n, self.left_out = len(matrix), left_out
-        self.plan, self.numbers = make_plan(self.n, 1, terms, left_out, len(self.rows))
+        self.plan, self.numbers = make_plan(self.n, 1, terms, left_out, len(self.rows), motion=motion)
 
     def factorise(self, matrix):
         """Return the skipped pivots; room grows as the loops let it."""
@@ -114,7 +114,7 @@ def test_room_grows_where_pivots_leave_the_diagonal():
     solver, right = Solver(matrix), rng.uniform(-1.0, 1.0, n)
     short = 8
     solver.plan = solver.plan[: solver.plan[sparse.POOL] + short].copy()
-    solver.numbers = solver.numbers[: len(solver.rows) + 4 * n + short].copy()
+    solver.numbers = solver.numbers[: len(solver.rows) + 5 * n + short].copy()
     solver.plan[sparse.ROOM] = short
     assert solver.factorise(matrix) == 0 and solver.plan[sparse.ROOM] > 10 * short
     np.testing.assert_allclose(solver.solve(right), np.linalg.solve(matrix, right), rtol=1e-8, atol=1e-9)
@@ -152,6 +152,26 @@ def test_stiff_unknowns_do_not_hide_multipliers(stiffness):
     x, skipped = solved(matrix, right)
     assert skipped == 0
     np.testing.assert_allclose(x / scale, exact / scale, rtol=1e-10)
+
+
+@pytest.mark.parametrize("unit", [1.0, 2.0**-50, 2.0**-500, 2.0**500])
+@pytest.mark.parametrize("light", [1.0, 1e-18])
+def test_no_unit_of_mass_and_no_heavy_body_hides_a_light_one(unit, light):
+    """Masses in any unit, the last one light beside the others: what rows leave free of it moves, and nothing else."""
+    rng = np.random.default_rng(12)
+    masses, d = unit * np.array([1.0, 2.0, 1.5, light, light]), np.zeros((3, 5))
+    d[0, :2], d[1, 2:4], d[2] = rng.uniform(0.5, 1.0, 2), [1.0, -1.0], 0.0
+    d[2, 1:] = rng.uniform(0.5, 1.0, 4)
+    d[2] += d[0]
+    matrix = np.block([[np.diag(masses), d.T], [d, np.zeros((3, 3))]])
+    solver = Solver(matrix, motion=(0, 5, 3))
+    assert solver.factorise(matrix) == 0
+    basis = np.linalg.svd(d)[2][3:].T
+    force = masses * rng.uniform(1.0, 2.0, 5)
+    x = solver.solve(np.append(force, np.zeros(3)))
+    expected = basis @ np.linalg.solve(basis.T @ np.diag(masses) @ basis, basis.T @ force)
+    np.testing.assert_allclose(x[:5], expected, rtol=1e-9)
+    assert solver.factorise(matrix * 1.01) == 0  # with the same pivots
 
 
 def test_a_dependent_equation_is_skipped():

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
+from support.checks import assert_same_motion
 
 import symgen
 from symgen import catalogue
+from symgen.compiling.knots import compile_switches
 from symgen.describe.kinks import switches_of
 from symgen.ensemble.plan import make_ensemble
 from symgen.ensemble.sweep import sweep
+from symgen.runtime import abi
 from symgen.runtime.switches import passed
 
 #: Two kilograms under 3 N, and what is added between two values, beside an oscillation that has steps of usual length.
@@ -189,7 +193,7 @@ reset = { "bob.vx" = "-0.8*bob.vx" }
 @pytest.mark.parametrize(
     ("force", "shift"), [(OVER_SPEED, 0.5), (OVER_PLACE, 0.0), (OVER_TIME, 0.0), (BUMP, 0.0), (OVER_TABLE, 0.0)]
 )
-def test_rows_of_sweeps_are_single_runs_to_the_last_bit(
+def test_rows_of_sweeps_are_single_runs(
     folder: Path, force: str, shift: float, integrator: str, coordinates: str
 ) -> None:
     settings = {"method": "lagrange", "integrator": integrator, "rtol": 1e-8, "until": 0.8, "times": [0.4, 0.8]}
@@ -200,7 +204,7 @@ def test_rows_of_sweeps_are_single_runs_to_the_last_bit(
     found = sweep(model, runs=runs, quantities=["bob.x", "bob.vx"], **settings)
     for r, (low, high) in enumerate(zip(*runs.values(), strict=True)):
         alone = model.simulate(**settings, parameters={"low": low, "high": high})
-        np.testing.assert_array_equal(found.values[r], [alone["bob.x"], alone["bob.vx"]])
+        assert_same_motion(found.values[r], [alone["bob.x"], alone["bob.vx"]])
         for name in ("steps", "rejected", "evaluations"):
             assert found[name][r] == getattr(alone, name)
 
@@ -236,6 +240,58 @@ reset = { "bob.vx" = "-bob.vx" }
         assert result["bob.vx"][-1] == pytest.approx(-math.sqrt(0.25 + 8.0 * 0.0005), abs=1e-5)
 
 
+#: A point that falls sideways past a spring of its free length, which leaves that by the fourth power of time.
+AT_ITS_LENGTH = """[mechanism]
+name = "kink"
+gravity = [0.0, -9.81]
+[bodies.p]
+type = "point"
+mass = 1.0
+position = [2.0, 0.0]
+[forces.coil]
+type = "spring-damper"
+between = ["ground", "p"]
+at = [[0.0, 0.0], "centre"]
+stiffness = 50.0
+free_length = 2.0
+"""
+SQUARE, ONE_SIDED = (lambda d: -10.0 * abs(d) * d), (lambda d: -30.0 * max(d, 0.0))
+AT_THE_START = {
+    'actuator = "-10*abs(length - 2)*(length - 2)"': SQUARE,
+    'actuator = "-10*sign(length - 2)*(length - 2)**2"': SQUARE,
+    'actuator = "-10*(length - 2)**2 if length > 2 else 10*(length - 2)**2"': SQUARE,
+    'actuator = "-30*(length - min(2, length))"': ONE_SIDED,
+    'potential = "10*abs(length - 2)**3/3"': SQUARE,
+    'potential = "15*(length - 2)**2 if length > 2 else 0"': ONE_SIDED,
+}
+
+
+def fallen(law: Callable[[float], float]) -> list[float]:
+    """Where the point is after 0.8 s, by SciPy."""
+
+    def rate(_: float, state: np.ndarray) -> list[float]:
+        x, y, vx, vy = state
+        length = math.hypot(x, y)
+        pull = (law(length - 2.0) - 50.0 * (length - 2.0)) / length
+        return [vx, vy, pull * x, pull * y - 9.81]
+
+    found = solve_ivp(rate, (0.0, 0.8), [2.0, 0.0, 0.0, 0.0], "DOP853", rtol=1e-12, atol=1e-12, max_step=1e-3)
+    return [float(x) for x in found.y[:2, -1]]
+
+
+@pytest.mark.parametrize("integrator", ["dop853", "dopri5", "radau5", "abm", "auto"])
+@pytest.mark.parametrize("law", AT_THE_START)
+def test_a_kink_at_the_start_is_no_obstacle(tmp_path: Path, law: str, integrator: str) -> None:
+    """The length stays within rounding of the switch for a while: each passage was taken again, and the run failed."""
+    file = tmp_path / "kink.toml"
+    file.write_text(AT_ITS_LENGTH + law, encoding="utf-8")
+    method = "auto" if integrator == "auto" else "lagrange"
+    result = symgen.simulate(file, method=method, integrator=integrator, rtol=1e-8, until=0.8)
+    assert result.status == "ok", result.reason
+    assert result.rejected < 10
+    np.testing.assert_allclose([result["p.x"][-1], result["p.y"][-1]], fallen(AT_THE_START[law]), rtol=0.0, atol=1e-6)
+
+
 def test_switches_of_the_catalogue() -> None:
     """Runs of all others are entered once, as ever."""
     entries = (*catalogue.entries(), *catalogue.entries(catalogue.MACHINES))
@@ -246,9 +302,9 @@ def test_switches_of_the_catalogue() -> None:
 # -- what a step has passed --------------------------------------------------------------------------------------------
 
 
-def part(functions: list[np.polynomial.Polynomial], h: float, least: float = 1e-8) -> float:
+def part(functions: list[np.polynomial.Polynomial], h: float, least: float = 1e-8, size: float = 0.0) -> float:
     """Return the part to take of a step from 0 to `h`, switches being polynomials of time."""
-    every = *functions, *(f.deriv() for f in functions)
+    every = *functions, *(f.deriv() for f in functions), *(np.polynomial.Polynomial([size]) for _ in functions)
     return passed(np.array([f(0.0) for f in every]), np.array([f(h) for f in every]), h, least)
 
 
@@ -286,6 +342,29 @@ def test_what_is_short_and_what_is_not_finite_is_left() -> None:
     assert part([line * math.nan, line], 1.0) == 1.0
 
 
+def test_what_stays_within_rounding_of_its_terms_is_not_passed() -> None:
+    still = np.polynomial.Polynomial([0.0, 0.0, 0.0, 0.0, 1e-13])  # the cubic dips below zero
+    noise = np.polynomial.Polynomial([2e-14, -4e-14])
+    assert part([still, noise], 1.0) < 1.0
+    assert part([still, noise], 1.0, size=4.0) == 1.0
+    assert part([still, noise, np.polynomial.Polynomial([-0.5, 1.0])], 1.0, size=4.0) == 1.0
+    assert part([np.polynomial.Polynomial([-0.3, 1.0]), np.polynomial.Polynomial([-0.5, 1.0])], 1.0, size=4.0) == 0.4
+
+
+def test_sizes_are_those_of_terms_and_of_the_state(folder: Path) -> None:
+    """Distances far from the origin are rounded as coordinates are, and those near it as the mechanism's length."""
+    far = WINDOW.replace("position = [0.0, 0.5]", "position = [1000.0, 0.5]")
+    file = folder / "far.toml"
+    file.write_text(far.replace("FORCE", "abs(bob.x - 1000.25) + abs(bob.y)"), encoding="utf-8")
+    model = symgen.load(file)
+    compiled = model.compile("lagrange")
+    switches, start = compile_switches(model.mechanism, compiled), model.assemble(compiled)
+    out = np.zeros(6)
+    switches.function(0.0, start.y, start.p, start.w, np.zeros_like(start.y), out)
+    length = start.w[abi.LENGTH]
+    np.testing.assert_allclose(sorted(out[4:]), [0.5 + 0.5 + length, 1000.0 + 1000.25 + 1000.0 + length], rtol=1e-14)
+
+
 def test_integrals_of_efforts_that_are_cut_off() -> None:
     """What `min` compares in an effort reads its own measure: with outputs that integrate it, nothing ran."""
     result = symgen.load("inverted-pendulum").simulate(integrator="dop853", method="lagrange", until=0.02, times=[0.02])
@@ -300,7 +379,7 @@ def test_friction_that_sticks_says_why_nothing_goes_on(folder: Path, integrator:
         '[mechanism]\nname = "block"\ngravity = [0, 0]\n[bodies.b]\ntype = "point"\nmass = 1.0\nvelocity = [1, 0]\n'
         '[forces.drag]\ntype = "force"\nbody = "b"\nat = "centre"\nforce = ["-2*LAW", 0]\n'
     )
-    asked = {"method": "lagrange", "integrator": integrator, "until": 3.0, "max_steps": 25_000}
+    asked = {"method": "lagrange", "integrator": integrator, "until": 3.0, "max_attempts": 25_000}
     file.write_text(text.replace("LAW", "sign(b.vx)"))
     stuck = symgen.simulate(file, **asked)
     assert stuck.status == "failed" and abs(stuck.end - 0.5) < 1e-6

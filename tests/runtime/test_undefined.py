@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import symgen
 from symgen.compiling.linearised import compile_linearised
 from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.describe import MechanismBuilder
+from symgen.errors import StepError
 
 
 def sliding(force, velocity=0.0):
@@ -67,3 +69,76 @@ def test_a_reset_that_is_not_defined_at_rest():
     found = symgen.load(mechanism).simulate(method="lagrange", times=(1.5,))
     assert found.status == "ok" and len(found.events) == 1
     assert found.v["ball.vy"][-1] == pytest.approx(9.0 - 5.0, rel=1e-8)
+
+
+def falling(when, **more):
+    """A ball that falls from `height` = 1 m at 10 m/s^2, on a vertical guide, so that joints carry it as well."""
+    return symgen.load(
+        MechanismBuilder("falling", gravity=(0.0, -10.0))
+        .run(until=0.5, step=0.01)
+        .parameter("height", 1.0)
+        .body("ball", mass=1.0, inertia=0.1, position=(0.0, "height"))
+        .joint("guide", "translational", between=("ground", "ball"), at=((0.0, 0.0), "centre"), axis=(0.0, 1.0))
+        .event("watched", when=when, **more)
+        .build()
+    )
+
+
+SETTINGS = (
+    {"integrator": "rk4", "step": 0.01},
+    {"integrator": "dop853"},
+    {"integrator": "radau5"},
+    {"integrator": "abm"},
+    {"integrator": "rk4", "step": 0.01, "coordinates": "joint"},
+    {"integrator": "dop853", "coordinates": "joint"},
+)
+
+
+@pytest.mark.parametrize("settings", SETTINGS, ids=lambda s: "-".join(map(str, s.values())))
+def test_a_run_fails_where_the_condition_of_an_event_becomes_undefined(settings):
+    """The ball is at the root of 0 m after sqrt(0.2) s: the first step that ends later meets a root of less."""
+    model = falling("sqrt(ball.y) > 5", action="stop")
+    found = model.simulate(**settings)
+    assert found.status == "failed" and found.events == ()
+    sentence = r"the condition of the event 'watched' is undefined at t = (\S+) s"
+    assert 0.2**0.5 < float(re.fullmatch(sentence, found.reason)[1]) <= 0.5
+
+    stepped = model.start(**settings)
+    with pytest.raises(StepError, match=sentence) as caught:
+        stepped.run(0.5)
+    assert stepped.t < 0.2**0.5 < caught.value.time
+
+
+def test_rows_of_sweeps_fail_alone_where_the_condition_of_an_event_is_undefined():
+    model, settings = falling("sqrt(ball.y) > 5", action="stop"), {"integrator": "rk4", "step": 0.01}
+    found = symgen.sweep(model, {"height": [1.0, 2.0]}, times=(0.1, 0.5), **settings)
+    assert list(found.status) == ["failed", "ok"]
+    assert found.reason[0] == model.simulate(**settings).reason
+
+
+@pytest.mark.parametrize("integrator", ["rk4", "dop853"])
+def test_a_condition_that_is_undefined_at_the_start_alone(integrator):
+    found = falling("sqrt(t - 1e-9) > 5").simulate(integrator=integrator)
+    assert (found.status, found.reason) == ("failed", "the condition of the event 'watched' is undefined at t = 0 s")
+
+
+def test_a_condition_that_a_reset_makes_undefined():
+    """Thrown up at 3 m/s, the ball is where the root of -2 is met."""
+    found = falling("sqrt(1 - ball.vy) > 2", reset={"ball.vy": 3.0}).simulate(integrator="rk4")
+    assert found.status == "failed" and len(found.events) == 1
+    assert found.reason == "the condition of the event 'watched' is undefined at t = 0.3 s"
+
+
+GUARDED = (
+    *("ball.y > 0 and sqrt(ball.y) < 0.5", "sqrt(ball.y) < 0.5 and ball.y > 0"),
+    *("ball.y < 0.25 or sqrt(ball.y) < 0.5", "not (sqrt(ball.y) >= 0.5 and ball.y >= 0.25)"),
+    "ball.y > 0 and (sqrt(ball.y) < 0.5 or log(ball.y) > 1)",
+)
+
+
+@pytest.mark.parametrize("when", GUARDED)
+def test_a_guard_keeps_what_is_undefined_aside(when):
+    """The ball is at 0.25 m after sqrt(0.15) s, and below 0 at the end."""
+    found = falling(when).simulate(integrator="rk4")
+    assert found.status == "ok", found.reason
+    assert [event.t for event in found.events] == [pytest.approx(0.15**0.5, abs=1e-12)]

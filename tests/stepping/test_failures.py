@@ -41,7 +41,7 @@ FAILING = {
         {"method": "lagrange", "integrator": "dopri5", "rtol": 1e-3, "atol": 1e-3, "max_violation": 1e-5},
         "position violation |Phi| exceeds",
     ),
-    "most": ({"method": "lagrange", "integrator": "dopri5", "rtol": 1e-12, "max_steps": 50}, "makes no progress"),
+    "most": ({"method": "lagrange", "integrator": "dopri5", "rtol": 1e-12, "max_attempts": 50}, "makes no progress"),
 }
 
 

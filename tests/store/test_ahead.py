@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from symgen import load
-from symgen.plan import make_plan
+from symgen.running.prepare import prepare
 from symgen.settings import Settings
 from symgen.store import ahead
 
@@ -59,7 +59,6 @@ def test_starts_nothing_without_gain(cache, generated, python, tmp_path):
 @pytest.mark.parametrize("integrator", ["rk4", "dopri5", "abm", "rkmk4", "radau5", "generalized-alpha"])
 def test_integrators_name_the_loop_that_they_enter(integrator):
     model = load("pendulum")
-    plan = make_plan(model.mechanism, Settings(integrator=integrator, method=METHODS.get(integrator, "lagrange")))
-    compiled, start = model.ready(plan)
-    setup = plan.tableau.setup(compiled, plan.spec, start.w)
-    assert plan.tableau.loop(plan.spec.adaptive) is setup.loop
+    run = prepare(model.mechanism, Settings(integrator=integrator, method=METHODS.get(integrator, "lagrange")))
+    setup = run.plan.integrator.setup(run.compiled, run.spec, run.start.w)
+    assert run.plan.integrator.loop(run.spec.adaptive) is setup.loop

@@ -309,7 +309,7 @@ def test_a_journal_tells_shapes_apart():
 )
 def test_errors_are_to_the_motion_from_the_start_that_is_asked_for(name, start):
     """Formulas know the start of the catalogue alone: distances to it were of the size of the mechanism."""
-    from symgen.study.comparison.prepare import Task
+    from symgen.study.comparison.preparation import Task
 
     asked = {"methods": ["direct-correction"], "integrators": ["dop853"], "rtols": [1e-10]}
     found = symgen.compare(name, **asked, until=0.3, repeat=1, start=start)
@@ -354,10 +354,10 @@ def test_several_models_are_checked_before_anything_runs(monkeypatch):
 @pytest.mark.slow
 def test_preparation_on_several_processes_changes_no_row(study, monkeypatch, tmp_path):
     """Everything goes to processes of its own, the first task too; the cache is a new one, so that they have work."""
-    from symgen.study.comparison import prepare
+    from symgen.study.comparison import preparation
 
     monkeypatch.setenv("SYMGEN_CACHE_DIR", str(tmp_path / "cache"))
-    monkeypatch.setattr(prepare, "PATIENCE", -1.0)
+    monkeypatch.setattr(preparation, "PATIENCE", -1.0)
     seen = []
     again = symgen.compare(
         *("four-bar", ["baumgarte", "lagrange"], ["rk4"], [8e-3, 4e-3], (), 1.0, 1),

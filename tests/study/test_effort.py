@@ -3,15 +3,14 @@
 import subprocess
 import sys
 
-import msgspec
 import numpy as np
 import pytest
 
 import symgen
-from symgen.auto import AUTO
 from symgen.errors import SimulationError
 from symgen.methods import METHODS
-from symgen.plan import make_plan
+from symgen.running.automatic import AUTO
+from symgen.running.prepare import make_plan, prepare
 from symgen.settings import Settings
 from symgen.study.journal import TELLING
 from symgen.study.references import stiff
@@ -20,7 +19,6 @@ from symgen.study.stress import effort, other_route
 from symgen.study.stress.bench import Base
 from symgen.study.stress.cases import CASES
 from symgen.study.stress.cells import LimitTask, ReferenceTask, RunTask, compute
-from symgen.study.stress.known import KnownModel
 from symgen.study.stress.study import pairs, stress
 
 
@@ -80,13 +78,13 @@ def test_a_prediction_is_below_what_a_run_takes():
 def test_a_run_without_a_chance_is_not_begun(monkeypatch):
     level = CASES.get("damping").levels(Base.of("four-bar"), False)[4]
     known = {"unusable": None, "estimated_error": 0.0, "decay": 1e9, "parameters": {}}
-    monkeypatch.setattr("symgen.study.stress.cells.integrate", None)
+    monkeypatch.setattr("symgen.study.stress.cells.assemble", None)
     found = compute(RunTask(level, "lagrange", "dop853", known))
     assert found["outcome"] == "too slow" and found["reason"].startswith("at least 1.25e+09 evaluations, more than")
 
 
 def test_cells_without_a_reference_are_not_run(monkeypatch):
-    monkeypatch.setattr("symgen.study.stress.cells.integrate", None)
+    monkeypatch.setattr("symgen.study.stress.cells.assemble", None)
     level = CASES.get("gravity").levels(Base.of("pendulum"), True)[0]
     for known, why in (
         ({"unusable": "none at hand"}, "none at hand"),
@@ -134,21 +132,6 @@ def test_what_is_left_out_is_listed_and_not_run():
     ]
 
 
-def test_forms_are_asked_for_once(monkeypatch):
-    from symgen import api
-
-    asked = []
-    original = api.compile_model
-    monkeypatch.setattr(api, "compile_model", lambda *a: asked.append(a) or original(*a))
-    base = Base.of("pendulum")
-    moved = msgspec.structs.replace(base.stressed, title="the same equations")
-    for mechanism in (base.stressed, moved):
-        model = KnownModel(mechanism)
-        for _ in range(3):
-            model.ready(make_plan(model.mechanism, Settings(method="udwadia-kalaba", integrator="rk4", shape="looped")))
-    assert len(asked) <= 1
-
-
 def test_no_cell_depends_on_what_a_journal_does_not_know():
     """Modules outside the key of a cell must not be imported by what computes cells."""
     names = ["symgen." + name.removesuffix(".py").replace("/", ".") for name in sorted(TELLING)]
@@ -164,7 +147,8 @@ def equations_of(name, **changes):
     mechanism = Base.of(name).stressed
     model = symgen.load(mechanism)
     values = model.parameters(changes)
-    compiled, start = model.ready(make_plan(model.mechanism, Settings(method="lagrange")), values)
+    run = prepare(model.mechanism, Settings(method="lagrange", parameters=values))
+    compiled, start = run.compiled, run.start
     nq, nv = compiled.info.nq, compiled.info.nv
     return CompiledEquations(mechanism, values), start.y[:nq].copy(), start.y[nq : nq + nv].copy()
 
@@ -225,11 +209,11 @@ def sinking():
 def test_stiff_motions_in_space_have_a_reference():
     model = sinking()
     times = np.linspace(0.0, 1.0, 5)
-    found = other_route.agreed(model, {"c": 1e8}, times, decay=1e8 / 2.0)
+    found = other_route.agreed(model.mechanism, {"c": 1e8}, times, decay=1e8 / 2.0)
     assert found.how.startswith("direct-correction with radau5") and found.estimated_error < 1e-9
     np.testing.assert_allclose(found.q[:, 2], -1.0 - 2.0 * 9.81 / 1e8 * times, rtol=0.0, atol=1e-9)
 
 
 def test_implicit_references_end_with_the_size():
     with pytest.raises(SimulationError, match="fastest decay, 1e\\+12 1/s, asks for implicit steps"):
-        other_route.agreed(symgen.load("stewart-platform"), {}, np.linspace(0.0, 1.0, 3), decay=1e12)
+        other_route.agreed(symgen.load("stewart-platform").mechanism, {}, np.linspace(0.0, 1.0, 3), decay=1e12)

@@ -35,11 +35,12 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def start_of(mechanism, parameters):
-    from symgen.plan import make_plan
+    from symgen.running.prepare import prepare
     from symgen.settings import Settings
 
     model = symgen.load(mechanism)
-    compiled, start = model.ready(make_plan(model.mechanism, Settings(method="lagrange")), parameters)
+    run = prepare(model.mechanism, Settings(method="lagrange", parameters=parameters))
+    compiled, start = run.compiled, run.start
     return start.y[: compiled.info.nq], start.y[compiled.info.nq : compiled.info.nq + compiled.info.nv]
 
 
@@ -251,19 +252,14 @@ def test_what_is_too_slow_is_told_without_a_clock():
 
 
 def test_a_measured_budget_stops_a_run():
-    from dataclasses import replace
 
-    from symgen.plan import make_plan
+    from symgen.running.prepare import prepare
     from symgen.runtime import abi
-    from symgen.runtime.run import integrate
     from symgen.settings import Settings
 
     model = symgen.load("four-bar")
-    plan = make_plan(
-        model.mechanism, Settings(method="lagrange", integrator="rk4", step=1e-6, until=1e3, output_step=1e3)
-    )
-    compiled, start = model.ready(plan)
-    outcome = integrate(compiled, plan.tableau, start, replace(plan.spec, max_evaluations=1000, max_violation=1e30))
+    settings = Settings(method="lagrange", integrator="rk4", step=1e-6, until=1e3, output_step=1e3)
+    outcome = prepare(model.mechanism, settings).with_spec(max_evaluations=1000, max_violation=1e30).integrate()
     assert outcome.code == abi.STOPPED and outcome.evaluations > 1000 and not outcome.interrupted
 
 

@@ -13,8 +13,17 @@ RANDOM = settings(
 )
 
 
+#: Of the largest number: what two ways of making one run may differ by.
+ROUNDING = 1e-12
+
+
+def assert_same_motion(found, expected, what: str = "") -> None:
+    """Compare rows of sweeps, lanes and runs step by step with single runs: the same motion to rounding."""
+    close(found, expected, what, ROUNDING)
+
+
 def close(found, expected, what: str, tolerance: float = 2e-11) -> None:
     """Compare numbers up to rounding on the scale of the largest expected one, at least 1."""
     expected = np.asarray(expected, dtype=float)
-    scale = max(1.0, float(np.abs(expected).max(initial=0.0)))
+    scale = max(1.0, float(np.abs(expected[np.isfinite(expected)]).max(initial=0.0)))
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=tolerance * scale, err_msg=what)

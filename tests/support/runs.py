@@ -3,7 +3,7 @@
 import numpy as np
 
 from symgen.api import Model
-from symgen.plan import make_plan
+from symgen.running.prepare import make_plan
 from symgen.runtime.outcome import Outcome
 from symgen.runtime.run import integrate
 from symgen.settings import Settings
@@ -15,7 +15,7 @@ def run(model: Model, **settings) -> Outcome:
     plan = make_plan(model.mechanism, chosen)
     compiled = model.compile(plan.choice.method.name, plan.choice.options)
     start = model.assemble(compiled, chosen.parameters, plan.method_parameters, chosen.strict)
-    return integrate(compiled, plan.tableau, start, plan.spec)
+    return integrate(compiled, plan.integrator, start, plan.spec)
 
 
 def positions(outcome: Outcome) -> np.ndarray:

@@ -13,10 +13,10 @@ import pytest
 from benchmarks.mechanisms.toml import text
 from symgen.api import load
 from symgen.compiling.choose_tree import on_tree
-from symgen.plan import make_plan
+from symgen.running.plan import Purpose
+from symgen.running.prepare import prepare
 from symgen.settings import Settings
 from symgen.store.modules import interpreted
-from symgen.tree_run import tree_run
 
 #: Starts are closed to 1e-13 or so; accelerations and powers of such mechanisms follow them to some digits less.
 CLOSED, MOVED = 1e-10, 1e-8
@@ -154,7 +154,7 @@ def written(raw: dict, folder: Path):
 def test_driven_trees_move_as_bodies_with_rows_do(make, flip, tmp_path):
     model = written(make(flip), tmp_path)
     drivers = [joint.name for joint in model.mechanism.joints if joint.kind == "driver"]
-    run = tree_run(model.mechanism, make_plan(model.mechanism, Settings(method="lagrange", coordinates="joint")))
+    run = prepare(model.mechanism, Settings(method="lagrange", coordinates="joint"), Purpose.STATE).tree
     if not flip:
         assert [x.driver for x in run.topology.prescribed] == drivers
     assert len(run.topology.prescribed) >= 3

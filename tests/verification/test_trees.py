@@ -17,10 +17,11 @@ from benchmarks.plain.system import read
 from symgen.api import load
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.topology import spanning_tree
-from symgen.plan import make_plan
+from symgen.running.plan import Purpose
+from symgen.running.prepare import prepare
+from symgen.running.tree import TreeRun
 from symgen.settings import Settings
 from symgen.store.modules import interpreted
-from symgen.tree_run import TreeRun, tree_run
 
 SEED = 12
 #: Which of the seed's mechanisms are compared, planar and spatial; 10 is driven against what a joint holds.
@@ -64,7 +65,7 @@ def compare(index: int, spatial: bool, folder: Path) -> None:
 
 
 def compare_with_plain(raw: dict, mechanism: Mechanism) -> None:
-    run = tree_run(mechanism, make_plan(mechanism, Settings(method="lagrange", coordinates="joint")))
+    run = prepare(mechanism, Settings(method="lagrange", coordinates="joint"), Purpose.STATE).tree
     q, v, a = of_bodies(run)
     info, start = run.bodies.info, run.body_start.y
     np.testing.assert_allclose(q, start[: info.nq], rtol=0.0, atol=EXACT * 10.0)
@@ -196,7 +197,7 @@ def test_the_metric_of_bodies_is_their_identity_pulled_back(name):
     """The correction is the shortest change of the velocities of bodies: W = B^T B, B column by column."""
     mechanism = load(name).mechanism
     settings = Settings(method="direct-correction", coordinates="joint", options={"method.weight": "body"})
-    run = tree_run(mechanism, make_plan(mechanism, settings))
+    run = prepare(mechanism, settings).tree
     info, compiled, start = run.bodies.info, run.compiled, run.start
     own, y, p, w = compiled.info, start.y.copy(), start.p.copy(), start.w.copy()
 

@@ -16,9 +16,6 @@ from symgen.methods._base import Method
 from symgen.methods._formula import needed
 from symgen.vocabulary.infos import LawInfo
 
-#: Methods that need dense matrices are refused above this number of coordinates.
-LARGEST_DENSE = 400
-
 
 class LoopedLawInfo(LawInfo, frozen=True, kw_only=True):
     """What tables need to know of a law, beside what is known of every one.

@@ -23,7 +23,7 @@ from symgen.runtime.watch import keep_maxima
 #: through zero. Nothing is known where the last step was shorter than this part of what it allowed, at the start or
 #: where its error is rounding, and near singular positions.
 _GROWTH, _SETTLED = 1.25, 0.25
-#: What a first step is guessed from is no shorter than this part of a run: more steps than `MAX_STEPS` would follow.
+#: What a first step is guessed from is no shorter than this part of a run: more steps than `MAX_ATTEMPTS` would follow.
 _SHORTEST = 1e-10
 
 

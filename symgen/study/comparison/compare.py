@@ -8,23 +8,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from msgspec import structs
 
 from symgen import arguments
 from symgen.api import Model, load
 from symgen.describe.digest import digest
-from symgen.describe.mechanism import Mechanism
+from symgen.describe.mechanism import Mechanism, bounded
 from symgen.errors import SimulationError
-from symgen.plan import Plan, make_plan, multiples, output_size, refuse_events, refuse_weightless
 from symgen.result.points import Points
-from symgen.run_setup import stopping
+from symgen.running.outputs import multiples, output_size
+from symgen.running.plan import Plan, refuse_events
+from symgen.running.prepare import Assembled, assemble, begin, make_plan
 from symgen.runtime import abi
-from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.timing import timed
 from symgen.settings import Settings, default
 from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.kept import Kept
 from symgen.study.comparison.measured import measured
-from symgen.study.comparison.prepare import Task, prepare, ready_for
+from symgen.study.comparison.preparation import Task, work_through
 from symgen.study.comparison.rows import Row, Study, Trace, save_csv, with_ratios
 from symgen.study.journal import Journal
 from symgen.study.references.reference import Array, Reference, reference
@@ -33,7 +34,6 @@ from symgen.study.references.solvers import AUTO, check_solver
 if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
-    from symgen.tree_run import TreeRun
 
 __all__ = ["Progress", "Row", "Study", "Trace", "compare", "compare_all", "save_csv"]
 
@@ -73,9 +73,10 @@ def compare(
     shape: str = "auto",
     max_violation: float = default("max_violation"),
     max_energy_error: float = default("max_energy_error"),
-    max_steps: float | None = None,
+    max_attempts: float | None = None,
     start: Mapping[str, float] | None = None,
     coordinates: Sequence[str] = (),
+    max_step: float | None = None,
 ) -> Study:
     """Run a model with every combination and measure error and run time.
 
@@ -111,10 +112,12 @@ def compare(
     shape : str
         Shape of the code. ``auto`` is ``straight`` for all methods up to `LARGEST_STRAIGHT` coordinates, so that run
         times compare methods and not shapes.
-    max_violation, max_energy_error, max_steps : float
+    max_violation, max_energy_error, max_attempts : float
         As for `symgen.Settings`.
     coordinates : sequence of str
         ``absolute``, ``joint`` or both, side by side; absolute ones by default.
+    max_step : float
+        Largest step of adaptive integrators and of the reference [s].
 
     Returns
     -------
@@ -134,7 +137,8 @@ def compare(
         options=options or {},
         max_violation=max_violation,
         max_energy_error=max_energy_error,
-        max_steps=max_steps,
+        max_step=max_step,
+        max_attempts=max_attempts,
         repeat=repeat,
         shape=shape,
     )
@@ -225,7 +229,7 @@ def compare_all(
         arguments.of_kind("journal", journal, Journal, "a symgen.study.journal.Journal")
     works = []
     for model in models:
-        chosen = load(model)
+        chosen = _chosen(load(model), asked)
         end = _end(chosen, asked.until)
         times = _times(chosen, end, asked.output_step)
         small = chosen.mechanism.body_coordinates <= LARGEST_STRAIGHT
@@ -233,9 +237,6 @@ def compare_all(
         base = replace(asked, output_step=None, shape=shape, until=end, times=times.tolist())
         settings = list(runs.settings(base, chosen.mechanism.defaults.step))
         plans = [make_plan(chosen.mechanism, s) for s in settings]  # refuses what is wrong before anything is run
-        refuse_events("compare", chosen.mechanism, asked)
-        refuse_weightless(chosen.mechanism)
-        refuse_jumps(chosen.mechanism, asked.parameters, end)
         works.append(
             _Work(chosen, end, times, settings, plans, Kept(chosen.mechanism, journal, reference_by), reference_by)
         )
@@ -274,7 +275,7 @@ def _prepare(works: Sequence[_Work], jobs: int, report: Progress, later: float) 
         groups: dict[Any, dict[str, Settings]] = {}
         for settings, plan in zip(work.settings, work.plans, strict=True):
             if work.kept.row(settings) is None:
-                groups.setdefault(plan.key, {}).setdefault(plan.tableau.name, settings)
+                groups.setdefault(plan.key, {}).setdefault(plan.integrator.name, settings)
         first = work.settings[0]
         if groups and work.kept.reference(first, work.times) is None:
             tasks.append(Task("reference", work.model.mechanism, (first,), work.times, work.reference_by))
@@ -287,7 +288,7 @@ def _prepare(works: Sequence[_Work], jobs: int, report: Progress, later: float) 
         report(f"preparing{what}", PREPARATION * count, weight + later)
 
     done(0)
-    found, interrupted = prepare(tasks, jobs, done)
+    found, interrupted = work_through(tasks, jobs, done)
     for work, known in zip(owners, found, strict=True):
         if known is not None:
             work.known = known
@@ -298,7 +299,7 @@ def _prepare(works: Sequence[_Work], jobs: int, report: Progress, later: float) 
 def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
     """Run all rows of a model, one at a time."""
     rows, traces = list[Row](), list[Trace]()
-    ready: dict[Any, tuple[CompiledModel, Start, TreeRun | None]] = {}
+    assembled: dict[Any, Assembled] = {}
     points = Points.of(work.model.mechanism, work.model.parameters(work.settings[0].parameters))
     interrupted = False
     try:
@@ -306,21 +307,17 @@ def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
         for i, (s, plan) in enumerate(zip(work.settings, work.plans, strict=True)):
             found = work.kept.row(s)
             if found is None:
-                if plan.key not in ready:
-                    ready[plan.key] = ready_for(work.model, plan, s.parameters)
-                compiled, start, tree = ready[plan.key]
+                if plan.key not in assembled:
+                    assembled[plan.key] = assemble(plan)
+                run = begin(plan, assembled[plan.key])
                 if work.known is None and not work.note:
                     say("reference", 0.0)
-                    of_bodies = (compiled, start) if tree is None else (tree.bodies, tree.body_start)
-                    _find_reference(work, *of_bodies, lambda f: say("reference", f))
+                    _find_reference(work, *run.assembled.of_bodies, lambda f: say("reference", f))
                 say(f"{s.method}, {s.integrator}", 1.0 + i)
-                spec = stopping(work.model.mechanism if tree is None else tree.mechanism, plan, compiled).spec
-                runs = timed(compiled, plan.tableau, start, spec, s.repeat, None, AT_LEAST)
+                runs = timed(run.integrate, s.repeat, AT_LEAST)
                 interrupted = runs.outcome.interrupted
                 if runs.outcome.code != abi.STOPPED:
-                    if tree is not None:
-                        runs = replace(runs, outcome=tree.carried(runs.outcome))
-                    found = measured(plan, runs, work.known, points)
+                    found = measured(run, runs, work.known, points)
                     work.kept.add_row(s, *found)
             if found is not None:
                 rows.append(found[0])
@@ -352,6 +349,15 @@ def _find_reference(work: _Work, compiled: CompiledModel, start: Start, progress
         return
     work.known = known
     work.kept.add_reference(settings, known)
+
+
+def _chosen(model: Model, asked: Settings) -> Model:
+    """Return a model without events that are only recorded, others being refused, with the largest step for all."""
+    mechanism = model.mechanism
+    refuse_events("compare", mechanism, asked)
+    plain = structs.replace(mechanism, events=()) if mechanism.events else mechanism
+    plain = bounded(plain, asked.max_step)
+    return model if plain is mechanism else Model(plain)
 
 
 def _end(model: Model, until: float | None) -> float:

@@ -8,7 +8,7 @@ from typing import Any
 from symgen.describe.mechanism import Mechanism
 from symgen.result.contract import finite
 from symgen.settings import Settings
-from symgen.study.comparison.prepare import as_entry, from_entry
+from symgen.study.comparison.preparation import as_entry, from_entry
 from symgen.study.comparison.rows import Row, Trace
 from symgen.study.journal import Journal, cell_key, code_identity, mechanism_identity
 from symgen.study.machine import machine_class, versions

@@ -12,8 +12,8 @@ from symgen.runtime import abi
 from symgen.study.comparison.rows import Row, Trace
 
 if TYPE_CHECKING:
-    from symgen.plan import Plan
     from symgen.result.points import Points
+    from symgen.running.prepare import Prepared
     from symgen.runtime.timing import Timed
     from symgen.study.references.reference import Reference
 
@@ -23,12 +23,12 @@ Array = NDArray[np.float64]
 LONGEST = 400
 
 
-def measured(plan: Plan, runs: Timed, known: Reference | None, points: Points) -> tuple[Row, Trace]:
+def measured(run: Prepared, runs: Timed, known: Reference | None, points: Points) -> tuple[Row, Trace]:
     """Judge and measure one run.
 
     Parameters
     ----------
-    plan : Plan
+    run : Prepared
         What was run.
     runs : Timed
         What it gave, and how long it took.
@@ -37,9 +37,9 @@ def measured(plan: Plan, runs: Timed, known: Reference | None, points: Points) -
     points : Points
         What distances are measured between.
     """
-    outcome = runs.outcome
+    plan, outcome = run.plan, run.of_bodies(runs.outcome)
     nq, count = outcome.compiled.info.nq, len(outcome.times)
-    verdict = judge(plan, outcome.compiled, outcome, None, asked=False)
+    verdict = judge(run, outcome)
     distances = None if known is None else points.distances(outcome.states[:, :nq], known.q[:count])
     error = float(distances.max(initial=0.0)) if distances is not None and outcome.code == abi.DONE else None
     accelerations = outcome.acceleration_violations if count else np.zeros(0)
@@ -48,7 +48,7 @@ def measured(plan: Plan, runs: Timed, known: Reference | None, points: Points) -
     row = Row(
         method=plan.choice.method.name,
         coordinates=plan.coordinates,
-        integrator=plan.tableau.name,
+        integrator=plan.integrator.name,
         step=None if adaptive else plan.spec.step,
         rtol=plan.spec.rtol if adaptive else None,
         status=verdict.status,
@@ -70,7 +70,7 @@ def measured(plan: Plan, runs: Timed, known: Reference | None, points: Points) -
         velocity_violation_final=_last(velocity),
         acceleration_violation_final=_last(accelerations),
         energy_drift_max=outcome.energy_drift_max,
-        warnings=(*plan.warnings, *outcome.start.warnings, *verdict.warnings),
+        warnings=(*plan.all_warnings, *outcome.start.warnings, *verdict.warnings),
     )
     kinetic, potential = status[:, abi.KINETIC], status[:, abi.POTENTIAL]
     work = outcome.states[:, outcome.compiled.info.work]

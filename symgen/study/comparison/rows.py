@@ -14,7 +14,7 @@ from symgen.errors import InputError
 from symgen.files import check_writable, headed, write_csv
 from symgen.result.contract import finite
 from symgen.result.labelled import html_table
-from symgen.result.result import FAILED
+from symgen.result.run_data import FAILED
 
 #: Ratios of run time are to this method, with the same integrator and the same step or tolerance.
 YARDSTICK = "lagrange"

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numba
@@ -28,7 +29,7 @@ from symgen.store.jit import jit
 from symgen.study.references.curves import curves
 from symgen.study.references.independent import CUTOFF, IndependentEquations
 from symgen.study.references.least_squares import shortest
-from symgen.study.references.parts import Advance, by_outputs, in_parts
+from symgen.study.references.parts import Advance, by_outputs, in_parts, longest_of
 from symgen.study.references.reference import Reference
 from symgen.study.references.stiff import OverBudgetError, by_radau, is_stiff
 
@@ -364,11 +365,18 @@ def _by_extrapolation(
     equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, progress: Walk, scale: Array
 ) -> Array:
     """Return q at `times`; every `every`-th output is projected."""
-    used = np.zeros(1, dtype=np.int64)
+    used, longest = np.zeros(1, dtype=np.int64), longest_of(equations, times)
 
     def begin() -> Advance:
         step = np.zeros(1)  # the one to try next
-        return lambda t, y, following: equations.advance(t, y, following, rtol, scale, step, used)
+
+        def advance(t: float, y: Array, following: float) -> Array:
+            parts = max(1, math.ceil((following - t) / longest))
+            for first, last in pairwise(np.linspace(t, following, parts + 1).tolist()):
+                y = equations.advance(first, y, last, rtol, scale, step, used)
+            return y
+
+        return advance
 
     return in_parts(equations, y, times, progress, by_outputs(equations, every, begin))[:, : equations.n]
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.unforeseen import longest_step
 from symgen.runtime.foreseen import foreseen
 
 if TYPE_CHECKING:
@@ -28,6 +29,11 @@ JUMP = 3e-12
 Integrate = Callable[[float, Array, Array, Callable[[float], None]], Array]
 #: Called with a time, the state there and another time; returns the state at that.
 Advance = Callable[[float, Array, float], Array]
+
+
+def longest_of(equations: IndependentEquations, times: Array) -> float:
+    """Return the longest step of a reference at some times that sees what formulas of the time do [s]."""
+    return longest_step(equations.mechanism, float(times[-1]))[0] if len(times) and times[-1] > 0.0 else np.inf
 
 
 def in_parts(

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.errors import SimulationError
 from symgen.result.agreement import agreement
-from symgen.study.references.parts import in_parts
+from symgen.study.references.parts import in_parts, longest_of
 
 if TYPE_CHECKING:
     from symgen.result.points import Points
@@ -131,6 +131,7 @@ def pass_through(
         If fewer than two runs come to the end.
     """
     motions, failures = list[Array](), list[str]()
+    step = min(step, longest_of(equations, times) / max(phases))
     if len(times) > 1:  # steps that were longer than from one output to the next would all fall alike
         step = min(step, float(np.median(np.diff(times))) / max(phases))
     best: Passage | None = None

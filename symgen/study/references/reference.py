@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from msgspec import structs
 from numpy.typing import NDArray
 
 from symgen.describe.kinks import switches_of
@@ -23,9 +24,8 @@ from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError, SimulationError
 from symgen.result.agreement import AGREEMENT
 from symgen.result.points import Points
-from symgen.runtime.foreseen import foreseen
 from symgen.study.references.closed_space import CLOSED_SPACE
-from symgen.study.references.parts import in_parts
+from symgen.study.references.parts import in_parts, longest_of
 from symgen.study.references.passing import FAILURES, Watch, pass_through
 from symgen.study.references.solvers import (
     AUTO,
@@ -139,9 +139,10 @@ def _from_catalogue(mechanism: Mechanism) -> bool:
     family = _family(mechanism)
     size = mechanism.name.removeprefix("n-four-bar-")
     try:
-        return load(f"{family}:{size}" if family == "n-four-bar" else family) == mechanism
+        found = load(f"{family}:{size}" if family == "n-four-bar" else family)
     except InputError:
         return False
+    return structs.replace(found, defaults=mechanism.defaults) == mechanism
 
 
 # -- formulas ----------------------------------------------------------------------------------------------------------
@@ -325,10 +326,10 @@ def _integrate(
     scale = np.maximum(np.abs(y), 1.0)
     make: Any = getattr(scipy.integrate, name)  # SciPy's types know no arrays of tolerances
     compares = bool(switches_of(equations.mechanism))
-    longest = float(times[-1]) / LOOKED_AT if compares and len(times) else np.inf
+    longest = min(longest_of(equations, times), float(times[-1]) / LOOKED_AT if compares and len(times) else np.inf)
     more = {"rtol": rtol, "atol": rtol * scale, "max_step": longest, **jacobian_for(equations, name)}
-    # each jump of a force takes some tiny steps as well, and so do the feet of short pulses
-    patience = MORE_PATIENCE if compares or foreseen(equations.mechanism).pulses else PATIENCE
+    # each jump of a force takes some tiny steps as well
+    patience = MORE_PATIENCE if compares else PATIENCE
 
     def part(first: float, y: Array, times: Array, progress: Progress) -> Array:
         motion = np.empty((len(times), len(y)))

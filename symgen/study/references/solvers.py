@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from symgen.arguments import one_of
 from symgen.describe.kinks import switches_of
 from symgen.errors import SimulationError
-from symgen.study.references.parts import in_parts
+from symgen.study.references.parts import in_parts, longest_of
 
 if TYPE_CHECKING:
     from symgen.study.references.independent import IndependentEquations
@@ -74,13 +74,14 @@ def in_one_go(
 
     solve: Any = solve_ivp  # SciPy's types do not know arrays of tolerances
     scale, compares = np.maximum(np.abs(y), 1.0), bool(switches_of(equations.mechanism))
+    bound = longest_of(equations, times)
     more = {"rtol": rtol, "atol": rtol * scale, "dense_output": compares, **jacobian_for(equations, name)}
 
     def part(first: float, y: Array, times: Array, _: Progress) -> Array:
         if times[-1] <= first:
             return np.tile(y, (len(times), 1))
         span = float(times[-1]) - first
-        longest = span / LOOKED_AT if compares else np.inf
+        longest = min(bound, span / LOOKED_AT if compares else np.inf)
         while True:
             found = solve(rate, (first, float(times[-1])), y, name, times, max_step=longest, **more)
             if not found.success or not np.all(np.isfinite(found.y)):

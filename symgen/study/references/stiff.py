@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.errors import SimulationError
-from symgen.study.references.parts import by_outputs, in_parts
+from symgen.study.references.parts import by_outputs, in_parts, longest_of
 from symgen.study.references.passing import FAILURES
 
 if TYPE_CHECKING:
@@ -101,11 +101,13 @@ def by_radau(
 
     # fast decay leaves velocities at a state of balance: errors of positions are what counts
     atol: Any = rtol * scale
+    longest = longest_of(equations, times)
 
     def advance(t: float, y: Array, following: float) -> Array:
         beyond = f"the reference motion cannot be integrated beyond t = {t:.6g} s"
         try:
-            found = solve_ivp(rate, (t, following), y, "Radau", rtol=rtol, atol=atol, jac=jacobian)
+            span = t, following
+            found = solve_ivp(rate, span, y, "Radau", rtol=rtol, atol=atol, jac=jacobian, max_step=longest)
         except FAILURES as error:  # SciPy raises where a Jacobian is not finite
             raise SimulationError(f"{beyond}: {error}") from None
         if not found.success or not np.all(np.isfinite(found.y[:, -1])):

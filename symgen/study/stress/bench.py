@@ -121,6 +121,10 @@ class Base:
         _ = base.mechanism  # refuses what is wrong
         return base
 
+    def without_events(self) -> Base:
+        """Return the base without its events."""
+        return Base(self.name, {key: value for key, value in self.raw.items() if key != "events"})
+
     @cached_property
     def mechanism(self) -> Mechanism:
         """The base itself."""

@@ -13,31 +13,30 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.api import Model
-from symgen.auto import AUTO, resolve
+from symgen.compiling.choose_coordinates import choose_coordinates
 from symgen.compiling.pipeline import for_coordinates
 from symgen.describe.evaluate import parameter_values
+from symgen.describe.mechanism import Mechanism
 from symgen.errors import AssemblyError, InputError
+from symgen.integrators import INTEGRATORS
 from symgen.lower.looped.law import is_loopable
-from symgen.plan import Plan, make_plan
-from symgen.result.agreement import settle
+from symgen.reruns.verification import verified
 from symgen.result.judge import judge
 from symgen.result.points import Points
-from symgen.result.result import INTERRUPTED
-from symgen.run_setup import stopping
+from symgen.result.run_data import INTERRUPTED
+from symgen.running.automatic import AUTO
+from symgen.running.options import split_options
+from symgen.running.plan import Purpose
+from symgen.running.prepare import assemble, begin, decided
 from symgen.runtime import abi
-from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.outcome import Outcome
-from symgen.runtime.run import integrate
-from symgen.settings import Settings, default
+from symgen.settings import Settings, default, told_constant
 from symgen.study.stress import outcome as judged
 from symgen.study.stress.bench import Level
 from symgen.study.stress.effort import budget_of, further_budget, predicted
-from symgen.study.stress.known import KnownModel
 from symgen.study.stress.other_route import EmittedGeometry
 from symgen.study.stress.outcome import Run, classify, largest_error
 from symgen.study.stress.reference import equations_of, reference_of, times_of, without_reference
-from symgen.tree_run import tree_run
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
@@ -49,7 +48,7 @@ class Limits:
 
     max_violation: float = default("max_violation")
     max_energy_error: float = default("max_energy_error")
-    max_steps: float | None = None
+    max_attempts: float | None = None
 
 
 #: Of a run that watches itself, by default, and of one that does not.
@@ -137,72 +136,61 @@ def _nothing(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") 
 def _run(task: RunTask) -> RunFields:
     """Run a case and judge it against its reference; without one it would say nothing, and is not run."""
     level, method, integrator, known, limits = task.level, task.method, task.integrator, task.reference, task.limits
-    try:  # its reference would be that of another motion, or was refused
-        refuse_jumps(level.mechanism, level.parameters, level.until)
-    except InputError as error:
-        return _nothing(judged.REFUSED, str(error))
-    why = without_reference(known)
-    if why is not None:
-        return _nothing(judged.UNJUDGED, why)
-    model = KnownModel(level.mechanism)
-    watched = limits if level.watched else replace(UNWATCHED, max_steps=limits.max_steps)
-    parameters = {**level.parameters, **known.get("parameters", {})}
+    mechanism = level.mechanism
+    watched = limits if level.watched else replace(UNWATCHED, max_attempts=limits.max_attempts)
     settings = Settings(
         method=method,
         integrator=integrator,
-        step=None if integrator == AUTO else level.step,
+        step=None if _is_adaptive(integrator, level.options) else level.step,
         until=level.until,
         times=times_of(level),
-        parameters=parameters,
+        parameters={**level.parameters, **known.get("parameters", {})},
         options=level.options,
         coordinates=task.coordinates,
         **asdict(watched),
     )
     try:
-        settings, plan = _planned(model, settings)
-        budget = budget_of(plan, level.mechanism)
-        chosen = f"{plan.choice.method.name}, {plan.tableau.name}" if method == AUTO else ""
+        plan, assembled = decided(mechanism, _shaped(mechanism, settings), Purpose.MOTION)
+        why = without_reference(known)
+        if why is not None:
+            return _nothing(judged.UNJUDGED, why)
+        budget = budget_of(plan, mechanism)
+        chosen = f"{plan.choice.method.name}, {plan.integrator.name}" if method == AUTO else ""
         least = predicted(plan, known["decay"])
         if least > budget:
             what = "at least " if plan.spec.adaptive else ""
             return _nothing(judged.TOO_SLOW, f"{what}{least:.3g} evaluations, more than {budget:.3g}", 0, chosen)
-        tree = tree_run(level.mechanism, plan, parameters) if plan.coordinates == "joint" else None
-        compiled, start = model.ready(plan, parameters) if tree is None else (tree.compiled, tree.start)
+        run = begin(plan, assembled or assemble(plan)).with_spec(max_evaluations=budget)
     except (InputError, AssemblyError) as error:
         return _nothing(judged.REFUSED, str(error))
-    plan = stopping(model.mechanism if tree is None else tree.mechanism, plan, compiled)
-    plan = replace(plan, spec=replace(plan.spec, max_evaluations=budget))
-    outcome = integrate(compiled, plan.tableau, start, plan.spec)
-    second = None
+    outcome, verification = run.integrate(), None
     if method == AUTO:
-        positions = None if tree is None else tree.positions
-        second = settle(model.mechanism, parameters, plan, compiled, outcome, free=True, positions=positions)
-        plan, outcome = second.plan, second.outcome
+        run, outcome, verification = verified(run, outcome, free=True)
     if outcome.interrupted:
         raise KeyboardInterrupt
     if outcome.evaluations > budget or outcome.code == abi.STOPPED:
         return _nothing(judged.TOO_SLOW, f"more than {budget:.3g} evaluations", budget, chosen)
-    verdict = judge(plan, compiled, outcome, second, asked=False)
+    verdict = judge(run, outcome, verification)
     assert verdict.reason != INTERRUPTED, "an interrupted run has raised"
-    run, note = _compared(level, parameters, outcome if tree is None else tree.carried(outcome), known), ""
-    found = classify(run)
+    compared, note = _compared(level, plan.parameters, run.of_bodies(outcome), known), ""
+    found = classify(compared)
     if outcome.code != abi.DONE:
         note = f"ended at t = {outcome.end:.4g} s"
     if outcome.code in WATCHES and found == judged.DIVERGED:
         # it stopped itself before its error could be seen: what would have become of it says what it was
         most = further_budget(budget, outcome.evaluations)
         violation, energy = UNWATCHED.max_violation, UNWATCHED.max_energy_error
-        spec = replace(plan.spec, max_violation=violation, max_energy_error=energy, max_evaluations=most)
-        further = integrate(compiled, plan.tableau, start, spec)
+        run = run.with_spec(max_violation=violation, max_energy_error=energy, max_evaluations=most)
+        further = run.integrate()
         if further.interrupted:
             raise KeyboardInterrupt
-        run = _compared(level, parameters, further if tree is None else tree.carried(further), known)
-        found = classify(run)
+        compared = _compared(level, plan.parameters, run.of_bodies(further), known)
+        found = classify(compared)
         if found == judged.GOOD:
             found, note = judged.INACCURATE, f"{note}; off its constraints, not off the motion"
     return RunFields(
         outcome=found,
-        error=largest_error(run.errors) if run.reference_error is not None else None,
+        error=largest_error(compared.errors) if compared.reference_error is not None else None,
         status=verdict.status,
         reason=verdict.reason,
         evaluations=outcome.evaluations,
@@ -214,23 +202,24 @@ def _run(task: RunTask) -> RunFields:
     )
 
 
-def _planned(model: Model, settings: Settings) -> tuple[Settings, Plan]:
-    """Return settings without ``auto``, and the plan; an adaptive run chooses its own first step.
+def _is_adaptive(integrator: str, options: Mapping[str, str | float]) -> bool:
+    """Whether a run chooses its own first step."""
+    if integrator == AUTO:
+        return True
+    return INTEGRATORS.get(integrator, "--integrator").adaptive and not told_constant(options, integrator)
 
-    The shape is looped where a method has one: it compiles once for all mechanisms, and the runs of a study are short.
-    Joint coordinates have straight code only.
+
+def _shaped(mechanism: Mechanism, settings: Settings) -> Settings:
+    """Return settings with looped code where the method has it: it compiles once for all mechanisms.
+
+    The runs of a study are short. Joint coordinates have straight code only.
     """
-    coordinates = settings.coordinates
-    settings, _ = resolve(model.mechanism, replace(settings, shape="looped", coordinates="absolute"))
-    settings = replace(settings, shape="straight", coordinates=coordinates)
-    plan = make_plan(model.mechanism, settings)
-    if plan.spec.adaptive and settings.step is not None:
-        settings = replace(settings, step=None)
-        plan = make_plan(model.mechanism, settings)
-    choice = for_coordinates(model.mechanism, plan.choice)
-    if plan.coordinates == "absolute" and is_loopable(choice.method, choice.options, choice.implicit):
-        plan = replace(plan, choice=replace(plan.choice, shape="looped"))
-    return settings, plan
+    coordinates = choose_coordinates(mechanism, settings.coordinates, "straight").name
+    looped = coordinates == "absolute"
+    if looped and settings.method != AUTO:
+        choice = for_coordinates(mechanism, split_options(settings, INTEGRATORS.get(str(settings.integrator)))[0])
+        looped = is_loopable(choice.method, choice.options, choice.implicit)
+    return replace(settings, coordinates=coordinates, shape="looped" if looped else "straight")
 
 
 def _points(level: Level, parameters: Mapping[str, float]) -> Points:
@@ -291,8 +280,6 @@ def _limit(task: LimitTask) -> Fields:
 
 
 def _constant(task: LimitTask) -> dict[str, str]:
-    from symgen.integrators import INTEGRATORS
-
     return {"integrator.adaptive": "false"} if INTEGRATORS.get(task.integrator).adaptive else {}
 
 

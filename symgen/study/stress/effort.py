@@ -11,16 +11,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from symgen.auto import AUTO
 from symgen.compiling.choose_shape import straight_seconds
 from symgen.compiling.pipeline import choose_method
 from symgen.integrators import INTEGRATORS
 from symgen.lower.looped.law import is_loopable
 from symgen.methods import METHODS
+from symgen.running.automatic import AUTO
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.plan import Plan
+    from symgen.running.plan import Plan
 
 #: Evaluations that a run of a small mechanism may take: of right-hand sides at constant and at adaptive steps, and of
 #: residuals of implicit stages, which come with Newton's matrices.
@@ -66,7 +66,7 @@ def further_budget(budget: int, used: int) -> int:
 
 def is_implicit(plan: Plan) -> bool:
     """Whether a run solves for implicit stages."""
-    return plan.choice.implicit and "index-1" in plan.tableau.forms
+    return plan.choice.implicit and "index-1" in plan.integrator.forms
 
 
 def predicted(plan: Plan, decay: float) -> float:
@@ -85,12 +85,12 @@ def predicted(plan: Plan, decay: float) -> float:
         Of constant steps their number, one evaluation a stage; of an explicit adaptive run what stability asks for at
         the start, over `HOPELESS`, as the decay may fall later; 0 where nothing is known.
     """
-    stages, spec = float(plan.tableau.stages), plan.spec
+    stages, spec = float(plan.integrator.stages), plan.spec
     if not spec.adaptive:
         return 0.0 if spec.step is None else spec.until / spec.step * stages
     if is_implicit(plan):
         return 0.0
-    return decay * spec.until / plan.tableau.real_boundary * stages / HOPELESS
+    return decay * spec.until / plan.integrator.real_boundary * stages / HOPELESS
 
 
 # -- what is compiled --------------------------------------------------------------------------------------------------

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from symgen.auto import AUTO
+from symgen.running.automatic import AUTO
 from symgen.study.stress.map import Map, map_rows, plane_rows, shares_of_models
 from symgen.study.stress.outcome import ACCURATE, DIVERGED, GOOD, OUTCOMES, REFUSED, UNJUDGED, WRONG_BRANCH, counts
 

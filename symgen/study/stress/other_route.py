@@ -9,21 +9,19 @@ estimated from `index1-augmented-lagrangian`, which solves another system for th
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.api import Model
+from symgen.describe.evaluate import parameter_values
+from symgen.describe.mechanism import Mechanism
 from symgen.errors import SimulationError
-from symgen.plan import make_plan
 from symgen.result.points import Points
-from symgen.run_setup import stopping
+from symgen.running.prepare import prepare
 from symgen.runtime import abi
 from symgen.runtime.assembly import Start
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.probe import Ready
-from symgen.runtime.run import integrate
 from symgen.settings import Settings
 from symgen.study.references.reference import Reference
 from symgen.study.stress.effort import LARGEST_IMPLICIT_REFERENCE, explicit_budget, implicit_budget
@@ -70,12 +68,12 @@ class EmittedGeometry:
         return section(w, "residual").copy(), self.compiled.jacobian(w), section(w, "nu").copy()
 
 
-def agreed(model: Model, parameters: Mapping[str, float], times: Array, decay: float = 0.0) -> Reference:
+def agreed(mechanism: Mechanism, parameters: Mapping[str, float], times: Array, decay: float = 0.0) -> Reference:
     """Return the motion by the first of `ROUTES`, or of `STIFF_ROUTES`, its error estimated by the second.
 
     Parameters
     ----------
-    model : Model
+    mechanism : Mechanism
         What moves.
     parameters : mapping
         Values that differ from the mechanism's own.
@@ -90,23 +88,23 @@ def agreed(model: Model, parameters: Mapping[str, float], times: Array, decay: f
         If a route does not come to its end.
     """
     # twelve evaluations a step of dop853, which is stable up to 6.39 over the decay
-    stiff = decay * float(times[-1]) * 12.0 / 6.39 > explicit_budget(model.mechanism, STIFF_FROM)
-    if stiff and model.mechanism.body_coordinates > LARGEST_IMPLICIT_REFERENCE:
+    stiff = decay * float(times[-1]) * 12.0 / 6.39 > explicit_budget(mechanism, STIFF_FROM)
+    if stiff and mechanism.body_coordinates > LARGEST_IMPLICIT_REFERENCE:
         raise SimulationError(
             f"its fastest decay, {decay:.2g} 1/s, asks for implicit steps, whose dense matrices are too large for "
             f"references from {LARGEST_IMPLICIT_REFERENCE} coordinates on"
         )
     if stiff:
-        return _agreed(model, parameters, times, STIFF_ROUTES, implicit_budget(model.mechanism, STIFF_BUDGET))
-    explicit = explicit_budget(model.mechanism, BUDGET)
+        return _agreed(mechanism, parameters, times, STIFF_ROUTES, implicit_budget(mechanism, STIFF_BUDGET))
+    explicit = explicit_budget(mechanism, BUDGET)
     try:
-        return _agreed(model, parameters, times, ROUTES, explicit)
+        return _agreed(mechanism, parameters, times, ROUTES, explicit)
     except SimulationError:
-        return _agreed(model, parameters, times, ROUGH_ROUTES, explicit)
+        return _agreed(mechanism, parameters, times, ROUGH_ROUTES, explicit)
 
 
 def _agreed(
-    model: Model, parameters: Mapping[str, float], times: Array, routes: tuple[Route, ...], budget: int
+    mechanism: Mechanism, parameters: Mapping[str, float], times: Array, routes: tuple[Route, ...], budget: int
 ) -> Reference:
     found = []
     for method, integrator, options, rtol in routes:
@@ -121,17 +119,15 @@ def _agreed(
             parameters=parameters,
             shape="straight" if routes is STIFF_ROUTES else "looped",
         )
-        plan = make_plan(model.mechanism, settings)
-        compiled, start = model.ready(plan, parameters)
-        spec = stopping(model.mechanism, plan, compiled).spec
-        outcome = integrate(compiled, plan.tableau, start, replace(spec, max_evaluations=budget))
+        run = prepare(mechanism, settings).with_spec(max_evaluations=budget)
+        outcome = run.integrate()
         if outcome.interrupted:
             raise KeyboardInterrupt
         if outcome.code != abi.DONE:
             reason = f"it takes more than {budget:.3g} evaluations" if outcome.code == abi.STOPPED else outcome.reason
             raise SimulationError(f"the reference by {method} with {integrator} does not come to its end: {reason}")
-        found.append(outcome.states[:, : compiled.info.nq])
-    apart = Points.of(model.mechanism, model.parameters(parameters)).distance(*found)
+        found.append(run.positions(outcome))
+    apart = Points.of(mechanism, parameter_values(mechanism, parameters)).distance(*found)
     (method, integrator, _, rtol), (other, with_other, _, _) = routes
     how = f"{method} with {integrator} at {rtol:g}; estimated from {other} with {with_other}"
     return Reference(how, max(apart, 1e-14), times, found[0])

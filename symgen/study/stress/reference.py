@@ -9,17 +9,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.auto import linearised
 from symgen.describe.digest import digest
+from symgen.describe.evaluate import parameter_values
 from symgen.describe.load import load as load_mechanism
 from symgen.errors import AssemblyError, InputError, SimulationError
-from symgen.plan import make_plan
 from symgen.result.points import Points
+from symgen.running.automatic import linearised
+from symgen.running.plan import Purpose
+from symgen.running.prepare import prepare
 from symgen.runtime.motions import refuse_jumps
 from symgen.settings import Settings
 from symgen.study.references.reference import closed_form
 from symgen.study.stress.bench import FREE_LENGTH, Level
-from symgen.study.stress.known import KnownModel
 from symgen.study.stress.outcome import ACCURATE, TRUSTED
 
 if TYPE_CHECKING:
@@ -47,11 +48,10 @@ def _moved(level: Level) -> Fields:
     from symgen.study.references.motion import motion
     from symgen.study.stress.other_route import EmittedGeometry, agreed
 
-    model = KnownModel(level.mechanism)
-    parameters = model.parameters(level.parameters)
-    settings = Settings(method="lagrange", integrator="rk4", until=level.until, step=level.step, shape="looped")
-    plan = make_plan(model.mechanism, settings)
-    compiled, start = model.ready(plan, parameters)
+    mechanism, parameters = level.mechanism, parameter_values(level.mechanism, level.parameters)
+    settings = Settings("lagrange", "rk4", level.step, until=level.until, shape="looped", parameters=parameters)
+    run = prepare(mechanism, settings, Purpose.STATE)
+    compiled, start = run.compiled, run.start
     q, v = (part.copy() for part in compiled.info.parts(start.y))
     if level.spring_end is not None:
         column, fixed = int(level.spring_end[0]), level.spring_end[1:]
@@ -66,15 +66,15 @@ def _moved(level: Level) -> Fields:
         raise SimulationError("the start does not satisfy the independent equations")
     times = np.array(times_of(level))
     how, estimated, moved = _closed(level, parameters, q, times)
-    falling = fastest_decay(model.mechanism, compiled, start)
+    falling = fastest_decay(mechanism, compiled, start)
     if moved is None:
         try:
-            found = motion(equations, q, v, times) if planar else agreed(model, parameters, times, falling)
+            found = motion(equations, q, v, times) if planar else agreed(mechanism, parameters, times, falling)
         except SimulationError as error:  # over its budget, or at a singular position
             if not planar:
                 raise
             try:
-                found = agreed(model, parameters, times, falling)
+                found = agreed(mechanism, parameters, times, falling)
             except SimulationError as other:
                 raise SimulationError(f"{error}; {other}") from None
         how, estimated, moved = found.how, found.estimated_error, found.q

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from symgen import arguments
-from symgen.auto import AUTO
+from symgen.describe.mechanism import bounded
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.plan import refuse_events, refuse_weightless
+from symgen.running.automatic import AUTO
+from symgen.running.plan import refuse_events, refuse_weightless
 from symgen.settings import Settings
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity, mechanism_identity
 from symgen.study.runner import Cell, Status, run_cells
@@ -76,8 +77,9 @@ def stress(
     compilation: float = math.inf,
     max_violation: float = WATCHED.max_violation,
     max_energy_error: float = WATCHED.max_energy_error,
-    max_steps: float | None = None,
+    max_attempts: float | None = None,
     coordinates: str = "absolute",
+    max_step: float | None = None,
 ) -> Stress:
     """Run methods on families of stiff and extreme cases.
 
@@ -100,10 +102,12 @@ def stress(
     compilation : float
         Expected seconds of compilation that a model's pairs without a looped shape may take together [s]; pairs beyond
         are left out and listed.
-    max_violation, max_energy_error, max_steps : float
+    max_violation, max_energy_error, max_attempts : float
         As for `symgen.Settings`; the first two are of the cases whose runs watch themselves.
     coordinates : {"absolute", "joint", "auto"}
         Those of the state of all runs; references and errors are of bodies in any.
+    max_step : float
+        Largest step of adaptive integrators and of references [s].
 
     Returns
     -------
@@ -118,10 +122,11 @@ def stress(
     asked = Settings(
         max_violation=max_violation,
         max_energy_error=max_energy_error,
-        max_steps=max_steps,
+        max_step=max_step,
+        max_attempts=max_attempts,
         coordinates=coordinates,
     )
-    limits = Limits(asked.max_violation, asked.max_energy_error, asked.max_steps)
+    limits = Limits(asked.max_violation, asked.max_energy_error, asked.max_attempts)
     cases, methods = arguments.words("cases", cases), arguments.words("methods", methods)
     quick, jobs = arguments.switch("quick", quick), arguments.whole("jobs", jobs, 1, 4096)
     if compilation != math.inf:
@@ -134,13 +139,14 @@ def stress(
     for base in bases:
         refuse_events("stress", base.mechanism, asked)
         refuse_weightless(base.mechanism)
+    bases = [base.without_events() for base in bases]
     chosen = tuple(dict.fromkeys(CASES.canonical(name, "--cases") for name in cases or CASES.names))
     wanted = tuple(dict.fromkeys(methods or (*METHODS.names, AUTO)))
     for name in wanted:
         if name != AUTO:
             METHODS.get(name, "--methods")
     skipped: list[tuple[str, str, str]] = []
-    found = list(_cases(bases, chosen, quick, skipped))
+    found = list(_cases(bases, chosen, quick, skipped, asked.max_step))
     say = progress or (lambda what, status: None)
     kept = Journal() if journal is None else journal
     how = kept, jobs, say, compilation, limits, asked.coordinates
@@ -148,7 +154,11 @@ def stress(
 
 
 def _cases(
-    bases: Sequence[Base], families: Sequence[str], quick: bool, skipped: list[tuple[str, str, str]]
+    bases: Sequence[Base],
+    families: Sequence[str],
+    quick: bool,
+    skipped: list[tuple[str, str, str]],
+    max_step: float | None,
 ) -> Iterator[_Case]:
     for number, base in enumerate(bases):
         for name in families:
@@ -158,7 +168,7 @@ def _cases(
             model = "-" if family.own else base.name
             try:
                 for level in family.levels(base, quick):
-                    yield _Case(model, level)
+                    yield _Case(model, replace(level, mechanism=bounded(level.mechanism, max_step)))
             except NotApplicable as why:
                 skipped.append((base.name, name, str(why)))
             except InputError as error:  # e.g. a handle's name that the model uses already

@@ -1,0 +1,263 @@
+"""Kernel `form_c4f63ede_joint_revolute_65e94ceb3a7d4c60` of the looped shape. Emitted by symgen; do not edit.
+
+format 3, generator of-golden-trees
+What a joint of kind revolute adds to a descriptor form.
+Functions go through all instances, whose table begins at `at`: how many, then 10 numbers each.
+"""
+
+import numpy as np
+from numba import njit
+
+from .machine import NQ, NV, RECORDS, STAGE
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def residual(t, y, p, w, T, at, out):
+    """its part of F(t, y, k) of the descriptor form, and of the power: 89 operations an instance."""
+    here = np.uint32(at + 1)
+    nq = np.int64(T[NQ])
+    nv = np.int64(T[NV])
+    records = np.int64(T[RECORDS])
+    stage = np.int64(T[STAGE])
+    for _ in range(np.int64(T[at])):
+        f0 = records + T[here]
+        v0 = T[here + 2]
+        row = T[here + 3]
+        c3 = T[here + 9]
+        r0_3 = w[f0 + 3]
+        r0_4 = w[f0 + 4]
+        r0_5 = w[f0 + 5]
+        r0_6 = w[f0 + 6]
+        r0_10 = w[f0 + 10]
+        r0_11 = w[f0 + 11]
+        r0_12 = w[f0 + 12]
+        r0_13 = w[f0 + 13]
+        r0_14 = w[f0 + 14]
+        r0_15 = w[f0 + 15]
+        r0_16 = w[f0 + 16]
+        r0_17 = w[f0 + 17]
+        r0_18 = w[f0 + 18]
+        r0_19 = w[f0 + 19]
+        r0_20 = w[f0 + 20]
+        r0_21 = w[f0 + 21]
+        k3 = p[c3]
+        k_v0 = w[stage + nq + v0 + 0]
+        k_v1 = w[stage + nq + v0 + 1]
+        k_v2 = w[stage + nq + v0 + 2]
+        k_v3 = w[stage + nq + v0 + 3]
+        k_v4 = w[stage + nq + v0 + 4]
+        k_v5 = w[stage + nq + v0 + 5]
+        k_first0 = w[stage + nq + nv + row + 0]
+        k_first1 = w[stage + nq + nv + row + 1]
+        k_first2 = w[stage + nq + nv + row + 2]
+        k_first3 = w[stage + nq + nv + row + 3]
+        k_first4 = w[stage + nq + nv + row + 4]
+        s0 = r0_12*k3
+        s1 = r0_11*k3
+        s2 = r0_11*s1 + r0_12*s0
+        s3 = r0_10*s1
+        s4 = r0_10*s0
+        s5 = r0_15*k3
+        s6 = r0_18*k3
+        s7 = r0_21*k3
+        s8 = r0_14*k3
+        s9 = r0_17*k3
+        s10 = r0_20*k3
+        s11 = r0_10*r0_11
+        s12 = r0_12*r0_12 + r0_10*r0_10
+        s13 = r0_11*r0_12
+        s14 = 2.0*(r0_3*r0_5) - 2.0*(r0_4*r0_6)
+        out[nq + nv + row + 0] += r0_14*s3 - r0_13*s2 + r0_15*s4 + k_v0 - s5*k_v4 + s8*k_v5
+        out[nq + nv + row + 1] += r0_17*s3 - r0_16*s2 + r0_18*s4 + k_v1 - s6*k_v4 + s9*k_v5
+        out[nq + nv + row + 2] += r0_20*s3 - r0_19*s2 + r0_21*s4 + k_v2 - s7*k_v4 + s10*k_v5
+        out[nq + nv + row + 3] += r0_13*k_v5 - r0_15*k_v3 - (r0_13*s11 - r0_14*s12 + r0_15*s13)
+        out[nq + nv + row + 4] += r0_19*s11 - r0_20*s12 + r0_21*s13 + r0_21*k_v3 + s14*k_v5
+        out[nq + v0 + 0] += k_first0
+        out[nq + v0 + 1] += k_first1
+        out[nq + v0 + 2] += k_first2
+        out[nq + v0 + 3] += r0_21*k_first4 - r0_15*k_first3
+        out[nq + v0 + 4] += -(s5*k_first0 + s6*k_first1 + s7*k_first2)
+        out[nq + v0 + 5] += s8*k_first0 + s9*k_first1 + s10*k_first2 + r0_13*k_first3 + s14*k_first4
+        here = np.uint32(here + 10)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def tangent(t, y, p, w, T, at, out):
+    """its entries of dF/dk and dF/dy: 319 operations an instance."""
+    here = np.uint32(at + 1)
+    nq = np.int64(T[NQ])
+    nv = np.int64(T[NV])
+    records = np.int64(T[RECORDS])
+    stage = np.int64(T[STAGE])
+    for _ in range(np.int64(T[at])):
+        f0 = records + T[here]
+        v0 = T[here + 2]
+        row = T[here + 3]
+        entry = T[here + 4]
+        c3 = T[here + 9]
+        r0_3 = w[f0 + 3]
+        r0_4 = w[f0 + 4]
+        r0_5 = w[f0 + 5]
+        r0_6 = w[f0 + 6]
+        r0_10 = w[f0 + 10]
+        r0_11 = w[f0 + 11]
+        r0_12 = w[f0 + 12]
+        r0_13 = w[f0 + 13]
+        r0_14 = w[f0 + 14]
+        r0_15 = w[f0 + 15]
+        r0_16 = w[f0 + 16]
+        r0_17 = w[f0 + 17]
+        r0_18 = w[f0 + 18]
+        r0_19 = w[f0 + 19]
+        r0_20 = w[f0 + 20]
+        r0_21 = w[f0 + 21]
+        k3 = p[c3]
+        k_v3 = w[stage + nq + v0 + 3]
+        k_v4 = w[stage + nq + v0 + 4]
+        k_v5 = w[stage + nq + v0 + 5]
+        k_first0 = w[stage + nq + nv + row + 0]
+        k_first1 = w[stage + nq + nv + row + 1]
+        k_first2 = w[stage + nq + nv + row + 2]
+        k_first3 = w[stage + nq + nv + row + 3]
+        k_first4 = w[stage + nq + nv + row + 4]
+        s0 = r0_12*k3
+        s1 = r0_11*k3
+        s2 = r0_11*s1 + r0_12*s0
+        s3 = r0_10*s1
+        s4 = r0_10*s0
+        s5 = -r0_15*k3
+        s6 = -r0_18*k3
+        s7 = -r0_21*k3
+        s8 = r0_14*k3
+        s9 = r0_17*k3
+        s10 = r0_20*k3
+        s11 = r0_10*r0_11
+        s12 = r0_12*r0_12 + r0_10*r0_10
+        s13 = r0_11*r0_12
+        s14 = 2.0*(r0_3*r0_5) - 2.0*(r0_4*r0_6)
+        s15 = -r0_15
+        s16 = r0_3 + r0_3
+        s17 = r0_4 + r0_4
+        s18 = r0_5 + r0_5
+        s19 = r0_6 + r0_6
+        s20 = 2.0*r0_5
+        s21 = 2.0*r0_4
+        s22 = 2.0*r0_6
+        s23 = 2.0*r0_3
+        s24 = s1 + s1
+        s25 = s0 + s0
+        s26 = r0_10*k3
+        s27 = s3*s20
+        s28 = s3*s21
+        s29 = s3*s22
+        s30 = s3*s23
+        s31 = s4*s22
+        s32 = s4*s21
+        s33 = s4*s20
+        s34 = s4*s23
+        s35 = s2*s20
+        s36 = s2*s21
+        s37 = s2*s22
+        s38 = s2*s23
+        s39 = k3*s22
+        s40 = k3*s21
+        s41 = k3*s20
+        s42 = k3*s23
+        s43 = k3*s16
+        s44 = k3*s17
+        s45 = k3*s18
+        s46 = k3*s19
+        s47 = r0_12 + r0_12
+        s48 = r0_10 + r0_10
+        s49 = s12*s20
+        s50 = s12*s21
+        s51 = s12*s22
+        s52 = s12*s23
+        s53 = k_v4*s39
+        s54 = k_v4*s40
+        s55 = k_v4*s41
+        s56 = k_v4*s42
+        s57 = k_v5*s41
+        s58 = k_v5*s40
+        s59 = k_v5*s39
+        s60 = k_v5*s42
+        s61 = k_first0*s39
+        s62 = k_first0*s40
+        s63 = k_first0*s41
+        s64 = k_first0*s42
+        out[entry + 0] = 1.0
+        out[entry + 1] = s5
+        out[entry + 2] = s8
+        out[entry + 3] = s33 - (s2*s16 + s29) - (s55 + s59)
+        out[entry + 4] = s27 - s2*s17 + s31 + s57 - s53
+        out[entry + 5] = s2*s18 + s28 + s34 + s58 - s56
+        out[entry + 6] = s2*s19 - s30 + s32 - (s54 + s60)
+        out[entry + 7] = r0_14*s1 + r0_15*s0
+        out[entry + 8] = r0_14*s26 - r0_13*s24
+        out[entry + 9] = r0_15*s26 - r0_13*s25
+        out[entry + 10] = 1.0
+        out[entry + 11] = s6
+        out[entry + 12] = s9
+        out[entry + 13] = s3*s16 - s37 - s32 + s54 + k_v5*s43
+        out[entry + 14] = s56 - k_v5*s44 - (s34 + s35 + s3*s17)
+        out[entry + 15] = s31 + s3*s18 - s36 + k_v5*s45 - s53
+        out[entry + 16] = s33 - (s38 + s3*s19) - (s55 + k_v5*s46)
+        out[entry + 17] = r0_17*s1 + r0_18*s0
+        out[entry + 18] = r0_17*s26 - r0_16*s24
+        out[entry + 19] = r0_18*s26 - r0_16*s25
+        out[entry + 20] = 1.0
+        out[entry + 21] = s7
+        out[entry + 22] = s10
+        out[entry + 23] = s28 + s35 + s4*s16 + s58 - k_v4*s43
+        out[entry + 24] = s30 - s37 - s4*s17 + s60 + k_v4*s44
+        out[entry + 25] = s29 + s38 - s4*s18 + s59 + k_v4*s45
+        out[entry + 26] = s27 - s36 + s4*s19 + s57 - k_v4*s46
+        out[entry + 27] = r0_20*s1 + r0_21*s0
+        out[entry + 28] = r0_20*s26 - r0_19*s24
+        out[entry + 29] = r0_21*s26 - r0_19*s25
+        out[entry + 30] = s15
+        out[entry + 31] = r0_13
+        out[entry + 32] = k_v5*s16 - k_v3*s20 - (s11*s16 + s51 + s13*s20)
+        out[entry + 33] = k_v5*s17 - k_v3*s22 - (s11*s17 - s49 + s13*s22)
+        out[entry + 34] = s11*s18 + s50 - s13*s23 - (k_v3*s23 + k_v5*s18)
+        out[entry + 35] = -(s52 - s11*s19 + s13*s21 + k_v3*s21 + k_v5*s19)
+        out[entry + 36] = r0_14*s48 - r0_11*r0_13
+        out[entry + 37] = -(r0_10*r0_13 + r0_12*r0_15)
+        out[entry + 38] = r0_14*s47 - r0_11*r0_15
+        out[entry + 39] = r0_21
+        out[entry + 40] = s14
+        out[entry + 41] = s13*s16 - (s50 + s11*s20) + k_v3*s16 + k_v5*s20
+        out[entry + 42] = s11*s22 - s52 - s13*s17 - (k_v3*s17 + k_v5*s22)
+        out[entry + 43] = k_v5*s23 - k_v3*s18 - (s51 + s11*s23 + s13*s18)
+        out[entry + 44] = s11*s21 - s49 + s13*s19 + k_v3*s19 - k_v5*s21
+        out[entry + 45] = r0_11*r0_19 - r0_20*s48
+        out[entry + 46] = r0_10*r0_19 + r0_12*r0_21
+        out[entry + 47] = r0_11*r0_21 - r0_20*s47
+        out[entry + 48] = 1.0
+        out[entry + 49] = 1.0
+        out[entry + 50] = 1.0
+        out[entry + 51] = s15
+        out[entry + 52] = r0_21
+        out[entry + 53] = k_first4*s16 - k_first3*s20
+        out[entry + 54] = -(k_first3*s22 + k_first4*s17)
+        out[entry + 55] = -(k_first3*s23 + k_first4*s18)
+        out[entry + 56] = k_first4*s19 - k_first3*s21
+        out[entry + 57] = s5
+        out[entry + 58] = s6
+        out[entry + 59] = s7
+        out[entry + 60] = -(s63 - k_first1*s40 + k_first2*s43)
+        out[entry + 61] = k_first2*s44 - (s61 - k_first1*s42)
+        out[entry + 62] = k_first2*s45 - (s64 + k_first1*s39)
+        out[entry + 63] = -(s62 + k_first1*s41 + k_first2*s46)
+        out[entry + 64] = s8
+        out[entry + 65] = s9
+        out[entry + 66] = s10
+        out[entry + 67] = r0_13
+        out[entry + 68] = s14
+        out[entry + 69] = k_first1*s43 - s61 + k_first2*s40 + k_first3*s16 + k_first4*s20
+        out[entry + 70] = s63 - k_first1*s44 + k_first2*s42 + k_first3*s17 - k_first4*s22
+        out[entry + 71] = s62 + k_first1*s45 + k_first2*s39 - k_first3*s18 + k_first4*s23
+        out[entry + 72] = k_first2*s41 - (s64 + k_first1*s46) - k_first3*s19 - k_first4*s21
+        here = np.uint32(here + 10)
+    return 0

@@ -1,0 +1,166 @@
+"""Analyses with their commands, one file each: methods of models, options of the command, and what it shows.
+
+The first line of a file's docstring is the line of its command in ``symgen --help``. Files import nothing heavy before
+an analysis is made, as ``symgen modes --help`` imports them; methods of every file are those of `symgen.api.Model`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+from symgen.registry import Registry
+
+Kind = Literal["text", "texts", "whole", "switch", "words", "numbers", "range", "times", "plot", "tables"]
+
+
+@dataclass(frozen=True)
+class Option:
+    """An option of a command.
+
+    Attributes
+    ----------
+    name : str
+        The option, such as ``--count``, or the name of a setting, whose values arrive in the settings.
+    help : str
+        What the help says of it; for a setting, by default what the table of settings says.
+    kind : str
+        Of its value: ``text``, ``texts`` (given several times), ``whole``, ``switch``, ``words`` (``A,B``), ``numbers``
+        (``A=1``, given several times), ``range`` (``A=lin(0,1,5)``), ``times``, or a file to write: ``plot``,
+        ``tables``.
+    metavar : str
+        What stands for a value in the help.
+    argument : str
+        Name of the argument that takes the value; that of the option by default.
+    default : str, optional
+        What is taken where it is not given.
+    """
+
+    name: str
+    help: str = ""
+    kind: Kind = "text"
+    metavar: str = ""
+    argument: str = ""
+    default: str | None = None
+
+    def __post_init__(self) -> None:
+        if not self.argument:
+            object.__setattr__(self, "argument", self.name.lstrip("-").replace("-", "_"))
+
+    @property
+    def is_setting(self) -> bool:
+        """Whether it is a setting."""
+        return not self.name.startswith("-")
+
+
+#: Settings of analyses about a state.
+STATE = tuple(Option(name) for name in ("parameters", "start", "coordinates", "shape"))
+#: These, and which state it is; further options arrive as arguments ``at``, ``states`` and ``cyclic``.
+PLACE = (
+    *STATE,
+    Option(
+        "--at",
+        "About what: equilibrium, start, steady, or a time of a run [s].",
+        metavar="PLACE",
+        default="equilibrium",
+    ),
+    Option("--states", "Quantities that are the states. [default: found]", "words", "NAME,NAME"),
+    Option("--cyclic", "With --at steady: coordinates that turn on. [default: found]", "words", "NAME,NAME"),
+)
+
+
+def of_motion(start: str) -> tuple[Option, ...]:
+    """Return the settings of a motion that drivers prescribe; `start` is what the help says of ``--start``."""
+    names = ("parameters", "inputs", "start", "strict", "shape")
+    return tuple(Option(name, start if name == "start" else "") for name in names)
+
+
+def of_tables(shown: str, drawn: str) -> tuple[Option, ...]:
+    """Return the options of what is done with tables over time: what ``--quantity`` names and ``--plot`` draws."""
+    return (
+        Option("--quantity", shown, "texts", "NAME", "quantities"),
+        Option("--save", "Write tables to FILE: .csv, with units, or .parquet.", "tables", "FILE"),
+        Option("--plot", f"Draw {drawn} over time into FILE: .png, .svg or .pdf.", "plot", "FILE"),
+    )
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table that a command shows.
+
+    Attributes
+    ----------
+    headings : sequence of str
+        Of its columns.
+    rows : sequence of sequence of str
+        Their cells.
+    left : sequence of str
+        Headings of columns that are flush left, as words are.
+    parts : bool
+        Whether a narrow terminal shows it in parts, each with the first column, instead of breaking cells.
+    """
+
+    headings: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    left: Sequence[str] = ()
+    parts: bool = False
+
+
+@dataclass(frozen=True)
+class Note:
+    """A sentence on standard error, where no JSON is wanted."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Output:
+    """What a command puts out.
+
+    Attributes
+    ----------
+    json : mapping
+        With ``--json``.
+    shown : iterable
+        Without: lines, tables, notes, or mappings, which are extremes of quantities by name.
+    notes : iterable of str
+        Sentences on standard error.
+    ended : str
+        Why the analysis came to no end, empty where it did.
+    files : mapping
+        Path -> what writes it; None is a file that is not wanted.
+    """
+
+    json: Mapping[str, Any]
+    shown: Iterable[str | Table | Note | Mapping[str, Mapping[str, Any]]]
+    notes: Iterable[str] = ()
+    ended: str = ""
+    files: Mapping[Path | None, Callable[[Path], object]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """An analysis and its command.
+
+    Attributes
+    ----------
+    methods : tuple of callables
+        Functions of a model that become its methods, by their names.
+    command : callable
+        (load, settings, arguments of the options) -> `Output`. It calls ``load()`` for the model as soon as it has
+        checked what needs no model; its docstring is the text of the command's help.
+    options : tuple of Option
+        In the order of the help.
+    examples : tuple of str
+        Lines that can be typed as they stand.
+    """
+
+    methods: tuple[Callable[..., Any], ...]
+    command: Callable[..., Output]
+    options: tuple[Option, ...]
+    examples: tuple[str, ...]
+
+
+ANALYSES: Registry[Analysis] = Registry(__name__, "analysis")

@@ -1,0 +1,138 @@
+"""Find where a mechanism rests, and whether it stays there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from symgen.analyses.kinds import STATE, Analysis, Option, Output, Table
+from symgen.analyses.kinds._settings import settings_of
+from symgen.errors import InputError
+from symgen.settings import Settings
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from symgen.analyses.equilibrium import Equilibrium
+    from symgen.analyses.model import Analysed
+
+    Array = NDArray[np.float64]
+
+#: Values that are shown at most.
+MOST = 40
+
+
+def equilibrium(model: Analysed, settings: Settings | None = None, **changes: object) -> Equilibrium:
+    """Return the equilibrium that the start leads to: the one it is near to, or a stable one further away.
+
+    Parameters
+    ----------
+    settings : Settings, optional
+        All settings at once; ``parameters``, ``inputs``, ``start``, ``coordinates`` and ``shape`` are looked at:
+        looped code, and any mechanism with more than 300 coordinates, is searched with sparse matrices.
+    **changes
+        Single settings among these; others are refused. Drivers hold what they drive where it is at the time 0.
+
+    Raises
+    ------
+    AnalysisError
+        If none is found.
+    """
+    from symgen.analyses.asked import asked_equilibrium
+
+    return asked_equilibrium(model.mechanism, settings_of("equilibrium", settings, changes))
+
+
+def equilibria(
+    model: Analysed, scan: tuple[str, Sequence[float] | Array], settings: Settings | None = None, **changes: object
+) -> tuple[Equilibrium, ...]:
+    """Return all equilibria that are found over a range of a coordinate.
+
+    Parameters
+    ----------
+    scan : (str, sequence of float)
+        The coordinate and its values, such as ``("crank.theta", numpy.linspace(0, 6.28, 25))``.
+    settings, **changes
+        As for `equilibrium`.
+
+    Raises
+    ------
+    AnalysisError
+        If none is found.
+    """
+    from symgen.analyses.asked import scanned
+
+    return scanned(model.mechanism, settings_of("equilibria", settings, changes), scan)
+
+
+def steady(
+    model: Analysed, settings: Settings | None = None, *, cyclic: Sequence[str] = (), **changes: object
+) -> Equilibrium:
+    """Return the steady motion that the start leads to: cyclic coordinates turn on, everything else stays.
+
+    Parameters
+    ----------
+    settings, **changes
+        As for `equilibrium`; coordinates are those of joints. Cyclic coordinates keep their speeds of the start,
+        and drivers move.
+    cyclic : sequence of str
+        Coordinates of joints that turn on; those that nothing depends on by default.
+
+    Raises
+    ------
+    AnalysisError
+        If none is found.
+    """
+    from symgen.analyses.asked import asked_steady
+
+    return asked_steady(model.mechanism, settings_of("steady", settings, changes), cyclic)
+
+
+def command(load: Callable[[], Analysed], settings: Settings, scan: tuple[str, Array] | None, moving: bool) -> Output:
+    """Find the equilibrium that the start of MODEL leads to.
+
+    The equilibrium near the start is found whatever its stability; from further away a stable one. With --scan the
+    coordinate is held at one value after the other, and equilibria are where the force that this takes changes its
+    sign. Drivers hold what they drive where it is at the time 0. With --steady cyclic coordinates turn on at their
+    speed at the start.
+    """
+    if scan is not None and moving:
+        raise InputError("--scan", "an equilibrium at rest", "--steady as well")
+    model = load()
+    if scan is not None:
+        found = equilibria(model, scan, settings)
+    else:
+        found = (steady(model, settings) if moving else equilibrium(model, settings),)
+    return Output(
+        {"mechanism": model.mechanism.name, "equilibria": [one.to_dict() for one in found]},
+        (item for one in found for item in _shown(one)),
+        dict.fromkeys(note for one in found for note in one.notes),
+    )
+
+
+def _shown(found: Equilibrium) -> Iterator[str | Table]:
+    squares = ", ".join(f"{x:.6g}" for x in found.omega_squared[:8]) + (", ..." if len(found.omega_squared) > 8 else "")
+    yield f"{found.stability}; omega^2 [1/s^2]: {squares or 'nothing can move'}"
+    yield f"  {found.iterations} steps, largest force that is not balanced {found.residual:.3g}"
+    if found.not_unique:
+        yield f"  reactions are not unique at {', '.join(found.not_unique)}"
+    for title, values in (("coordinate", found.q), ("multiplier", found.multipliers)):
+        if values:
+            yield Table((title, "value"), [(n, f"{x:.9g}") for n, x in list(values.items())[:MOST]], left=(title,))
+        if len(values) > MOST:
+            yield f"... and {len(values) - MOST} more; --json has all"
+
+
+KIND = Analysis(
+    methods=(equilibrium, equilibria, steady),
+    command=command,
+    options=(
+        Option("--scan", "Find all equilibria over a range of a coordinate.", "range", "NAME=lin(A,B,N)"),
+        Option(
+            "--steady", "Find the steady motion that the start leads to instead of a rest.", "switch", argument="moving"
+        ),
+        *STATE,
+    ),
+    examples=("symgen equilibrium four-bar", 'symgen equilibrium four-bar --scan "crank.theta=lin(0,6.28,25)" --json'),
+)

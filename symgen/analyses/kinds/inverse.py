@@ -1,0 +1,150 @@
+"""Find the efforts that a motion needs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from symgen.analyses.kinds import Analysis, Note, Option, Output, Table, of_motion, of_tables
+from symgen.analyses.kinds._settings import OF_DRIVEN, OF_MOTIONS, settings_of
+from symgen.errors import InputError
+from symgen.settings import Settings, flag, is_given
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from symgen.analyses.inverse import Inverse
+    from symgen.analyses.kinematics import Kinematics
+    from symgen.analyses.model import Analysed
+    from symgen.result.result import Result
+
+
+def inverse(
+    model: Analysed,
+    motion: Result | Kinematics | str | Path | None = None,
+    settings: Settings | None = None,
+    times: ArrayLike | None = None,
+    actuators: Sequence[str] = (),
+    weights: Mapping[str, float] | None = None,
+    **changes: object,
+) -> Inverse:
+    """Return the efforts that a motion needs; see `docs/inverse.md`.
+
+    Parameters
+    ----------
+    motion : Result, Kinematics or path, optional
+        A recorded motion, or the file that one was saved to; what the drivers prescribe by default.
+    settings : Settings, optional
+        All settings at once.
+    times : array, optional
+        Of a motion that drivers prescribe [s].
+    actuators : sequence of str
+        What exerts the motion: drivers, joints, forces and inputs; all drivers by default.
+    weights : mapping of str to float, optional
+        Of efforts that are not unique: the sum of (weight effort)^2 is smallest. 1 / N, or 1 / (N m) times the
+        length of the mechanism, by default.
+    **changes
+        Single settings that mean something here: ``parameters``, ``inputs``, ``strict``, ``shape``.
+
+    Raises
+    ------
+    InputError
+        If an argument is wrong; without a motion, if freedom is left that no driver drives.
+    AssemblyError
+        If the mechanism cannot be closed.
+    """
+    from symgen.analyses.inverse import inverse as efforts_of
+
+    counting = OF_MOTIONS if motion is None else [name for name in OF_MOTIONS if name not in OF_DRIVEN]
+    whole = settings_of("inverse", settings, changes, counting)
+    return efforts_of(model.mechanism, whole, motion, times, actuators, weights)
+
+
+def command(
+    load: Callable[[], Analysed],
+    settings: Settings,
+    motion: str | None,
+    times: Sequence[float] | None,
+    actuators: Sequence[str],
+    weights: Mapping[str, float],
+    quantities: Sequence[str],
+    save: Path | None,
+    plot: Path | None,
+) -> Output:
+    """Find the efforts that a motion of MODEL needs: motor torques, forces of actuators.
+
+    For example: symgen inverse driven-four-bar --times "lin(0, 1, 361)" --plot torque.svg, or of a recorded run:
+    symgen inverse andrews --from run.nc --actuators drive
+    """
+    for name in OF_DRIVEN if motion is not None else ():
+        if is_given(settings, name):
+            raise InputError(flag(name), "settings of a recorded motion", "one of drivers' motion")
+    if quantities and save is None and plot is None:
+        raise InputError("--quantity", "--save or --plot, where quantities go", "neither")
+    result = inverse(load(), motion, settings, times, actuators, weights)
+    result.select(quantities)  # names that are wrong are refused before anything is shown
+    return Output(
+        result.to_json(),
+        _shown(result),
+        result.notes,
+        result.ended,
+        {
+            save: lambda path: result.save(path, ("efforts", *quantities) if quantities else ()),
+            plot: lambda path: result.plot(path, ("efforts", "power", *quantities)),
+        },
+    )
+
+
+def _shown(result: Inverse) -> Iterator[str | Table | Note]:
+    """Yield what sizes each actuator: its largest effort and when, root mean square, peak power and energy."""
+    yield f"{result.mechanism}: efforts at {len(result.t)} times"
+    columns = {"largest": "max", "rms": "rms", "unit": "unit", "at [s]": "at"}
+    columns |= {"peak power [W]": "peak_power", "energy [J]": "energy"}
+    rows = [
+        (name, *(x if isinstance(x := entry.get(key, ""), str) else f"{x:.6g}" for key in columns.values()))
+        for name, entry in result.summary().items()
+    ]
+    yield Table(("effort", *columns), rows, left=("effort", "unit"), parts=True)
+    if few := result.too_few():
+        yield Note(few)
+
+
+KIND = Analysis(
+    methods=(inverse,),
+    command=command,
+    options=(
+        Option(
+            "--from",
+            "A recorded motion: .nc, .parquet or .csv that a result was saved to.  "
+            "[default: what the drivers prescribe]",
+            metavar="FILE",
+            argument="motion",
+        ),
+        Option(
+            "--times",
+            "When, of drivers' motion [s]: lin(0, 1, 101) or 0,0.25,0.5.  [default: outputs of a run of MODEL]",
+            "times",
+            "TIMES",
+        ),
+        Option(
+            "--actuators",
+            "What exerts the motion: drivers, joints, forces, inputs.  [default: all drivers]",
+            "words",
+            "NAME,...",
+        ),
+        Option(
+            "--weight",
+            "Weight of an actuator where efforts are not unique: the sum of (weight effort)^2 is smallest.",
+            "numbers",
+            "NAME=VALUE",
+            "weights",
+        ),
+        *of_motion("Of drivers' motion: of several ways to close MODEL that nearest to this coordinate is taken."),
+        *of_tables(
+            "What to save and plot beside efforts: a column, a joint or a table, such as power or reactions.",
+            "efforts and power",
+        ),
+    ),
+    examples=("symgen inverse driven-four-bar", 'symgen inverse driven-four-bar --times "lin(0,1,101)" --json'),
+)

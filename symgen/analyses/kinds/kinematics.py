@@ -1,0 +1,105 @@
+"""Move a driven mechanism without integrating."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from symgen.analyses.kinds import Analysis, Option, Output, of_motion, of_tables
+from symgen.analyses.kinds._settings import OF_MOTIONS, settings_of
+from symgen.settings import Settings
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from symgen.analyses.kinematics import Kinematics
+    from symgen.analyses.model import Analysed
+
+
+def kinematics(
+    model: Analysed,
+    times: ArrayLike | None = None,
+    settings: Settings | None = None,
+    transmission: Sequence[str] = (),
+    **changes: object,
+) -> Kinematics:
+    """Return the motion of a mechanism whose freedom is all driven, without integrating; see `docs/kinematics.md`.
+
+    Parameters
+    ----------
+    times : array, optional
+        Increasing, of any sign [s]; those of the outputs of a run of the file by default.
+    settings : Settings, optional
+        All settings at once.
+    transmission : sequence of str
+        Pins whose transmission angles are wanted, such as ``"C"`` or ``"C(B, D)"``.
+    **changes
+        Single settings that mean something here: ``parameters``, ``inputs``, ``start``, ``strict``, ``shape``. Of
+        several ways to close the mechanism that nearest to a start such as ``{"rocker.theta": -1.5}`` is taken.
+
+    Raises
+    ------
+    InputError
+        If freedom is left that no driver drives, or is driven twice; if an argument is wrong.
+    AssemblyError
+        If the mechanism cannot be closed.
+    """
+    from symgen.analyses.kinematics import kinematics as motion_of
+
+    return motion_of(model.mechanism, settings_of("kinematics", settings, changes, OF_MOTIONS), times, transmission)
+
+
+def command(
+    load: Callable[[], Analysed],
+    settings: Settings,
+    times: Sequence[float] | None,
+    transmission: Sequence[str],
+    quantities: Sequence[str],
+    save: Path | None,
+    plot: Path | None,
+    curves: Path | None,
+) -> Output:
+    """Move MODEL, whose freedom is all driven, through any times without integrating.
+
+    For example: symgen kinematics driven-four-bar --times "lin(0, 1, 361)" --transmission C --save motion.csv
+    """
+    from symgen.result.select import extremes
+
+    result = kinematics(load(), times, settings, transmission)
+    shown = extremes(result.select(quantities or ("q",))) if len(result.t) else {}
+    return Output(
+        result.to_json() | ({"quantities": shown} if quantities else {}),
+        (f"{result.mechanism}: {len(result.t)} times, {result.steps} steps", shown),
+        result.notes,
+        result.ended,
+        {
+            save: lambda path: result.save(path, quantities),
+            plot: lambda path: result.plot(path, quantities),
+            curves: lambda path: result.plot_curves(path),
+        },
+    )
+
+
+KIND = Analysis(
+    methods=(kinematics,),
+    command=command,
+    options=(
+        Option(
+            "--times", "When [s]: lin(0, 1, 101) or 0,0.25,0.5.  [default: outputs of a run of MODEL]", "times", "TIMES"
+        ),
+        Option(
+            "--transmission",
+            "A pin whose transmission angle is wanted; C(B, D) where its bodies have several further joints.",
+            "texts",
+            "PIN",
+        ),
+        *of_motion("Value of a coordinate: of several ways to close MODEL the nearest is taken."),
+        *of_tables("What to show, save and plot: a column, a body, a joint or a table, such as points.", "quantities"),
+        Option("--curves", "Draw the paths of points into FILE: .png, .svg or .pdf.", "plot", "FILE"),
+    ),
+    examples=(
+        'symgen kinematics driven-four-bar --times "lin(0,1,101)"',
+        "symgen kinematics driven-four-bar --transmission C --plot motion.svg",
+    ),
+)

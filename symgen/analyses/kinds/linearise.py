@@ -1,0 +1,92 @@
+"""Find the linear system about a state."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from symgen.analyses.kinds import PLACE, Analysis, Option, Output, Table
+from symgen.analyses.kinds._settings import settings_at
+from symgen.settings import Settings
+
+if TYPE_CHECKING:
+    from symgen.analyses.linearise import LinearSystem
+    from symgen.analyses.model import Analysed
+
+
+def linearise(
+    model: Analysed,
+    settings: Settings | None = None,
+    *,
+    at: str | float = "equilibrium",
+    states: Sequence[str] = (),
+    cyclic: Sequence[str] = (),
+    instantaneous: bool = False,
+    by: Sequence[str] = (),
+    **changes: object,
+) -> LinearSystem:
+    """Return the linear system x' = A x + B u, y = C x + D u about a state of rest or of steady motion.
+
+    Parameters
+    ----------
+    settings, at, **changes
+        As for `modes`.
+    states : sequence of str
+        Which quantities are the states: coordinates of bodies and joints, velocities, outputs of the file, and
+        ``NAME.rate`` of any of these; rates of coordinates are added. Found by default.
+    cyclic : sequence of str
+        With ``at="steady"``, the coordinates of joints that turn on; found by default.
+    instantaneous : bool
+        Whether a motion that is not steady has the system of the instant.
+    by : sequence of str
+        Parameters that are inputs as well: constants, changed once and for all while the states stay.
+
+    Raises
+    ------
+    InputError
+        If the motion is not steady, or a name means nothing.
+    AnalysisError
+        If no equilibrium is found.
+    """
+    from symgen.analyses.asked import Asked, asked_system
+
+    asked = Asked(model.mechanism, settings_at("linearise", settings, changes, at), at, model.simulate, cyclic)
+    return asked_system(asked, states, instantaneous, by)
+
+
+def command(load: Callable[[], Analysed], settings: Settings, **further: Any) -> Output:
+    """Find the linear system of MODEL about a state of rest or of steady motion.
+
+    Inputs are those of the file, outputs its formulas. A motion in which states change is refused. With --by, columns
+    of B and D are derivatives by parameters as well, the states held.
+    """
+    model = load()
+    found = linearise(model, settings, **further)
+    return Output({"mechanism": model.mechanism.name, **found.to_dict()}, _shown(found), found.notes)
+
+
+def _shown(found: LinearSystem) -> Iterator[str | Table]:
+    matrices = (
+        ("x' = A x", found.states, found.states, found.A),
+        ("+ B u", found.states, found.inputs, found.B),
+        ("y = C x", found.outputs, found.states, found.C),
+        ("+ D u", found.outputs, found.inputs, found.D),
+    )
+    for title, rows, columns, values in matrices:
+        if values.size:
+            cells = [(name, *(f"{x:.6g}" for x in row)) for name, row in zip(rows, values, strict=True)]
+            yield Table((title, *columns), cells, left=(title,))
+    if found.left_out:
+        yield f"outputs left out, as they depend on more than the states: {', '.join(found.left_out)}"
+
+
+KIND = Analysis(
+    methods=(linearise,),
+    command=command,
+    options=(
+        *PLACE,
+        Option("--instantaneous", "Give the system of the instant where a motion is not steady.", "switch"),
+        Option("--by", "Parameters that are inputs as well: constants, changed once.", "words", "NAME,NAME"),
+    ),
+    examples=("symgen linearise pendulum", "symgen linearise bicycle --at start --states lean,steer --json"),
+)

@@ -1,0 +1,211 @@
+"""Find frequencies, damping and shapes about a state."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from symgen import arguments
+from symgen.analyses.kinds import PLACE, Analysis, Option, Output, Table
+from symgen.analyses.kinds._settings import settings_at
+from symgen.errors import InputError
+from symgen.settings import Settings
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from symgen.analyses.locus import Locus
+    from symgen.analyses.model import Analysed
+    from symgen.analyses.modes import Modes
+    from symgen.player.page import Page
+
+    Array = NDArray[np.float64]
+
+#: Modes that are shown at most.
+MOST = 40
+
+
+def modes(
+    model: Analysed,
+    settings: Settings | None = None,
+    *,
+    at: str | float = "equilibrium",
+    states: Sequence[str] = (),
+    cyclic: Sequence[str] = (),
+    count: int | None = None,
+    **changes: object,
+) -> Modes:
+    """Return eigenvalues, frequencies, damping and shapes about a state of rest or of steady motion.
+
+    Parameters
+    ----------
+    settings : Settings, optional
+        As for `equilibrium`.
+    at : {"equilibrium", "start", "steady"} or float
+        About what: the equilibrium that the start leads to, the start itself, the steady motion that the start
+        leads to, or the state at a time of a run [s].
+    states, cyclic
+        As for `linearise`.
+    count : int, optional
+        Only that many of the lowest modes, without dampers, about the equilibrium near the start: by sparse
+        matrices from looped code, for mechanisms of any size.
+    **changes
+        Single settings among these; with a time also those that a run to it has: ``options``, ``events``,
+        ``strict``, ``max_violation``, ``max_energy_error``, ``max_step``,
+        ``max_attempts``.
+
+    Raises
+    ------
+    InputError
+        If the motion is neither at rest nor steady.
+    AnalysisError
+        If no equilibrium is found.
+    """
+    from symgen.analyses.asked import Asked, asked_modes
+
+    asked = Asked(model.mechanism, settings_at("modes", settings, changes, at), at, model.simulate, cyclic)
+    return asked_modes(asked, states, count)
+
+
+def view_mode(
+    model: Analysed,
+    number: int,
+    settings: Settings | None = None,
+    *,
+    at: str | float = "equilibrium",
+    **changes: object,
+) -> Page:
+    """Return a page that plays a mode shape, with the state that it is about drawn faintly behind.
+
+    Parameters
+    ----------
+    number : int
+        Which shape of `modes`, from 1 on.
+    settings : Settings, optional
+        As for `modes`.
+    at : {"equilibrium", "start"} or float
+        As for `modes`; in a steady motion shapes are not those of bodies.
+    **changes
+        Single settings among these; with a time also those that a run to it has: ``options``, ``events``,
+        ``strict``, ``max_violation``, ``max_energy_error``, ``max_step``,
+        ``max_attempts``.
+
+    Raises
+    ------
+    InputError
+        If there is no such mode.
+    AnalysisError
+        If no equilibrium is found.
+    """
+    from symgen.analyses.shown import mode_page
+
+    whole = settings_at("view_mode", settings, changes, at)
+    number = arguments.whole("number", number, 1, 10**6)
+    return mode_page(model.mechanism, modes(model, whole, at=at), number, whole.parameters)
+
+
+def locus(
+    model: Analysed,
+    over: tuple[str, Sequence[float] | Array],
+    settings: Settings | None = None,
+    *,
+    at: str | float = "equilibrium",
+    states: Sequence[str] = (),
+    cyclic: Sequence[str] = (),
+    **changes: object,
+) -> Locus:
+    """Return how the eigenvalues move with a parameter.
+
+    Parameters
+    ----------
+    over : (str, sequence of float)
+        The parameter and its values.
+    settings, at, states, cyclic, **changes
+        As for `modes`.
+    """
+    from symgen.analyses.asked import Asked
+    from symgen.analyses.locus import locus as locus_of
+
+    asked = Asked(model.mechanism, settings_at("locus", settings, changes, at), at, model.simulate, cyclic)
+    return locus_of(asked, over, states)
+
+
+def command(
+    load: Callable[[], Analysed],
+    settings: Settings,
+    count: int | None,
+    over: tuple[str, Array] | None,
+    plot: Path | None,
+    **place: Any,
+) -> Output:
+    """Find eigenvalues, frequencies, damping and shapes of MODEL about a state of rest or of steady motion."""
+    if plot is not None and over is None:
+        raise InputError("--plot", "a root locus, asked for with --over", "no --over")
+    if count is not None and over is not None:
+        raise InputError("--count", "all modes with --over", "both")
+    model = load()
+    name = model.mechanism.name
+    if over is None:
+        found = modes(model, settings, count=count, **place)
+        return Output({"mechanism": name, **found.to_dict()}, _shown(found), found.notes)
+    roots = locus(model, over, settings, **place)
+    return Output({"mechanism": name, **roots.to_dict()}, _shown_locus(roots), files={plot: roots.plot})
+
+
+def _shown(found: Modes) -> Iterator[str | Table]:
+    freedom, many = found.degrees_of_freedom, len(found.eigenvalues)
+    yield (
+        f"{freedom} {'degree' if freedom == 1 else 'degrees'} of freedom; "
+        f"{many} {'eigenvalue' if many == 1 else 'eigenvalues'}"
+    )
+    tables = {"moves": found.participation, "stiffness by": found.stiffening, "damping by": found.dissipation}
+    tables = {heading: parts for heading, parts in tables.items() if parts}
+    rows = [
+        (
+            *(str(k + 1), _complex(value), f"{found.frequencies[k]:.6g}", f"{found.damping[k]:.4g}"),
+            *(_shares(parts, k) for parts in tables.values()),
+        )
+        for k, value in enumerate(found.of_shapes[:MOST])
+    ]
+    yield Table(("mode", "eigenvalue [1/s]", "frequency [Hz]", "damping", *tables), rows, left=(*tables,))
+    if len(found.of_shapes) > MOST:
+        yield f"... and {len(found.of_shapes) - MOST} more; --json has all"
+
+
+def _shares(parts: Mapping[str, Any], k: int, most: int = 4) -> str:
+    shares = sorted(((name, float(values[k])) for name, values in parts.items()), key=lambda pair: -abs(pair[1]))
+    shown = [(name, share) for name, share in shares[:most] if abs(share) >= 5e-4]
+    left = sum(share for _, share in shares) - sum(share for _, share in shown)
+    text = ", ".join(f"{name} {share:.1%}" for name, share in shown)
+    return text + (f", others {left:.1%}" if abs(left) >= 5e-4 else "")
+
+
+def _complex(x: complex) -> str:
+    return f"{x.real:.6g}" + (f" +- {abs(x.imag):.6g}i" if x.imag else "")
+
+
+def _shown_locus(found: Locus) -> Iterator[str | Table]:
+    headings = (found.name, *(f"eigenvalue {k + 1} [1/s]" for k in range(found.branches.shape[1])))
+    rows = [
+        (f"{value:g}", *(f"{x.real:.5g}{x.imag:+.5g}i" if x.imag else f"{x.real:.5g}" for x in row))
+        for value, row in zip(found.values, found.branches, strict=True)
+    ]
+    yield Table(headings, rows)
+    for crossing in found.crossings:
+        becomes = "grows" if crossing.rising else "decays"
+        yield f"from {found.name} = {crossing.value:.9g} on {_complex(crossing.eigenvalue)} {becomes}"
+
+
+KIND = Analysis(
+    methods=(modes, view_mode, locus),
+    command=command,
+    options=(
+        *PLACE,
+        Option("--count", "Only that many of the lowest modes, by sparse matrices.", "whole", "N"),
+        Option("--over", "A parameter over which eigenvalues are followed: a root locus.", "range", "NAME=lin(A,B,N)"),
+        Option("--plot", "Draw the root locus into a .svg, .png or .pdf file.", "plot", "FILE"),
+    ),
+    examples=("symgen modes four-bar", "symgen modes four-bar --start crank.theta=4"),
+)

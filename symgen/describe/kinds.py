@@ -1,0 +1,39 @@
+"""Kinds of joints and forces, one file each in the folders `joints` and `forces`, found by their names."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar, Protocol
+
+from symgen.registry import Registry
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Force, Joint
+    from symgen.describe.scope import Scope
+
+
+class JointKind(Protocol):
+    """What every joint kind offers."""
+
+    #: Where the kind exists: in planar mechanisms, in spatial ones, or in both.
+    SPACES: ClassVar[tuple[str, ...]]
+
+    def build(self, scope: Scope) -> Joint:
+        """Resolve the file's keys to rows on measures."""
+        ...
+
+
+class ForceKind(Protocol):
+    """What every force kind offers."""
+
+    #: Where the kind exists: in planar mechanisms, in spatial ones, or in both.
+    SPACES: ClassVar[tuple[str, ...]]
+
+    def build(self, scope: Scope) -> Force:
+        """Resolve the file's keys to efforts along measures."""
+        ...
+
+
+JOINTS: Registry[type[JointKind]] = Registry(
+    "symgen.joints", "joint type", aliases={"prismatic": "translational", "point-on-line": "pin-in-slot"}
+)
+FORCES: Registry[type[ForceKind]] = Registry("symgen.forces", "force type")

@@ -1,0 +1,222 @@
+"""Automatic choice of method and integrator from facts of the model, each with its reason."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.compiling.linearised import GROWTH, compile_growth
+from symgen.integrators import INTEGRATORS
+from symgen.ir.program import COUNTERS
+from symgen.methods import METHODS
+from symgen.runtime import abi
+from symgen.runtime.probe import rate_function
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.runtime.assembly import Start
+    from symgen.runtime.compiled import CompiledModel
+    from symgen.settings import Settings
+
+Array = NDArray[np.float64]
+
+#: Setting of an automatic choice.
+AUTO = "auto"
+#: Integrator of motions that are not stiff.
+EXPLICIT = "dop853"
+#: A mechanism counts as stiff where stability asks for this many times the steps that following its motion does.
+STIFF_RATIO = 20.0
+#: Steps of an adaptive run of high order over the time in which its state changes by its own size.
+_STEPS_A_CHANGE = 8.0
+#: Above this many unknowns of a stage nobody asks for eigenvalues: they would take longer than a run.
+LARGEST_LINEARISED = 400
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What the choice looks at.
+
+    Attributes
+    ----------
+    rows, rank : int
+        Constraint rows and their rank at the start.
+    coordinates : int
+        Size of q.
+    massless : bool
+        Whether a body has no mass.
+    fastest_decay : float
+        Largest negative real part of the eigenvalues of the linearised motion at the start [1/s]; 0 where no force
+        depends on velocities and no joint is a condition on them.
+    slowest_change : float
+        Rate at which the state changes by its own size [1/s].
+    """
+
+    rows: int
+    rank: int
+    coordinates: int
+    massless: bool
+    fastest_decay: float
+    slowest_change: float
+
+    @property
+    def stiffness(self) -> float:
+        """Steps that stability asks of an explicit scheme over those that following the motion takes."""
+        return self.fastest_decay / 3.0 / max(self.slowest_change * _STEPS_A_CHANGE, 1e-300)
+
+
+def linearised(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> Array:
+    """Return the Jacobian of (q', v') with respect to (q, v) at the start, from derivatives on the graph.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What moves.
+    compiled : CompiledModel
+        Its compiled form; any method will do.
+    start : Start
+        Where to linearise.
+
+    Returns
+    -------
+    matrix : Array, shape (nq + nv, nq + nv)
+        All zero where nothing can decay: no force depends on velocities, and no joint is a condition on them.
+    """
+    nq, nv = compiled.info.nq, compiled.info.nv
+    result, form = np.zeros((nq + nv, nq + nv)), compile_growth(mechanism, compiled)
+    if form is None:
+        return result
+    w = start.w.copy()
+    lam, kept = compiled.section(w, "multipliers"), compiled.section(w, "mask") == 0.0
+    lam[:] = 0.0
+    still = form.at(start.t, start.y, np.zeros(nv), start.p, w)
+    rows = still.by("accelerations", "a")[kept]
+    matrix = np.block([[still.by("balance", "a"), rows.T], [rows, np.zeros((len(rows), len(rows)))]])
+
+    def solved(balance: Array, accelerations: Array) -> Array:
+        right = -np.concatenate([balance, accelerations[kept]])
+        return np.asarray(np.linalg.lstsq(matrix, right, rcond=1e-14)[0], dtype=np.float64)
+
+    if not np.all(np.isfinite(still.out)):
+        return np.full_like(result, np.nan)
+    found = solved(still.value("balance"), still.value("accelerations"))
+    lam[kept] = found[nv:]
+    e = form.at(start.t, start.y, found[:nv], start.p, w)
+    if not np.all(np.isfinite(e.out)):
+        return np.full_like(result, np.nan)
+    by_state = [np.hstack([e.by(group, "q"), e.by(group, "v")]) for group in GROWTH]
+    result[:nq] = by_state[0]
+    result[nq:] = solved(by_state[1], by_state[2])[:nv]
+    return result
+
+
+def trial_of(mechanism: Mechanism, settings: Settings) -> Settings:
+    """Return settings in which ``auto`` is replaced: the method for good, the integrator until the start is known.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    settings : Settings
+        With ``auto``.
+    """
+    method, integrator, options = settings.method, settings.integrator, dict(settings.options)
+    if method == AUTO:
+        method = "direct-correction" if any(joint.rows for joint in mechanism.joints) else "lagrange"
+        if method == "direct-correction" and not mechanism.has_massless:
+            options.setdefault("method.weight", "mass")
+    if integrator == AUTO:
+        explicit = set(METHODS.get(method, "--method").forms) & set(INTEGRATORS.get(EXPLICIT).forms)
+        integrator = EXPLICIT if explicit else METHODS.get(method).default_integrator
+    return replace(settings, method=method, integrator=integrator, options=options)
+
+
+def facts_of(mechanism: Mechanism, compiled: CompiledModel, start: Start, until: float) -> Facts:
+    """Return the facts of a mechanism at its start.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    compiled, start : CompiledModel, Start
+        Its code for any method, and the start, in coordinates of bodies.
+    until : float
+        End of the run [s].
+    """
+    info = compiled.info
+    small = 2 * info.nq + info.m <= LARGEST_LINEARISED
+    jacobian = linearised(mechanism, compiled, start) if small else np.zeros((1, 1))
+    # off the constraints the equations without feedback have drift modes only; along them they have the mechanism's own
+    eigenvalues = np.linalg.eigvals(jacobian) if np.all(np.isfinite(jacobian)) else np.zeros(1)
+    rate = np.zeros_like(start.y)
+    iw = np.zeros(len(COUNTERS), dtype=np.int64)
+    rate_function(compiled)(start.t, start.y.copy(), start.p, start.w.copy(), iw, rate)
+    # speeds and accelerations of points, over the mechanism's length
+    levers = 1.0 / (float(start.w[abi.LENGTH]) * np.sqrt(compiled.section(start.w, "gauge")))
+    speed = float(np.abs(info.parts(start.y)[1] * levers).max(initial=0.0))
+    acceleration = float(np.abs(info.parts(rate)[1] * levers).max(initial=0.0))
+    change = max(speed, np.sqrt(acceleration), 1.0 / until)
+    return Facts(
+        rows=info.m,
+        rank=start.rank,
+        coordinates=info.nq,
+        massless=bool(info.massless),
+        fastest_decay=float(max(0.0, -eigenvalues.real.min(initial=0.0))),
+        slowest_change=float(change),
+    )
+
+
+def decide(facts: Facts, method: str, integrator: str | None) -> tuple[str, str | None, tuple[str, ...]]:
+    """Return method, integrator and the reasons, for whichever of the two is ``auto``.
+
+    The rules come from measured rows (see ``docs/methods.md``): `direct-correction` in the metric of M carried runs
+    through singular positions with the smallest errors and costs little more than `lagrange`; `radau5` is for decay
+    that is much faster than the motion.
+    """
+    reasons: list[str] = []
+    if method == AUTO:
+        method = "direct-correction"
+        if facts.rows == 0:
+            method = "lagrange"
+            reasons.append("method lagrange: there are no constraints to keep")
+        elif facts.massless:
+            reasons.append("method direct-correction with the identity as weight: a body has no mass")
+        else:
+            reasons.append(
+                "method direct-correction with weight=mass: constraints hold to rounding, and passages near singular "
+                "positions are met with the smallest errors"
+            )
+        if facts.rank < facts.rows:
+            reasons.append(
+                f"{facts.rows - facts.rank} of {facts.rows} rows depend on others: they are skipped, "
+                "accelerations stay unique"
+            )
+    if integrator == AUTO:
+        integrator, reason = _integrator(facts, method)
+        reasons.append(reason)
+    return method, integrator, tuple(reasons)
+
+
+def _integrator(facts: Facts, method: str) -> tuple[str, str]:
+    """Return the integrator that suits the facts among those that fit a method, and why."""
+    chosen, unknowns = METHODS.get(method), 2 * facts.coordinates + facts.rows
+    forms = set(chosen.forms)
+    if not forms & set(INTEGRATORS.get(EXPLICIT).forms):
+        name = chosen.default_integrator
+        return name, f"integrator {name}: it solves the form of {method} ({', '.join(chosen.forms)})"
+    if unknowns > LARGEST_LINEARISED and facts.stiffness <= STIFF_RATIO:
+        return EXPLICIT, (
+            f"integrator dop853: with {unknowns} unknowns a stage nobody looked whether the motion is stiff; "
+            "if it is, ask for radau5"
+        )
+    if facts.stiffness <= STIFF_RATIO:
+        asks = f"the fastest decay, {facts.fastest_decay:.3g} 1/s, asks for no implicit scheme"
+        return EXPLICIT, f"integrator dop853: {asks}"
+    if not forms & set(INTEGRATORS.get("radau5").forms):
+        return EXPLICIT, f"integrator dop853: stiff, but {method} has no form for implicit integrators"
+    return "radau5", (
+        f"integrator radau5: the fastest decay, {facts.fastest_decay:.3g} 1/s, would ask explicit schemes for "
+        f"{facts.stiffness:.3g} times the steps that the motion needs"
+    )

@@ -1,0 +1,135 @@
+"""Runs that go on from the last state of another one."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.describe.evaluate import parameter_values
+from symgen.describe.events import in_words
+from symgen.ir.program import FORMAT
+from symgen.lower.windings import winding_order
+from symgen.running.starts import compiled_for
+from symgen.runtime.assembly import Start, assemble
+from symgen.runtime.new_state import is_as_kept
+from symgen.version import __version__
+
+if TYPE_CHECKING:
+    from symgen.compiling.pipeline import MethodChoice
+    from symgen.describe.mechanism import Mechanism
+    from symgen.running.plan import Plan
+    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.last_state import LastState
+    from symgen.runtime.run import RunSpec
+
+
+def made_of(compiled: CompiledModel, plan: Plan, spec: RunSpec) -> dict[str, Any]:
+    """Return what shapes a run, as JSON has it: two runs of the same making can take up each other's arrays.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    plan : Plan
+        The run; its inputs are of no account.
+    spec : RunSpec
+        Its steps and tolerances.
+    """
+    law = compiled.law
+    own = {name: float(plan.method_parameters.get(name, default)) for name, default in law.parameters}
+    values = parameter_values(plan.mechanism, plan.parameters)
+    made = {
+        "method": law.method,
+        "options": {key: str(value) for key, value in law.options.items()},
+        "method parameters": own,
+        "integrator": plan.integrator.name,
+        "integrator parameters": {key: float(value) for key, value in spec.integrator_parameters.items()},
+        "adaptive": spec.adaptive,
+        "step": spec.step,
+        "rtol": spec.rtol if spec.adaptive else None,
+        "atol": spec.atol if spec.adaptive else None,
+        "parameters": {key: float(x) for key, x in values.items() if key not in compiled.info.inputs},
+        "events": in_words(plan.events) or None,
+        "shape": compiled.shape,
+        "coordinates": plan.coordinates,
+        "symgen": f"{__version__}, format {FORMAT}",
+    }
+    return made | {"tree": compiled.info.digest[:12]} if plan.coordinates == "joint" else made
+
+
+def continued(plan: Plan, last: LastState) -> tuple[CompiledModel, Start]:
+    """Compile a plan for the coordinates of bodies, and begin where another run ended.
+
+    All that the other run kept is taken up where this one is of the same making; where it looks for other events, all
+    but what that run knew of its events. Else time, coordinates, velocities and work are the start of this run.
+    """
+    compiled, joint = compiled_for(plan.mechanism, choice_after(plan, last)), plan.coordinates == "joint"
+    # arrays of a run in joint coordinates are taken up by `symgen.running.tree`
+    if not joint and (start := taken_up(compiled, plan, last)) is not None:
+        return compiled, start
+    other = last.other_than({key: x for key, x in made_of(compiled, plan, plan.spec).items() if key != "tree"})
+    other = other or ["the tree is another one" if joint else "another version of symgen kept what it knows otherwise"]
+    start = _from_coordinates(plan, compiled, last, plan.solver_is_free)
+    if start.light:
+        compiled = compiled_for(plan.mechanism, plan.choice.given(solver="augmented"))
+        start = _from_coordinates(plan, compiled, last, False)
+    note = f"{_origin(last)} with its coordinates and velocities alone: {'; '.join(other)}"
+    note += "; integrals of outputs begin at 0" if compiled.info.integrals else ""
+    return compiled, replace(start, notes=(note, *start.notes), work=last.work)
+
+
+def _from_coordinates(plan: Plan, compiled: CompiledModel, last: LastState, ask_light: bool) -> Start:
+    """Return the consistent start with time, coordinates and velocities of another run."""
+    info, values = compiled.info, parameter_values(plan.mechanism, plan.parameters)
+    q = np.array([last.q[c.name] for c in info.coordinates])
+    v = [last.v[c.name] for c in info.velocities]
+    p = compiled.parameter_array(values, plan.method_parameters)
+    whence = last.t, _windings(plan.mechanism, compiled, last)
+    return assemble(compiled, q, v, p, plan.settings.strict, None, ask_light, None, whence)
+
+
+def _windings(mechanism: Mechanism, compiled: CompiledModel, last: LastState) -> tuple[float, ...]:
+    """Return the angles that count turns in the order of a model, as another run left them; empty where unknown."""
+    before = winding_order(mechanism, str((last.made or {}).get("shape", compiled.shape)))
+    left = dict(zip(before, last.windings, strict=False))
+    here = winding_order(mechanism, compiled.shape)
+    return tuple(left[m] for m in here) if len(last.windings) == len(before) == len(here) else ()
+
+
+def choice_after(plan: Plan, last: LastState) -> MethodChoice:
+    """Return the method of a run that goes on from another one, with the solver that light bodies chose there."""
+    if plan.solver_is_free and (last.made or {}).get("options", {}).get("solver") == "augmented":
+        return plan.choice.given(solver="augmented")
+    return plan.choice
+
+
+def _origin(last: LastState) -> str:
+    return f"goes on from t = {last.t:.6g} s of another run"
+
+
+def taken_up(compiled: CompiledModel, plan: Plan, last: LastState) -> Start | None:
+    """Return the start of a run that takes up what another one kept, None where that is of another making.
+
+    Parameters
+    ----------
+    compiled, plan : CompiledModel, Plan
+        Code and plan of the run.
+    last : LastState
+        Of the other run.
+    """
+    made = made_of(compiled, plan, plan.spec)
+    if last.arrays is None or last.other_than({key: x for key, x in made.items() if key != "events"}):
+        return None
+    memory = plan.integrator.setup(compiled, plan.spec, compiled.scratch()).memory
+    if not is_as_kept(compiled, memory, last.arrays):
+        return None
+    other = last.other_than(made)
+    y, p, w = (last.arrays[name] for name in ("y", "p", "w"))
+    arrays = {name: array for name, array in last.arrays.items() if name != "hunt" or not other}
+    words = f" with all that it kept but its events: {'; '.join(other)}" if other else ""
+    info, values = compiled.info, parameter_values(plan.mechanism, plan.parameters)
+    own = compiled.parameter_array(values, plan.method_parameters)[: len(values)]  # others are inputs alone
+    kept = (y[: info.ny].copy(), np.concatenate([own, p[len(values) :]]), w.copy(), last.rank, compiled.redundant(w))
+    return Start(*kept, (_origin(last) + words,), t=last.t, work=last.work_before, saved=arrays)

@@ -1,0 +1,78 @@
+"""Options of a run, by the names of the method and the integrator that they belong to."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from symgen.arguments import shown
+from symgen.compiling.pipeline import MethodChoice, choose_method
+from symgen.errors import InputError, nearest
+
+if TYPE_CHECKING:
+    from symgen.runtime.integrator import Integrator
+    from symgen.settings import Settings
+
+
+def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[str, float], dict[str, str]]:
+    """Return the method with structural options, its numeric parameters, and the integrator's options.
+
+    Keys are ``method.NAME`` or the method's own name, ``integrator.NAME`` or the integrator's own name.
+    """
+    base = choose_method(s.method).method
+    numeric = {p.name: p for p in base.parameters}
+    structural: dict[str, str] = {}
+    parameters: dict[str, float] = {}
+    integrator: dict[str, str] = {}
+    seen = set[tuple[bool, str]]()
+    for key, value in s.options.items():
+        owner, _, name = key.partition(".")
+        one = owner in ("method", base.name), name
+        if one in seen:
+            raise InputError(f"option {key}", "each option once", f"{name} by two names of its owner")
+        seen.add(one)
+        if one[0]:
+            if name in numeric:
+                parameters[name] = _number(key, value)
+                if parameters[name] < numeric[name].minimum:
+                    raise InputError(f"option {key}", f"at least {numeric[name].minimum:g}", f"{value}")
+            else:
+                structural[name] = str(value)
+        elif owner in ("integrator", tableau.name):
+            integrator[name] = _integrator_option(key, name, value, tableau)
+        else:
+            known_owners = ("method", base.name, "integrator", tableau.name)
+            raise InputError(
+                f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", nearest(owner, known_owners)
+            )
+    return choose_method(s.method, structural, not {"ode", "one-step"} & set(tableau.forms)), parameters, integrator
+
+
+def _integrator_option(key: str, name: str, value: str | float, integrator: Integrator) -> str:
+    """Return the checked text of an integrator's option: a switch or a number."""
+    numeric = {q.name: q for q in integrator.parameters}
+    if name in numeric:
+        q, number = numeric[name], _number(key, value)
+        if not q.minimum <= number <= q.maximum:
+            raise InputError(f"option {key}", f"from {q.minimum:g} to {q.maximum:g}", f"{value}")
+        return repr(number)
+    if integrator.adaptive and name == "adaptive" and str(value).lower() in ("true", "false"):
+        return str(value).lower()
+    known = [*numeric, *(("adaptive=true", "adaptive=false") if integrator.adaptive else ())]
+    raise InputError(
+        f"option {key}",
+        f"an option of {integrator.name}",
+        f"'{name}={value}'",
+        nearest(name, known) if known else "it has none",
+    )
+
+
+def _number(key: str, value: str | float) -> float:
+    """Return the number of an option, which a command gives as text."""
+    try:
+        number = float(value)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise InputError(f"option {key}", "a finite number", shown(value))
+    return number

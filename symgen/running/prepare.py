@@ -1,0 +1,245 @@
+"""The pipeline of a run: settings to a plan, a plan to code and a consistent start.
+
+    Settings --make_plan--> Plan --begin--> Prepared --integrate--> Outcome --build_result--> Result
+
+`prepare` lists the steps. Whoever needs a run, its start or its code calls it: single runs, steps from Python, rows of
+sweeps, comparisons, cells of stress studies, references, analyses, pages and commands.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from symgen.describe.evaluate import parameter_values
+from symgen.integrators._tableau import Tableau
+from symgen.running.automatic import AUTO, decide, facts_of, trial_of
+from symgen.running.continuation import continued
+from symgen.running.inputs import put_inputs
+from symgen.running.plan import Plan, Purpose, resolved
+from symgen.running.starts import begun
+from symgen.running.tree import TreeRun, on_tree_of, tree_taken_up
+from symgen.runtime.run import integrate
+from symgen.runtime.simulation import Simulation
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from symgen.describe.mechanism import Mechanism
+    from symgen.runtime.assembly import Start
+    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.outcome import Outcome
+    from symgen.runtime.run import Array, RunSpec
+    from symgen.settings import Settings
+
+
+@dataclass(frozen=True)
+class Assembled:
+    """Code and consistent start of a run.
+
+    Attributes
+    ----------
+    compiled, start : CompiledModel, Start
+        In the coordinates of the state.
+    tree : TreeRun or None
+        What carries joints to bodies where the state is that of joints.
+    """
+
+    compiled: CompiledModel
+    start: Start
+    tree: TreeRun | None = None
+
+    @property
+    def of_bodies(self) -> tuple[CompiledModel, Start]:
+        """Code and start in the coordinates of bodies."""
+        return (self.compiled, self.start) if self.tree is None else (self.tree.bodies, self.tree.body_start)
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A run that can begin.
+
+    Attributes
+    ----------
+    plan : Plan
+        Settings, resolved.
+    assembled : Assembled
+        Code and consistent start.
+    spec : RunSpec
+        Steps, tolerances, limits and outputs, with the functions of events and switches.
+    """
+
+    plan: Plan
+    assembled: Assembled
+    spec: RunSpec
+
+    @property
+    def compiled(self) -> CompiledModel:
+        """Code in the coordinates of the state."""
+        return self.assembled.compiled
+
+    @property
+    def start(self) -> Start:
+        """Consistent start in the coordinates of the state."""
+        return self.assembled.start
+
+    @property
+    def tree(self) -> TreeRun | None:
+        """What carries joints to bodies, None where the state is that of bodies."""
+        return self.assembled.tree
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism, with its tree where the state is that of joints."""
+        return self.plan.mechanism if self.tree is None else self.tree.mechanism
+
+    def with_spec(self, **changes: Any) -> Prepared:
+        """Return the same run with other steps, tolerances, limits or outputs."""
+        return replace(self, spec=replace(self.spec, **changes))
+
+    def simulation(self) -> Simulation:
+        """Return the run as arrays that a loop works on."""
+        return Simulation(self.compiled, self.plan.integrator, self.start, self.spec)
+
+    def integrate(self, progress: Callable[[float], None] | None = None, start: Start | None = None) -> Outcome:
+        """Integrate, and return what the loop leaves behind, in the coordinates of the state.
+
+        Parameters
+        ----------
+        progress : callable, optional
+            Called about ten times a second with the time reached.
+        start : Start, optional
+            Another start.
+        """
+        return integrate(self.compiled, self.plan.integrator, start or self.start, self.spec, progress)
+
+    def of_bodies(self, outcome: Outcome) -> Outcome:
+        """Return an outcome of `integrate` in the coordinates of bodies."""
+        return outcome if self.tree is None else self.tree.carried(outcome)
+
+    def positions(self, outcome: Outcome) -> Array:
+        """Return the coordinates of bodies at the outputs of `integrate`, shape (k, nq)."""
+        return outcome.states[:, : self.compiled.info.nq] if self.tree is None else self.tree.positions(outcome)
+
+
+def prepare(
+    mechanism: Mechanism, settings: Settings, purpose: Purpose = Purpose.MOTION, near: Array | None = None
+) -> Prepared:
+    """Make a run ready: resolve its settings, compile its code, close its start.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    settings : Settings
+        The settings of the run.
+    purpose : Purpose
+        What the run is made ready for.
+    near : array, optional
+        Coordinates that the mechanism is closed from; the described ones by default.
+
+    Raises
+    ------
+    InputError
+        If a setting is wrong or the start is refused.
+    AssemblyError
+        If the mechanism cannot be closed.
+    """
+    plan, assembled = decided(mechanism, settings, purpose, near)
+    _compile_loop(plan)
+    assembled = assembled or assemble(plan, near)
+    return begin(plan, assembled)
+
+
+def make_plan(mechanism: Mechanism, settings: Settings, purpose: Purpose = Purpose.MOTION) -> Plan:
+    """Resolve and check the settings of a run; parameters as for `prepare`.
+
+    Raises
+    ------
+    InputError
+        If a setting is wrong.
+    AssemblyError
+        If an automatic choice needs the start, and the mechanism cannot be closed.
+    """
+    return decided(mechanism, settings, purpose)[0]
+
+
+def decided(
+    mechanism: Mechanism, settings: Settings, purpose: Purpose, near: Array | None = None
+) -> tuple[Plan, Assembled | None]:
+    """Return the plan of a run, and its code and start where an automatic choice has made them.
+
+    Parameters
+    ----------
+    mechanism, settings, purpose, near
+        As for `prepare`.
+    """
+    inputs = put_inputs(mechanism, settings)
+    mechanism, settings = inputs.mechanism, inputs.settings
+    if AUTO not in (settings.method, settings.integrator):
+        return resolved(inputs, settings, purpose), None
+    trial = trial_of(mechanism, settings)
+    plan = resolved(inputs, trial, purpose)
+    assembled = assemble(plan, near)
+    facts = facts_of(mechanism, *assembled.of_bodies, plan.spec.until)
+    _, integrator, notes = decide(facts, settings.method, settings.integrator)
+    plan = resolved(inputs, replace(trial, integrator=integrator), purpose, notes)
+    return plan, assembled if integrator == trial.integrator else None
+
+
+def assemble(plan: Plan, near: Array | None = None) -> Assembled:
+    """Compile the code of a plan and close its start.
+
+    Parameters
+    ----------
+    plan : Plan
+        The run.
+    near : array, optional
+        Coordinates that the mechanism is closed from; the described ones by default.
+
+    Raises
+    ------
+    InputError, AssemblyError
+        If the start is refused, or the mechanism cannot be closed.
+    """
+    joint = plan.coordinates == "joint"
+    tree = tree_taken_up(plan, plan.last) if joint and plan.last is not None else None
+    if tree is None:
+        bodies = begun(plan, near) if plan.last is None else continued(plan, plan.last)
+        if not joint:
+            return Assembled(*bodies)
+        tree = on_tree_of(plan, *bodies)
+    return Assembled(tree.compiled, tree.start, tree)
+
+
+def begin(plan: Plan, assembled: Assembled) -> Prepared:
+    """Return a run from its plan, its code and its start, which runs with an equal `Plan.key` may share."""
+    start = replace(assembled.start, notes=(*plan.notes, *plan.bound, *assembled.start.notes))
+    run = Prepared(plan, replace(assembled, start=start), plan.spec)
+    return run if plan.purpose is Purpose.STATE else replace(run, spec=_watching(run))
+
+
+def _compile_loop(plan: Plan) -> None:
+    """Have a second process compile the loop of a run, where that takes longer than the code of a mechanism."""
+    if plan.purpose is not Purpose.MOTION:
+        return
+    from symgen.runtime.hunting import with_events
+    from symgen.store import ahead
+
+    loop = plan.integrator.loop(plan.spec.adaptive)
+    ahead.start(with_events(loop) if plan.events else loop)
+
+
+def _watching(run: Prepared) -> RunSpec:
+    """Return what a run is to do, with the functions of its events and of the switches that steps end at."""
+    plan, mechanism, compiled, events = run.plan, run.mechanism, run.compiled, None
+    if plan.events:
+        from symgen.compiling.events import compile_events
+
+        events = compile_events(mechanism, compiled, plan.events, parameter_values(mechanism, plan.parameters))
+    spec = replace(plan.spec, pieces=plan.pieces, events=events)
+    if not spec.adaptive:
+        return spec
+    from symgen.compiling.knots import with_looks
+
+    return with_looks(mechanism, compiled, spec, isinstance(plan.integrator, Tableau))

@@ -1,0 +1,160 @@
+"""The consistent start of a run in the coordinates of bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symgen.compiling.integrals import with_integrals
+from symgen.compiling.pipeline import compile_model
+from symgen.describe.evaluate import parameter_values, scalars
+from symgen.describe.holds import ORIENTATION, holds_of
+from symgen.describe.moved import moved
+from symgen.describe.sides import wrong_sides
+from symgen.describe.start import described_start
+from symgen.runtime.assembly import Start, assemble
+from symgen.runtime.held import Held
+from symgen.runtime.model_arrays import velocity_of
+from symgen.runtime.start_words import half_turn, opposite
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from symgen.compiling.pipeline import MethodChoice
+    from symgen.describe.mechanism import Hold, Mechanism
+    from symgen.describe.numbers import Scalars
+    from symgen.running.plan import Plan
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
+
+
+def start_of(
+    mechanism: Mechanism,
+    compiled: CompiledModel,
+    parameters: Mapping[str, float] | None = None,
+    method_parameters: Mapping[str, float] | None = None,
+    strict: bool = False,
+    held: Held | Sequence[Hold] | None = None,
+    ask_light: bool = False,
+    near: NDArray[np.float64] | None = None,
+) -> Start:
+    """Return the consistent start of a run.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    compiled : CompiledModel
+        Its compiled form for a method.
+    parameters, method_parameters : mapping, optional
+        Values of parameters that differ from the described ones, and from the method's defaults.
+    strict, ask_light
+        See `symgen.runtime.assembly.assemble`.
+    held : Held or sequence of Hold, optional
+        What is kept while everything else moves; what the description holds by default.
+    near : array, optional
+        Coordinates that the mechanism is closed from; those that are described by default.
+
+    Raises
+    ------
+    AssemblyError
+        If the mechanism cannot be closed, or a joint closes the wrong way round.
+    InputError
+        If the start is refused; see `symgen.runtime.assembly.assemble`.
+    """
+    values = parameter_values(mechanism, parameters)
+    numbers = scalars(values)
+    q, v = described_start(mechanism, numbers)
+    if near is not None:
+        q = [float(x) for x in near]
+    if not isinstance(held, Held):
+        held = held_of(compiled.info, holds_of(mechanism) if held is None else held, numbers, v)
+    p = compiled.parameter_array(values, method_parameters or {})
+    moves = partial(moved, mechanism, numbers)
+    return _sided(mechanism, compiled.info, assemble(compiled, np.array(q), v, p, strict, held, ask_light, moves))
+
+
+def _sided(mechanism: Mechanism, info: ModelInfo, start: Start) -> Start:
+    """Return a start with warnings where axes point opposite ways; refuse one that holds a body the wrong way round."""
+    lines = list[str]()
+    for joint, held in wrong_sides(mechanism, start.y.tolist()):
+        if held:
+            raise half_turn(info, joint).stopped_at(start.y.tolist())
+        lines.append(opposite(joint))
+    return replace(start, warnings=(*start.warnings, *lines)) if lines else start
+
+
+def held_of(info: ModelInfo, holds: Sequence[Hold], numbers: Scalars, v: Sequence[float | None]) -> Held:
+    """Return what is held by index.
+
+    Parameters
+    ----------
+    info : ModelInfo
+        The model.
+    holds : sequence of Hold
+        From `symgen.describe.holds.holds_of`.
+    numbers : Scalars
+        What formulas stand for.
+    v : sequence of float or None
+        Given velocities.
+    """
+    coordinates = {quantity.name: i for i, quantity in enumerate(info.coordinates)}
+    velocities = {quantity.name: j for j, quantity in enumerate(info.velocities)}
+    joints = {quantity.name: k for k, quantity in enumerate(info.joint_coordinates)}
+    spins = {f"{info.coordinates[first].name.partition('.')[0]}.{ORIENTATION}": at for first, at in info.spins}
+    values, speeds, places, rates = dict[int, float](), dict[int, float](), dict[int, float](), dict[int, float]()
+    fixed = list[int]()
+    for hold in holds:
+        name, value = hold.name, None if hold.value is None else numbers.value(hold.value, f"start '{hold.name}'")
+        if name in coordinates and value is None:
+            fixed.append(velocity_of(coordinates[name], info))
+        elif name in coordinates:
+            values[coordinates[name]] = float(value or 0.0)
+        elif name in velocities:
+            given = v[velocities[name]] if value is None else value
+            speeds[velocities[name]] = float(given or 0.0)
+        elif name in spins:
+            fixed += range(spins[name], spins[name] + 3)
+        else:
+            of, rate = name.removesuffix(".rate"), name.endswith(".rate")
+            (rates if rate else places)[joints[of]] = float(value or 0.0)
+    return Held(values, speeds, tuple(fixed), places, rates)
+
+
+def compiled_for(mechanism: Mechanism, choice: MethodChoice) -> CompiledModel:
+    """Return the compiled model of a run: with integrals behind the work, where outputs have some."""
+    return with_integrals(mechanism, compile_model(mechanism, choice))
+
+
+def begun(plan: Plan, near: NDArray[np.float64] | None = None) -> tuple[CompiledModel, Start]:
+    """Compile a plan for the coordinates of bodies and close the mechanism.
+
+    Where light bodies spoil the elimination of v' and the plan leaves the choice, the same law is solved with
+    M + W D^T D instead, and a note says so.
+
+    Parameters
+    ----------
+    plan : Plan
+        The run.
+    near : array, optional
+        Coordinates that the mechanism is closed from.
+    """
+    free = plan.solver_is_free
+    compiled = compiled_for(plan.mechanism, plan.choice)
+    start = _start_of_plan(plan, compiled, free, near)
+    if not start.light:
+        return compiled, start
+    compiled = compiled_for(plan.mechanism, plan.choice.given(solver="augmented"))
+    start = _start_of_plan(plan, compiled, False, near)
+    note = "light bodies make D M^-1 D^T nearly singular: accelerations are solved with M + W D^T D"
+    return compiled, replace(start, notes=(*start.notes, note))
+
+
+def _start_of_plan(plan: Plan, compiled: CompiledModel, ask_light: bool, near: NDArray[np.float64] | None) -> Start:
+    given = plan.parameters, plan.method_parameters, plan.settings.strict
+    return start_of(plan.mechanism, compiled, *given, plan.holds, ask_light, near)

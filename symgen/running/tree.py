@@ -1,0 +1,346 @@
+"""Runs in joint coordinates: the start of bodies as a start of joints, and the motion of joints as one of bodies.
+
+A run in joint coordinates begins where one in the bodies' own coordinates does: both are assembled in those, so that
+what is held, noted and refused is the same. What it gives is carried back to the bodies, where results, reactions,
+violations and outputs are read as of any other run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.compiling.carrying import carrying_of
+from symgen.compiling.choose_tree import on_tree
+from symgen.describe.mechanism import Topology
+from symgen.describe.topology import known_coordinates
+from symgen.lower.windings import winding_order
+from symgen.running.continuation import choice_after, taken_up
+from symgen.running.starts import compiled_for
+from symgen.runtime import abi
+from symgen.runtime.assembly import Start
+from symgen.runtime.joint_starts import joint_values
+from symgen.runtime.outcome import Outcome
+from symgen.runtime.probe import Ready
+from symgen.runtime.start_words import turned_over
+from symgen.runtime.tree_start import Carrying, settle_tree, turned_by_tree
+
+if TYPE_CHECKING:
+    from symgen.compiling.pipeline import MethodChoice
+    from symgen.describe.mechanism import Event, Mechanism
+    from symgen.running.plan import Plan
+    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.events import Happening, Watched
+    from symgen.runtime.last_state import LastState
+
+Array = NDArray[np.float64]
+
+#: What both descriptions of a motion measure alike, taken over from the run.
+_SCALES = (abi.LENGTH, abi.SPEED, abi.MEAN_MASS)
+
+#: What is kept of bodies for a run that goes on: state, parameters, scratch, and the rank at the start of the tree.
+_BODIES = ("body_y", "body_p", "body_w", "tree_rank")
+
+
+@dataclass(frozen=True)
+class TreeRun:
+    """A run in joint coordinates, and what carries it to bodies.
+
+    Attributes
+    ----------
+    whole, mechanism : Mechanism
+        As described, and with its tree.
+    compiled, start : CompiledModel, Start
+        In joint coordinates.
+    bodies : CompiledModel
+        In the bodies' own.
+    body_start : Start
+        Where the same run would begin there.
+    events : tuple of Event
+        That are looked for.
+    watched : callable, optional
+        Returns them as bodies have them, where many runs share that.
+    """
+
+    whole: Mechanism
+    mechanism: Mechanism
+    compiled: CompiledModel
+    start: Start
+    bodies: CompiledModel
+    body_start: Start
+    events: tuple[Event, ...] = ()
+    watched: Callable[[], Watched | None] | None = None
+
+    @property
+    def topology(self) -> Topology:
+        """The tree."""
+        assert self.mechanism.topology is not None, "the mechanism has a tree"
+        return self.mechanism.topology
+
+    # -- the motion of bodies ------------------------------------------------------------------------------------------
+
+    def positions(self, outcome: Outcome) -> Array:
+        """Return the coordinates of bodies at the outputs, shape (k, nq)."""
+        return self._moving(outcome)[:, : self.bodies.info.nq]
+
+    def carried(self, outcome: Outcome) -> CarriedOutcome:
+        """Return what a run gave as the motion of bodies."""
+        info, own = self.bodies.info, self.compiled.info
+        moving = self._moving(outcome)
+        k, n = len(outcome.times), info.nq + info.nv
+        states = np.zeros((k, info.ny))
+        states[:, :n] = moving[:, :n]
+        states[:, n:] = outcome.states[:, own.work :]
+        status = np.zeros((k, abi.N_STATUS + info.windings))
+        status[:, : abi.N_STATUS] = outcome.status_columns[:, : abi.N_STATUS]
+        # the joints of the tree hold by construction: their rows count as independent
+        status[:, abi.RANK] += self.body_start.rank - self.start.rank
+        for i, turned in enumerate(self._turns(outcome.states, outcome.status_columns[:, abi.N_STATUS :])):
+            status[:, abi.N_STATUS + i] = turned
+        w = self.body_start.w.copy()
+        w[list(_SCALES)] = outcome.w[list(_SCALES)]
+        for i in range(info.windings):
+            w[abi.WINDING + i] = status[-1, abi.N_STATUS + i] if k else w[abi.WINDING + i]
+        values = {f.name: getattr(outcome, f.name) for f in fields(Outcome)}
+        start = replace(self.body_start, notes=outcome.start.notes)
+        values |= {"states": states, "status_columns": status, "compiled": self.bodies, "start": start}
+        values |= {"p": self._parameters(outcome.p), "w": w, "happened": self._happened(outcome)}
+        values["held"] = tuple((t, self._parameters(numbers)) for t, numbers in outcome.held)
+        last = outcome.simulation.state.y
+        end = self._of_bodies(outcome.end, last, outcome.p)
+        return CarriedOutcome(**values, inner=outcome, end_state=end, work=last[own.work], tree=self)
+
+    def kept(self, outcome: CarriedOutcome) -> dict[str, NDArray[Any]]:
+        """Return what a run leaves for another one to go on from, beside what its loop kept."""
+        y = self.body_start.y.copy()
+        y[: self.bodies.info.work] = outcome.end_state
+        rank = np.array([self.start.rank])
+        return dict(zip(_BODIES, (y, outcome.p.copy(), outcome.w.copy(), rank), strict=True))
+
+    def _happened(self, outcome: Outcome) -> tuple[Happening, ...]:
+        """Return the events of a run as those of bodies; the impulses of resets are those of all rows of these."""
+        found: list[Happening] = []
+        struck = dict[int, tuple[Array, Array]]()
+        numbers = {event.name: i for i, event in enumerate(self.events)}
+        watched = None
+        for event in outcome.happened:
+            p = next((own for until, own in outcome.held if event.t <= until), outcome.p)
+            state = self._of_bodies(event.t, event.state, p)
+            if event.after is None or event.impulses is None:
+                found.append(replace(event, state=state))
+                continue
+            if watched is None:
+                watched = self._of_run(p)
+            if id(event.impulses) not in struck:  # resets at the same time share what they do
+                together = [numbers[x.name] for x in outcome.happened if x.impulses is event.impulses]
+                struck[id(event.impulses)] = self._struck(watched, together, event, state, p)
+            after, impulses = struck[id(event.impulses)]
+            found.append(replace(event, state=state, after=after, impulses=impulses))
+        return tuple(found)
+
+    def _of_run(self, p: Array) -> Watched:
+        """Return the events as bodies have them, with the masses of some parameters."""
+        from symgen.compiling.events import compile_events, masses_of
+
+        values = dict(zip((x.name for x in self.bodies.info.parameters), p.tolist(), strict=False))
+        if self.watched is None:
+            found = compile_events(self.whole, self.bodies, self.events, values)
+        else:
+            found = self.watched()
+        assert found is not None, "there are events"
+        return replace(found, masses=masses_of(self.whole, values))
+
+    def _struck(
+        self, watched: Watched, numbers: Sequence[int], event: Happening, state: Array, p: Array
+    ) -> tuple[Array, Array]:
+        """Return velocities of bodies after a reset, and the impulses of their rows and of what was given."""
+        assert event.after is not None, "it is a reset"
+        own, info = self.compiled.info, self.bodies.info
+        after = self._of_bodies(event.t, np.concatenate([event.state[: own.nq], event.after]), p)[info.nq :]
+        y = np.zeros(info.ny)
+        y[: info.work] = state
+        blow = watched.impact(self.bodies, numbers, event.t, y, self._parameters(p), self.body_start.w.copy())
+        return after, blow.impulses
+
+    def _parameters(self, numbers: Array) -> Array:
+        """Return the parameters of a piece of the run as the code for bodies takes them, prepared."""
+        p = self.body_start.p.copy()
+        count = len(self.bodies.info.parameters)
+        if np.array_equal(p[:count], numbers[:count]):
+            return p
+        p[:count] = numbers[:count]
+        self.bodies.prepare(p)
+        return p
+
+    @cached_property
+    def _signs(self) -> Array:
+        """What makes the Euler parameters of bodies, of two signs, go on from those of the start: 1 or -1 each."""
+        info = self.bodies.info
+        found, signs = self._raw(self.start.t, self.start.y, self.start.p), np.ones(info.nq)
+        for first, _ in info.spins:
+            if found[first : first + 4] @ self.body_start.y[first : first + 4] < 0.0:
+                signs[first : first + 4] = -1.0
+        return signs
+
+    def _moving(self, outcome: Outcome) -> Array:
+        info = self.bodies.info
+        found = outcome.observed(self.compiled.model.bodies, info.nq + 2 * info.nv)
+        found[:, : info.nq] *= self._signs
+        return found
+
+    def _of_bodies(self, t: float, y: Array, p: Array) -> Array:
+        """Return coordinates and velocities of bodies at one state."""
+        found = self._raw(t, y, p)
+        found[: self.bodies.info.nq] *= self._signs
+        return found
+
+    @cached_property
+    def over(self) -> int:
+        """Which of the bodies that turn in space would start turned over, -1 where none."""
+        info, began = self.bodies.info, self.start
+        return turned_by_tree(info, self.body_start.y, self._raw(began.t, began.y, began.p)) if info.spins else -1
+
+    def _raw(self, t: float, y: Array, p: Array) -> Array:
+        own, info = self.compiled.info, self.bodies.info
+        state, out = np.zeros(own.ny), np.zeros(info.nq + 2 * info.nv)
+        state[: own.work] = y[: own.work]
+        observe = Ready(self.compiled.model.bodies, abi.OBSERVE)
+        observe(t, state, p, self.start.w.copy(), np.zeros(own.ny), out)
+        return out[: info.nq + info.nv]
+
+    def _turns(self, states: Array, windings: Array) -> list[Array]:
+        """Return the angles that count turns as the code for bodies remembers them, at the outputs."""
+        known = known_coordinates(self.mechanism, self.topology)
+        own = {m: i for i, m in enumerate(winding_order(self.mechanism, "straight"))}
+        found = list[Array]()
+        for measure in winding_order(self.whole, self.bodies.shape):
+            if measure in known:
+                i, _, sign = known[measure]
+                found.append(sign * states[:, i])
+            else:
+                found.append(windings[:, own[measure]])
+        return found
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class CarriedOutcome(Outcome):
+    """What a run in joint coordinates gave, as the motion of bodies.
+
+    Attributes
+    ----------
+    inner : Outcome
+        What its loop left.
+    end_state : Array, shape (nq + nv,)
+        Coordinates and velocities of bodies in the last state that was accepted.
+    work : float
+        Work done until there [J].
+    tree : TreeRun
+        The run.
+    """
+
+    inner: Outcome = field(repr=False)
+    end_state: Array = field(repr=False)
+    work: float
+    tree: TreeRun = field(repr=False)
+
+
+def on_tree_of(plan: Plan, bodies: CompiledModel, start: Start) -> TreeRun:
+    """Return the run in joint coordinates that begins where a run in coordinates of bodies begins.
+
+    Parameters
+    ----------
+    plan : Plan
+        The run.
+    bodies, start : CompiledModel, Start
+        In the bodies' own coordinates.
+
+    Raises
+    ------
+    AssemblyError
+        If a body of the tree would start turned over.
+    """
+    carried = tree_code(plan.mechanism, plan.choice, bodies)
+    run = begin_on_tree(plan.mechanism, *carried, bodies, start, plan.method_parameters, plan.events)
+    if run.over >= 0:
+        raise turned_over(bodies.info, run.over)
+    return run
+
+
+def tree_code(mechanism: Mechanism, choice: MethodChoice, bodies: CompiledModel) -> tuple[Mechanism, CompiledModel]:
+    """Return a mechanism with its tree, and its compiled model for the method that bodies are run with.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    choice : MethodChoice
+        The method.
+    bodies : CompiledModel
+        In the bodies' own coordinates; its solver is the tree's.
+    """
+    carried = on_tree(mechanism)
+    weight = {name: value for name, value in choice.options.items() if name == "weight"}
+    return carried, compiled_for(carried, replace(choice, options={**bodies.law.options, **weight}, shape="straight"))
+
+
+def begin_on_tree(
+    mechanism: Mechanism,
+    carried: Mechanism,
+    compiled: CompiledModel,
+    bodies: CompiledModel,
+    start: Start,
+    method_parameters: Mapping[str, float],
+    events: tuple[Event, ...] = (),
+    carrying: Carrying | None = None,
+    watched: Callable[[], Watched | None] | None = None,
+) -> TreeRun:
+    """Return what a run in joint coordinates begins with, from a start of bodies.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    carried, compiled : Mechanism, CompiledModel
+        From `tree_code`.
+    bodies, start : CompiledModel, Start
+        In the bodies' own coordinates.
+    method_parameters : mapping
+        Values of the method's parameters that differ from the defaults.
+    events : tuple of Event
+        That are looked for.
+    carrying, watched : Carrying and callable, optional
+        From `carrying_of`, and as in `TreeRun`, where many runs share them.
+    """
+    info, own = bodies.info, compiled.info
+    at = carrying_of(mechanism, carried, bodies, compiled) if carrying is None else carrying
+    values = joint_values(bodies, start.t, start.y, start.p, start.w.copy())
+    p = compiled.parameter_array(dict(zip((x.name for x in info.parameters), start.p, strict=False)), method_parameters)
+    y = np.zeros(own.ny)
+    y[: own.work] = [values[i - info.m] if joint else start.y[i] for joint, i in at.places.reshape(-1, 2)]
+    y[own.work :] = start.y[info.work :]
+    gauge = np.where(at.gauges < 0, 1.0, start.w[at.gauges])
+    scales = float(start.w[abi.LENGTH]), float(start.w[abi.SPEED]), gauge
+    w, rank, redundant = settle_tree(compiled, y, p, start.t, start.w[at.windings], scales)
+    notes = start.notes, start.changes, start.light, start.warnings
+    found = Start(y, p, w, rank, redundant, *notes, t=start.t, work=start.work)
+    return TreeRun(mechanism, carried, compiled, found, bodies, start, events, watched)
+
+
+def tree_taken_up(plan: Plan, last: LastState) -> TreeRun | None:
+    """Return a run that takes up what another one in the same coordinates kept, None where there is none."""
+    if last.arrays is None or not {*_BODIES} <= {*last.arrays}:
+        return None
+    bodies = compiled_for(plan.mechanism, choice_after(plan, last))
+    carried, compiled = tree_code(plan.mechanism, plan.choice, bodies)
+    start = taken_up(compiled, plan, last)
+    if start is None or last.arrays["body_w"].shape != bodies.scratch().shape:
+        return None
+    y, p, w, rank = (last.arrays[name].copy() for name in _BODIES)
+    of_bodies = Start(y, p, w, last.rank, bodies.redundant(w), start.notes, t=last.t, work=last.work_before)
+    start = replace(start, rank=int(rank[0]))
+    return TreeRun(plan.mechanism, carried, compiled, start, bodies, of_bodies, plan.events)
