@@ -1,4 +1,4 @@
-"""Events of a run as functions that loops take."""
+"""Events of a run, and what its formulas compare over the state, as functions that loops take."""
 
 from __future__ import annotations
 
@@ -10,27 +10,51 @@ from numpy.typing import NDArray
 
 from symgen.compiling.side import compile_side
 from symgen.describe.evaluate import evaluate
+from symgen.describe.kinks import Discontinuity, discontinuities_of
 from symgen.describe.mechanism import Event, Mechanism, SpatialBody
 from symgen.describe.printer import to_text
+from symgen.ir.interpolation import Interpolation
 from symgen.runtime.abi import OBSERVE
 from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.events import Watched
+from symgen.runtime.events import Switch, Watched
 from symgen.runtime.probe import Ready
 from symgen.runtime.resets import Masses, Reset, linear_in_v
 
 Array = NDArray[np.float64]
 
+#: Which derivative of a table jumps at its points.
+_KINKS = {"linear": 1, "pchip": 2, "cubic": 3}
 _DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
 
 
 def compile_events(
-    mechanism: Mechanism, compiled: CompiledModel, events: Sequence[Event], values: Mapping[str, float]
+    mechanism: Mechanism,
+    compiled: CompiledModel,
+    events: Sequence[Event],
+    values: Mapping[str, float],
+    rtol: float | None = None,
 ) -> Watched | None:
-    """Return events as loops take them, None where there are none; `values` are those of the parameters."""
-    if not events:
+    """Return the switching functions of a run, None where there are none.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    compiled : CompiledModel
+        Model and method.
+    events : sequence of Event
+        Events of the run.
+    values : mapping of str to float
+        Values of the parameters.
+    rtol : float, optional
+        Tolerance of adaptive steps, which end where formulas jump or have kinks over the state; constant steps do not.
+    """
+    passed = () if rtol is None else discontinuities_of(mechanism)
+    if not (events or passed):
         return None
-    conditions = [(f"{event.name}: {event.text}", event.when) for event in events]
-    side = compile_side(mechanism, compiled, "events", "Switching functions of events", conditions, 1)
+    functions = [(f"{event.name}: {event.text}", event.when) for event in events]
+    functions += [(to_text(x.argument), x.argument) for x in passed]
+    side = compile_side(mechanism, compiled, "events", "Switching functions", functions, 1, bool(passed))
     resets = {}
     for i, event in enumerate(events):
         if event.reset:
@@ -46,7 +70,45 @@ def compile_events(
         needs_rates="ydot" in side.reads,
         resets=resets,
         masses=masses_of(mechanism, values) if resets else None,
+        switches=tuple(switch_of(x, rtol or 0.0) for x in passed),
+        jumps=any(x.jumps for x in passed),
     )
+
+
+def switch_of(passed: Discontinuity, rtol: float) -> Switch:
+    """Return a discontinuity as loops take it.
+
+    A stage at the end of a step of which a part x is behind a kink of the k-th derivative is off by the k-th power of
+    x, which may be `rtol`. Points of a table that matter less than `rtol` are left out: many of these together are a
+    smooth curve, which the error estimate sees.
+    """
+    table = passed.table
+    if table is None:
+        return Switch() if passed.jumps else Switch(rtol, (0.0,))
+    period = table.x[-1] - table.x[0] if table.periodic else 0.0
+    own = table.x[:-1] if table.periodic else table.x
+    points = tuple(x for x, size in zip(own, sizes_of_kinks(table.interpolated), strict=False) if size > rtol)
+    return Switch(rtol ** (1.0 / _KINKS[table.interpolation]), points, period if points else 0.0)
+
+
+def sizes_of_kinks(curve: Interpolation) -> tuple[float, ...]:
+    """Return how far both sides of each point of a table part within the shorter piece, over the range of values."""
+    x, y, n = np.array(curve.x), np.array(curve.y), len(curve.x)
+    gaps = np.diff(x)
+    if curve.pieces:
+        (_, *before), (_, *after) = (np.array(curve.pieces[k : n + k]).T for k in (0, 1))
+        u = np.concatenate([[0.0], gaps])
+        b1, b2, b3 = before
+        parts = [after[0] - (b1 + u * (2.0 * b2 + u * (3.0 * b3))), after[1] - (b2 + 3.0 * u * b3), after[2] - b3]
+    else:
+        slopes = np.concatenate([[0.0], np.diff(y) / gaps, [0.0]])
+        parts = [np.diff(slopes)]
+    h = np.minimum(np.concatenate([gaps[:1], gaps]), np.concatenate([gaps, gaps[-1:]]))
+    total = np.zeros(n)
+    for k, part in enumerate(parts, 1):
+        total += np.abs(part) * h**k
+    span = float(np.ptp(y))
+    return tuple((total / span).tolist()) if span > 0.0 else (0.0,) * n
 
 
 def masses_of(mechanism: Mechanism, values: Mapping[str, float]) -> Masses:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import msgspec
@@ -20,6 +21,7 @@ _SIDES = ("lt", "le", "gt", "ge", "sign")
 #: What compares something with zero, or two values with each other, and what is written there.
 _COMPARED = (*_SIDES, *BENT)
 _CHANGING = [name.encode() for name in _COMPARED]
+_PASSING = [*_CHANGING, b"table:"]
 
 
 def kinks_of(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[Jump, ...]:
@@ -71,31 +73,49 @@ def _in_time(
     return tuple(found)
 
 
-def knots_of(mechanism: Mechanism) -> tuple[tuple[Expr, Table | None], ...]:
-    """Return what passes points with kinks as the state does, each argument before its table.
+@dataclass(frozen=True)
+class Discontinuity:
+    """Where formulas of joints, forces and integrals jump or have kinks as the state passes something.
 
-    Those are tables of joints, forces and integrals that are read over the state, and, without a table, what `abs`,
-    `min` and `max` compare with zero. An integrand acts on nothing, so that a dip of it between two evaluations is seen
-    by no other error. Arguments are formulas of a run: what forces call ``s`` and ``rate`` is read of their measures.
+    Attributes
+    ----------
+    argument : Expr
+        A formula of a run.
+    table : Table or None
+        The table whose points it passes; None where it is compared with zero.
+    jumps : bool
+        Whether a formula may jump there, and not only have a kink.
+    """
+
+    argument: Expr
+    table: Table | None = None
+    jumps: bool = False
+
+
+def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
+    """Return where formulas jump or have kinks as the state passes something, each argument once a table.
+
+    Comparisons and `sign` jump; `abs`, `min`, `max` and tables at their points have kinks. An integrand acts on
+    nothing, so that a dip of it between two evaluations is seen by no other error. What forces call ``s`` and ``rate``
+    is read of their measures.
     """
     tables = {table.name: table for table in mechanism.tables if len(table.x) <= MOST_KNOTS}
 
-    def read(e: Call) -> Expr | None:
-        if e.function in BENT:
+    def passing(e: Call) -> Expr | None:
+        if e.function in _COMPARED:
             return compared(e)
         return e.arguments[0] if (table_of(e.function) or "") in tables else None
 
-    found = [(argument, tables.get(table_of(e.function) or "")) for e, argument in _over_state(mechanism, _WORDS, read)]
-    return tuple(dict.fromkeys(sorted(found, key=lambda pair: pair[1] is None)))
+    found = dict[tuple[Expr, Table | None], bool]()
+    for e, argument in _over_state(mechanism, _PASSING, passing):
+        key = argument, tables.get(table_of(e.function) or "")
+        found[key] = found.get(key, False) or e.function in _SIDES
+    return tuple(Discontinuity(*key, jumps) for key, jumps in found.items())
 
 
-def switches_of(mechanism: Mechanism) -> tuple[Expr, ...]:
-    """Return what formulas of joints, forces and integrals compare with zero and what depends on the state, each once.
-
-    That is what comparisons and `sign` pass as a jump, and `abs`, `min` and `max` as a kink. Arguments are formulas of
-    a run, as those of `knots_of`.
-    """
-    return tuple(dict.fromkeys(argument for _, argument in _over_state(mechanism, _CHANGING, _compared)))
+def compares_state(mechanism: Mechanism) -> bool:
+    """Return whether formulas of joints, forces or integrals compare something that depends on the state."""
+    return any(_over_state(mechanism, _CHANGING, _compared))
 
 
 def jumps_over_state(mechanism: Mechanism) -> bool:

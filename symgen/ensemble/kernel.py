@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compiling.knots import with_looks
 from symgen.ensemble.chunks import Chunk, Results
 from symgen.ensemble.lanes import run_in_lanes
 from symgen.ensemble.recipe import Code, Recipe
@@ -57,7 +56,6 @@ class _Prepared:
     on_tree: _Prepared | None = None
     picks: Integers | None = None
     width: int | None = None
-    looks: RunSpec | None = None
 
 
 @dataclass
@@ -230,12 +228,6 @@ class Kernel:
                 return False
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
         loop, system = self.integrator.rows(recipe.spec.adaptive), (sizes, *model.setup.functions)
-        if model.looks is not None:
-            from symgen.runtime.looks import looking
-            from symgen.runtime.rows import that_look
-
-            loop = that_look(loop)
-            system, _ = looking(model.compiled, model.setup, model.looks, system, state)
         done = loop((system, (sizes, *rates, law.accept, seen)), model.setup.scheme, span, chunk, state, kept)
         return bool(done == len(chunk.selected))
 
@@ -265,8 +257,6 @@ class Kernel:
             device=self._device_runs(other, setup) if other is not None and recipe.target == "cuda" else None,
             lanes=other if recipe.target == "lanes" else None,
         )
-        if recipe.singly is None and recipe.looks is not None:
-            prepared.looks = with_looks(recipe.looks, compiled, recipe.spec)
         if recipe.singly is not None:
             from symgen.ensemble.singly import SingleRuns
 
@@ -283,7 +273,6 @@ class Kernel:
                 setup=self.integrator.setup(carried[1], recipe.spec, carried[1].scratch()),
                 picks=prepared.tree.picks(recipe.quantities),
                 width=prepared.tree.width,
-                looks=None if recipe.looks is None else with_looks(*carried, recipe.spec),
             )
         return prepared
 

@@ -18,7 +18,7 @@ from symgen.compiling.pipeline import compile_model
 from symgen.describe.derived import derived
 from symgen.describe.digest import identity
 from symgen.describe.events import RECORD
-from symgen.describe.kinks import knots_of, switches_of
+from symgen.describe.kinks import discontinuities_of
 from symgen.describe.sides import sides_of
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.driving import Driving, read_by_motions
@@ -221,7 +221,7 @@ def make_ensemble(
     kept_names, events = _events(mechanism, plan, quantities)
     acting = mechanism if target == "cpu" else structs.replace(mechanism, outputs=())  # others integrate no outputs
     known = foreseen(acting, events)
-    looks = spec.adaptive and bool(switches_of(acting) or knots_of(acting))
+    looks = spec.adaptive and bool(discontinuities_of(acting))
     driving = Driving(plan.inputs, grid.names, spec.until, known if spec.adaptive else None)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)
@@ -237,10 +237,10 @@ def make_ensemble(
     integrator_of_rows(plan.integrator.name, spec)
     if target == "lanes":
         check_lanes(plan.integrator.name, spec)
-    parts = bool(events) or driving.jumps  # what Python does something between
+    parts = bool(events) or driving.jumps or looks  # what Python does something between
     singly = Singly(mechanism, events, ends) if parts or joint else None
     # single runs add up all that outputs ask for, which their steps follow, too
-    adds = integral is not None or ((singly is not None or looks) and can_integrate(compiled))
+    adds = integral is not None or (singly is not None and can_integrate(compiled))
     made = Made(mechanism, compiled, plan, adds, kept if singly is None else ())
     recipe = Recipe(
         **made.codes(target, joint, not parts and are_plain(kept)),
@@ -257,7 +257,6 @@ def make_ensemble(
         singly=singly,
         joints=tuple(held.joints.values()),
         sides=tuple(side for side in sides_of(mechanism) if side.held),
-        looks=mechanism if looks else None,
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first

@@ -190,8 +190,6 @@ class Recipe:
         Joint coordinates that rows hold, each with 1 where it is the rate that they hold.
     sides : tuple of Side
         Joints that may hold bodies the wrong way round.
-    looks : Mechanism or None
-        What it is looked at between steps; None where nothing of it is read over the state.
     held : tuple of int
         Coordinates that rows hold.
     kept, fixed : tuple of int
@@ -220,7 +218,6 @@ class Recipe:
     singly: Singly | None = None
     joints: tuple[tuple[int, int], ...] = ()
     sides: tuple[Side, ...] = ()
-    looks: Mechanism | None = None
 
     @property
     def times(self) -> Array:
@@ -281,7 +278,6 @@ class Recipe:
                 *(self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),
                 *(dict(self.method_parameters), [q.name for q in self.quantities], self.held, self.kept, self.fixed),
                 *(self.strict, self.code, self.joints, *([self.sides] if self.sides else [])),
-                *([] if self.looks is None else ["looks", identity(self.looks)]),
                 *(x if x is None else x.described for x in (self.first, self.spare, self.tree, self.singly)),
             ],
             sort_keys=True,

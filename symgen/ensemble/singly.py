@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from symgen.compiling.carrying import carrying_of
 from symgen.compiling.events import compile_events, masses_of
-from symgen.compiling.knots import with_looks
 from symgen.compiling.side import compile_side
 from symgen.describe.events import RESET
 from symgen.ensemble.measures import NAME, PURPOSE, formulas_of
@@ -42,7 +41,6 @@ if TYPE_CHECKING:
     from symgen.runtime.events import Watched
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.outcome import Outcome
-    from symgen.runtime.run import RunSpec
     from symgen.runtime.start_records import Instant
     from symgen.runtime.tree_start import Carrying
 
@@ -79,15 +77,10 @@ class SingleRuns:
     def _run_of(self) -> tuple[Mechanism, CompiledModel]:
         return (self.singly.mechanism, self.compiled) if self.tree is None else self.tree
 
-    @cached_property
-    def _spec(self) -> RunSpec:
-        """What runs do, with what is looked at between steps."""
-        spec = self.recipe.spec
-        return spec if self.recipe.looks is None else with_looks(*self._run_of, spec)
-
     def _events_of(self, mechanism: Mechanism, compiled: CompiledModel) -> Watched | None:
         values = {q.name: q.value for q in self.singly.mechanism.parameters}
-        return compile_events(mechanism, compiled, self.singly.events, values)
+        spec = self.recipe.spec
+        return compile_events(mechanism, compiled, self.singly.events, values, spec.rtol if spec.adaptive else None)
 
     @cached_property
     def _watched(self) -> Watched | None:
@@ -152,7 +145,7 @@ class SingleRuns:
     def _run(self, r: int, rows: Rows, began: Start | TreeRun, out: Results, control: Integers) -> bool:
         tree = began if isinstance(began, TreeRun) else None
         start, compiled = (began.start, began.compiled) if isinstance(began, TreeRun) else (began, self.compiled)
-        spec = replace(self._spec, pieces=rows.pieces_of(r), events=self._events(rows, r))
+        spec = replace(self.recipe.spec, pieces=rows.pieces_of(r), events=self._events(rows, r))
         simulation = Simulation(compiled, self.integrator, start, spec)
         outputs = simulation.outputs(spec.times)
         with self._lock:

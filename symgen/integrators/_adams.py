@@ -63,4 +63,4 @@ class Adams:
         scheme = Multistep(nodes, factors, np.arange(adams.DEPTH, dtype=np.int64), self.order)
         width, step = padded(compiled.info.ny), spec.step if spec.step is not None else 1e-6 * spec.until
         loop, functions = self.loop(spec.adaptive), law_functions(compiled)
-        return Setup(loop, functions, scheme, step, *adams.memory(width), 0.8, knows_rates=True)
+        return Setup(loop, functions, scheme, step, *adams.memory(width), 0.8)

@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from symgen.describe.evaluate import parameter_values
-from symgen.integrators._tableau import Tableau
 from symgen.running.automatic import AUTO, decide, facts_of, trial_of
 from symgen.running.continuation import continued
 from symgen.running.inputs import put_inputs
@@ -232,14 +231,9 @@ def _compile_loop(plan: Plan) -> None:
 
 def _watching(run: Prepared) -> RunSpec:
     """Return what a run is to do, with the functions of its events and of the switches that steps end at."""
-    plan, mechanism, compiled, events = run.plan, run.mechanism, run.compiled, None
-    if plan.events:
-        from symgen.compiling.events import compile_events
+    from symgen.compiling.events import compile_events
 
-        events = compile_events(mechanism, compiled, plan.events, parameter_values(mechanism, plan.parameters))
-    spec = replace(plan.spec, pieces=plan.pieces, events=events)
-    if not spec.adaptive:
-        return spec
-    from symgen.compiling.knots import with_looks
-
-    return with_looks(mechanism, compiled, spec, isinstance(plan.integrator, Tableau))
+    plan, values = run.plan, parameter_values(run.mechanism, run.plan.parameters)
+    rtol = plan.spec.rtol if plan.spec.adaptive else None
+    events = compile_events(run.mechanism, run.compiled, plan.events, values, rtol)
+    return replace(plan.spec, pieces=plan.pieces, events=events)

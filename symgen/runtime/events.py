@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.describe.events import RECORD, RESET, STOP
-from symgen.runtime import abi, hunting, searching
+from symgen.runtime import abi, hunting
+from symgen.runtime import search_records as searching
 from symgen.runtime.rebounds import are_lost
 from symgen.runtime.resets import Impact, Masses, Reset, impact_of
 
@@ -30,8 +31,27 @@ _CROWDED, _HEAP = 50, 1e-7
 
 
 @dataclass(frozen=True)
+class Switch:
+    """What formulas compare over the state: a step ends where it is passed, and the scheme begins anew.
+
+    Attributes
+    ----------
+    missed : float
+        Part of a step by which a point may be missed.
+    points : tuple of float
+        Points at which a table that is read, or a formula, has a kink; none for what may jump, at zero.
+    period : float
+        Of the table, 0 where it does not repeat itself.
+    """
+
+    missed: float = 0.0
+    points: tuple[float, ...] = ()
+    period: float = 0.0
+
+
+@dataclass(frozen=True)
 class Watched:
-    """The events of a run.
+    """The switching functions of a run: of its events, then of what its formulas compare.
 
     Attributes
     ----------
@@ -42,13 +62,17 @@ class Watched:
     actions : tuple of str
         ``record``, ``stop`` or ``reset``.
     function : emitted function
-        Switching functions, then their rates.
+        Values of all functions, then their rates, then what the rounding of each value is a part of.
     needs_rates : bool
         Whether these depend on accelerations.
     resets : mapping of int to Reset
         By number of the event.
     masses : callable or None
         What resets are the shortest in, see `symgen.runtime.resets.Masses`.
+    switches : tuple of Switch
+        What formulas compare.
+    jumps : bool
+        Whether something may jump where a switch is passed, and not only have a kink.
     """
 
     names: tuple[str, ...]
@@ -58,6 +82,8 @@ class Watched:
     needs_rates: bool
     resets: Mapping[int, Reset] = field(default_factory=dict)
     masses: Masses | None = None
+    switches: tuple[Switch, ...] = ()
+    jumps: bool = False
 
     def impact(self, compiled: CompiledModel, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array) -> Impact:
         """Return what resets at one time do to a state; see `symgen.runtime.resets.impact_of`.
@@ -78,13 +104,22 @@ class Watched:
 
     def hunting_state(self, sizes: Sizes, state: State) -> hunting.HuntingState:
         """Return what a run keeps, with what it keeps of its events before it has begun."""
-        n = len(self.names)
+        events, n = len(self.names), len(self.names) + len(self.switches)
+        points = [x for switch in self.switches for x in switch.points]
         first = hunting.notes_at(n, sizes.width, len(state.w))
-        hunt = np.zeros(first + (searching.NOTES + 2 * n) * (2 + sizes.width))
+        tables = first + ((searching.NOTES + 2 * events) * (2 + sizes.width) if events else 0)
+        hunt = np.zeros(tables + len(points))
         hunt[searching.COUNT], hunt[searching.NEEDS_RATES] = n, self.needs_rates
+        hunt[searching.TABLES], hunt[tables:] = tables, points
         columns = hunt[searching.N_HEAD :][: searching.N_COLUMNS * n].reshape(-1, n)
-        columns[searching.DIRECTION] = self.directions
-        columns[searching.LEAVES] = [action != RECORD for action in self.actions]
+        columns[searching.DIRECTION, :events] = self.directions
+        columns[searching.ACTION, :events] = [action != RECORD for action in self.actions]
+        columns[searching.ACTION, events:] = searching.ANEW
+        columns[searching.MISSED, events:] = [switch.missed for switch in self.switches]
+        columns[searching.PERIOD, events:] = [switch.period for switch in self.switches]
+        sizes_of_tables = [len(switch.points) for switch in self.switches]
+        columns[searching.POINTS, events:] = sizes_of_tables
+        columns[searching.FIRST, events:] = np.cumsum([0, *sizes_of_tables])[:-1]
         return hunting.HuntingState(*state, hunt)
 
 

@@ -11,6 +11,7 @@ so does what runs it: a processor, vector lanes, a CUDA device.
 | `interpolate` | system, scheme, span, run, outputs, t, following, h | outputs inside a step, from its ends |
 | `happened` | system, run, t, following, h, hunting | whether an event lies inside a step that is good enough |
 | `attend` | system, run, doing | what events need beside (`symgen.runtime.hunting`): `LOOK`, `REMEMBER`, `RECALL` |
+| `aimed` | system, run, h | a step that ends where the state passes a point of a table, in place of one of `h` |
 
 `attempt` returns its error estimate over the tolerance, 0 where there is none, and changes nothing that a run keeps:
 the same attempt may be made again, shorter. Whatever has to be known at the next step stands in the arrays of
@@ -29,7 +30,7 @@ from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
 from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.instances import viewing
-from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, Run, System
+from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, Run, Span, System
 from symgen.runtime.redundancy import rows_fell
 from symgen.runtime.scales import settle
 from symgen.runtime.vectors import copied, received
@@ -60,12 +61,15 @@ _ACROSS = 2.3
 #: What an attempt returns where an iteration did not converge, and where a matrix does not fit into its room.
 DIVERGED, TOO_LARGE = -1.0, -2.0
 #: What `happened` finds: nothing; something, so that the step is tried again, shorter, to find out where; the same, the
-#: next attempt being one to take; that the state ends in an event; that there is little room for more notes; and a
-#: condition that is undefined there.
-NOTHING, SEEK, TAKE, MEET, CROWD, FAIL = range(6)
+#: next attempt being one to take; that the state ends in an event; that there is little room for more notes; that what
+#: formulas compare changes there, so that the scheme begins anew; that this holds the motion back, as it goes to and
+#: fro across it; and a condition that is undefined there.
+NOTHING, SEEK, TAKE, MEET, CROWD, RESTART, HOLD, FAIL = range(8)
+#: What is asked of a step that is not good enough: whether its error is that of a switch inside, which is sought then.
+DOUBT = FAIL + 1
 #: What else is done for events: look on which side of each of them a run begins; keep what emitted functions remember
 #: at the beginning of a step; have that again.
-LOOK, REMEMBER, RECALL = range(FAIL + 1, FAIL + 4)
+LOOK, REMEMBER, RECALL = range(DOUBT + 1, DOUBT + 4)
 
 
 def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
@@ -101,6 +105,11 @@ def happened(system: Any, run: Any, t: float, following: float, h: float, huntin
 def attend(system: Any, run: Any, doing: int) -> int:
     """Do nothing: where events are looked for, see on which side of each a run begins, or what `REMEMBER` is for."""
     return NOTHING
+
+
+def aimed(system: Any, run: Any, h: float) -> float:
+    """Return the step to try in place of one of `h` seconds, which the error estimate proposes."""
+    return h
 
 
 # -- what depends on where a loop runs ---------------------------------------------------------------------------------
@@ -167,6 +176,14 @@ def refused(run: Any, times: Any, out: int, t: float, phi: float, drift: float, 
     return taken_back(run, times, out, t)
 
 
+def with_step(span: Any, step: float) -> Any:
+    """Return a span whose first step is given."""
+    return Span(
+        *(step, span.largest, span.until, span.end, span.duration, span.rtol, span.atol, span.relative),
+        *(span.safety, span.most, span.pause),
+    )
+
+
 # -- the frame ---------------------------------------------------------------------------------------------------------
 
 
@@ -222,7 +239,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             return abi.UNDEFINED
         control[abi.BEGUN] = 1
     t, out = clock[abi.TIME], control[abi.OUTPUTS]
-    hunting, crossing, whole, whole_following = NOTHING, False, 0.0, 0.0
+    hunting, crossing, whole, whole_following, wanted = NOTHING, False, 0.0, 0.0, 0.0
     phi, drift, energy = run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY]
     while t < until - tiny:
         if hunting == NOTHING:
@@ -243,6 +260,9 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             h = approach(min(clock[abi.NEXT], span.largest), run.gauges)
             if crossing:
                 h = min(span.largest, _ACROSS * run.gauges[abi.LAST_SINE] / run.gauges[abi.FALL])
+            elif EVENTS:
+                wanted = h
+                h = aimed(system, run, h)
             following = t + h
             if t + 1.01 * h >= until:
                 h, following = until - t, until
@@ -272,7 +292,12 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             hunting, out = NOTHING, refused(run, times, out, t, phi, drift, energy)
             continue
         good = error <= 1.0 or (crossing and error <= max(_HOPELESS, _ASTRAY / span.rtol))
-        if ADAPTIVE and not between and hunting == NOTHING and not good:
+        if ADAPTIVE and not between and hunting != SEEK and not good:
+            if EVENTS and hunting == NOTHING and math.isfinite(error):
+                hunting = happened(system, run, t, following, h, DOUBT)
+                if hunting == SEEK:
+                    continue
+            hunting = NOTHING
             if crossing:
                 control[abi.BARRED] = 1
             change = max(SHRINK, span.safety * error ** (-1.0 / control[abi.ORDER])) if math.isfinite(error) else 0.1
@@ -303,6 +328,8 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             if hunting == FAIL:
                 clock[abi.TIME] = following
                 return abi.UNDEFINED
+            if hunting == HOLD:
+                return abi.TINY_STEP
         # -- it is: the state at `following` is accepted
         control[abi.STEPS] += 1
         code = watch(sizes, run, run.trial, following)
@@ -315,6 +342,9 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             out = taken_back(run, times, out, following)
         elif EVENTS and hunting == CROWD:
             code = abi.NOTED
+        restart = EVENTS and hunting == RESTART
+        if restart:
+            out = taken_back(run, times, out, following)
         hunting = NOTHING
         if DENSE and out < asked and times[out] < following:
             interpolate(system, scheme, span, run, outputs, t, following, h)
@@ -335,6 +365,8 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             grow = min(GROW, max(SHRINK_ACCEPTED, grow))
             clock[abi.NEXT] = h * (min(1.0, grow) if control[abi.REFUSED] == 1 else grow)
             clock[abi.ALLOWED] = allowed
+            if EVENTS and h < wanted and control[abi.REFUSED] == 0:  # a point of a table ended it, not its error
+                clock[abi.NEXT] = max(clock[abi.NEXT], wanted)
         control[abi.REFUSED] = control[abi.BARRED] = 0
         t = following
         phi, drift, energy = run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY]
@@ -343,7 +375,11 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             store(sizes, run.w, outputs, out, run.y)
             out += 1
             control[abi.OUTPUTS] = out
-        renew(system, scheme, span, run, t, bits & 2 != 0)
+        if restart:  # behind a switch rates are others, and what is known of steps before says nothing
+            clock[abi.NEXT], clock[abi.ALLOWED] = max(clock[abi.NEXT], whole), 0.0
+            prepare(system, scheme, with_step(span, clock[abi.NEXT]), run)
+        else:
+            renew(system, scheme, span, run, t, bits & 2 != 0)
         if code != abi.DONE:
             return code
         if rows_fell(run):

@@ -15,9 +15,10 @@ import numpy as np
 from numba import types
 from numpy.typing import NDArray
 
-from symgen.runtime import abi, frame, searching
+from symgen.runtime import abi, frame
+from symgen.runtime import search_records as searching
 from symgen.runtime.bare import bare, part
-from symgen.runtime.frame import LOOK
+from symgen.runtime.frame import LOOK, TRY
 from symgen.runtime.frame import opened as plain_opened
 from symgen.runtime.instances import called
 from symgen.runtime.instances import loop as compiled_loop
@@ -59,8 +60,8 @@ def decided(system: Any, run: Any, t: float, h: float, doing: int, y: Any) -> in
 def evaluate_events(system: Any, run: Any, t: float, y: Any) -> None:
     """Evaluate switching functions and their rates at a state; emitted functions remember nothing of it."""
     width, hunt, n = system.sizes.width, run.hunt, int(run.hunt[searching.COUNT])
-    at = searching.N_HEAD + searching.N_COLUMNS * n
-    out, state, rate = part(hunt, at, 2 * n), part(hunt, at + 2 * n, width), part(hunt, at + 2 * n + width, width)
+    at, m = searching.N_HEAD + searching.N_COLUMNS * n, searching.N_VALUES * n
+    out, state, rate = part(hunt, at, m), part(hunt, at + m, width), part(hunt, at + m + width, width)
     if hunt[searching.NEEDS_RATES] != 0.0:
         decided(system, run, t, 0.0, searching.KEEP, y)
         copied(width, y, state)
@@ -89,14 +90,20 @@ def attend(system: Any, run: Any, doing: int) -> int:
     return decided(system, run, run.clock[abi.TIME], 0.0, doing, run.y)
 
 
+def aimed(system: Any, run: Any, h: float) -> float:
+    """Return the step to try in place of one of `h` seconds: one that ends at the next point of a table."""
+    decided(system, run, run.clock[abi.TIME], h, searching.AIM, run.y)
+    return float(run.hunt[TRY])
+
+
 def notes_at(n: int, width: int, nw: int) -> int:
     """Return where notes begin."""
-    return searching.N_HEAD + (searching.N_COLUMNS + 2) * n + 2 * width + 2 * (nw + abi.N_COUNTERS)
+    return searching.N_HEAD + (searching.N_COLUMNS + searching.N_VALUES) * n + 2 * width + 2 * (nw + abi.N_COUNTERS)
 
 
 _MEANINGS: dict[str, Any] = {
     **{"EVENTS": True, "opened": opened, "System": HuntingSystem},
-    **{"happened": happened, "attend": attend},
+    **{"happened": happened, "attend": attend, "aimed": aimed},
 }
 _loops: dict[Any, Any] = {}
 
@@ -136,12 +143,6 @@ def __getattr__(name: str) -> Any:
 # -- from Python -------------------------------------------------------------------------------------------------------
 
 
-def without_notes(state: Any) -> Array:
-    """Return what a run keeps of its events but notes; empty where none are looked for."""
-    hunt: Array = getattr(state, "hunt", np.zeros(0))
-    return hunt[: notes_at(int(hunt[searching.COUNT]), len(state.y), len(state.w))] if len(hunt) else hunt
-
-
 def undefined_event(state: Any) -> int:
     """Return the number of the first event whose condition is undefined at what a run looked at last."""
     n = int(state.hunt[searching.COUNT])
@@ -153,5 +154,5 @@ def taken_notes(hunt: Array, width: int, nw: int) -> list[tuple[float, int, Arra
     first = notes_at(int(hunt[searching.COUNT]), width, nw)
     count, size = int(hunt[searching.NOTED]), 2 + width
     rows = hunt[first : first + count * size].reshape(count, size).copy()
-    hunt[searching.NOTED] = 0.0
+    hunt[searching.NOTED] = hunt[searching.ACCEPTED] = 0.0
     return [(float(row[0]), int(row[1]), row[2:]) for row in rows]

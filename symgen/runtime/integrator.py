@@ -52,8 +52,6 @@ class Setup:
         Numbers that the scheme keeps from step to step, and that it needs for one behind the state that is tried.
     safety : float
         Part of the step that its error estimate would allow that is taken.
-    knows_rates : bool
-        Whether what the scheme keeps begins with the rate of the accepted state.
     """
 
     loop: Any
@@ -63,7 +61,6 @@ class Setup:
     memory: int
     room: int
     safety: float = 0.9
-    knows_rates: bool = False
 
 
 class Integrator(Protocol):

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from symgen.runtime import abi
 from symgen.runtime.probe import Ready, rate_function
-from symgen.runtime.searching import COUNT
+from symgen.runtime.search_records import COUNT, N_VALUES
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
@@ -53,9 +53,10 @@ def are_lost(
     w, iw, p = state.w.copy(), state.iw.copy(), state.p
 
     def at(moment: float, y: Array, rate: Array) -> tuple[Array, Array]:
-        out = np.zeros(2 * int(state.hunt[COUNT]))
+        n = int(state.hunt[COUNT])
+        out = np.zeros(N_VALUES * n)
         happens(moment, y, p, w, rate, out)
-        return out[: len(out) // 2], out[len(out) // 2 :]
+        return out[:n], out[n : 2 * n]
 
     y, rate = state.y.copy(), np.zeros_like(state.y)
     rates(t, y, p, w, iw, rate)

@@ -16,7 +16,6 @@ from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import bare, part
 from symgen.runtime.instances import called, signature_of
 from symgen.runtime.instances import loop as compiled_loop
-from symgen.runtime.looks import with_looks
 from symgen.runtime.observe import observe_rates, observe_rows
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, Observed, Outputs
 from symgen.runtime.redundancy import choose_rows
@@ -246,9 +245,3 @@ def rows_loop(name: str, loop: Any) -> Any:
 
 constant = rows_loop("constant", explicit.constant)
 adaptive = rows_loop("adaptive", explicit.adaptive)
-looking = rows_loop("looking", with_looks(explicit.adaptive))
-
-
-def that_look(loop: Any) -> Any:
-    """Return the loop over many runs that looks between the steps of each, and is otherwise the same."""
-    return {adaptive: looking}[loop]

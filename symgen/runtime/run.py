@@ -23,10 +23,8 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Watched
     from symgen.runtime.integrator import Integrator
-    from symgen.runtime.knots import Knots
     from symgen.runtime.pieces import Piece
     from symgen.runtime.records import Outputs
-    from symgen.runtime.switches import Switches
 
 Array = NDArray[np.float64]
 Progress = Callable[[float], None]
@@ -78,11 +76,7 @@ class RunSpec:
     pieces : tuple of Piece
         Where inputs jump, and what they are from there on; the first one is what the start has.
     events : Watched or None
-        Events that are looked for.
-    knots : Knots or None
-        Points of tables that adaptive steps end at.
-    switches : Switches or None
-        What adaptive steps may not pass two of.
+        Switching functions: events, and what adaptive steps end at.
     compares : bool
         Whether constant implicit steps solve equations in which formulas compare the state.
     """
@@ -104,8 +98,6 @@ class RunSpec:
     duration: float | None = None
     pieces: tuple[Piece, ...] = ()
     events: Watched | None = None
-    knots: Knots | None = None
-    switches: Switches | None = None
     compares: bool = False
 
     @property
@@ -316,7 +308,7 @@ def end_reason(
     where = f" at t = {time:.6g} s"
     sentence = abi.REASONS[code]
     phi, drift, length, speed = violations
-    jumps = spec.switches is not None and spec.switches.jump
+    jumps = spec.events is not None and spec.events.jumps
     if code == abi.POSITION:
         return f"{sentence} ({phi:.3g} > {spec.max_violation:g} x {length:.3g}){where}"
     if code == abi.VELOCITY:

@@ -7,9 +7,8 @@ compiled with a copy of it.
 Which side of an event a run is on is kept as such, not taken from g: a state that lies on the event itself, up to
 rounding, is on the side that it came from, and after a change of velocities on the side that it goes to.
 
-What is kept is one array, in this order: numbers of the step, columns with one number for each event, what the emitted
-function writes (values, then rates), a state and its rate, ``w`` and ``iw`` at the beginning of the step and at the
-state that is looked at, and notes: time, number of the event, state.
+What is kept is one array, see `symgen.runtime.search_records`. What formulas compare over the state is sought as events
+are; a step ends where it is passed, and the scheme begins anew.
 """
 
 from __future__ import annotations
@@ -18,35 +17,113 @@ import math
 from typing import Any
 
 from symgen.runtime import abi
-from symgen.runtime.frame import CROWD, FAIL, LOOK, MEET, NOTHING, RECALL, REMEMBER, SEEK, TAKE, TRY
+from symgen.runtime.frame import (
+    CROWD,
+    DOUBT,
+    FAIL,
+    HOLD,
+    LOOK,
+    MEET,
+    NOTHING,
+    RECALL,
+    REMEMBER,
+    RESTART,
+    SEEK,
+    TAKE,
+    TRY,
+)
+from symgen.runtime.points import aim, arrive, ends_at, face
+from symgen.runtime.search_records import (
+    ACCEPTED,
+    ACTION,
+    AIM,
+    ANEW,
+    ARGUMENT,
+    D_END,
+    D_HIGH,
+    D_LOW,
+    D_START,
+    DIRECTION,
+    DOING,
+    FIRED,
+    G_END,
+    G_HIGH,
+    G_LOW,
+    G_START,
+    GRAZING,
+    HIGH,
+    KEEP,
+    LEAVE,
+    LEVEL,
+    LOCAL,
+    LOW,
+    N_COLUMNS,
+    N_HEAD,
+    N_VALUES,
+    NOTE,
+    NOTED,
+    NOTES,
+    PASSED,
+    POINTS,
+    PROBES,
+    RESOLUTION,
+    ROUNDS,
+    SIDE,
+    SINCE,
+    SIZE,
+    SLOPE,
+    WAY,
+    WHOLE,
+    WIDTH,
+)
 from symgen.runtime.switching import asked, first_root, hidden, is_finite, side_of
 from symgen.store.emitted import plain
 
 A = Any
-#: Numbers of a step: the step to try (`TRY`, which the frame reads), what is being done, how many events there are, 1
-#: where rates need v', the bracket that is looked at, the whole step, what time resolves, ...
-DOING, COUNT, NEEDS_RATES, LOW, HIGH, WHOLE, RESOLUTION = range(TRY + 1, TRY + 8)
-#: ... attempts at extrema, rounds in a bracket, its width three rounds ago, and notes.
-PROBES, ROUNDS, WIDTH, NOTED = range(8, 12)
-#: What is known of each event: direction asked for (0: any), 1 where it ends the loop, side at the beginning of the
-#: step, 1 where it has just happened, 1 where g is on the other side by rounding alone, side at the lower end of the
-#: bracket, how large g was in the step before; ...
-DIRECTION, LEAVES, SIDE, FIRED, GRAZING, LOCAL, SIZE = range(7)
-#: ... g and g' at the beginning and at the end of the step and of the bracket.
-G_START, D_START, G_END, D_END, G_LOW, D_LOW, G_HIGH, D_HIGH = range(7, 15)
-N_HEAD, N_COLUMNS = 12, 15
-_COUNTERS, _RESOLVED = abi.N_COUNTERS, abi.RESOLVED_TIME
-#: What is done beside `LOOK`, `REMEMBER` and `RECALL` with what is kept.
-KEEP, GIVE_BACK = range(RECALL + 1, RECALL + 3)
 #: What is being done: looking for events, taking the whole step, taking a step that ends in an event.
 _LOOKING, _WHOLE_STEP, _TO_EVENT = range(3)
-#: So many notes have room, and those of all events twice more: a loop is left at the end of a step where half of this
-#: is taken, and at the next event where all of it is.
-NOTES = 256
+_COUNTERS, _RESOLVED = abi.N_COUNTERS, abi.RESOLVED_TIME
 #: A reset changes g by rounding alone below this part of its size in the step before.
 _SAME = 1e-6
 #: Attempts at extrema and rounds in a bracket, at most.
 _MOST_PROBES, _MOST_ROUNDS = 12, 200
+#: A switch within this part of the size of its terms is on the side that it was on before.
+_ROUNDING = 1e-13
+#: So many switches within this part of the time hold a motion back.
+_CROWDED, _HEAP = 50.0, 1e-7
+
+
+@plain
+def switched(hunt: A, n: int, h: float, hunting: int) -> int:
+    """Have the values of switches as they count: those within rounding of zero, or undefined, as on the same side."""
+    at, out = N_HEAD, N_HEAD + N_COLUMNS * n
+    for k in range(n):
+        if hunt[at + ACTION * n + k] != float(ANEW):
+            continue
+        if hunt[at + POINTS * n + k] > 0.0:
+            s, rate = hunt[out + k], hunt[out + n + k]
+            hunt[at + ARGUMENT * n + k], hunt[at + SLOPE * n + k] = s, rate
+            if hunting == NOTHING or hunting == DOUBT:
+                face(hunt, n, k, h)
+            way = hunt[at + WAY * n + k]
+            hunt[out + k], hunt[out + n + k] = way * (hunt[at + LEVEL * n + k] - s), -way * rate
+        if is_finite(hunt[out + k] + hunt[out + n + k]) == 0:
+            hunt[out + k], hunt[out + n + k] = 0.0, 0.0
+        elif abs(hunt[out + k]) <= _ROUNDING * hunt[out + 2 * n + k]:
+            hunt[out + k] = 0.0
+    return 0
+
+
+@plain
+def at_points(hunt: A, n: int) -> int:
+    """Return 1 where the bracket ends as good as at each point that is passed in it, else 0."""
+    at = N_HEAD
+    for k in range(n):
+        side = hunt[at + LOCAL * n + k]
+        if asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[at + G_HIGH * n + k], side)) == 1:
+            if hunt[at + POINTS * n + k] == 0.0 or ends_at(hunt, n, k, hunt[HIGH]) == 0:
+                return 0
+    return 1
 
 
 # -- the search --------------------------------------------------------------------------------------------------------
@@ -116,6 +193,8 @@ def note(hunt: A, n: int, notes: int, t: float, width: int, y: A) -> int:
     at = N_HEAD
     for k in range(n):
         side = hunt[at + LOCAL * n + k]
+        if hunt[at + ACTION * n + k] == float(ANEW):
+            continue
         if asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[at + G_HIGH * n + k], side)) == 1:
             to = notes + int(hunt[NOTED]) * (2 + width)
             hunt[to], hunt[to + 1] = t, float(k)
@@ -139,19 +218,24 @@ def settle(hunt: A, n: int, ends: int) -> int:
         hunt[at + SIZE * n + k] = max(abs(hunt[at + G_START * n + k]), abs(hunt[at + G_END * n + k]))
         hunt[at + G_START * n + k] = hunt[at + g * n + k]
         hunt[at + D_START * n + k] = hunt[at + d * n + k]
+        if hunt[at + POINTS * n + k] > 0.0:
+            arrive(hunt, n, k, hunt[WHOLE] if ends == 1 else hunt[HIGH])
+    hunt[ACCEPTED] = hunt[NOTED]
     return 0
 
 
 @plain
-def crossed(hunt: A, n: int, column: int, leaving: int) -> int:
-    """Return 1 where an event, one that ends the loop if `leaving`, is between the bracket's beginning and a column."""
-    at = N_HEAD
+def crossed(hunt: A, n: int, column: int, least: int) -> int:
+    """Return the action, at least `least`, of what is passed between the bracket's beginning and a column; -1: none."""
+    at, found = N_HEAD, -1
     for k in range(n):
         side = hunt[at + LOCAL * n + k]
         if asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[at + column * n + k], side)) == 1:
-            if leaving == 0 or hunt[at + LEAVES * n + k] != 0.0:
-                return 1
-    return 0
+            action = int(hunt[at + ACTION * n + k])
+            if action == LEAVE:
+                return LEAVE
+            found = max(found, action)
+    return found if found >= least else -1
 
 
 @plain
@@ -167,7 +251,7 @@ def taken_for(hunt: A, n: int, k: int, h: float) -> float:
 def take_in(hunt: A, n: int, h: float, following: float, hunting: int) -> int:
     """Take the values at the state that was tried, which stand behind the columns, into the bracket."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
-    if hunting == NOTHING:
+    if hunting == NOTHING or hunting == DOUBT:
         hunt[DOING], hunt[LOW], hunt[HIGH], hunt[WHOLE] = _LOOKING, 0.0, h, h
         hunt[PROBES] = hunt[ROUNDS] = 0.0
         hunt[RESOLUTION] = _RESOLVED * max(abs(following - h), abs(following))
@@ -207,6 +291,9 @@ def look(hunt: A, n: int) -> int:
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     for k in range(n):
         g, rate, side = hunt[out + k], hunt[out + n + k], hunt[at + SIDE * n + k]
+        if hunt[at + POINTS * n + k] > 0.0:
+            arrive(hunt, n, k, 0.0)
+            continue
         if side == 0.0:  # not known yet: the run begins
             hunt[at + SIDE * n + k] = side_of(g, side_of(rate, -1.0))
         elif hunt[at + FIRED * n + k] != 0.0 and away(hunt, n, k, g) == 0:
@@ -226,7 +313,7 @@ def is_undefined(hunt: A, n: int) -> int:
     """Return 1 where a switching function is no number at the state that was tried, else 0."""
     for k in range(n):
         g = hunt[N_HEAD + N_COLUMNS * n + k]
-        if not g == g:
+        if not g == g and hunt[N_HEAD + ACTION * n + k] != float(ANEW):
             return 1
     return 0
 
@@ -252,6 +339,21 @@ def give_back(hunt: A, first: int, nw: int, w: A, iw: A) -> int:
 
 
 @plain
+def ended(hunt: A, n: int, notes: int, following: float, width: int, y: A) -> int:
+    """Return what is to be done at the end of a step that ends at a passage."""
+    action = crossed(hunt, n, G_HIGH, NOTE)
+    note(hunt, n, notes, following, width, y)
+    if action == ANEW:
+        if following - hunt[SINCE] > _HEAP * following:
+            hunt[SINCE], hunt[PASSED] = following, 0.0
+        hunt[PASSED] += 1.0
+    settle(hunt, n, 0)
+    if action != ANEW or hunt[NOTED] > NOTES:
+        return MEET
+    return HOLD if hunt[PASSED] > _CROWDED else RESTART
+
+
+@plain
 def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int, width: int, y: A, w: A, iw: A) -> int:
     """Take in what was found at a state and return what to do next, one of `NOTHING` to `FAIL`.
 
@@ -262,44 +364,50 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
     hunt : Array
         What is kept of events.
     n, notes : int
-        How many events there are, and where notes begin.
+        How many functions there are, and where notes begin.
     following, h : float
         End and length of the step that was tried [s].
     hunting : int
         What the step was tried for; or what else is to be done with what is kept: `LOOK`, `REMEMBER` at the beginning
-        of a step and `RECALL`, `KEEP` at a state that is looked at and `GIVE_BACK`.
+        of a step and `RECALL`, `KEEP` at a state that is looked at and `GIVE_BACK`, `AIM` before a step of `h`.
     width, y : int, Array
         The state at its end.
     w, iw : Array
         What emitted functions remember.
     """
-    if hunting <= LOOK and is_undefined(hunt, n) == 1:
-        return FAIL
+    if hunting <= LOOK:
+        if is_undefined(hunt, n) == 1:
+            return NOTHING if hunting == DOUBT else FAIL
+        switched(hunt, n, h, hunting)
     if hunting >= LOOK:
-        first = N_HEAD + (N_COLUMNS + 2) * n + 2 * width
+        first = N_HEAD + (N_COLUMNS + N_VALUES) * n + 2 * width
         size = (notes - first) // 2
         if hunting == LOOK:
             return int(look(hunt, n))
         if hunting == REMEMBER:
+            hunt[NOTED] = hunt[ACCEPTED]  # those of an attempt that was refused are none
             return int(keep(hunt, first, size - _COUNTERS, w, iw))
         if hunting == RECALL:
             return int(give_back(hunt, first, size - _COUNTERS, w, iw))
         if hunting == KEEP:
             return int(keep(hunt, first + size, size - _COUNTERS, w, iw))
+        if hunting == AIM:
+            return int(aim(hunt, n, h))
         return int(give_back(hunt, first + size, size - _COUNTERS, w, iw))
     if hunting == TAKE and hunt[DOING] == _WHOLE_STEP:
         settle(hunt, n, 1)
         return CROWD if 2 * hunt[NOTED] >= NOTES else NOTHING
     take_in(hunt, n, h, following, hunting)
     if hunting == TAKE:
-        note(hunt, n, notes, following, width, y)
-        settle(hunt, n, 0)
-        return MEET
+        return int(ended(hunt, n, notes, following, width, y))
+    if hunting == DOUBT and crossed(hunt, n, G_HIGH, NOTE) != ANEW:
+        return NOTHING
     while True:
-        low, high = hunt[LOW], hunt[HIGH]
+        high = hunt[HIGH]
         there = concealed(hunt, n)
-        if crossed(hunt, n, G_HIGH, 0) == 1:
-            if high - low > hunt[RESOLUTION] and hunt[ROUNDS] < _MOST_ROUNDS:
+        if crossed(hunt, n, G_HIGH, NOTE) >= NOTE:
+            near = 1 if h == high and there >= high and at_points(hunt, n) == 1 else 0
+            if near == 0 and high - hunt[LOW] > hunt[RESOLUTION] and hunt[ROUNDS] < _MOST_ROUNDS:
                 hunt[TRY] = candidate(hunt, n)
                 if there < hunt[TRY]:  # another event may come first, and be over by then
                     hunt[PROBES] += 1.0
@@ -307,7 +415,9 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
                 hunt[ROUNDS] += 1.0
                 return SEEK
             # where notes have to be taken before others find room, the step ends here as well
-            if crossed(hunt, n, G_HIGH, 1) == 1 or hunt[NOTED] > NOTES:
+            if crossed(hunt, n, G_HIGH, LEAVE) >= LEAVE or hunt[NOTED] > NOTES:
+                if hunting == NOTHING and near == 1:
+                    return int(ended(hunt, n, notes, following, width, y))
                 hunt[DOING], hunt[TRY] = _TO_EVENT, high
                 return TAKE
             if h != high:

@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from symgen.runtime.entry import Entry
     from symgen.runtime.events import Events, Watched
     from symgen.runtime.integrator import Integrator
-    from symgen.runtime.looks import Looks
     from symgen.runtime.records import Outputs
     from symgen.runtime.run import RunSpec
 
@@ -89,12 +88,6 @@ class Simulation:
         self.snapshot = Snapshot(state)
         self.state = self.snapshot.state
         self._model: tuple[Any, ...] = self.sizes, *self.setup.functions
-        self._looks: Looks | None = None
-        if spec.knots is not None or spec.switches is not None:
-            from symgen.runtime.looks import looking, with_looks
-
-            self._model, self._looks = looking(compiled, self.setup, spec, self._model, self.state)
-            self.setup = replace(self.setup, loop=with_looks(self.setup.loop))
         self._prepared: tuple[Outputs, Entry] | None = None
         self._counts, self._clock = memoryview(self.state.control), memoryview(self.state.clock)
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
@@ -180,8 +173,6 @@ class Simulation:
             If an event asks for velocities that the constraints do not allow.
         """
         until, most = self.spec.until if until is None else until, self.span.most if most is None else most
-        if self._looks is not None:
-            self._looks.forget()
         entry = self._prepared[1] if self._prepared is not None and self._prepared[0] is outputs else None
         while True:
             if entry is None:
@@ -296,8 +287,6 @@ class Simulation:
         else:
             snapshot.rows = 0
         most = self.span.most if most is None else most
-        if self._looks is not None:
-            self._looks.forget()
         while True:
             if not entry.has(self.scheme, self.span):
                 entry.take(self.scheme, self.span)

@@ -160,8 +160,8 @@ def test_killed_or_interrupted_and_resumed_no_row_is_lost_or_computed_twice(tmp_
     while rows_of(journal) < 3 and process.poll() is None and time.monotonic() < deadline:  # the reference and two rows
         time.sleep(0.02)
     process.send_signal(how)
-    process.communicate(timeout=600)
-    assert process.returncode == (130 if how == signal.SIGINT else -signal.SIGKILL)
+    _, err = process.communicate(timeout=600)
+    assert process.returncode == (130 if how == signal.SIGINT else -signal.SIGKILL), err.decode()
     done = rows_of(journal)
     assert 3 <= done < 5
     with Journal(journal) as kept:

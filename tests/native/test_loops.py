@@ -5,11 +5,11 @@ from __future__ import annotations
 from importlib import import_module
 
 import pytest
+from symgen.runtime.looks import with_looks
 
 from symgen.native.loops import read_loop
 from symgen.runtime import rows
 from symgen.runtime.hunting import with_events
-from symgen.runtime.looks import with_looks
 from symgen.store.emitted import COMPILER
 from symgen.store.loops import _lines, definition
 

@@ -16,11 +16,10 @@ from support.pushed import pushed_mass
 
 import symgen
 from symgen import catalogue
-from symgen.compiling.knots import _sizes
-from symgen.describe.kinks import knots_of
+from symgen.compiling.events import switch_of
+from symgen.describe.kinks import Discontinuity, discontinuities_of
 from symgen.describe.tables import Table
 from symgen.ensemble.sweep import sweep
-from symgen.runtime.knots import Knots, aimed
 
 #: Force over position, linear between points; constant beyond them.
 X, Y = (0.2, 0.37, 0.61, 0.85, 1.1), (1.0, -6.0, 9.0, -8.0, 2.0)
@@ -137,7 +136,8 @@ def test_events_are_found_between_points(passing: symgen.Model) -> None:
     times = np.array([event.t for event in found.events])
     np.testing.assert_allclose(passed(times)[0], [0.73, 0.85], rtol=0.0, atol=1e-7)
     plain = passing.simulate(**settings)
-    assert found.steps == plain.steps and found.q["mass.x"][-1] == plain.q["mass.x"][-1]
+    assert found.steps == plain.steps
+    assert_same_motion(found.q["mass.x"][-1], plain.q["mass.x"][-1])
 
 
 def test_a_run_that_goes_on_ends_steps_there_too(passing: symgen.Model) -> None:
@@ -179,42 +179,11 @@ def test_constant_steps_keep_their_grid(passing: symgen.Model) -> None:
     assert passing.simulate(method="lagrange", integrator="rk4").steps == 100
 
 
-# -- what is passed next -----------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("period", [0.0, 1.0])
-def test_the_next_point_is_the_first_root_of_a_parabola(period: float) -> None:
-    """Beside NumPy's roots of all parabolas, for motions that go on and that turn round."""
-    random, seen = np.random.default_rng(5), set()
-    levels = (0.0, 0.17, 0.31, 0.52, 0.8, 1.0)
-    arrays, met = Knots(None, (levels,), (period,), (1,), ((1.0,) * len(levels),)).arrays(1e-8), 1e-4
-    for _ in range(400):
-        s, rate, second = random.uniform(-0.3, 1.3) + 7.0 * period, random.normal(), random.normal() * 3.0
-        h = random.uniform(0.02, 0.3)
-        every = levels if not period else [x + k for k in range(4, 12) for x in levels[:-1]]
-        roots = [np.roots([0.5 * second, rate, s - level]) for level in every]
-        times = [float(t.real) for pair in roots for t in pair if abs(t.imag) < 1e-12 and t.real > met * h]
-        first = min(times, default=math.inf)
-        expected = h if first > 2.0 * h else first if first <= h else 0.5 * first
-        found = aimed(*arrays, np.array([s, rate, second]), h)
-        assert found == pytest.approx(expected, rel=1e-9)
-        seen.add((first <= h, first <= 2.0 * h, rate * (rate + 2.0 * h * second) > 0.0))
-    assert len(seen) == 6, "near, far and further, of motions that go on and that turn round"
-
-
-def test_what_is_not_finite_and_what_stands_still_is_left_alone() -> None:
-    arrays = Knots(None, ((0.0, 1.0),), (0.0,), (2,), ((1.0, 1.0),)).arrays(1e-9)
-    assert arrays[2].tolist() == [0.0, 0.0, pytest.approx(1e-3)]
-    for out in ((math.nan, 1.0, 0.0), (0.5, math.inf, 0.0), (0.5, 0.0, 0.0), (1.0, 0.0, 0.0), (0.5, 1.0, math.nan)):
-        assert aimed(*arrays, np.array(out), 0.1) == 0.1
-    assert aimed(*arrays, np.array([0.96, 1.0, 0.0]), 0.1) == pytest.approx(0.04)
-    assert aimed(*arrays, np.array([0.99999, 1.0, 0.0]), 0.1) == 0.1  # just met
-    assert aimed(*arrays, np.array([0.85, 1.0, 0.0]), 0.1) == pytest.approx(0.075)  # two equal steps
-
-
 def test_tables_over_the_state_are_those_of_two_machines() -> None:
     entries = (*catalogue.entries(), *catalogue.entries(catalogue.MACHINES))
-    found = {entry.name for entry in entries if any(table for _, table in knots_of(symgen.load(entry.name).mechanism))}
+    found = {
+        entry.name for entry in entries if any(x.table for x in discontinuities_of(symgen.load(entry.name).mechanism))
+    }
     assert found == {"engine", "wiper"}
 
 
@@ -350,7 +319,6 @@ def test_points_that_bend_nothing_are_passed() -> None:
     counts = []
     for y in (smooth, spiked):
         table = Table("t", tuple(x), tuple(y), "cubic")
-        knots = Knots(None, (table.x,), (0.0,), (3,), (_sizes(table.interpolated),))
-        counts.append(len(knots.arrays(1e-8)[0]))
+        counts.append(len(switch_of(Discontinuity(table.x[0], table), 1e-8).points))
     # straight lines begin at both ends; the waves of a spline beside a spike fall by 3.7 from point to point
     assert counts[0] == 2 and 5 <= counts[1] <= 60

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from symgen.native.library import kinds_of
-from symgen.runtime import abi, frame, hunting, searching, switching
+from symgen.runtime import abi, frame, hunting, search_records, searching, switching
 from symgen.runtime.exact import plain_form
 
 
@@ -37,10 +37,10 @@ def hunted(*functions):
     """What is kept of events whose values and rates are given, with a state of one number that is their time."""
     n, width = len(functions), 8
     notes = hunting.notes_at(n, width, 1)
-    hunt = np.zeros(notes + (searching.NOTES + 2 * n) * (2 + width))
-    hunt[searching.COUNT] = n
+    hunt = np.zeros(notes + (search_records.NOTES + 2 * n) * (2 + width))
+    hunt[search_records.COUNT] = n
     w, iw, y = np.zeros(1), np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros(width)
-    out = searching.N_HEAD + searching.N_COLUMNS * n
+    out = search_records.N_HEAD + search_records.N_COLUMNS * n
 
     def told(t, h, doing):
         hunt[out : out + 2 * n] = np.ravel(np.array([function(t) for function in functions]).T)
@@ -53,18 +53,18 @@ def test_a_reset_that_leaves_g_beside_zero_by_rounding_is_no_event_until_g_has_c
     """Behind a reset g is -1e-16, on its way up: steps so short that it stays there are not events of their own."""
     beside = 1e-16
     hunt, told = hunted(lambda t: (t - beside, 1.0))
-    at = searching.N_HEAD
-    columns = hunt[at : at + searching.N_COLUMNS]
-    columns[searching.DIRECTION], columns[searching.LEAVES] = -1.0, 1.0
+    at = search_records.N_HEAD
+    columns = hunt[at : at + search_records.N_COLUMNS]
+    columns[search_records.DIRECTION], columns[search_records.ACTION] = -1.0, 1.0
     # the event has just happened: the run came from above, and g stands beside zero
-    columns[searching.SIDE], columns[searching.FIRED], columns[searching.SIZE] = -1.0, 1.0, 1.0
-    columns[searching.G_START], columns[searching.D_START] = -beside, -1.0
+    columns[search_records.SIDE], columns[search_records.FIRED], columns[search_records.SIZE] = -1.0, 1.0, 1.0
+    columns[search_records.G_START], columns[search_records.D_START] = -beside, -1.0
     told(0.0, 0.0, searching.LOOK)
-    assert columns[searching.SIDE] == columns[searching.GRAZING] == 1.0
+    assert columns[search_records.SIDE] == columns[search_records.GRAZING] == 1.0
     t = 0.0
     for h in (1e-17, 2e-17, 1e-17):
         t += h
         assert told(t, h, frame.NOTHING) == frame.NOTHING
     assert told(1.0, 1.0 - t, frame.NOTHING) == frame.NOTHING
-    assert columns[searching.GRAZING] == 0.0 and columns[searching.SIDE] == 1.0
+    assert columns[search_records.GRAZING] == 0.0 and columns[search_records.SIDE] == 1.0
     assert told(2.0, 1.0, frame.NOTHING) == frame.NOTHING

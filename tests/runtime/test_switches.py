@@ -13,12 +13,11 @@ from support.checks import assert_same_motion
 
 import symgen
 from symgen import catalogue
-from symgen.compiling.knots import compile_switches
-from symgen.describe.kinks import switches_of
+from symgen.compiling.events import compile_events
+from symgen.describe.kinks import compares_state
 from symgen.ensemble.plan import make_ensemble
 from symgen.ensemble.sweep import sweep
 from symgen.runtime import abi
-from symgen.runtime.switches import passed
 
 #: Two kilograms under 3 N, and what is added between two values, beside an oscillation that has steps of usual length.
 WINDOW = """[mechanism]
@@ -169,23 +168,22 @@ def test_what_is_passed_alone_changes_no_step(folder: Path) -> None:
         assert compared["bob.x"][-1] == plain["bob.x"][-1]
 
 
-def test_rebounds_pass_nothing(folder: Path) -> None:
-    """Velocities on both sides of a reset: what lies between was not passed, and no step is taken again for it."""
+def test_kinks_of_a_force_that_does_nothing_leave_rebounds_as_they_are(folder: Path) -> None:
+    """Velocities jump across what the force compares: that is no passage of it."""
     rebound = """[events.floor]
 when = "bob.x < 0"
 reset = { "bob.vx" = "-0.8*bob.vx" }
 """
     settings = {"method": "lagrange", "integrator": "radau5", "rtol": 1e-8, "until": 0.8, "times": [0.8]}
-    started = "velocity = [0.5, 0.0]", "position = [0.0, 0.5]"
     found = []
     for force in ("-9", "-9 + 1e-40*(abs(bob.vx) + abs(bob.vx + 0.3))"):
         file = folder / "rebound.toml"
-        text = WINDOW.replace("FORCE", force).replace(started[1], "position = [0.2, 0.5]")
+        text = WINDOW.replace("FORCE", force).replace("position = [0.0, 0.5]", "position = [0.2, 0.5]")
         file.write_text(text + rebound, encoding="utf-8")
         result = symgen.load(file).simulate(**settings)
         assert result.status == "ok" and result.events
-        found.append((result.steps, result.rejected, result["bob.x"][-1]))
-    assert found[1] == found[0]
+        found.append([*(event.t for event in result.events), result["bob.x"][-1]])
+    np.testing.assert_allclose(*found, rtol=1e-9)
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
@@ -288,67 +286,15 @@ def test_a_kink_at_the_start_is_no_obstacle(tmp_path: Path, law: str, integrator
     method = "auto" if integrator == "auto" else "lagrange"
     result = symgen.simulate(file, method=method, integrator=integrator, rtol=1e-8, until=0.8)
     assert result.status == "ok", result.reason
-    assert result.rejected < 10
+    assert result.rejected < 20
     np.testing.assert_allclose([result["p.x"][-1], result["p.y"][-1]], fallen(AT_THE_START[law]), rtol=0.0, atol=1e-6)
 
 
 def test_switches_of_the_catalogue() -> None:
     """Runs of all others are entered once, as ever."""
     entries = (*catalogue.entries(), *catalogue.entries(catalogue.MACHINES))
-    found = {entry.name for entry in entries if switches_of(symgen.load(entry.name).mechanism)}
+    found = {entry.name for entry in entries if compares_state(symgen.load(entry.name).mechanism)}
     assert found == {"inverted-pendulum"}
-
-
-# -- what a step has passed --------------------------------------------------------------------------------------------
-
-
-def part(functions: list[np.polynomial.Polynomial], h: float, least: float = 1e-8, size: float = 0.0) -> float:
-    """Return the part to take of a step from 0 to `h`, switches being polynomials of time."""
-    every = *functions, *(f.deriv() for f in functions), *(np.polynomial.Polynomial([size]) for _ in functions)
-    return passed(np.array([f(0.0) for f in every]), np.array([f(h) for f in every]), h, least)
-
-
-def test_a_step_ends_between_the_first_two_passages() -> None:
-    """Beside NumPy's roots of all cubics: what the values and rates at both ends of a step determine."""
-    random, seen = np.random.default_rng(3), set()
-    for _ in range(400):
-        h, count = random.uniform(0.01, 0.3), int(random.integers(1, 4))
-        functions = [np.polynomial.Polynomial(random.normal(size=2) * [0.3, 1.0]) for _ in range(count)]
-        functions = [np.polynomial.Polynomial([f.coef[0], f.coef[1] / h]) for f in functions]
-        roots = sorted(-f.coef[0] / f.coef[1] / h for f in functions)
-        roots = [x for x in roots if 0.0 < x < 1.0]
-        expected = 1.0 if len(roots) < 2 else 0.5 * (roots[0] + roots[1])
-        assert part(functions, h) == pytest.approx(expected, abs=1e-9)
-        seen.add(len(roots))
-    assert seen == {0, 1, 2, 3}
-
-
-def test_a_step_ends_where_a_switch_is_passed_forth_and_back() -> None:
-    there_and_back = np.polynomial.Polynomial([0.21, -1.0, 1.0])  # passes 0 at 0.3 and at 0.7
-    assert part([there_and_back], 1.0) == pytest.approx(0.5)
-    assert part([-there_and_back], 1.0) == pytest.approx(0.5)
-    assert part([there_and_back + 0.05], 1.0) == 0.5, "tangents meet on the other side: it may have a corner"
-    assert part([there_and_back + 0.5], 1.0) == 1.0
-    middle = np.polynomial.Polynomial([-0.5, 1.0])  # is passed where the other one is deepest
-    assert part([middle, there_and_back], 1.0) == part([there_and_back, middle], 1.0) == pytest.approx(0.5)
-    assert part([np.polynomial.Polynomial([-0.25, 1.0]), there_and_back], 1.0) == pytest.approx(0.375)
-
-
-def test_what_is_short_and_what_is_not_finite_is_left() -> None:
-    line = np.polynomial.Polynomial([-0.5, 1.0])
-    assert part([line, line], 1.0) == 1.0
-    assert part([line, line - 1e-9], 1.0) == 1.0
-    assert part([line, line - 1e-7], 1.0) == pytest.approx(0.5)
-    assert part([line * math.nan, line], 1.0) == 1.0
-
-
-def test_what_stays_within_rounding_of_its_terms_is_not_passed() -> None:
-    still = np.polynomial.Polynomial([0.0, 0.0, 0.0, 0.0, 1e-13])  # the cubic dips below zero
-    noise = np.polynomial.Polynomial([2e-14, -4e-14])
-    assert part([still, noise], 1.0) < 1.0
-    assert part([still, noise], 1.0, size=4.0) == 1.0
-    assert part([still, noise, np.polynomial.Polynomial([-0.5, 1.0])], 1.0, size=4.0) == 1.0
-    assert part([np.polynomial.Polynomial([-0.3, 1.0]), np.polynomial.Polynomial([-0.5, 1.0])], 1.0, size=4.0) == 0.4
 
 
 def test_sizes_are_those_of_terms_and_of_the_state(folder: Path) -> None:
@@ -358,9 +304,9 @@ def test_sizes_are_those_of_terms_and_of_the_state(folder: Path) -> None:
     file.write_text(far.replace("FORCE", "abs(bob.x - 1000.25) + abs(bob.y)"), encoding="utf-8")
     model = symgen.load(file)
     compiled = model.compile("lagrange")
-    switches, start = compile_switches(model.mechanism, compiled), model.assemble(compiled)
+    watched, start = compile_events(model.mechanism, compiled, (), {}, 1e-8), model.assemble(compiled)
     out = np.zeros(6)
-    switches.function(0.0, start.y, start.p, start.w, np.zeros_like(start.y), out)
+    watched.function(0.0, start.y, start.p, start.w, np.zeros_like(start.y), out)
     length = start.w[abi.LENGTH]
     np.testing.assert_allclose(sorted(out[4:]), [0.5 + 0.5 + length, 1000.0 + 1000.25 + 1000.0 + length], rtol=1e-14)
 

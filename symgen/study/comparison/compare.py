@@ -169,16 +169,16 @@ class _Work:
         self.known = self.known or self.kept.reference(self.settings[0], self.times)
         self.note = "" if self.known is not None else self.kept.why_none(self.settings[0])
 
-    def study(self, rows: Sequence[Row], traces: Sequence[Trace], interrupted: bool) -> Study:
+    def study(self, done: Sequence[tuple[Row, Trace]], interrupted: bool) -> Study:
         base, known = self.settings[0], self.known
         return Study(
             mechanism=self.model.name,
             how="none" if known is None else known.how,
             estimated_error=float("nan") if known is None else known.estimated_error,
             until=self.end,
-            rows=with_ratios(rows),
+            rows=with_ratios([row for row, _ in done]),
             interrupted=interrupted,
-            traces=tuple(traces),
+            traces=tuple(trace for _, trace in done),
             note=self.note or ("there is no reference, so errors are unknown" if known is None else known.note),
             title=self.model.mechanism.title,
             digest=digest(self.model.mechanism),
@@ -298,7 +298,7 @@ def _prepare(works: Sequence[_Work], jobs: int, report: Progress, later: float) 
 
 def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
     """Run all rows of a model, one at a time."""
-    rows, traces = list[Row](), list[Trace]()
+    done = list[tuple[Row, Trace]]()  # pairs: an interruption leaves no row without its curves
     assembled: dict[Any, Assembled] = {}
     points = Points.of(work.model.mechanism, work.model.parameters(work.settings[0].parameters))
     interrupted = False
@@ -320,20 +320,19 @@ def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
                     found = measured(run, runs, work.known, points)
                     work.kept.add_row(s, *found)
             if found is not None:
-                rows.append(found[0])
-                traces.append(found[1])
+                done.append(found)
             if interrupted:
                 break
     except KeyboardInterrupt:
         interrupted = True
-    return work.study(rows, traces, interrupted)
+    return work.study(done, interrupted)
 
 
 def _kept(work: _Work) -> Study:
     """Return the rows that an earlier, interrupted study has left, as an interrupted study."""
     work.recall()
     found = [pair for pair in map(work.kept.row, work.settings) if pair is not None]
-    return work.study([row for row, _ in found], [trace for _, trace in found], True)
+    return work.study(found, True)
 
 
 def _find_reference(work: _Work, compiled: CompiledModel, start: Start, progress: Callable[[float], None]) -> None:

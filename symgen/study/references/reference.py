@@ -19,7 +19,7 @@ import numpy as np
 from msgspec import structs
 from numpy.typing import NDArray
 
-from symgen.describe.kinks import switches_of
+from symgen.describe.kinks import compares_state
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError, SimulationError
 from symgen.result.agreement import AGREEMENT
@@ -325,7 +325,7 @@ def _integrate(
 
     scale = np.maximum(np.abs(y), 1.0)
     make: Any = getattr(scipy.integrate, name)  # SciPy's types know no arrays of tolerances
-    compares = bool(switches_of(equations.mechanism))
+    compares = compares_state(equations.mechanism)
     longest = min(longest_of(equations, times), float(times[-1]) / LOOKED_AT if compares and len(times) else np.inf)
     more = {"rtol": rtol, "atol": rtol * scale, "max_step": longest, **jacobian_for(equations, name)}
     # each jump of a force takes some tiny steps as well

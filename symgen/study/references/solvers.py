@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.arguments import one_of
-from symgen.describe.kinks import switches_of
+from symgen.describe.kinks import compares_state
 from symgen.errors import SimulationError
 from symgen.study.references.parts import in_parts, longest_of
 
@@ -73,7 +73,7 @@ def in_one_go(
         return equations.rate(t, state)
 
     solve: Any = solve_ivp  # SciPy's types do not know arrays of tolerances
-    scale, compares = np.maximum(np.abs(y), 1.0), bool(switches_of(equations.mechanism))
+    scale, compares = np.maximum(np.abs(y), 1.0), compares_state(equations.mechanism)
     bound = longest_of(equations, times)
     more = {"rtol": rtol, "atol": rtol * scale, "dense_output": compares, **jacobian_for(equations, name)}
 

@@ -1,0 +1,160 @@
+"""Points of tables that the state passes: the interval that an argument is in, and a step that ends at the next point.
+
+Where a table is read over the state, nobody knows beforehand when its next point is passed, but nearly, at an accepted
+state: with s, s' and s'' of the argument, at the root of s + s' h + s'' h^2 / 2 = point. Steps are made to end there.
+What `abs`, `min` and `max` compare with zero is a table of one point.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from symgen.runtime.frame import TRY
+from symgen.runtime.search_records import (
+    ARGUMENT,
+    ARGUMENT_START,
+    CURVE,
+    D_START,
+    FIRST,
+    G_START,
+    LEVEL,
+    MISSED,
+    N_HEAD,
+    PERIOD,
+    PLACE,
+    POINTS,
+    SIDE,
+    SLOPE,
+    SLOPE_START,
+    TABLES,
+    WAY,
+)
+from symgen.runtime.switching import is_finite
+from symgen.store.emitted import plain
+
+A = Any
+#: This part of the way between two points is none.
+_REACHED = 1e-2
+#: No step ends at a point after less than this part of it: a rate that is nearly infinite says nothing.
+_LEAST = 1e-12
+#: Beyond the points of a table.
+_FAR = 1e300
+
+
+@plain
+def point(hunt: A, n: int, k: int, i: int) -> float:
+    """Return the point number i of the table of a function, counted on through its periods."""
+    count, first = int(hunt[N_HEAD + POINTS * n + k]), int(hunt[TABLES] + hunt[N_HEAD + FIRST * n + k])
+    period = hunt[N_HEAD + PERIOD * n + k]
+    if period > 0.0:
+        turns = math.floor(float(i) / float(count))
+        return float(hunt[first + i - turns * count] + float(turns) * period)
+    if i < 0:
+        return -_FAR
+    if i >= count:
+        return _FAR
+    return float(hunt[first + i])
+
+
+@plain
+def place_of(hunt: A, n: int, k: int, s: float, rate: float) -> int:
+    """Return the number of the point that the interval of s begins at; at a point itself, where s goes."""
+    count, first = int(hunt[N_HEAD + POINTS * n + k]), int(hunt[TABLES] + hunt[N_HEAD + FIRST * n + k])
+    period, turns = hunt[N_HEAD + PERIOD * n + k], 0
+    if period > 0.0:
+        turns = math.floor((s - hunt[first]) / period)
+    local, low, high = s - float(turns) * period, 0, count
+    while low < high:
+        middle = (low + high) // 2
+        if hunt[first + middle] < local or (hunt[first + middle] == local and rate >= 0.0):
+            low = middle + 1
+        else:
+            high = middle
+    return turns * count + low - 1
+
+
+@plain
+def is_met(hunt: A, n: int, k: int, i: int, s: float, rate: float, h: float) -> int:
+    """Return 1 where s is as good as at the point number i in a step of h, else 0."""
+    here = point(hunt, n, k, i)
+    near = min(here - point(hunt, n, k, i - 1), point(hunt, n, k, i + 1) - here)
+    return 1 if abs(here - s) <= min(_REACHED * near, hunt[N_HEAD + MISSED * n + k] * h * abs(rate)) else 0
+
+
+@plain
+def enter(hunt: A, n: int, k: int, h: float) -> int:
+    """Have the argument of a table be in the interval that it goes to where a step of h begins at a point."""
+    s, rate = hunt[N_HEAD + ARGUMENT_START * n + k], hunt[N_HEAD + SLOPE_START * n + k]
+    place = int(hunt[N_HEAD + PLACE * n + k])
+    if rate > 0.0 and is_met(hunt, n, k, place + 1, s, rate, h) == 1:
+        hunt[N_HEAD + PLACE * n + k] = float(place + 1)
+    elif rate < 0.0 and is_met(hunt, n, k, place, s, rate, h) == 1:
+        hunt[N_HEAD + PLACE * n + k] = float(place - 1)
+    return 0
+
+
+@plain
+def face(hunt: A, n: int, k: int, h: float) -> int:
+    """Look at the point by which a step of h leaves its interval; at the one ahead where it stays."""
+    enter(hunt, n, k, h)
+    s, rate, place = hunt[N_HEAD + ARGUMENT * n + k], hunt[N_HEAD + SLOPE_START * n + k], hunt[N_HEAD + PLACE * n + k]
+    low, high = point(hunt, n, k, int(place)), point(hunt, n, k, int(place) + 1)
+    up = 1 if s >= high or (s >= low and rate >= 0.0) else 0
+    way, level = 1.0 if up == 1 else -1.0, high if up == 1 else low
+    hunt[N_HEAD + WAY * n + k], hunt[N_HEAD + LEVEL * n + k] = way, level
+    hunt[N_HEAD + G_START * n + k] = max(0.0, way * (level - hunt[N_HEAD + ARGUMENT_START * n + k]))
+    hunt[N_HEAD + D_START * n + k] = -way * rate
+    return 0
+
+
+@plain
+def ends_at(hunt: A, n: int, k: int, h: float) -> int:
+    """Return 1 where a step of h that has passed the point that is looked at ends there as good as, else 0."""
+    i = int(hunt[N_HEAD + PLACE * n + k]) + (1 if hunt[N_HEAD + WAY * n + k] > 0.0 else 0)
+    return int(is_met(hunt, n, k, i, hunt[N_HEAD + ARGUMENT * n + k], hunt[N_HEAD + SLOPE * n + k], h))
+
+
+@plain
+def arrive(hunt: A, n: int, k: int, h: float) -> int:
+    """Have the last state that was looked at, after a step of h (0: none), as the beginning of the next step."""
+    s, rate = hunt[N_HEAD + ARGUMENT * n + k], hunt[N_HEAD + SLOPE * n + k]
+    rate = rate if is_finite(rate) == 1 else 0.0
+    if is_finite(s) == 1:
+        if h > 0.0:  # of the cubic through both ends
+            moved = s - hunt[N_HEAD + ARGUMENT_START * n + k]
+            curve = (2.0 * hunt[N_HEAD + SLOPE_START * n + k] + 4.0 * rate - 6.0 * moved / h) / h
+            hunt[N_HEAD + CURVE * n + k] = curve if is_finite(curve) == 1 else 0.0
+        hunt[N_HEAD + PLACE * n + k] = float(place_of(hunt, n, k, s, rate))
+        hunt[N_HEAD + ARGUMENT_START * n + k], hunt[N_HEAD + SLOPE_START * n + k] = s, rate
+    hunt[N_HEAD + SIDE * n + k] = 1.0
+    return 0
+
+
+@plain
+def aim(hunt: A, n: int, h: float) -> int:
+    """Set the step to try in place of one of h: one that ends at the next point, or half-way to one that is near."""
+    first, least = 2.0 * h, _LEAST * h
+    for k in range(n):
+        if hunt[N_HEAD + POINTS * n + k] == 0.0:
+            continue
+        enter(hunt, n, k, h)
+        s, rate = hunt[N_HEAD + ARGUMENT_START * n + k], hunt[N_HEAD + SLOPE_START * n + k]
+        curve, place = hunt[N_HEAD + CURVE * n + k], int(hunt[N_HEAD + PLACE * n + k])
+        for i in range(2):
+            distance = point(hunt, n, k, place + i) - s
+            square = rate * rate + 2.0 * curve * distance
+            if not (abs(distance) < _FAR and square >= 0.0):
+                continue
+            q = rate + math.copysign(math.sqrt(square), rate)
+            t = 2.0 * distance / q if q != 0.0 else 0.0
+            if t > least and t < first and (i == 1) == (rate > 0.0):
+                first = t
+            t = -q / curve if curve != 0.0 else 0.0
+            if t > least and t < first:  # behind where it turns round
+                first = t
+    if first < 2.0 * h:
+        hunt[TRY] = first if first <= h else 0.5 * first
+    else:
+        hunt[TRY] = h
+    return 0
