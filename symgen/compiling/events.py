@@ -84,7 +84,7 @@ def switch_of(passed: Discontinuity, rtol: float) -> Switch:
     """
     table = passed.table
     if table is None:
-        return Switch() if passed.jumps else Switch(rtol, (0.0,))
+        return Switch(rtol) if passed.jumps else Switch(rtol, (0.0,))
     period = table.x[-1] - table.x[0] if table.periodic else 0.0
     own = table.x[:-1] if table.periodic else table.x
     points = tuple(x for x, size in zip(own, sizes_of_kinks(table.interpolated), strict=False) if size > rtol)

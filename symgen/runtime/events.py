@@ -37,7 +37,7 @@ class Switch:
     Attributes
     ----------
     missed : float
-        Part of a step by which a point may be missed.
+        Part of a step by which a passage may be missed.
     points : tuple of float
         Points at which a table that is read, or a formula, has a kink; none for what may jump, at zero.
     period : float

@@ -36,8 +36,9 @@ from symgen.runtime.scales import settle
 from symgen.runtime.vectors import copied, received
 from symgen.runtime.watch import approach, begin, keep_maxima, meets, remember_rank, stuck, watch
 
-#: Where the step to try stands in what is kept of events (`symgen.runtime.searching`).
-TRY = 0
+#: Where the step to try, and the longest one that ends before what is sought, are in what is kept of events
+#: (`symgen.runtime.search_records`).
+TRY, LOW = range(2)
 
 # -- what a loop decides by itself; schemes may give other numbers -----------------------------------------------------
 #: Whether steps follow the error estimate.
@@ -58,6 +59,8 @@ SETTING_OUT = 100
 _HOPELESS, _ASTRAY = 1e6, 1e-2
 #: A zone is crossed in so many times the distance to its middle: not 2, so that no stage at half the step meets it.
 _ACROSS = 2.3
+#: The part of the way to a switch of a step whose stages do not pass it.
+_SHORT_OF = 0.9
 #: What an attempt returns where an iteration did not converge, and where a matrix does not fit into its room.
 DIVERGED, TOO_LARGE = -1.0, -2.0
 #: What `happened` finds: nothing; something, so that the step is tried again, shorter, to find out where; the same, the
@@ -239,10 +242,12 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             return abi.UNDEFINED
         control[abi.BEGUN] = 1
     t, out = clock[abi.TIME], control[abi.OUTPUTS]
-    hunting, crossing, whole, whole_following, wanted = NOTHING, False, 0.0, 0.0, 0.0
+    hunting, crossing, doubtful = NOTHING, False, False
+    whole, whole_following, wanted = 0.0, 0.0, 0.0
     phi, drift, energy = run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY]
     while t < until - tiny:
         if hunting == NOTHING:
+            doubtful = False
             if control[abi.STOP] != 0:
                 return abi.STOPPED
             if control[abi.STEPS] >= span.pause:
@@ -260,8 +265,8 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             h = approach(min(clock[abi.NEXT], span.largest), run.gauges)
             if crossing:
                 h = min(span.largest, _ACROSS * run.gauges[abi.LAST_SINE] / run.gauges[abi.FALL])
-            elif EVENTS:
-                wanted = h
+            wanted = h
+            if EVENTS and not crossing:
                 h = aimed(system, run, h)
             following = t + h
             if t + 1.01 * h >= until:
@@ -292,15 +297,20 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             hunting, out = NOTHING, refused(run, times, out, t, phi, drift, energy)
             continue
         good = error <= 1.0 or (crossing and error <= max(_HOPELESS, _ASTRAY / span.rtol))
-        if ADAPTIVE and not between and hunting != SEEK and not good:
-            if EVENTS and hunting == NOTHING and math.isfinite(error):
-                hunting = happened(system, run, t, following, h, DOUBT)
-                if hunting == SEEK:
+        if EVENTS and ADAPTIVE and not good and not between and (hunting == NOTHING or doubtful):
+            if hunting != TAKE and math.isfinite(error):  # the error may be that of a switch inside
+                hunting = happened(system, run, t, following, h, DOUBT if hunting == NOTHING else hunting)
+                doubtful = hunting != NOTHING
+                if doubtful and run.hunt[LOW] != h:  # an attempt that ends before the switch has its own error
                     continue
+            hunting = NOTHING
+        if ADAPTIVE and not between and hunting != SEEK and not good:
             hunting = NOTHING
             if crossing:
                 control[abi.BARRED] = 1
             change = max(SHRINK, span.safety * error ** (-1.0 / control[abi.ORDER])) if math.isfinite(error) else 0.1
+            if EVENTS and doubtful:  # its end is near a switch, and some of its stages are behind it
+                change = _SHORT_OF
             clock[abi.NEXT] = h * change
             refuse(run)
             out = refused(run, times, out, t, phi, drift, energy)
@@ -365,7 +375,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             grow = min(GROW, max(SHRINK_ACCEPTED, grow))
             clock[abi.NEXT] = h * (min(1.0, grow) if control[abi.REFUSED] == 1 else grow)
             clock[abi.ALLOWED] = allowed
-            if EVENTS and h < wanted and control[abi.REFUSED] == 0:  # a point of a table ended it, not its error
+            if EVENTS and h < wanted and control[abi.REFUSED] == 0:  # something else ended it than its error
                 clock[abi.NEXT] = max(clock[abi.NEXT], wanted)
         control[abi.REFUSED] = control[abi.BARRED] = 0
         t = following

@@ -12,18 +12,23 @@ from typing import Any
 
 from symgen.runtime.frame import TRY
 from symgen.runtime.search_records import (
+    ACTION,
+    ANEW,
     ARGUMENT,
     ARGUMENT_START,
     CURVE,
     D_START,
     FIRST,
     G_START,
+    GRAIN,
     LEVEL,
     MISSED,
     N_HEAD,
     PERIOD,
     PLACE,
     POINTS,
+    REACH,
+    RESOLUTION,
     SIDE,
     SLOPE,
     SLOPE_START,
@@ -38,6 +43,8 @@ A = Any
 _REACHED = 1e-2
 #: No step ends at a point after less than this part of it: a rate that is nearly infinite says nothing.
 _LEAST = 1e-12
+#: The part of the way to a jump of a step whose stages do not pass it.
+_SHORT_OF = 0.99
 #: Beyond the points of a table.
 _FAR = 1e300
 
@@ -116,12 +123,35 @@ def ends_at(hunt: A, n: int, k: int, h: float) -> int:
 
 
 @plain
+def short(hunt: A, n: int, k: int) -> float:
+    """Return the step below which it does not matter that some of its stages are behind a jump and others are not."""
+    least = max(hunt[N_HEAD + MISSED * n + k] * hunt[REACH], 4.0 * hunt[RESOLUTION])
+    return float(max(least, 2.0 * through(hunt, n, k)))
+
+
+@plain
+def through(hunt: A, n: int, k: int) -> float:
+    """Return the time in which a switch passes what counts as rounding of it."""
+    far, rate = 4.0 * hunt[N_HEAD + GRAIN * n + k], abs(hunt[N_HEAD + D_START * n + k])
+    return float(far / rate) if far < rate * hunt[REACH] else 0.0
+
+
+@plain
+def bend(hunt: A, n: int, k: int, g: float, d: float, h: float) -> int:
+    """Keep the rate of the rate at the end of a step of h: that of the cubic through values and rates at both ends."""
+    rise = g - hunt[N_HEAD + G_START * n + k]
+    curve = (2.0 * hunt[N_HEAD + D_START * n + k] + 4.0 * d - 6.0 * rise / h) / h
+    hunt[N_HEAD + CURVE * n + k] = curve if is_finite(curve) == 1 else 0.0
+    return 0
+
+
+@plain
 def arrive(hunt: A, n: int, k: int, h: float) -> int:
     """Have the last state that was looked at, after a step of h (0: none), as the beginning of the next step."""
     s, rate = hunt[N_HEAD + ARGUMENT * n + k], hunt[N_HEAD + SLOPE * n + k]
     rate = rate if is_finite(rate) == 1 else 0.0
     if is_finite(s) == 1:
-        if h > 0.0:  # of the cubic through both ends
+        if h > 0.0:
             moved = s - hunt[N_HEAD + ARGUMENT_START * n + k]
             curve = (2.0 * hunt[N_HEAD + SLOPE_START * n + k] + 4.0 * rate - 6.0 * moved / h) / h
             hunt[N_HEAD + CURVE * n + k] = curve if is_finite(curve) == 1 else 0.0
@@ -132,26 +162,47 @@ def arrive(hunt: A, n: int, k: int, h: float) -> int:
 
 
 @plain
+def reached(distance: float, rate: float, curve: float, turning: int) -> float:
+    """Return when s' t + s'' t^2 / 2 is a distance, with `turning` 1 behind where it turns round; 0 where never."""
+    square = rate * rate + 2.0 * curve * distance
+    if not (abs(distance) < _FAR and square >= 0.0):
+        return 0.0
+    q = rate + math.copysign(math.sqrt(square), rate)
+    if turning == 1:
+        return float(-q / curve) if curve != 0.0 else 0.0
+    return float(2.0 * distance / q) if q != 0.0 else 0.0
+
+
+@plain
 def aim(hunt: A, n: int, h: float) -> int:
-    """Set the step to try in place of one of h: one that ends at the next point, or half-way to one that is near."""
+    """Set the step to try in place of one of h: one that ends at the next point, or half-way to one that is near.
+
+    To a jump it goes nearly, so that no stage passes it, and then across by a step that is short.
+    """
     first, least = 2.0 * h, _LEAST * h
+    hunt[REACH] = h
     for k in range(n):
+        if hunt[N_HEAD + ACTION * n + k] != float(ANEW):
+            continue
+        curve = hunt[N_HEAD + CURVE * n + k]
         if hunt[N_HEAD + POINTS * n + k] == 0.0:
+            g, d = hunt[N_HEAD + G_START * n + k], hunt[N_HEAD + D_START * n + k]
+            for turning in range(2):
+                t = reached(-g, d, curve, turning)
+                if t > 0.0 and t < 2.0 * h:
+                    t = _SHORT_OF * t if t > short(hunt, n, k) else t + through(hunt, n, k) + 2.0 * hunt[RESOLUTION]
+                    first = min(first, t)
             continue
         enter(hunt, n, k, h)
         s, rate = hunt[N_HEAD + ARGUMENT_START * n + k], hunt[N_HEAD + SLOPE_START * n + k]
-        curve, place = hunt[N_HEAD + CURVE * n + k], int(hunt[N_HEAD + PLACE * n + k])
+        place = int(hunt[N_HEAD + PLACE * n + k])
         for i in range(2):
             distance = point(hunt, n, k, place + i) - s
-            square = rate * rate + 2.0 * curve * distance
-            if not (abs(distance) < _FAR and square >= 0.0):
-                continue
-            q = rate + math.copysign(math.sqrt(square), rate)
-            t = 2.0 * distance / q if q != 0.0 else 0.0
+            t = reached(distance, rate, curve, 0)
             if t > least and t < first and (i == 1) == (rate > 0.0):
                 first = t
-            t = -q / curve if curve != 0.0 else 0.0
-            if t > least and t < first:  # behind where it turns round
+            t = reached(distance, rate, curve, 1)
+            if t > least and t < first:
                 first = t
     if first < 2.0 * h:
         hunt[TRY] = first if first <= h else 0.5 * first

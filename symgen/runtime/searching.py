@@ -23,6 +23,7 @@ from symgen.runtime.frame import (
     FAIL,
     HOLD,
     LOOK,
+    LOW,
     MEET,
     NOTHING,
     RECALL,
@@ -32,7 +33,7 @@ from symgen.runtime.frame import (
     TAKE,
     TRY,
 )
-from symgen.runtime.points import aim, arrive, ends_at, face
+from symgen.runtime.points import aim, arrive, bend, ends_at, face, short
 from symgen.runtime.search_records import (
     ACCEPTED,
     ACTION,
@@ -50,13 +51,13 @@ from symgen.runtime.search_records import (
     G_HIGH,
     G_LOW,
     G_START,
+    GRAIN,
     GRAZING,
     HIGH,
     KEEP,
     LEAVE,
     LEVEL,
     LOCAL,
-    LOW,
     N_COLUMNS,
     N_HEAD,
     N_VALUES,
@@ -80,13 +81,16 @@ from symgen.runtime.switching import asked, first_root, hidden, is_finite, side_
 from symgen.store.emitted import plain
 
 A = Any
-#: What is being done: looking for events, taking the whole step, taking a step that ends in an event.
-_LOOKING, _WHOLE_STEP, _TO_EVENT = range(3)
+#: What is being done: looking for events, taking the whole step, taking a step that ends in an event, or one that ends
+#: before a jump, so that its stages are on one side of it.
+_LOOKING, _WHOLE_STEP, _TO_EVENT, _BEFORE = range(4)
 _COUNTERS, _RESOLVED = abi.N_COUNTERS, abi.RESOLVED_TIME
 #: A reset changes g by rounding alone below this part of its size in the step before.
 _SAME = 1e-6
 #: Attempts at extrema and rounds in a bracket, at most.
 _MOST_PROBES, _MOST_ROUNDS = 12, 200
+#: The part of the way to a jump of a step whose stages do not pass it.
+_SHORT_OF = 0.99
 #: A switch within this part of the size of its terms is on the side that it was on before.
 _ROUNDING = 1e-13
 #: So many switches within this part of the time hold a motion back.
@@ -107,26 +111,62 @@ def switched(hunt: A, n: int, h: float, hunting: int) -> int:
                 face(hunt, n, k, h)
             way = hunt[at + WAY * n + k]
             hunt[out + k], hunt[out + n + k] = way * (hunt[at + LEVEL * n + k] - s), -way * rate
+        hunt[at + GRAIN * n + k] = _ROUNDING * hunt[out + 2 * n + k]
         if is_finite(hunt[out + k] + hunt[out + n + k]) == 0:
             hunt[out + k], hunt[out + n + k] = 0.0, 0.0
-        elif abs(hunt[out + k]) <= _ROUNDING * hunt[out + 2 * n + k]:
+        elif abs(hunt[out + k]) <= hunt[at + GRAIN * n + k]:
             hunt[out + k] = 0.0
     return 0
 
 
 @plain
-def at_points(hunt: A, n: int) -> int:
-    """Return 1 where the bracket ends as good as at each point that is passed in it, else 0."""
+def ends_near(hunt: A, n: int) -> int:
+    """Return 1 where the bracket ends near enough behind everything that it passes, all of it switches, else 0."""
     at = N_HEAD
     for k in range(n):
         side = hunt[at + LOCAL * n + k]
         if asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[at + G_HIGH * n + k], side)) == 1:
-            if hunt[at + POINTS * n + k] == 0.0 or ends_at(hunt, n, k, hunt[HIGH]) == 0:
+            if hunt[at + POINTS * n + k] > 0.0:
+                if ends_at(hunt, n, k, hunt[HIGH]) == 0:
+                    return 0
+            elif hunt[at + ACTION * n + k] != float(ANEW) or hunt[HIGH] > 2.0 * short(hunt, n, k):
                 return 0
     return 1
 
 
+@plain
+def is_before(hunt: A, n: int) -> int:
+    """Return 1 where a jump is passed in the bracket, whose beginning is nearly there, but no event; else 0."""
+    at, jumps = N_HEAD, 0
+    for k in range(n):
+        side = hunt[at + LOCAL * n + k]
+        if asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[at + G_HIGH * n + k], side)) == 1:
+            if hunt[at + ACTION * n + k] != float(ANEW):
+                return 0
+            if hunt[at + POINTS * n + k] == 0.0 and hunt[LOW] > short(hunt, n, k):
+                jumps = 1
+    return 1 if jumps == 1 and hunt[HIGH] - hunt[LOW] <= (1.0 - _SHORT_OF) * hunt[LOW] else 0
+
+
 # -- the search --------------------------------------------------------------------------------------------------------
+
+
+@plain
+def beyond_low(hunt: A, n: int, k: int, otherwise: float) -> float:
+    """Return the part of the bracket at which g leaves its side, by what is known before the bracket alone.
+
+    Behind a jump, rates at the end of the bracket are others.
+    """
+    at, low, width = N_HEAD, hunt[LOW], hunt[HIGH] - hunt[LOW]
+    g, d, bent = hunt[at + G_LOW * n + k], hunt[at + D_LOW * n + k], 0.0
+    if low > 0.0:
+        rise = (g - hunt[at + G_START * n + k]) / low
+        bent = (2.0 * hunt[at + D_START * n + k] + 4.0 * d - 6.0 * rise) / low
+    square = d * d - 2.0 * bent * g
+    if not (g * d < 0.0 and square >= 0.0):
+        return otherwise
+    x = -2.0 * g / (d + math.copysign(math.sqrt(square), d)) / width
+    return float(x) if x > 0.0 and x < 1.0 else otherwise
 
 
 @plain
@@ -146,6 +186,8 @@ def candidate(hunt: A, n: int) -> float:
         if asked(hunt[at + DIRECTION * n + k], side, side_of(g1, side)) == 1:
             d0, d1 = width * hunt[at + D_LOW * n + k], width * hunt[at + D_HIGH * n + k]
             root = first_root(hunt[at + G_LOW * n + k], d0, g1, d1, side) if is_finite(d0 + d1) == 1 else 0.5
+            if rounds % 2 == 1 and hunt[at + ACTION * n + k] == float(ANEW):
+                root = beyond_low(hunt, n, k, root)
             x = min(x, root)
     x = low + x * width
     # a little beyond the root, seen from the nearer end, so that the bracket has it between two near ends
@@ -216,6 +258,7 @@ def settle(hunt: A, n: int, ends: int) -> int:
         hunt[at + GRAZING * n + k] *= 1.0 if side * hunt[N_HEAD + N_COLUMNS * n + k] < 0.0 else 0.0
         hunt[at + SIDE * n + k] = side
         hunt[at + SIZE * n + k] = max(abs(hunt[at + G_START * n + k]), abs(hunt[at + G_END * n + k]))
+        bend(hunt, n, k, hunt[at + g * n + k], hunt[at + d * n + k], hunt[WHOLE] if ends == 1 else hunt[HIGH])
         hunt[at + G_START * n + k] = hunt[at + g * n + k]
         hunt[at + D_START * n + k] = hunt[at + d * n + k]
         if hunt[at + POINTS * n + k] > 0.0:
@@ -354,6 +397,16 @@ def ended(hunt: A, n: int, notes: int, following: float, width: int, y: A) -> in
 
 
 @plain
+def end_before(hunt: A, n: int, h: float) -> int:
+    """Have a step of h, which ends before a switch, as the whole step."""
+    out = N_HEAD + N_COLUMNS * n
+    for k in range(n):
+        hunt[N_HEAD + G_END * n + k], hunt[N_HEAD + D_END * n + k] = hunt[out + k], hunt[out + n + k]
+    hunt[WHOLE] = h
+    return 0
+
+
+@plain
 def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int, width: int, y: A, w: A, iw: A) -> int:
     """Take in what was found at a state and return what to do next, one of `NOTHING` to `FAIL`.
 
@@ -394,7 +447,9 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
         if hunting == AIM:
             return int(aim(hunt, n, h))
         return int(give_back(hunt, first + size, size - _COUNTERS, w, iw))
-    if hunting == TAKE and hunt[DOING] == _WHOLE_STEP:
+    if hunting == TAKE and hunt[DOING] != _TO_EVENT:
+        if hunt[DOING] == _BEFORE:
+            end_before(hunt, n, h)
         settle(hunt, n, 1)
         return CROWD if 2 * hunt[NOTED] >= NOTES else NOTHING
     take_in(hunt, n, h, following, hunting)
@@ -406,7 +461,10 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
         high = hunt[HIGH]
         there = concealed(hunt, n)
         if crossed(hunt, n, G_HIGH, NOTE) >= NOTE:
-            near = 1 if h == high and there >= high and at_points(hunt, n) == 1 else 0
+            near = 1 if h == high and there >= high and ends_near(hunt, n) == 1 else 0
+            if near == 0 and is_before(hunt, n) == 1:
+                hunt[DOING], hunt[TRY] = _BEFORE, _SHORT_OF * hunt[LOW]
+                return TAKE
             if near == 0 and high - hunt[LOW] > hunt[RESOLUTION] and hunt[ROUNDS] < _MOST_ROUNDS:
                 hunt[TRY] = candidate(hunt, n)
                 if there < hunt[TRY]:  # another event may come first, and be over by then
