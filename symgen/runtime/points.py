@@ -45,6 +45,8 @@ _REACHED = 1e-2
 _LEAST = 1e-12
 #: The part of the way to a jump of a step whose stages do not pass it.
 _SHORT_OF = 0.99
+#: Rounding of a switch is passed at once in so many times what time resolves, however short steps are.
+_MOST = 1e6
 #: Beyond the points of a table.
 _FAR = 1e300
 
@@ -133,7 +135,7 @@ def short(hunt: A, n: int, k: int) -> float:
 def through(hunt: A, n: int, k: int) -> float:
     """Return the time in which a switch passes what counts as rounding of it."""
     far, rate = 4.0 * hunt[N_HEAD + GRAIN * n + k], abs(hunt[N_HEAD + D_START * n + k])
-    return float(far / rate) if far < rate * hunt[REACH] else 0.0
+    return float(far / rate) if far < rate * max(hunt[REACH], _MOST * hunt[RESOLUTION]) else 0.0
 
 
 @plain
