@@ -78,13 +78,13 @@ def compile_events(
 def switch_of(passed: Discontinuity, rtol: float) -> Switch:
     """Return a discontinuity as loops take it.
 
-    A stage at the end of a step of which a part x is behind a kink of the k-th derivative is off by the k-th power of
-    x, which may be `rtol`. Points of a table that matter less than `rtol` are left out: many of these together are a
-    smooth curve, which the error estimate sees.
+    A stage of a step of which a part x is behind a kink of the k-th derivative is off by the k-th power of x, which may
+    be `rtol`. Points of a table that matter less than `rtol` are left out: many of these together are a smooth curve,
+    which the error estimate sees.
     """
     table = passed.table
     if table is None:
-        return Switch(rtol) if passed.jumps else Switch(rtol, (0.0,))
+        return Switch(rtol)
     period = table.x[-1] - table.x[0] if table.periodic else 0.0
     own = table.x[:-1] if table.periodic else table.x
     points = tuple(x for x, size in zip(own, sizes_of_kinks(table.interpolated), strict=False) if size > rtol)

@@ -39,7 +39,7 @@ class Switch:
     missed : float
         Part of a step by which a passage may be missed.
     points : tuple of float
-        Points at which a table that is read, or a formula, has a kink; none for what may jump, at zero.
+        Points at which a table that is read has kinks; none for what formulas compare with zero.
     period : float
         Of the table, 0 where it does not repeat itself.
     """

@@ -2,7 +2,7 @@
 
 Where a table is read over the state, nobody knows beforehand when its next point is passed, but nearly, at an accepted
 state: with s, s' and s'' of the argument, at the root of s + s' h + s'' h^2 / 2 = point. Steps are made to end there.
-What `abs`, `min` and `max` compare with zero is a table of one point.
+Steps to what formulas compare end shortly before it, so that none of their stages passes it.
 """
 
 from __future__ import annotations

@@ -43,7 +43,9 @@ def test_intervals_are_those_of_numpy(period):
         for rate in (1.0, -1.0):
             place = plain_form(points.place_of)(hunt, 1, 0, float(s), rate)
             inside = np.searchsorted(every, s, side="right" if rate > 0.0 else "left") - 1
-            assert plain_form(points.point)(hunt, 1, 0, place) == pytest.approx(every[inside] if inside >= 0 else -1e300)
+            assert plain_form(points.point)(hunt, 1, 0, place) == pytest.approx(
+                every[inside] if inside >= 0 else -1e300
+            )
 
 
 @pytest.mark.parametrize("period", [0.0, REPEATED])
