@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.compiling.events import compile_events
 from symgen.ensemble.chunks import Chunk, Results
 from symgen.ensemble.lanes import run_in_lanes
 from symgen.ensemble.recipe import Code, Recipe
@@ -28,12 +29,14 @@ from symgen.runtime.run import RunSpec
 from symgen.runtime.start_records import Asked, Instant
 
 if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.device import DeviceRuns
     from symgen.ensemble.measures import Measures
     from symgen.ensemble.singly import SingleRuns
     from symgen.ensemble.starts import Rows
     from symgen.ensemble.tree_rows import TreeRows
     from symgen.runtime.compiled import ModelInfo
+    from symgen.runtime.events import Watched
     from symgen.runtime.records import Kept
 
 Array = NDArray[np.float64]
@@ -56,6 +59,7 @@ class _Prepared:
     on_tree: _Prepared | None = None
     picks: Integers | None = None
     width: int | None = None
+    watched: Watched | None = None
 
 
 @dataclass
@@ -214,8 +218,9 @@ class Kernel:
         rates, seen = rates_of(law), observe if observes else observe_nothing
         sizes, span, kept = sizes_of(model.compiled), span_of(recipe.spec, model.setup), self._kept(info, model.width)
         needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if model.width is None else set())
-        wants = int(bool(sources & needs)), int(observes)
-        picks = picked, out.values.reshape(-1), summary.reshape(-1)
+        ends = int(recipe.watch is not None and recipe.watch.ends)
+        wants = ends, int(bool(sources & needs)), int(observes)
+        picks = picked, out.values.reshape(-1), summary.reshape(-1), out.events.reshape(-1)
         redundant = np.any(summary[selected, e.REDUNDANT_ROWS] > 0.0)
         dense = np.zeros(room_of_choice(info.m, info.nv) if redundant else 0)
         flat, places = (x.ravel() for x in now), (model.compiled.layout, dense)
@@ -228,6 +233,15 @@ class Kernel:
                 return False
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
         loop, system = self.integrator.rows(recipe.spec.adaptive), (sizes, *model.setup.functions)
+        if model.watched is not None:
+            from symgen.runtime.rows import with_functions
+            from symgen.runtime.searching import decide
+
+            loop, system = with_functions(loop), (*system, model.watched.function, decide, rates[0])
+            state = model.watched.hunting_state(sizes, state)
+            if out.events.shape[1]:
+                out.events[selected] = np.nan
+                out.events[selected, e.HEAD_OF_EVENTS :: e.OF_EVENT] = 0.0
         done = loop((system, (sizes, *rates, law.accept, seen)), model.setup.scheme, span, chunk, state, kept)
         return bool(done == len(chunk.selected))
 
@@ -257,15 +271,18 @@ class Kernel:
             device=self._device_runs(other, setup) if other is not None and recipe.target == "cuda" else None,
             lanes=other if recipe.target == "lanes" else None,
         )
-        if recipe.singly is not None:
+        watch = recipe.watch
+        if watch is not None and watch.alone:
             from symgen.ensemble.singly import SingleRuns
 
-            prepared.single = SingleRuns(recipe, recipe.singly, compiled, self.integrator, carried)
-        if recipe.singly is not None and recipe.tree is not None and carried is not None and recipe.tree.plain:
+            prepared.single = SingleRuns(recipe, watch, compiled, self.integrator, carried)
+        elif watch is not None:
+            prepared.watched = self._watched(watch.mechanism, compiled)
+        if watch is not None and recipe.tree is not None and carried is not None and recipe.tree.plain:
             from symgen.ensemble.tree_rows import TreeRows
 
             values = carried[1].parameter_array(defaults, recipe.method_parameters)
-            prepared.tree = TreeRows.of(recipe.singly.mechanism, carried[0], compiled, carried[1], values)
+            prepared.tree = TreeRows.of(watch.mechanism, carried[0], compiled, carried[1], values)
             prepared.on_tree = _Prepared(
                 compiled=carried[1],
                 assembly=Assembly(carried[1]),
@@ -273,8 +290,15 @@ class Kernel:
                 setup=self.integrator.setup(carried[1], recipe.spec, carried[1].scratch()),
                 picks=prepared.tree.picks(recipe.quantities),
                 width=prepared.tree.width,
+                watched=self._watched(*carried),
             )
         return prepared
+
+    def _watched(self, mechanism: Mechanism, compiled: CompiledModel) -> Watched | None:
+        """Return the switching functions of rows, None where there are none."""
+        watch, spec = self.recipe.watch, self.recipe.spec
+        assert watch is not None, "rows look for something"
+        return compile_events(mechanism, compiled, watch.events, {}, spec.rtol if spec.adaptive else None)
 
     def _device_runs(self, compiled: CompiledModel, setup: Setup) -> DeviceRuns:
         from symgen.ensemble.device import DeviceRuns, need_of

@@ -17,7 +17,7 @@ from symgen.compiling.integrals import can_integrate
 from symgen.compiling.pipeline import compile_model
 from symgen.describe.derived import derived
 from symgen.describe.digest import identity
-from symgen.describe.events import RECORD
+from symgen.describe.events import RECORD, RESET, STOP
 from symgen.describe.kinks import discontinuities_of
 from symgen.describe.sides import sides_of
 from symgen.ensemble.axes import Grid, make_grid
@@ -28,13 +28,14 @@ from symgen.ensemble.made import Made
 from symgen.ensemble.measures import integrated, measurable
 from symgen.ensemble.names import Held, Names, held_of
 from symgen.ensemble.quantities import choose_quantities
-from symgen.ensemble.recipe import Recipe, Singly, code_identity
+from symgen.ensemble.recipe import Recipe, Watch, code_identity
 from symgen.ensemble.starts import Rows, make_rows
 from symgen.ensemble.tree_rows import are_plain
 from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import make_plan
+from symgen.runtime.ensemble_abi import SIDE
 from symgen.runtime.foreseen import Foreseen, foreseen
 from symgen.runtime.motions import refuse_jumps
 from symgen.settings import Settings
@@ -104,7 +105,7 @@ class Ensemble:
     @property
     def events(self) -> tuple[str, ...]:
         """Names of the events that are looked for."""
-        return () if self.recipe.singly is None else tuple(x.name for x in self.recipe.singly.events)
+        return () if self.recipe.watch is None else tuple(x.name for x in self.recipe.watch.events)
 
     @property
     def sizes(self) -> tuple[int, int, int, int, int]:
@@ -125,8 +126,8 @@ class Ensemble:
         evaluations = spec.until * _EVALUATIONS
         if not spec.adaptive and spec.step is not None:
             evaluations = stages * spec.until / spec.step
-        tree, singly = self.recipe.tree, self.recipe.singly
-        overhead = 2e-5 if singly is None or (tree is not None and tree.plain) else 5e-4
+        tree, watch = self.recipe.tree, self.recipe.watch
+        overhead = 5e-4 if watch is not None and watch.alone and not (tree is not None and tree.plain) else 2e-5
         seconds = overhead + _OPERATION * evaluations * sum(law.operations.get(name, 0) for name in ("rhs", "accept"))
         numbers = law.nw + 4 * info.ny + 100 + len(self.recipe.columns) * len(spec.times)
         if self.target == "cuda":  # a device wants tens of thousands of runs at once, whatever they take
@@ -237,11 +238,14 @@ def make_ensemble(
     integrator_of_rows(plan.integrator.name, spec)
     if target == "lanes":
         check_lanes(plan.integrator.name, spec)
-    parts = bool(events) or driving.jumps or looks  # what Python does something between
-    singly = Singly(mechanism, events, ends) if parts or joint else None
+    resets = any(event.action == RESET for event in events)
+    late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in kept)
+    parts = driving.jumps or resets or late or (joint and bool(events))  # what Python does something between
+    alone = parts or joint
+    watch = Watch(mechanism, events, ends, alone) if alone or events or looks else None
     # single runs add up all that outputs ask for, which their steps follow, too
-    adds = integral is not None or (singly is not None and can_integrate(compiled))
-    made = Made(mechanism, compiled, plan, adds, kept if singly is None else ())
+    adds = integral is not None or (watch is not None and can_integrate(compiled))
+    made = Made(mechanism, compiled, plan, adds, () if alone else kept)
     recipe = Recipe(
         **made.codes(target, joint, not parts and are_plain(kept)),
         integrator=plan.integrator.name,
@@ -254,7 +258,7 @@ def make_ensemble(
         strict=plan.settings.strict,
         code=code_identity(),
         target=target,
-        singly=singly,
+        watch=watch,
         joints=tuple(held.joints.values()),
         sides=tuple(side for side in sides_of(mechanism) if side.held),
     )

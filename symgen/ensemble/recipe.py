@@ -135,8 +135,8 @@ class Tree:
 
 
 @dataclass(frozen=True)
-class Singly:
-    """What runs need that are done one by one.
+class Watch:
+    """What rows look for beside their motion.
 
     Attributes
     ----------
@@ -146,11 +146,14 @@ class Singly:
         What is looked for.
     ends : bool
         Whether the only output is the end of a run, wherever an event puts it.
+    alone : bool
+        Whether rows are single runs, done one by one.
     """
 
     mechanism: Mechanism
     events: tuple[Event, ...] = ()
     ends: bool = False
+    alone: bool = False
 
     @property
     def width(self) -> int:
@@ -160,7 +163,7 @@ class Singly:
     @property
     def described(self) -> list[Any]:
         """What it is, as JSON can express it."""
-        return [identity(self.mechanism), in_words(self.events), self.ends]
+        return [identity(self.mechanism), in_words(self.events), self.ends, self.alone]
 
 
 @dataclass(frozen=True)
@@ -184,8 +187,8 @@ class Recipe:
         What is kept.
     tree : Tree or None
         What is run in joint coordinates.
-    singly : Singly or None
-        What runs need that are done one by one.
+    watch : Watch or None
+        What rows look for beside their motion.
     joints : tuple of (int, int)
         Joint coordinates that rows hold, each with 1 where it is the rate that they hold.
     sides : tuple of Side
@@ -215,7 +218,7 @@ class Recipe:
     code: str
     target: str = "cpu"
     tree: Tree | None = None
-    singly: Singly | None = None
+    watch: Watch | None = None
     joints: tuple[tuple[int, int], ...] = ()
     sides: tuple[Side, ...] = ()
 
@@ -242,7 +245,7 @@ class Recipe:
     @property
     def further(self) -> int:
         """Numbers that each run leaves of events."""
-        return 0 if self.singly is None else self.singly.width
+        return 0 if self.watch is None else self.watch.width
 
     @property
     def columns(self) -> tuple[Quantity, ...]:
@@ -278,7 +281,7 @@ class Recipe:
                 *(self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),
                 *(dict(self.method_parameters), [q.name for q in self.quantities], self.held, self.kept, self.fixed),
                 *(self.strict, self.code, self.joints, *([self.sides] if self.sides else [])),
-                *(x if x is None else x.described for x in (self.first, self.spare, self.tree, self.singly)),
+                *(x if x is None else x.described for x in (self.first, self.spare, self.tree, self.watch)),
             ],
             sort_keys=True,
         )

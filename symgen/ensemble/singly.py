@@ -35,7 +35,7 @@ from symgen.runtime.simulation import Simulation
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.chunks import Results
-    from symgen.ensemble.recipe import Recipe, Singly
+    from symgen.ensemble.recipe import Recipe, Watch
     from symgen.ensemble.starts import Rows
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Watched
@@ -66,7 +66,7 @@ class SingleRuns:
     """
 
     recipe: Recipe
-    singly: Singly
+    watch: Watch
     compiled: CompiledModel
     integrator: Integrator
     tree: tuple[Mechanism, CompiledModel] | None = None
@@ -75,12 +75,12 @@ class SingleRuns:
 
     @property
     def _run_of(self) -> tuple[Mechanism, CompiledModel]:
-        return (self.singly.mechanism, self.compiled) if self.tree is None else self.tree
+        return (self.watch.mechanism, self.compiled) if self.tree is None else self.tree
 
     def _events_of(self, mechanism: Mechanism, compiled: CompiledModel) -> Watched | None:
-        values = {q.name: q.value for q in self.singly.mechanism.parameters}
+        values = {q.name: q.value for q in self.watch.mechanism.parameters}
         spec = self.recipe.spec
-        return compile_events(mechanism, compiled, self.singly.events, values, spec.rtol if spec.adaptive else None)
+        return compile_events(mechanism, compiled, self.watch.events, values, spec.rtol if spec.adaptive else None)
 
     @cached_property
     def _watched(self) -> Watched | None:
@@ -89,17 +89,17 @@ class SingleRuns:
     @cached_property
     def _of_bodies(self) -> Watched | None:
         """The events as bodies have them, where the tree of joints is run."""
-        return self._events_of(self.singly.mechanism, self.compiled)
+        return self._events_of(self.watch.mechanism, self.compiled)
 
     @cached_property
     def _carrying(self) -> Carrying:
         assert self.tree is not None, "the tree of joints is run"
-        return carrying_of(self.singly.mechanism, self.tree[0], self.compiled, self.tree[1])
+        return carrying_of(self.watch.mechanism, self.tree[0], self.compiled, self.tree[1])
 
     @cached_property
     def _formulas(self) -> tuple[list[str], Any]:
         """Quantities that are formulas of a run, and the compiled function of them."""
-        mechanism = self.singly.mechanism
+        mechanism = self.watch.mechanism
         formulas = formulas_of(mechanism, self.recipe.quantities)
         return [name for name, _ in formulas], compile_side(mechanism, self.compiled, NAME, PURPOSE, formulas)
 
@@ -135,9 +135,9 @@ class SingleRuns:
         if self.tree is None:
             return start
         return begin_on_tree(
-            *(self.singly.mechanism, *self.tree, self.compiled, start),
+            *(self.watch.mechanism, *self.tree, self.compiled, start),
             method_parameters=self.recipe.method_parameters,
-            events=self.singly.events,
+            events=self.watch.events,
             carrying=self._carrying,
             watched=lambda: self._of_bodies,
         )
@@ -167,7 +167,7 @@ class SingleRuns:
         note_events(out.events[r], outcome, code)
         count = int(simulation.state.control[abi.OUTPUTS])
         shown = outcome if tree is None else tree.carried(outcome)
-        if self.singly.ends and len(shown.times) > count:
+        if self.watch.ends and len(shown.times) > count:
             out.values[r, :, 0] = self._quantities(r, rows, shown, out)[-1]
         elif count:
             out.values[r, :, :count] = self._quantities(r, rows, shown, out)[:count].T
@@ -209,7 +209,7 @@ class SingleRuns:
             columns[e.SIDE] = lambda: outcome.observed(side.function, len(names), multipliers())
         forces = Forces(outcome, {})
         if any(source > e.SIDE for source in sources):
-            forces = Forces(outcome, seats(self.singly.mechanism, self._values(rows, r)))
+            forces = Forces(outcome, seats(self.watch.mechanism, self._values(rows, r)))
             acting = forces.reactions(replace(forces.multipliers(), values=multipliers()))
             columns[e.REACTION] = lambda: acting.values
             columns[e.BODY_REACTION] = lambda: forces.in_body_axes(acting).values

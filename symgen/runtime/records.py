@@ -186,6 +186,10 @@ class Chunk(NamedTuple):
         Result.
     summary : Array, shape (k, N_SUMMARY), flat
         Result.
+    events : Array, shape (k, numbers of events), flat
+        Result, see `symgen.runtime.ensemble_abi`; empty where no events are looked for.
+    ends : int
+        1 where the only output is the end of a run, wherever an event puts it.
     rates, joints : int
         1 where accelerations or multipliers, and joint coordinates, are asked for.
     layout, dense : Layout, Array
@@ -200,6 +204,8 @@ class Chunk(NamedTuple):
     picks: Any
     values: Any
     summary: Any
+    events: Any
+    ends: int
     rates: int
     joints: int
     layout: Any
@@ -370,7 +376,7 @@ STATE = types.NamedTuple((_A, _A, _A, _K, _A, _A, _K, *(_A,) * 6), State)
 OUTPUTS = types.NamedTuple((_A, _M, _M), Outputs)
 OBSERVED = types.NamedUniTuple(_M, 3, Observed)
 KEPT_OF_RUN = types.NamedTuple((OUTPUTS, OBSERVED), Kept)
-CHUNK = types.NamedTuple((_K, _A, _A, _A, _A, _K, _A, _A, _I, _I, LAYOUT, _A), Chunk)
+CHUNK = types.NamedTuple((_K, _A, _A, _A, _A, _K, _A, _A, _A, _I, _I, _I, LAYOUT, _A), Chunk)
 TABLEAU = types.NamedTuple((_K, _K, _A, _A, _A, _K, _I, _I, _I, _I, _I), Tableau)
 ROTATIONS = types.NamedTuple((TABLEAU, _K, _I), Rotations)
 MULTISTEP = types.NamedTuple((_A, _A, _K, _I), Multistep)

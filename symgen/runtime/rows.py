@@ -13,11 +13,14 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
+from symgen.runtime import search_records as records
 from symgen.runtime.bare import bare, part
+from symgen.runtime.frame import store
+from symgen.runtime.hunting import notes_at, with_events
 from symgen.runtime.instances import called, signature_of
 from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.observe import observe_rates, observe_rows
-from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, Observed, Outputs
+from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, Observed, Outputs
 from symgen.runtime.redundancy import choose_rows
 from symgen.runtime.schemes import explicit
 from symgen.store.loops import from_its_source
@@ -42,6 +45,59 @@ def begin_run(state: Any, limits: Any) -> None:
             state.control[i] = 0
     for i in range(state.iw.shape[0]):
         state.iw[i] = 0
+
+
+def forget(state: Any) -> None:
+    """Do nothing: a run without switching functions keeps nothing of them."""
+
+
+def forget_functions(state: Any) -> None:
+    """Forget on which side of its switching functions the run before was, and what was noted of it."""
+    hunt = bare(state).hunt
+    n = int(hunt[records.COUNT])
+    for i in range(records.N_HEAD + records.SIDE * n, records.N_HEAD + records.N_COLUMNS * n):
+        hunt[i] = 0.0
+    hunt[records.NOTED] = hunt[records.ACCEPTED] = hunt[records.PASSED] = hunt[records.SINCE] = 0.0
+
+
+def noted(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
+    """Return how a run ended in which no events are looked for."""
+    return code
+
+
+@called
+def noted_events(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
+    """Take what a run has noted of its events into the numbers of its row; return how the run ended.
+
+    Parameters
+    ----------
+    code, r : int
+        How its loop was left, and the row.
+    width : int
+        Of a state.
+    chunk, state
+        As for `run_rows`.
+    """
+    hunt, clock = state.hunt, state.clock
+    n, numbers = int(hunt[records.COUNT]), chunk.events.shape[0] // (chunk.ps.shape[0] // state.p.shape[0])
+    first, row = notes_at(n, width, state.w.shape[0]), part(chunk.events, r * numbers, numbers)
+    ended = code
+    for i in range(int(hunt[records.NOTED])):
+        t, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
+        at = e.HEAD_OF_EVENTS + e.OF_EVENT * k
+        if row[at] == 0.0:
+            row[at + 1] = t
+        row[at] += 1.0
+        row[at + 2] = t
+        if t == clock[abi.TIME] and hunt[records.N_HEAD + records.ACTION * n + k] == float(records.LEAVE):
+            ended = abi.DONE
+    hunt[records.NOTED] = hunt[records.ACCEPTED] = 0.0
+    if code == abi.UNDEFINED:
+        for k in range(n):
+            g = hunt[records.N_HEAD + records.N_COLUMNS * n + k]
+            if not g == g and not row[e.IMPOSSIBLE_EVENT] == row[e.IMPOSSIBLE_EVENT]:
+                row[e.IMPOSSIBLE_EVENT] = float(k)
+    return ended
 
 
 def take(array: Any, first: int, size: int, out: Any) -> None:
@@ -152,6 +208,11 @@ def end_run(code: int, r: int, model: Any, chunk: Any, state: Any, kept: Any) ->
     sizes, rates, confirm, accept, observe = model
     law, nw, count = (sizes, rates, confirm, accept), state.w.shape[0], state.control[abi.OUTPUTS]
     summarise(code, state, part(chunk.summary, r * e.N_SUMMARY, e.N_SUMMARY))
+    until = kept.outputs.times[kept.outputs.times.shape[0] - 1]
+    if chunk.ends == 1 and count == 0 and code == abi.DONE:  # an event has ended it
+        kept.outputs.times[0] = state.clock[abi.TIME]
+        store(sizes, state.w, kept.outputs, 0, state.y)
+        count = 1
     if chunk.rates == 1:
         for i in range(state.iw.shape[0]):
             state.iw[i] = 0
@@ -176,6 +237,7 @@ def end_run(code: int, r: int, model: Any, chunk: Any, state: Any, kept: Any) ->
         # loops take what fills up arrays behind a state for zeros; what was observed need not even be a number
         for i in range(2 * sizes.ny + kept.observed.rows.shape[1]):
             state.room[i] = 0.0
+    kept.outputs.times[kept.outputs.times.shape[0] - 1] = until
     state.control[e.RUNS_DONE] += 1
 
 
@@ -212,14 +274,22 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: A
         take(chunk.ys, r * ny, ny, state.y)
         take(chunk.ps, r * n_p, n_p, state.p)
         take(chunk.ws, r * nw, nw, state.w)
+        forget(state)
         code = integrate(system, scheme, span, state, kept.outputs)
-        while code == abi.CHOOSE:
-            follow_rows(chunk, state, state.w)
+        while code == abi.CHOOSE or code == abi.NOTED or code == abi.MET:
+            if code == abi.CHOOSE:
+                follow_rows(chunk, state, state.w)
+            elif noted(code, r, observers[0].width, chunk, state) == abi.DONE:
+                break
             code = integrate(system, scheme, span, state, kept.outputs)
         if code == abi.STOPPED:
             return int(s)
         if code == abi.DONE:  # a grid of steps meets the end up to rounding
             state.clock[abi.TIME] = span.until
+        if code == abi.MET:
+            code = abi.DONE
+        else:
+            noted(code, r, observers[0].width, chunk, state)
         end_run(code, r, observers, chunk, state, kept)
     return int(chunk.selected.shape[0])
 
@@ -235,13 +305,21 @@ def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> in
     return 0
 
 
-def rows_loop(name: str, loop: Any) -> Any:
+def rows_loop(name: str, loop: Any, **meanings: Any) -> Any:
     """Return the loop over many runs around one over a single run."""
     args = signature_of(loop).args
     observers = types.Tuple((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
-    signature = types.int64(types.Tuple((*args[:1], observers)), *args[1:2], SPAN, CHUNK, STATE, KEPT_OF_RUN)
-    return compiled_loop(__name__, name, run_rows, signature, integrate=loop)
+    signature = types.int64(types.Tuple((*args[:1], observers)), *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
+    return compiled_loop(__name__, name, run_rows, signature, integrate=loop, **meanings)
 
 
 constant = rows_loop("constant", explicit.constant)
 adaptive = rows_loop("adaptive", explicit.adaptive)
+_EVENTS = {"forget": forget_functions, "noted": noted_events}
+constant_with_events = rows_loop("constant_with_events", with_events(explicit.constant), **_EVENTS)
+adaptive_with_events = rows_loop("adaptive_with_events", with_events(explicit.adaptive), **_EVENTS)
+
+
+def with_functions(loop: Any) -> Any:
+    """Return the loop over many runs that looks at switching functions, and is otherwise the same."""
+    return {constant: constant_with_events, adaptive: adaptive_with_events}[loop]

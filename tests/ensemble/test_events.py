@@ -119,7 +119,7 @@ def test_events_that_are_only_recorded_are_looked_for_where_they_are_asked_for()
     model = ball(low={"when": "ball.y < height", "action": "record"})
     vary = {"ball.vy": [1.0, 2.0]}
     plain = symgen.sweep(model, vary, until=1.0, **FALLING)
-    assert plain.ensemble.recipe.singly is None and plain.to_json()["events"] == {}
+    assert plain.ensemble.recipe.watch is None and plain.to_json()["events"] == {}
     found = symgen.sweep(model, vary, quantities=("ball.y", "event"), until=1.0, **FALLING)
     np.testing.assert_allclose(found["event.low.first"], 2.0 * np.array([1.0, 2.0]) / G, atol=1e-12)
     assert_same_motion(found["ball.y"], plain["ball.y"])
@@ -163,7 +163,7 @@ def test_a_formula_of_time_is_an_input_of_every_run(cart):
         method="lagrange",
     )
     np.testing.assert_allclose(found["block.vx"][:, 0], (1.0 - math.cos(3.0)) / (3.0 * mass), rtol=1e-10)
-    assert found.ensemble.recipe.singly is None  # nothing jumps: it costs nothing
+    assert found.ensemble.recipe.watch is None  # nothing jumps: it costs nothing
     assert '"push": "sin(3*t)"' in found.attributes["inputs"]
 
 
@@ -192,7 +192,7 @@ def test_samples_and_held_values_are_inputs_of_every_run(cart, tmp_path):
     found = symgen.sweep(cart, {"mass": mass}, **held)
     np.testing.assert_allclose(found["block.vx"][:, 0], (0.4 + 1.8) / mass, rtol=1e-13)
     number = symgen.sweep(cart, {"mass": mass}, inputs={"push": 3.0}, **ASKED)
-    assert number.ensemble.recipe.singly is None
+    assert number.ensemble.recipe.watch is None
     np.testing.assert_allclose(number["block.vx"][:, 0], 3.0 / mass, rtol=1e-13)
     with pytest.raises(InputError, match="vary 'push': expected one way of giving it a value, got two"):
         symgen.sweep(cart, {"push": [1.0]}, inputs={"push": 3.0}, **ASKED)

@@ -211,7 +211,7 @@ def test_rows_of_sweeps_are_single_runs(
 def test_rows_that_compare_the_state_stay_in_loops(folder: Path, force: str) -> None:
     """As single runs each takes some milliseconds of the interpreter."""
     settings = symgen.Settings(method="lagrange", integrator="dop853", until=0.8)
-    assert make_ensemble(made(folder, force), settings, {"low": [0.1, 0.2]}, {}, None).recipe.singly is None
+    assert make_ensemble(made(folder, force), settings, {"low": [0.1, 0.2]}, {}, None).recipe.watch.alone is False
 
 
 @pytest.mark.parametrize("integrator", ["dop853", "dopri5"])
