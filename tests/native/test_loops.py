@@ -5,7 +5,6 @@ from __future__ import annotations
 from importlib import import_module
 
 import pytest
-from symgen.runtime.looks import with_looks
 
 from symgen.native.loops import read_loop
 from symgen.runtime import rows
@@ -28,11 +27,9 @@ def test_every_loop_is_in_the_language(scheme, name, events):
     loop = getattr(import_module(f"symgen.runtime.schemes.{scheme}"), name)
     loop = with_events(loop) if events else loop
     read(loop)
-    if name == "adaptive":
-        read(with_looks(loop))
 
 
-@pytest.mark.parametrize("name", ["constant", "adaptive", "looking"])
+@pytest.mark.parametrize("name", ["constant", "adaptive", "constant_with_events", "adaptive_with_events"])
 def test_every_loop_over_rows_is_in_the_language(name):
     read(getattr(rows, name))
 
