@@ -35,6 +35,7 @@ from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import make_plan
+from symgen.runtime.ensemble_abi import SIDE
 from symgen.runtime.foreseen import Foreseen, foreseen
 from symgen.runtime.motions import refuse_jumps
 from symgen.settings import Settings
@@ -237,10 +238,12 @@ def make_ensemble(
     integrator_of_rows(plan.integrator.name, spec)
     if target == "lanes":
         check_lanes(plan.integrator.name, spec)
-    parts = bool(events) or driving.jumps  # what Python does something between
+    # what Python does something between; and measures behind the loops know the inputs of one part
+    parts = bool(events) or (driving.changes and any(q.source >= SIDE for q in kept))
     singly = Singly(mechanism, events, ends) if parts or joint else None
     # single runs add up all that outputs ask for, which their steps follow, too
-    adds = integral is not None or ((singly is not None or looks) and can_integrate(compiled))
+    alike = singly is not None or looks or (driving.jumps and spec.adaptive)
+    adds = integral is not None or (alike and can_integrate(compiled))
     made = Made(mechanism, compiled, plan, adds, kept if singly is None else ())
     recipe = Recipe(
         **made.codes(target, joint, not parts and are_plain(kept)),
@@ -258,6 +261,7 @@ def make_ensemble(
         joints=tuple(held.joints.values()),
         sides=tuple(side for side in sides_of(mechanism) if side.held),
         looks=mechanism if looks else None,
+        stops=driving.jumps,
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first

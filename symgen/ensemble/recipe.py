@@ -192,6 +192,8 @@ class Recipe:
         Joints that may hold bodies the wrong way round.
     looks : Mechanism or None
         What it is looked at between steps; None where nothing of it is read over the state.
+    stops : bool
+        Whether runs stop at times that rows bring along.
     held : tuple of int
         Coordinates that rows hold.
     kept, fixed : tuple of int
@@ -221,6 +223,7 @@ class Recipe:
     joints: tuple[tuple[int, int], ...] = ()
     sides: tuple[Side, ...] = ()
     looks: Mechanism | None = None
+    stops: bool = False
 
     @property
     def times(self) -> Array:
@@ -282,6 +285,7 @@ class Recipe:
                 *(dict(self.method_parameters), [q.name for q in self.quantities], self.held, self.kept, self.fixed),
                 *(self.strict, self.code, self.joints, *([self.sides] if self.sides else [])),
                 *([] if self.looks is None else ["looks", identity(self.looks)]),
+                *(["stops"] if self.stops else []),
                 *(x if x is None else x.described for x in (self.first, self.spare, self.tree, self.singly)),
             ],
             sort_keys=True,

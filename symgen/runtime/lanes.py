@@ -291,7 +291,7 @@ def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: 
             take(chunk.ps, r * n_p, n_p, state.p)
             clock[abi.TIME] = span.until
             control[abi.STEPS], control[abi.OUTPUTS], control[abi.EVALUATIONS] = steps, times.shape[0], evaluations
-            end_run(abi.DONE, r, (sizes, rates, confirm, accept, observe), chunk, state, kept)
+            end_run(abi.DONE, r, 0, span, (sizes, rates, confirm, accept, observe), chunk, state, kept)
     return int(total)
 
 
