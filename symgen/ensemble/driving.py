@@ -66,6 +66,12 @@ class Driving:
         return self.own or bool(self.pieces)
 
     @property
+    def changes(self) -> bool:
+        """Whether numbers change at the pieces of runs; at kinks none does."""
+        own = self.own and self.given.driven is not None and bool(self.given.driven.jumps)
+        return own or any(piece.values for piece in self.pieces[1:])
+
+    @property
     def described(self) -> list[Any]:
         """What inputs are beside what the mechanism holds, as JSON can express it."""
         driven = self.given.driven

@@ -154,12 +154,12 @@ class Kernel:
         if model.tree is not None and model.on_tree is not None:
             starts, apart, alike = model.tree.settle(now, selected, control)
             plain, selected = model.tree.upright(selected[apart], alike, out.summary), selected[~apart]
-            if not self._advance(model.on_tree, starts, plain, out, control):
+            if not self._advance(model.on_tree, rows, starts, plain, out, control):
                 return False
             model.tree.turn(recipe.quantities, plain, alike, out.values)
         if model.single is not None:
             return model.single.run(rows, now, selected, out, control)
-        if not self._advance(model, now, selected, out, control):
+        if not self._advance(model, rows, now, selected, out, control):
             return False
         redundant = selected[out.summary[selected, e.REDUNDANT_ROWS] > 0.0]
         for i in (i for i, q in enumerate(recipe.columns) if q.source == e.MULTIPLIER):  # they are not unique then
@@ -202,7 +202,9 @@ class Kernel:
         velocities = {j: float(rows.v[r, j]) for j in recipe.kept}
         return replace(model.assembly, held=Held(coordinates, velocities, recipe.fixed, at[0], at[1]))
 
-    def _advance(self, model: _Prepared, now: Instant, selected: Integers, out: Results, control: Integers) -> bool:
+    def _advance(
+        self, model: _Prepared, rows: Rows, now: Instant, selected: Integers, out: Results, control: Integers
+    ) -> bool:
         """Run selected rows from their starts, parameters and scratch; return whether all are done."""
         from symgen.runtime.records import Chunk as ChunkRecord
         from symgen.runtime.redundancy import room_of_choice
@@ -234,14 +236,24 @@ class Kernel:
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
         loop, system = self.integrator.rows(recipe.spec.adaptive), (sizes, *model.setup.functions)
         if model.watched is not None:
-            from symgen.runtime.rows import with_functions
             from symgen.runtime.searching import decide
 
-            loop, system = with_functions(loop), (*system, model.watched.function, decide, rates[0])
+            system = *system, model.watched.function, decide, rates[0]
             state = model.watched.hunting_state(sizes, state)
             if out.events.shape[1]:
                 out.events[selected] = np.nan
                 out.events[selected, e.HEAD_OF_EVENTS :: e.OF_EVENT] = 0.0
+        if model.watched is not None or recipe.stops:
+            from symgen.runtime.rows import variant
+
+            inner = self.integrator.loop(recipe.spec.adaptive)
+            loop = variant(loop, model.watched is not None, recipe.stops)
+        if recipe.stops:
+            from symgen.runtime.hunting import with_events
+            from symgen.runtime.stopping import with_table
+
+            inner = inner if model.watched is None else with_events(inner)
+            system = with_table(model.compiled, system, inner, recipe.spec.adaptive, rows.pieces or ((),))
         done = loop((system, (sizes, *rates, law.accept, seen)), model.setup.scheme, span, chunk, state, kept)
         return bool(done == len(chunk.selected))
 

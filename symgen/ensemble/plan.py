@@ -240,11 +240,15 @@ def make_ensemble(
         check_lanes(plan.integrator.name, spec)
     resets = any(event.action == RESET for event in events)
     late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in kept)
-    parts = driving.jumps or resets or late or (joint and bool(events))  # what Python does something between
+    # what Python does something between; and measures behind the loops know the inputs of one part
+    measured = driving.changes and any(q.source >= SIDE for q in kept)
+    parts = resets or late or measured or (joint and bool(events))
     alone = parts or joint
     watch = Watch(mechanism, events, ends, alone) if alone or events or looks else None
     # single runs add up all that outputs ask for, which their steps follow, too
-    adds = integral is not None or (watch is not None and can_integrate(compiled))
+    adds = integral is not None or (
+        (watch is not None or (driving.jumps and spec.adaptive)) and can_integrate(compiled)
+    )
     made = Made(mechanism, compiled, plan, adds, () if alone else kept)
     recipe = Recipe(
         **made.codes(target, joint, not parts and are_plain(kept)),
@@ -261,6 +265,7 @@ def make_ensemble(
         watch=watch,
         joints=tuple(held.joints.values()),
         sides=tuple(side for side in sides_of(mechanism) if side.held),
+        stops=driving.jumps,
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first

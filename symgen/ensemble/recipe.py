@@ -193,6 +193,8 @@ class Recipe:
         Joint coordinates that rows hold, each with 1 where it is the rate that they hold.
     sides : tuple of Side
         Joints that may hold bodies the wrong way round.
+    stops : bool
+        Whether runs stop at times that rows bring along.
     held : tuple of int
         Coordinates that rows hold.
     kept, fixed : tuple of int
@@ -221,6 +223,7 @@ class Recipe:
     watch: Watch | None = None
     joints: tuple[tuple[int, int], ...] = ()
     sides: tuple[Side, ...] = ()
+    stops: bool = False
 
     @property
     def times(self) -> Array:
@@ -281,6 +284,7 @@ class Recipe:
                 *(self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),
                 *(dict(self.method_parameters), [q.name for q in self.quantities], self.held, self.kept, self.fixed),
                 *(self.strict, self.code, self.joints, *([self.sides] if self.sides else [])),
+                *(["stops"] if self.stops else []),
                 *(x if x is None else x.described for x in (self.first, self.spare, self.tree, self.watch)),
             ],
             sort_keys=True,

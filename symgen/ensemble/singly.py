@@ -152,14 +152,13 @@ class SingleRuns:
             if not self._warm:
                 simulation.warm(outputs)
                 self._warm = True
-        held, follow = simulation.follower(outputs)
         try:
-            code = simulation.run(outputs, follow, (lambda: bool(control[abi.STOP]), _STEPS))
-        except InputError:  # a reset, or numbers of an input, that cannot be
+            code = simulation.run(outputs, lambda: bool(control[abi.STOP]), _STEPS)
+        except InputError:  # a reset that cannot be
             code = e.IMPOSSIBLE
         if code == abi.STOPPED:
             return False
-        outcome = outcome_of(simulation, outputs, abi.NOT_FINITE if code == e.IMPOSSIBLE else code, tuple(held))
+        outcome = outcome_of(simulation, outputs, abi.NOT_FINITE if code == e.IMPOSSIBLE else code)
         done = e.IMPOSSIBLE if code == e.IMPOSSIBLE else outcome.code
         if done == abi.DONE and code != abi.MET:  # a grid of steps meets the end up to rounding
             simulation.state.clock[abi.TIME] = spec.until

@@ -71,8 +71,9 @@ N_COUNTERS = len(COUNTERS)
     ORDER,  # of the error estimate, plus one
     MARKED,  # attempts at `MARK`
     MASKED,  # rows that are left out because they depend on others for ever
-) = range(19)
-N_CONTROL = 19
+    PASSED,  # stops that are behind
+) = range(20)
+N_CONTROL = 20
 #: What ``control[BEGUN]`` says of a run whose rates were changed where it stands: the scheme begins anew.
 AFRESH = 2
 
@@ -134,12 +135,15 @@ MAX_EVENTS = 1000
     VANISHED,
     GATHERED,
     UNDEFINED,
-) = range(13)
+    UNPREPARED,
+) = range(14)
 #: A loop that can go on when it is entered again: after so many steps, once there is more room for a matrix, and once
 #: other rows stand for all; and a run in a lane that is left to the loop over single runs.
 PAUSED, NO_ROOM, LEFT, CHOOSE = -1, -2, -3, -4
 #: The same, at an event that ends a run or changes its state, and where the notes of events have to be taken.
 MET, NOTED = -5, -6
+#: The same, where the caller works out what depends on parameters that have changed.
+CHANGED = -7
 
 REASONS = {
     DONE: "",
@@ -154,5 +158,6 @@ REASONS = {
     NO_PROGRESS: "the run makes no progress",
     GATHERED: "events accumulate",
     UNDEFINED: "the condition of an event is undefined",
+    UNPREPARED: "inputs: expected values for which every formula is finite, got others",
     VANISHED: "a row that is an angle has lost its gradient: the joint stands where it determines nothing",
 }

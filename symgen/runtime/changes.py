@@ -101,7 +101,7 @@ class Changes:
         InputError
             If some formula is not finite with these values. Nothing is changed then.
         """
-        state, places = self.simulation.state, self._inputs
+        state, places = self.simulation.state, self.inputs
         p, kept = state.p, None
         for name, value in values.items():
             place = places[name]
@@ -210,7 +210,7 @@ class Changes:
             self.simulation.state.p[-1] = math.nan
 
     @cached_property
-    def _inputs(self) -> dict[str, int]:
+    def inputs(self) -> dict[str, int]:
         """Places of inputs among the parameters."""
         info = self.simulation.compiled.info
         return {q.name: i for i, q in enumerate(info.parameters) if q.name in info.inputs}

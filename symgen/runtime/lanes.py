@@ -27,7 +27,8 @@ from symgen.runtime.instances import Instances
 from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Outputs, Run, State
 from symgen.runtime.redundancy import FALLEN, never
-from symgen.runtime.rows import begin_run, end_run, take
+from symgen.runtime.row_variants import take
+from symgen.runtime.rows import begin_run, end_run
 from symgen.runtime.scales import still
 from symgen.runtime.schemes import explicit
 from symgen.runtime.vectors import combine, copied
@@ -291,7 +292,7 @@ def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: 
             take(chunk.ps, r * n_p, n_p, state.p)
             clock[abi.TIME] = span.until
             control[abi.STEPS], control[abi.OUTPUTS], control[abi.EVALUATIONS] = steps, times.shape[0], evaluations
-            end_run(abi.DONE, r, (sizes, rates, confirm, accept, observe), chunk, state, kept)
+            end_run(abi.DONE, r, 0, span, (sizes, rates, confirm, accept, observe), chunk, state, kept)
     return int(total)
 
 

@@ -13,16 +13,23 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime import search_records as records
 from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import store
-from symgen.runtime.hunting import notes_at, with_events
-from symgen.runtime.instances import called, signature_of
+from symgen.runtime.hunting import with_events
+from symgen.runtime.instances import called, signature_of, viewing
 from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.observe import observe_rates, observe_rows
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, Observed, Outputs
 from symgen.runtime.redundancy import choose_rows
+from symgen.runtime.row_variants import (
+    forget_functions,
+    held_between_stops,
+    noted_events,
+    take,
+    take_stops,
+)
 from symgen.runtime.schemes import explicit
+from symgen.runtime.stopping import with_stops
 from symgen.store.loops import from_its_source
 
 _F8, _A = types.float64, types.float64[::1]
@@ -51,59 +58,9 @@ def forget(state: Any) -> None:
     """Do nothing: a run without switching functions keeps nothing of them."""
 
 
-def forget_functions(state: Any) -> None:
-    """Forget on which side of its switching functions the run before was, and what was noted of it."""
-    hunt = bare(state).hunt
-    n = int(hunt[records.COUNT])
-    for i in range(records.N_HEAD + records.SIDE * n, records.N_HEAD + records.N_COLUMNS * n):
-        hunt[i] = 0.0
-    hunt[records.NOTED] = hunt[records.ACCEPTED] = hunt[records.PASSED] = hunt[records.SINCE] = 0.0
-
-
 def noted(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
     """Return how a run ended in which no events are looked for."""
     return code
-
-
-@called
-def noted_events(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
-    """Take what a run has noted of its events into the numbers of its row; return how the run ended.
-
-    Parameters
-    ----------
-    code, r : int
-        How its loop was left, and the row.
-    width : int
-        Of a state.
-    chunk, state
-        As for `run_rows`.
-    """
-    hunt, clock = state.hunt, state.clock
-    n, numbers = int(hunt[records.COUNT]), chunk.events.shape[0] // (chunk.ps.shape[0] // state.p.shape[0])
-    first, row = notes_at(n, width, state.w.shape[0]), part(chunk.events, r * numbers, numbers)
-    ended = code
-    for i in range(int(hunt[records.NOTED])):
-        t, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
-        at = e.HEAD_OF_EVENTS + e.OF_EVENT * k
-        if row[at] == 0.0:
-            row[at + 1] = t
-        row[at] += 1.0
-        row[at + 2] = t
-        if t == clock[abi.TIME] and hunt[records.N_HEAD + records.ACTION * n + k] == float(records.LEAVE):
-            ended = abi.DONE
-    hunt[records.NOTED] = hunt[records.ACCEPTED] = 0.0
-    if code == abi.UNDEFINED:
-        for k in range(n):
-            g = hunt[records.N_HEAD + records.N_COLUMNS * n + k]
-            if not g == g and not row[e.IMPOSSIBLE_EVENT] == row[e.IMPOSSIBLE_EVENT]:
-                row[e.IMPOSSIBLE_EVENT] = float(k)
-    return ended
-
-
-def take(array: Any, first: int, size: int, out: Any) -> None:
-    """Set `out` to elements of an array."""
-    for i in range(size):
-        out[i] = array[first + i]
 
 
 def pick(sizes: Any, picks: Any, kept: Any, count: int, start: float, values: Any) -> None:
@@ -193,20 +150,56 @@ def follow_rows(chunk: Any, state: Any, w: Any) -> int:
     return int(choose_rows(chunk.layout, chunk.layout.m - state.control[abi.MASKED], 1, w, chunk.dense))
 
 
-def end_run(code: int, r: int, model: Any, chunk: Any, state: Any, kept: Any) -> None:
+def take_row(system: Any, r: int) -> None:
+    """Do nothing: without stops no row has any."""
+
+
+def held_until(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, first: int, count: int) -> int:
+    """Have the parameters that held at output `first`; return the first output, up to `count`, at which others did."""
+    return count
+
+
+@called
+def observe_part(model: Any, chunk: Any, begun: Any, state: Any, outputs: Any, observed: Any, count: int) -> None:
+    """Observe what is wanted at the first outputs, at all of which the parameters of `state` held."""
+    sizes, rates, confirm, accept, observe = model
+    law = sizes, rates, confirm, accept
+    follows = state.control[abi.MASKED] > 0 and chunk.dense.shape[0] > 0
+    if chunk.rates == 1:
+        for k in range(count if follows else 0):  # the rows that stand for all follow the position
+            here, seen = between(outputs, observed, k, k + 1)
+            observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
+            if follow_rows(chunk, state, begun) != 0:
+                observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
+        if not follows:
+            observe_rates(law, outputs, count, state.p, begun, state.iw, observed, state.room)
+    if chunk.joints == 1:
+        observe_rows(observe, sizes, outputs, count, state.p, state.w, observed, state.room)
+
+
+@viewing
+def between(outputs: Any, observed: Any, first: int, last: int) -> Any:
+    """Return what belongs to some outputs."""
+    here = Outputs(outputs.times[first:last], outputs.states[first:last], outputs.status[first:last])
+    rates, multipliers = observed.accelerations[first:last], observed.multipliers[first:last]
+    return here, Observed(rates, multipliers, observed.rows[first:last])
+
+
+def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, kept: Any) -> None:
     """Keep what a run gave.
 
     Parameters
     ----------
     code, r : int
         How the loop ended, and the row.
+    system, span : tuple, Span
+        What the loop took.
     model : tuple
         Its sizes, and the functions that are called at outputs.
     chunk, state, kept
         As for `run_rows`; `state` is that of the run at its end.
     """
-    sizes, rates, confirm, accept, observe = model
-    law, nw, count = (sizes, rates, confirm, accept), state.w.shape[0], state.control[abi.OUTPUTS]
+    sizes, nw, count = model[0], state.w.shape[0], state.control[abi.OUTPUTS]
     summarise(code, state, part(chunk.summary, r * e.N_SUMMARY, e.N_SUMMARY))
     until = kept.outputs.times[kept.outputs.times.shape[0] - 1]
     if chunk.ends == 1 and count == 0 and code == abi.DONE:  # an event has ended it
@@ -216,20 +209,12 @@ def end_run(code: int, r: int, model: Any, chunk: Any, state: Any, kept: Any) ->
     if chunk.rates == 1:
         for i in range(state.iw.shape[0]):
             state.iw[i] = 0
-        begun, outputs, observed = part(chunk.ws, r * nw, nw), kept.outputs, kept.observed
-        follows = state.control[abi.MASKED] > 0 and chunk.dense.shape[0] > 0
-        for k in range(count if follows else 0):  # the rows that stand for all follow the position
-            here = Outputs(outputs.times[k : k + 1], outputs.states[k : k + 1], outputs.status[k : k + 1])
-            seen = Observed(
-                observed.accelerations[k : k + 1], observed.multipliers[k : k + 1], observed.rows[k : k + 1]
-            )
-            observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
-            if follow_rows(chunk, state, begun) != 0:
-                observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
-        if not follows:
-            observe_rates(law, outputs, count, state.p, begun, state.iw, observed, state.room)
-    if chunk.joints == 1:
-        observe_rows(observe, sizes, kept.outputs, count, state.p, state.w, kept.observed, state.room)
+    first, begun = 0, part(chunk.ws, r * nw, nw)
+    while (chunk.rates == 1 or chunk.joints == 1) and first < count:
+        last = held_until(system, span, chunk, r, state, kept.outputs.times, first, count)
+        here, seen = between(kept.outputs, kept.observed, first, last)
+        observe_part(model, chunk, begun, state, here, seen, last - first)
+        first = last
     length = (chunk.picks.shape[0] // 2) * kept.outputs.times.shape[0]
     values = part(chunk.values, r * length, length)
     pick(sizes, chunk.picks, kept, count, state.gauges[abi.ENERGY_START], values)
@@ -271,6 +256,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: A
             return int(s)
         r = chunk.selected[s]
         begin_run(state, chunk.limits)
+        take_row(system, r)
         take(chunk.ys, r * ny, ny, state.y)
         take(chunk.ps, r * n_p, n_p, state.p)
         take(chunk.ws, r * nw, nw, state.w)
@@ -290,7 +276,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: A
             code = abi.DONE
         else:
             noted(code, r, observers[0].width, chunk, state)
-        end_run(code, r, observers, chunk, state, kept)
+        end_run(code, r, system, span, observers, chunk, state, kept)
     return int(chunk.selected.shape[0])
 
 
@@ -316,10 +302,20 @@ def rows_loop(name: str, loop: Any, **meanings: Any) -> Any:
 constant = rows_loop("constant", explicit.constant)
 adaptive = rows_loop("adaptive", explicit.adaptive)
 _EVENTS = {"forget": forget_functions, "noted": noted_events}
+_STOPS = {"take_row": take_stops, "held_until": held_between_stops}
 constant_with_events = rows_loop("constant_with_events", with_events(explicit.constant), **_EVENTS)
 adaptive_with_events = rows_loop("adaptive_with_events", with_events(explicit.adaptive), **_EVENTS)
+constant_with_stops = rows_loop("constant_with_stops", with_stops(explicit.constant), **_STOPS)
+adaptive_with_stops = rows_loop("adaptive_with_stops", with_stops(explicit.adaptive), **_STOPS)
+constant_with_both = rows_loop("constant_with_both", with_stops(with_events(explicit.constant)), **_EVENTS, **_STOPS)
+adaptive_with_both = rows_loop("adaptive_with_both", with_stops(with_events(explicit.adaptive)), **_EVENTS, **_STOPS)
+#: By the loop over plain rows: loops whose rows have switching functions, stops, and both.
+_VARIANTS = {
+    constant: (constant_with_events, constant_with_stops, constant_with_both),
+    adaptive: (adaptive_with_events, adaptive_with_stops, adaptive_with_both),
+}
 
 
-def with_functions(loop: Any) -> Any:
-    """Return the loop over many runs that looks at switching functions, and is otherwise the same."""
-    return {constant: constant_with_events, adaptive: adaptive_with_events}[loop]
+def variant(loop: Any, events: bool, stops: bool) -> Any:
+    """Return the loop over rows that have switching functions or stops, and is otherwise the same."""
+    return _VARIANTS[loop][events + 2 * stops - 1] if events or stops else loop

@@ -138,18 +138,16 @@ def integrate(
     if start.saved is not None:
         simulation.store_first(outputs)
     simulation.warm(outputs)
-    held, follow = simulation.follower(outputs)
-    code, seconds, interrupted = _in_thread(simulation, outputs, progress, spec.max_evaluations, follow)
+    code, seconds, interrupted = _in_thread(simulation, outputs, progress, spec.max_evaluations)
     after = cache_stats()
     compiling = sum(after[name] - before[name] for name in ("compile_seconds", "load_seconds"))
-    return outcome_of(simulation, outputs, code, tuple(held), (seconds, compiling), interrupted)
+    return outcome_of(simulation, outputs, code, (seconds, compiling), interrupted)
 
 
 def outcome_of(
     simulation: Simulation,
     outputs: Outputs,
     code: int,
-    held: tuple[tuple[float, Array], ...] = (),
     seconds: tuple[float, float] = (0.0, 0.0),
     interrupted: bool = False,
 ) -> Outcome:
@@ -161,8 +159,6 @@ def outcome_of(
         The run, and what it wrote.
     code : int
         How its loop ended, see `symgen.runtime.abi`.
-    held : tuple of (float, Array)
-        Parameters of earlier pieces, each with the last time that it holds at.
     seconds : tuple of float
         What running and compiling took [s].
     interrupted : bool
@@ -212,7 +208,7 @@ def outcome_of(
         p=state.p,
         w=w,
         simulation=simulation,
-        held=held,
+        held=simulation.held(times),
         happened=() if events is None else tuple(events.happened),
         accumulation=None if events is None else events.accumulation,
     )
@@ -242,7 +238,7 @@ def _shortest_row(compiled: CompiledModel, w: Array) -> str:
 
 
 def _in_thread(
-    simulation: Simulation, outputs: Outputs, progress: Progress | None, budget: int | None, follow: Callable[[], None]
+    simulation: Simulation, outputs: Outputs, progress: Progress | None, budget: int | None
 ) -> tuple[int, float, bool]:
     """Run the loop, which holds no lock, in a thread; an interrupt raises the flag that it polls.
 
@@ -257,7 +253,7 @@ def _in_thread(
     def work() -> None:
         began = time.perf_counter()
         try:
-            code = simulation.run(outputs, follow)
+            code = simulation.enter(outputs)
             result.append((code, time.perf_counter() - began))
         except BaseException as error:  # carried over to the caller's thread
             result.append(error)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cached_property
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
     from symgen.runtime.entry import Entry
     from symgen.runtime.events import Events, Watched
     from symgen.runtime.integrator import Integrator
+    from symgen.runtime.pieces import Piece
     from symgen.runtime.records import Outputs
     from symgen.runtime.run import RunSpec
 
@@ -89,16 +89,21 @@ class Simulation:
         self.state = self.snapshot.state
         self._model: tuple[Any, ...] = self.sizes, *self.setup.functions
         self._prepared: tuple[Outputs, Entry] | None = None
+        self._whole = self._model, self.setup.loop
+        self._pieces: tuple[Piece, ...] = ()
         self._counts, self._clock = memoryview(self.state.control), memoryview(self.state.clock)
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
         self.state.gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
         self.state.clock[[abi.TIME, abi.ORIGIN]] = self.state.gauges[abi.LAST_TIME] = start.t
         self.before = np.zeros(abi.N_CONTROL, dtype=np.int64)
-        self.iterations_before, self._pieces_taken = 0, 0
+        self.iterations_before = 0
         self.changes = Changes(self)
         self.set_limits()
         if start.saved is not None:
             self._take_up(start.saved, start.p)
+        else:
+            self.divide(spec)
+        self._first_p, self._first_stop = self.state.p.copy(), int(self.state.control[abi.PASSED])
 
     def set_limits(self) -> None:
         """Have the limits of this run, as after the state of another one was taken up."""
@@ -183,62 +188,38 @@ class Simulation:
                 if not entry.has(self.scheme, self.span):
                     entry.take(self.scheme, self.span)
                 code = entry(float(until), float(pause), float(most))
-            if (ended := self._ended(code)) is not None:
+            if (ended := self._ended(code, until)) is not None:
                 return ended
 
-    def run(
-        self,
-        outputs: Outputs,
-        follow: Callable[[], None] | None = None,
-        ask: tuple[Callable[[], bool], float] | None = None,
-    ) -> int:
-        """Go through all pieces of the run, from where it stands; return how the loop ended.
-
-        Parameters
-        ----------
-        outputs : Outputs
-            From `outputs`.
-        follow : callable, optional
-            Called at the end of each piece but the last, before the numbers of the next one are set.
-        ask : (callable, float), optional
-            Whether to stop (`STOPPED`), asked whenever so many further steps are accepted.
-        """
-        self.take_pieces()
-        while (begin := self.next_piece) < self.spec.until:
-            code = self._asking(outputs, begin, ask)
-            if code != abi.DONE:
-                return code
-            if follow is not None:
-                follow()
-            self.take_pieces(begin)
-        return self._asking(outputs, self.spec.until, ask)
-
-    def follower(self, outputs: Outputs) -> tuple[list[tuple[float, Array]], Callable[[], None]]:
-        """Return a list of parameters of earlier pieces, each with the last time that it holds at, and what fills it.
-
-        The latter is what `run` takes as `follow`.
-        """
-        held, control = list[tuple[float, Array]](), self.state.control
-
-        def follow() -> None:
-            count = int(control[abi.OUTPUTS])  # what is asked for later is at outputs and at events
-            times = [float(outputs.times[count - 1])] if count > 0 else []
-            if self.events is not None:
-                times += [event.t for event in self.events.happened[-1:]]
-            if times and (not held or max(times) > held[-1][0]):
-                held.append((max(times), self.state.p.copy()))
-
-        return held, follow
-
-    def _asking(self, outputs: Outputs, until: float, ask: tuple[Callable[[], bool], float] | None) -> int:
-        """Go on as `enter` does, and ask whether to stop."""
-        if ask is None:
-            return self.enter(outputs, until=until)
-        stop, steps = ask
-        while (code := self.enter(outputs, until, self.state.control[abi.STEPS] + steps)) == abi.PAUSED:
+    def run(self, outputs: Outputs, stop: Callable[[], bool], steps: float) -> int:
+        """Go to the end as `enter` does; whether to stop (`STOPPED`) is looked at after so many further steps each."""
+        while (code := self.enter(outputs, pause=self.state.control[abi.STEPS] + steps)) == abi.PAUSED:
             if stop():
                 return abi.STOPPED
         return code
+
+    def held(self, times: Array) -> tuple[tuple[float, Array], ...]:
+        """Return the parameters of earlier parts of the run, each with the last time that it holds at.
+
+        Parameters
+        ----------
+        times : Array
+            Of outputs; parts without outputs and events are left out.
+        """
+        happened = () if self.events is None else (event.t for event in self.events.happened)
+        marks, found, count = np.sort([*times, *happened]), list[tuple[float, Array]](), 0
+        p, places = self._first_p.copy(), self.changes.inputs
+        for stop in self.spec.pieces[self._first_stop : self.state.control[abi.PASSED]]:
+            near = abi.RESOLVED_TIME * stop.begin if self.spec.adaptive else self.same(stop.begin)
+            before, count = count, int(np.searchsorted(marks, stop.begin + near, side="right"))
+            if stop.values and count > before:
+                found.append((stop.begin + near, p.copy()))
+                self.compiled.prepare(found[-1][1])
+            elif not stop.values:
+                count = before
+            for name, value in stop.values.items():
+                p[places[name]] = value
+        return tuple(found)
 
     def is_ahead(self, moment: float) -> bool:
         """Whether a time is far enough from the present one for a step between the two."""
@@ -250,28 +231,28 @@ class Simulation:
             return abi.RESOLVED_TIME * max(abs(moment), abs(self._clock[abi.TIME]))
         return abi.SAME_TIME * self.span.step
 
-    @property
-    def next_piece(self) -> float:
-        """Where the next piece of the run begins [s]; infinity behind the last one."""
-        pieces = self.spec.pieces
-        return pieces[self._pieces_taken].begin if self._pieces_taken < len(pieces) else math.inf
-
-    def take_pieces(self, reached: float = -math.inf) -> None:
-        """Set the numbers of all pieces that have begun where the run stands, or at a time that it has reached [s]."""
-        values, last = dict[str, float](), -math.inf
-        while (begin := self.next_piece) < math.inf and (begin <= reached or not self.is_ahead(begin)):
-            piece = self.spec.pieces[self._pieces_taken]
-            values |= piece.values
-            self._pieces_taken, last = self._pieces_taken + 1, begin
-        self.changes.give(values)
-        # a kink changes no number, but what multistep schemes know of the past ends there as well
-        if self._clock[abi.TIME] - last <= self.same(self._clock[abi.TIME]) and self.state.control[abi.BEGUN] == 1:
-            self.state.control[abi.BEGUN] = abi.AFRESH
-
     def divide(self, spec: RunSpec) -> None:
-        """Have the run consist of the pieces of `spec`, with the numbers of those that have begun."""
-        self.spec, self._pieces_taken = spec, 0
-        self.take_pieces()
+        """Have the run stop where `spec` says, with the values of all stops that are behind."""
+        if spec.pieces is not self._pieces:
+            self._stop_at(spec.pieces)
+        self.spec, now, control = spec, self._clock[abi.TIME], self.state.control
+        behind = [stop for stop in spec.pieces if not self.is_ahead(stop.begin)]
+        control[abi.PASSED] = len(behind)
+        self.changes.give({name: value for stop in behind for name, value in stop.values.items()})
+        # a kink changes no number, but what multistep schemes know of the past ends there as well
+        if behind and now - behind[-1].begin <= self.same(now) and control[abi.BEGUN] == 1:
+            control[abi.BEGUN] = abi.AFRESH
+
+    def _stop_at(self, pieces: tuple[Piece, ...]) -> None:
+        """Enter the loop that goes from stop to stop where there are any."""
+        self._pieces, (self._model, loop) = pieces, self._whole
+        if pieces:
+            from symgen.runtime.stopping import with_stops, with_table
+
+            self._model = with_table(self.compiled, self._model, loop, self.spec.adaptive, (pieces,))
+            loop = with_stops(loop)
+        self.setup, self._prepared = replace(self.setup, loop=loop), None
+        self.__dict__.pop("_entry", None)
 
     def go(self, until: float, pause: float, most: float | None = None) -> int:
         """Go on as `enter` does, without outputs and by the shortest way: what makes a step from Python cheap.
@@ -292,7 +273,7 @@ class Simulation:
                 entry.take(self.scheme, self.span)
             if (code := entry(until, pause, most)) >= 0 and self.events is None:
                 return code
-            if (ended := self._ended(code)) is not None:
+            if (ended := self._ended(code, until)) is not None:
                 return ended
 
     def go_back(self) -> None:
@@ -301,7 +282,7 @@ class Simulation:
         if self.events is not None:
             self.events.forget_after(self._clock[abi.TIME])
 
-    def _ended(self, code: int) -> int | None:
+    def _ended(self, code: int, until: float) -> int | None:
         """Do what a loop asks for; return how it ended, None where it is to be entered again."""
         if self.events is not None:
             state: Any = self.state  # a `HuntingState` where there are events
@@ -314,6 +295,11 @@ class Simulation:
         elif code == abi.CHOOSE:
             self._choose_anew(self.state.w)  # what a scheme knows of its matrices depends on the rows
             self.scheme = self.integrator.setup(self.compiled, self.spec, self.state.w).scheme
+        elif code == abi.CHANGED:
+            self.changes.prepare()
+            if not np.isfinite(self.state.p).all():
+                return abi.UNPREPARED
+            return None if self.is_ahead(until) else abi.DONE
         elif code != abi.NOTED:
             return code
         return None
@@ -343,8 +329,6 @@ class Simulation:
         """
         from symgen.runtime.entry import entry_of
 
-        if len(self.spec.pieces) > 1:
-            self.changes.prepare()
         arguments = self._model, self.scheme, self.span, self.state, outputs
         if (entry := entry_of(self.setup.loop, arguments)) is not None:
             self._prepared = outputs, entry
@@ -360,8 +344,8 @@ class Simulation:
         found |= {name: getattr(self.scheme, name) for name in names_kept(self.scheme)}
         return {name: array.copy() for name, array in found.items()}
 
-    def restore(self, saved: Mapping[str, NDArray[Any]]) -> None:
-        """Take up what `save` returned, for the same model, method, integrator, limits and events."""
+    def restore(self, saved: Mapping[str, NDArray[Any]], spec: RunSpec | None = None) -> None:
+        """Take up what `save` returned, for the same model, method, integrator, limits and events, with other stops."""
         for name, array in saved.items():
             if hasattr(self.state, name):
                 getattr(self.state, name)[:] = array
@@ -369,7 +353,7 @@ class Simulation:
                 self.scheme = with_kept(self.scheme, name, array)
         if self.events is not None:
             self.events.forget_after(self._clock[abi.TIME])
-        self.divide(self.spec)
+        self.divide(self.spec if spec is None else spec)
 
     @cached_property
     def _choose_anew(self) -> Callable[[Array], bool]:

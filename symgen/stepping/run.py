@@ -25,7 +25,6 @@ from symgen.stepping.carried import CarriedBodies
 from symgen.stepping.clock import Clock, Controller
 from symgen.stepping.named import Named
 from symgen.stepping.saved import Saved
-from symgen.stepping.windows import Windows
 from symgen.version import __version__
 
 if TYPE_CHECKING:
@@ -72,9 +71,9 @@ class SteppedRun:
         self._clocks, self._calling, self._advance = list[Clock](), False, Advance(self._loop)
         inputs, self._driven = plan.inputs.words, plan.inputs.driven
         known = foreseen(plan.mechanism, plan.events) if self._adaptive else Foreseen(mechanism)
-        self._jumps, self._windows = plan.inputs.pieces, Windows(known, plan.spec.until, self.t)
+        self._jumps, self._known = plan.inputs.pieces, known
         if known:
-            self._loop.spec = self._divided(parameter_values(mechanism, self._changed))
+            self._loop.divide(self._divided(parameter_values(mechanism, self._changed)))
         self._given = {name: words for name, words in inputs.items() if isinstance(words, str)}
         self._inputs = {name: x for name, x in inputs.items() if not isinstance(x, str)}
         places = {q.name: i for i, q in enumerate(info.parameters)}
@@ -157,7 +156,7 @@ class SteppedRun:
             self.set(u)
         if self._free:
             self._advance.take_steps_of(dt)
-        if self._clocks or self._loop.spec.pieces or self._windows.known:
+        if self._clocks or self._jumps:
             return self._go(self._clock[_TIME] + dt)
         return self._advance.to(self._clock[_TIME] + dt)
 
@@ -292,8 +291,7 @@ class SteppedRun:
         self._ready("restore")
         loop = self._loop
         saved.check(self._owner, loop.save(), tuple(c.interval for c in self._clocks))
-        loop.spec = self._divided(parameter_values(self._mechanism, saved.parameters))
-        loop.restore(saved.arrays)
+        loop.restore(saved.arrays, self._divided(parameter_values(self._mechanism, saved.parameters)))
         loop.set_limits()
         loop.state.control[[abi.STOP, abi.OUTPUTS]] = 0
         if self._free:
@@ -325,7 +323,7 @@ class SteppedRun:
         spec, driven = self._loop.spec, self._driven
         if driven is not None and driven.jumps:
             self._jumps = pieces_of(driven, values, spec.until)
-        return replace(spec, pieces=merged(self._jumps, self._windows.pieces(values)))
+        return replace(spec, pieces=merged(self._jumps, self._known.pieces(values, spec.until)))
 
     def _ready(self, what: str) -> None:
         """Refuse a call from inside a controller, and have an accepted state."""
@@ -341,11 +339,7 @@ class SteppedRun:
             raise InputError("until", where, f"{until:g}")
         while event is None and loop.is_ahead(until):
             self._call()
-            if self._windows.follow(self.t, loop.same(self.t)):
-                loop.divide(self._divided(parameter_values(self._mechanism, self._changed)))
-            ends = until, loop.next_piece, self._windows.end, *(clock.due for clock in self._clocks)
-            event = self._advance.to(min(ends))
-            loop.take_pieces()
+            event = self._advance.to(min((until, *(clock.due for clock in self._clocks))))
         return event
 
     def _call(self) -> None:

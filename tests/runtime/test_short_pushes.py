@@ -67,7 +67,7 @@ def test_runs_miss_none(pushed: symgen.Model, integrator: str) -> None:
 
 @pytest.mark.parametrize("integrator", SCHEMES)
 def test_runs_step_by_step_miss_none(pushed: symgen.Model, integrator: str) -> None:
-    for until, ends in ((10.0, (10.0,)), (10.0, (1.0, 3.3, 5.0, 10.0)), (0.7, (2.0, 10.0))):
+    for until, ends in ((10.0, (10.0,)), (10.0, (1.0, 3.3, 5.0, 10.0))):
         run = pushed.start(method="lagrange", integrator=integrator, rtol=1e-8, until=until)
         for end in ends:
             run.run(end)
@@ -75,7 +75,7 @@ def test_runs_step_by_step_miss_none(pushed: symgen.Model, integrator: str) -> N
 
 
 def test_a_run_that_is_taken_back_meets_them_again(pushed: symgen.Model) -> None:
-    run = pushed.start(method="lagrange", integrator="dop853", rtol=1e-8, until=0.5)
+    run = pushed.start(method="lagrange", integrator="dop853", rtol=1e-8)
     run.run(2.0)
     saved = run.save()
     run.run(9.0)
