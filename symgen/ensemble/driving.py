@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
-from dataclasses import dataclass, replace
+import math
+from collections.abc import Container, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -12,12 +13,15 @@ import numpy as np
 from symgen.describe.derived import derived
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError
-from symgen.runtime.motions import names_of_motions
+from symgen.runtime.motions import jump_of, names_of_motions
 from symgen.runtime.pieces import Piece, merged, pieces_of
 from symgen.vocabulary.expressions import names
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from symgen.describe.mechanism import Mechanism
+    from symgen.ensemble.plan import Ensemble
     from symgen.ensemble.starts import Rows
     from symgen.running.inputs import Inputs
     from symgen.runtime.foreseen import Foreseen
@@ -37,12 +41,16 @@ class Driving:
         End of the runs [s].
     foreseen : Foreseen, optional
         What formulas pass at times that are known beforehand, where runs stop at them.
+    moving : tuple of str
+        From `read_by_motions`.
     """
 
     given: Inputs
     varied: tuple[str, ...]
     until: float
     foreseen: Foreseen | None = None
+    moving: tuple[str, ...] = ()
+    _jumps: dict[tuple[float, ...], InputError | None] = field(default_factory=dict, repr=False, compare=False)
 
     @cached_property
     def own(self) -> bool:
@@ -90,7 +98,7 @@ class Driving:
         parameters : sequence of str
             Their names.
         """
-        if not self.own:
+        if not (self.own or self.moving):
             return replace(rows, pieces=(self.pieces,)) if self.pieces else rows
         found = list[tuple[Piece, ...]]()
         for row in rows.parameters:
@@ -105,22 +113,30 @@ class Driving:
                 row[parameters.index(name)] = value
         return replace(rows, pieces=tuple(found))
 
-    def refusal(self, values: dict[str, float]) -> str:
-        """Return why inputs cannot be in a run what they are asked to be, empty where they can.
+    def refusals(self, ensemble: Ensemble, failed: NDArray[np.bool_]) -> Iterator[tuple[int, str]]:
+        """Yield rows whose inputs jump too often, or in which the motion of a driver jumps, and why they cannot run.
 
         Parameters
         ----------
-        values : dict of str to float
-            Of its parameters.
+        ensemble : Ensemble
+            What was run.
+        failed : Array of bool, shape (n,)
+            Rows without a start.
         """
-        try:
-            self._pieces_of(values)
-        except InputError as error:
-            return str(error)
-        return ""
+        for r in np.flatnonzero(failed).tolist() if self.own or self.moving else ():
+            row = ensemble.settled(r, r + 1).parameters[0].tolist()
+            if all(map(math.isfinite, row)):
+                try:
+                    self._pieces_of(dict(zip(ensemble.parameters, row, strict=True)))
+                except InputError as error:
+                    yield r, str(error)
 
     def _pieces_of(self, values: dict[str, float]) -> tuple[Piece, ...]:
-        driven = self.given.driven
+        driven, read = self.given.driven, tuple(values[name] for name in self.moving)
+        if self.moving and read not in self._jumps:
+            self._jumps[read] = jump_of(self.given.mechanism, values, self.until)
+        if (jump := self._jumps.get(read)) is not None:
+            raise jump
         pieces = () if driven is None else pieces_of(driven, values, self.until)
         return merged(pieces, self.foreseen.pieces(values, self.until)) if self.foreseen else pieces
 

@@ -216,14 +216,14 @@ def make_ensemble(
     names = Names.of(mechanism)
     names.check((*vary, *runs), taken)
     grid = make_grid(vary, runs, names.starts)
-    # before anything is derived; where it depends on what varies, rows are told apart behind their runs
-    if not read_by_motions(mechanism, grid.names):
+    moving = read_by_motions(mechanism, grid.names)
+    if not moving:  # before anything is derived; where it depends on what varies, rows fail one by one
         refuse_jumps(mechanism, plan.parameters, spec.until)
     kept_names, events = _events(mechanism, plan, quantities)
     acting = mechanism if target == "cpu" else structs.replace(mechanism, outputs=())  # others integrate no outputs
     known = foreseen(acting, events)
     looks = spec.adaptive and bool(discontinuities_of(acting))
-    driving = Driving(plan.inputs, grid.names, spec.until, known if spec.adaptive else None)
+    driving = Driving(plan.inputs, grid.names, spec.until, known if spec.adaptive else None, moving)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)
     held = held_of(names, grid.names, plan.holds, compiled.info)

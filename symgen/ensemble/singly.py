@@ -1,8 +1,9 @@
 """Runs of an ensemble that a loop over many runs cannot take: each is a single run, by the loops of single runs.
 
-Where events are looked for or an input jumps, Python has something to do between two parts of a run; and what is
-observed of joints' motion as one of bodies is worked out as for single runs. Such runs are done one after the other, in
-the same threads, chunks and folders; ensembles that need none of it know nothing of this module.
+Where events are looked for, Python has something to do between two parts of a run; what is observed of joints' motion
+as one of bodies, and points, forces and reactions where an input jumps, are worked out as for single runs. Such
+runs are done one after the other, in the same threads, chunks and folders; ensembles that need none of it know nothing
+of this module.
 """
 
 from __future__ import annotations

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from symgen.arguments import path as argument_path
 from symgen.arguments import shown, whole
-from symgen.ensemble.jumps import rows_that_jump, rows_whose_inputs_cannot_be
 from symgen.ensemble.labels import NUMBERS, of_dimension, of_number, of_quantities, of_varied
 from symgen.ensemble.names import Names
 from symgen.ensemble.singly import event_columns
@@ -87,12 +86,9 @@ class Sweep:
         compiled = self.ensemble.compiled
         recipe, events = self.ensemble.recipe, self.ensemble.events
         status, reason = judge_all(self.summary, self.done, compiled.info, compiled.law, recipe.spec, events)
-        for row, told in rows_that_jump(self.ensemble, self.done):
-            status[row], reason[row] = FAILED, told
-        for row, told in rows_whose_inputs_cannot_be(
-            self.ensemble, self.done & (column(self.summary, "start") != ASSEMBLED)
-        ):
-            reason[row] = told
+        failed = self.done & (column(self.summary, "start") != ASSEMBLED)
+        for row, why in self.ensemble.driving.refusals(self.ensemble, failed):
+            reason[row] = why
         return status, reason
 
     @cached_property

@@ -12,6 +12,7 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.catalogue import n_four_bar, raw
+from symgen.describe.mechanism import Mechanism
 from symgen.errors import AssemblyError, InputError
 from symgen.result.result import Result
 
@@ -309,3 +310,40 @@ def test_without_compilation_the_numbers_are_the_same(tmp_path):
         subprocess.run([sys.executable, "-c", script, str(path)], check=True, timeout=600, env=environment)
         values.append(np.load(path))
     np.testing.assert_allclose(values[0], values[1], rtol=0, atol=1e-11)
+
+
+def pushed(formula: str) -> Mechanism:
+    text = raw("four-bar")
+    text["inputs"] = {"push": 0.0}
+    text["forces"] = {"pushing": {"type": "force", "body": "crank", "force": [formula, 0.0]}}
+    return mechanism_of(text)
+
+
+@pytest.mark.parametrize(
+    "steps", [{"step": 2e-3}, {"integrator": "dopri5", "rtol": 1e-9}], ids=["constant", "adaptive"]
+)
+@pytest.mark.parametrize(
+    "push", ["5 if t < 0.0503 else -20", "9*crank_mass if t < 0.02*crank_mass else 7 if t < 0.1 else crank_mass"]
+)
+def test_rows_whose_inputs_jump_stay_in_the_loop_and_are_single_runs(push, steps):
+    model, settings = symgen.load(pushed("push")), {"until": 0.2, "times": (0.0, 0.02, 0.05, 0.1, 0.101, 0.2)}
+    settings |= {"inputs": {"push": push}, **steps}
+    found = symgen.sweep(model, {"crank_mass": [1.0, 2.0, 3.0]}, quantities=EVERYTHING, **settings)
+    assert found.ensemble.recipe.singly is None and found.ensemble.recipe.stops
+    compare(found, model, **settings)
+    jumped = symgen.sweep(
+        model, {"crank_mass": [1.0]}, quantities=("crank.ax",), **settings | {"inputs": {"push": 5.0}}
+    )
+    assert abs(jumped["crank.ax"][0, -1] - found["crank.ax"][0, -1]) > 1e-3
+
+
+@pytest.mark.parametrize("shape", ["straight", "looped"])
+def test_a_jump_to_where_a_formula_is_undefined_ends_a_run_with_its_reason(shape):
+    model, push = symgen.load(pushed("sqrt(push)")), "1 if t < 0.05 else -1"
+    settings = {"until": 0.1, "step": 1e-2, "inputs": {"push": push}}
+    one = model.simulate(shape=shape, **settings)
+    assert one.status == "failed" and one.end == pytest.approx(0.05)
+    assert one.reason == "inputs: expected values for which every formula is finite, got others at t = 0.05 s"
+    if shape == "straight":
+        found = symgen.sweep(model, {"crank_mass": [1.0, 2.0]}, **settings)
+        assert found.reason.tolist() == [one.reason] * 2
