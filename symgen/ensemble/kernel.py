@@ -243,7 +243,7 @@ class Kernel:
             from symgen.runtime.stopping import with_table
 
             loop, one = that_stop(loop)
-            system = with_table(model.compiled, system, one, recipe.spec.adaptive, rows.pieces or ((),))
+            system = with_table(model.compiled, system, one, recipe.spec.adaptive, rows.stops or ((),))
         done = loop((system, (sizes, *rates, law.accept, seen)), model.setup.scheme, span, chunk, state, kept)
         return bool(done == len(chunk.selected))
 

@@ -237,7 +237,7 @@ def _watching(run: Prepared) -> RunSpec:
         from symgen.compiling.events import compile_events
 
         events = compile_events(mechanism, compiled, plan.events, parameter_values(mechanism, plan.parameters))
-    spec = replace(plan.spec, pieces=plan.pieces, events=events)
+    spec = replace(plan.spec, stops=plan.stops, events=events)
     if not spec.adaptive:
         return spec
     from symgen.compiling.knots import with_looks

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from symgen.runtime.events import Watched
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.knots import Knots
-    from symgen.runtime.pieces import Piece
     from symgen.runtime.records import Outputs
+    from symgen.runtime.stops import Stop
     from symgen.runtime.switches import Switches
 
 Array = NDArray[np.float64]
@@ -75,7 +75,7 @@ class RunSpec:
         An adaptive run is stopped when it has taken, or at its present rate would take, more attempts at a step.
     duration : float or None
         In which a motion that begins at rest counts as one that crosses the mechanism [s]; until `until` by default.
-    pieces : tuple of Piece
+    stops : tuple of Stop
         Where inputs jump, and what they are from there on; the first one is what the start has.
     events : Watched or None
         Events that are looked for.
@@ -102,7 +102,7 @@ class RunSpec:
     max_evaluations: int | None = None
     max_attempts: float = MAX_ATTEMPTS
     duration: float | None = None
-    pieces: tuple[Piece, ...] = ()
+    stops: tuple[Stop, ...] = ()
     events: Watched | None = None
     knots: Knots | None = None
     switches: Switches | None = None

@@ -10,6 +10,7 @@ from symgen.native.loops import read_loop
 from symgen.runtime import rows
 from symgen.runtime.hunting import with_events
 from symgen.runtime.looks import with_looks
+from symgen.runtime.stopping import with_stops
 from symgen.store.emitted import COMPILER
 from symgen.store.loops import _lines, definition
 
@@ -28,11 +29,15 @@ def test_every_loop_is_in_the_language(scheme, name, events):
     loop = getattr(import_module(f"symgen.runtime.schemes.{scheme}"), name)
     loop = with_events(loop) if events else loop
     read(loop)
+    read(with_stops(loop))
     if name == "adaptive":
         read(with_looks(loop))
+        read(with_stops(with_looks(loop)))
 
 
-@pytest.mark.parametrize("name", ["constant", "adaptive", "looking"])
+@pytest.mark.parametrize(
+    "name", ["constant", "adaptive", "looking", "constant_stopping", "adaptive_stopping", "looking_stopping"]
+)
 def test_every_loop_over_rows_is_in_the_language(name):
     read(getattr(rows, name))
 
