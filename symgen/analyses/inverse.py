@@ -24,7 +24,7 @@ from symgen.result.reactions import Forces, seats
 from symgen.result.recorded import Recorded, read_recorded, recorded
 from symgen.result.tables import Tables
 from symgen.running.inputs import put_inputs
-from symgen.runtime.pieces import pieces_of
+from symgen.runtime.stops import stops_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -276,10 +276,10 @@ def _during(given: Inputs, found: Recorded, end: float) -> Settings:
     if given.driven is None:
         return given.settings
     values = parameter_values(given.mechanism, given.settings.parameters)
-    pieces = pieces_of(given.driven, values, end, float(found.t[0]))
-    if any(piece.values for piece in pieces[1:] if piece.begin < found.t[-1]):  # at a kink no number becomes another
+    stops = stops_of(given.driven, values, end, float(found.t[0]))
+    if any(stop.values for stop in stops[1:] if stop.t < found.t[-1]):  # at a kink no number becomes another
         raise InputError("inverse: inputs", "inputs without jumps", ", ".join(given.words))
-    now = pieces[0].values if pieces else {}
+    now = stops[0].values if stops else {}
     return replace(given.settings, parameters={**given.settings.parameters, **now})
 
 

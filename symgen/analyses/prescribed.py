@@ -18,8 +18,8 @@ from symgen.running.inputs import put_inputs
 from symgen.running.plan import Purpose
 from symgen.running.prepare import assemble, make_plan
 from symgen.runtime import abi
-from symgen.runtime.pieces import pieces_of
 from symgen.runtime.probe import Ready
+from symgen.runtime.stops import stops_of
 from symgen.vocabulary.expressions import readings
 from symgen.vocabulary.measures import GROUND, Integral
 
@@ -52,9 +52,9 @@ class Prescribed:
     parameters : mapping
         Values of all parameters, as a run is given them.
     held : tuple of (float, Array)
-        Parameters of earlier pieces, see `symgen.runtime.outcome.Motion`.
+        Parameters of earlier stops, see `symgen.runtime.outcome.Motion`.
     p : Array
-        Parameters of the last piece.
+        Parameters of the last stop.
     told : mapping
         Inputs in words, or their numbers.
     notes : tuple of str
@@ -131,16 +131,16 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
         notes = (words,)
     run = assemble(plan, near)
     compiled, start = run.compiled, run.start
-    held, p, pieces = list[tuple[float, Array]](), start.p, given.pieces[1:]
+    held, p, stops = list[tuple[float, Array]](), start.p, given.stops[1:]
     numbers = {q.name: i for i, q in enumerate(compiled.info.parameters)}
     if first < 0.0 and given.driven is not None:  # the start is at 0, others hold before
         values = parameter_values(given.mechanism, given.settings.parameters)
-        pieces = pieces_of(given.driven, values, end, first)
-    for piece in pieces:
-        if piece.begin > first:
-            held.append((piece.begin, p))
+        stops = stops_of(given.driven, values, end, first)
+    for stop in stops:
+        if stop.t > first:
+            held.append((stop.t, p))
         p = p.copy()
-        for name, value in piece.values.items():
+        for name, value in stop.values.items():
             p[numbers[name]] = value
         compiled.prepare(p)
     values = {q.name: float(x) for q, x in zip(compiled.info.parameters, start.p, strict=False)}

@@ -270,9 +270,9 @@ def given_at_start(mechanism: Mechanism, settings: Settings) -> Inputs:
 def _at(compiled: CompiledModel, p: Array, given: Inputs, t: float) -> Array:
     """Return parameters with what inputs that jump are at a time."""
     places = {q.name: i for i, q in enumerate(compiled.info.parameters)}
-    for piece in given.pieces[1:]:
-        if piece.begin <= t * (1.0 + HERE):
-            p[[places[name] for name in piece.values]] = list(piece.values.values())
+    for stop in given.stops[1:]:
+        if stop.t <= t * (1.0 + HERE):
+            p[[places[name] for name in stop.values]] = list(stop.values.values())
     p[[places[name] for name, _ in given.mechanism.given]] = 0.0  # see `_varied`
     compiled.prepare(p)
     return p

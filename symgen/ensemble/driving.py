@@ -1,4 +1,4 @@
-"""What inputs are in the runs of an ensemble: pieces of all of them, or of each where jumps depend on what varies."""
+"""What inputs are in the runs of an ensemble: stops of all of them, or of each where jumps depend on what varies."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from symgen.describe.derived import derived
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError
 from symgen.runtime.motions import jump_of, names_of_motions
-from symgen.runtime.pieces import Piece, merged, pieces_of
+from symgen.runtime.stops import Stop, merged, stops_of
 from symgen.vocabulary.expressions import names
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from symgen.ensemble.plan import Ensemble
     from symgen.ensemble.starts import Rows
     from symgen.running.inputs import Inputs
-    from symgen.runtime.foreseen import Foreseen
+    from symgen.runtime.stops import Foreseen
 
 
 @dataclass(frozen=True)
@@ -61,23 +61,23 @@ class Driving:
         return any(depends & read for read in (*reads, self.foreseen.reads if self.foreseen else frozenset[str]()))
 
     @cached_property
-    def pieces(self) -> tuple[Piece, ...]:
-        """The pieces of all runs, where they are the same."""
+    def stops(self) -> tuple[Stop, ...]:
+        """The stops of all runs, where they are the same."""
         if not self.foreseen:
-            return self.given.pieces
+            return self.given.stops
         values = parameter_values(self.given.mechanism, self.given.settings.parameters)
-        return merged(self.given.pieces, self.foreseen.pieces(values, self.until))
+        return merged(self.given.stops, self.foreseen.stops(values, self.until))
 
     @property
     def jumps(self) -> bool:
-        """Whether runs have pieces."""
-        return self.own or bool(self.pieces)
+        """Whether runs have stops."""
+        return self.own or bool(self.stops)
 
     @property
     def changes(self) -> bool:
-        """Whether numbers change at the pieces of runs; at kinks none does."""
+        """Whether numbers change at the stops of runs; at kinks none does."""
         own = self.own and self.given.driven is not None and bool(self.given.driven.jumps)
-        return own or any(piece.values for piece in self.pieces[1:])
+        return own or any(stop.values for stop in self.stops[1:])
 
     @property
     def described(self) -> list[Any]:
@@ -89,7 +89,7 @@ class Driving:
         return [repr(samples), repr(driven.jumps)]
 
     def put(self, rows: Rows, parameters: Sequence[str]) -> Rows:
-        """Return rows with the pieces of their runs.
+        """Return rows with the stops of their runs.
 
         Parameters
         ----------
@@ -99,19 +99,19 @@ class Driving:
             Their names.
         """
         if not (self.own or self.moving):
-            return replace(rows, pieces=(self.pieces,)) if self.pieces else rows
-        found = list[tuple[Piece, ...]]()
+            return replace(rows, stops=(self.stops,)) if self.stops else rows
+        found = list[tuple[Stop, ...]]()
         for row in rows.parameters:
-            pieces: tuple[Piece, ...] = ()
+            stops: tuple[Stop, ...] = ()
             if np.all(np.isfinite(row)):
                 try:
-                    pieces = self._pieces_of(dict(zip(parameters, row.tolist(), strict=True)))
+                    stops = self._stops_of(dict(zip(parameters, row.tolist(), strict=True)))
                 except InputError:
                     row[:] = np.nan  # what is not defined fails at its start
-            found.append(pieces)
-            for name, value in (pieces[0].values if pieces else {}).items():
+            found.append(stops)
+            for name, value in (stops[0].values if stops else {}).items():
                 row[parameters.index(name)] = value
-        return replace(rows, pieces=tuple(found))
+        return replace(rows, stops=tuple(found))
 
     def refusals(self, ensemble: Ensemble, failed: NDArray[np.bool_]) -> Iterator[tuple[int, str]]:
         """Yield rows whose inputs jump too often, or in which the motion of a driver jumps, and why they cannot run.
@@ -127,18 +127,18 @@ class Driving:
             row = ensemble.settled(r, r + 1).parameters[0].tolist()
             if all(map(math.isfinite, row)):
                 try:
-                    self._pieces_of(dict(zip(ensemble.parameters, row, strict=True)))
+                    self._stops_of(dict(zip(ensemble.parameters, row, strict=True)))
                 except InputError as error:
                     yield r, str(error)
 
-    def _pieces_of(self, values: dict[str, float]) -> tuple[Piece, ...]:
+    def _stops_of(self, values: dict[str, float]) -> tuple[Stop, ...]:
         driven, read = self.given.driven, tuple(values[name] for name in self.moving)
         if self.moving and read not in self._jumps:
             self._jumps[read] = jump_of(self.given.mechanism, values, self.until)
         if (jump := self._jumps.get(read)) is not None:
             raise jump
-        pieces = () if driven is None else pieces_of(driven, values, self.until)
-        return merged(pieces, self.foreseen.pieces(values, self.until)) if self.foreseen else pieces
+        stops = () if driven is None else stops_of(driven, values, self.until)
+        return merged(stops, self.foreseen.stops(values, self.until)) if self.foreseen else stops
 
 
 def read_by_motions(mechanism: Mechanism, varied: Container[str]) -> tuple[str, ...]:

@@ -253,7 +253,7 @@ class Kernel:
             from symgen.runtime.stopping import with_table
 
             inner = inner if model.watched is None else with_events(inner)
-            system = with_table(model.compiled, system, inner, recipe.spec.adaptive, rows.pieces or ((),))
+            system = with_table(model.compiled, system, inner, recipe.spec.adaptive, rows.stops or ((),))
         done = loop((system, (sizes, *rates, law.accept, seen)), model.setup.scheme, span, chunk, state, kept)
         return bool(done == len(chunk.selected))
 

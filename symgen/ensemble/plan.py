@@ -36,8 +36,8 @@ from symgen.ir.program import LANES
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import make_plan
 from symgen.runtime.ensemble_abi import SIDE
-from symgen.runtime.foreseen import Foreseen, foreseen
 from symgen.runtime.motions import refuse_jumps
+from symgen.runtime.stops import Foreseen, foreseen
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -141,7 +141,7 @@ class Ensemble:
         return self.driving.put(self.settled(first, last), tuple(self.parameters))
 
     def settled(self, first: int, last: int) -> Rows:
-        """Return the same without the pieces of runs."""
+        """Return the same without the stops of runs."""
         varied, held = self.grid.values(first, last), self.held
         settled = self.settings.parameters
         places = held.coordinates, held.velocities, tuple(held.joints)

@@ -146,7 +146,7 @@ class SingleRuns:
     def _run(self, r: int, rows: Rows, began: Start | TreeRun, out: Results, control: Integers) -> bool:
         tree = began if isinstance(began, TreeRun) else None
         start, compiled = (began.start, began.compiled) if isinstance(began, TreeRun) else (began, self.compiled)
-        spec = replace(self.recipe.spec, pieces=rows.pieces_of(r), events=self._events(rows, r))
+        spec = replace(self.recipe.spec, stops=rows.stops_of(r), events=self._events(rows, r))
         simulation = Simulation(compiled, self.integrator, start, spec)
         outputs = simulation.outputs(spec.times)
         with self._lock:

@@ -20,7 +20,7 @@ from symgen.runtime.columns import Columns
 from symgen.vocabulary.expressions import Expr
 
 if TYPE_CHECKING:
-    from symgen.runtime.pieces import Piece
+    from symgen.runtime.stops import Stop
 
 Array = NDArray[np.float64]
 
@@ -39,7 +39,7 @@ class Rows:
         Values of the coordinates that the runs hold.
     joints : Array, shape (k, j)
         Values of the joint coordinates and rates that the runs hold.
-    pieces : tuple of tuple of Piece
+    stops : tuple of tuple of Stop
         Of each run, or of all of them, where an input jumps; none where nothing does.
     """
 
@@ -48,14 +48,14 @@ class Rows:
     v: Array
     targets: Array
     joints: Array
-    pieces: tuple[tuple[Piece, ...], ...] = ()
+    stops: tuple[tuple[Stop, ...], ...] = ()
 
     def __len__(self) -> int:
         return len(self.parameters)
 
-    def pieces_of(self, r: int) -> tuple[Piece, ...]:
-        """Return the pieces of a run."""
-        return self.pieces[r if len(self.pieces) > 1 else 0] if self.pieces else ()
+    def stops_of(self, r: int) -> tuple[Stop, ...]:
+        """Return the stops of a run."""
+        return self.stops[r if len(self.stops) > 1 else 0] if self.stops else ()
 
 
 def make_rows(

@@ -10,7 +10,7 @@ from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import Driven, driven
 from symgen.describe.mechanism import Mechanism, bounded
 from symgen.errors import InputError
-from symgen.runtime.pieces import Piece, pieces_of
+from symgen.runtime.stops import Stop, stops_of
 
 if TYPE_CHECKING:
     from symgen.settings import Settings
@@ -26,7 +26,7 @@ class Inputs:
         With formulas and data in the places of inputs, and the largest step of the run.
     settings : Settings
         Without inputs; their values at the start are among the parameters.
-    pieces : tuple of Piece
+    stops : tuple of Stop
         Parts of the run between jumps of inputs; empty where none jumps.
     words : mapping of str to str or float
         Each input as a text, or as its number.
@@ -36,7 +36,7 @@ class Inputs:
 
     mechanism: Mechanism
     settings: Settings
-    pieces: tuple[Piece, ...]
+    stops: tuple[Stop, ...]
     words: Mapping[str, str | float]
     driven: Driven | None = None
 
@@ -49,7 +49,7 @@ def put_inputs(mechanism: Mechanism, settings: Settings, behind: float = 0.0) ->
     mechanism, settings : Mechanism, Settings
         The description and the settings of a run.
     behind : float
-        Jumps are searched for this fraction of the run beyond its end, see `pieces_of`.
+        Jumps are searched for this fraction of the run beyond its end, see `stops_of`.
 
     Raises
     ------
@@ -68,8 +68,8 @@ def put_inputs(mechanism: Mechanism, settings: Settings, behind: float = 0.0) ->
     parameters = {**settings.parameters, **sources.numbers}
     until = mechanism.defaults.until if settings.until is None else settings.until
     values = parameter_values(sources.mechanism, parameters)
-    pieces = pieces_of(sources, values, until, behind=behind)
-    parameters |= pieces[0].values if pieces else {}
+    stops = stops_of(sources, values, until, behind=behind)
+    parameters |= stops[0].values if stops else {}
     # defaults of inputs may follow other parameters, so numbers are read from the values
     words = {name: x if isinstance(x, str) else values[name] for name, x in sources.told.items()}
-    return Inputs(sources.mechanism, replace(settings, parameters=parameters, inputs={}), pieces, words, sources)
+    return Inputs(sources.mechanism, replace(settings, parameters=parameters, inputs={}), stops, words, sources)

@@ -24,10 +24,9 @@ from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 from symgen.running.options import split_options
 from symgen.running.outputs import output_times
-from symgen.runtime.foreseen import foreseen
 from symgen.runtime.motions import refuse_jumps
-from symgen.runtime.pieces import Piece, merged
 from symgen.runtime.run import MAX_ATTEMPTS, RunSpec
+from symgen.runtime.stops import Stop, foreseen, merged
 from symgen.settings import Settings, told_constant
 
 if TYPE_CHECKING:
@@ -83,7 +82,7 @@ class Plan:
         Parameters of the method that differ from its defaults.
     spec : RunSpec
         Steps, tolerances, limits and outputs.
-    pieces : tuple of Piece
+    stops : tuple of Stop
         Parts of the run between times at which steps end.
     warnings : tuple of str
         Warnings that hold for all values of parameters.
@@ -115,7 +114,7 @@ class Plan:
     integrator: Integrator
     method_parameters: Mapping[str, float]
     spec: RunSpec
-    pieces: tuple[Piece, ...]
+    stops: tuple[Stop, ...]
     warnings: tuple[str, ...]
     missed: tuple[str, ...]
     notes: tuple[str, ...]
@@ -235,7 +234,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         integrator=integrator,
         method_parameters=method_parameters,
         spec=spec,
-        pieces=merged(inputs.pieces, times.pieces(values, until) if adaptive else ()),
+        stops=merged(inputs.stops, times.stops(values, until) if adaptive else ()),
         warnings=tuple(warnings),
         missed=tuple(times.missed(values, until, None if adaptive else step)),
         notes=notes,

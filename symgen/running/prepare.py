@@ -236,4 +236,4 @@ def _watching(run: Prepared) -> RunSpec:
     plan, values = run.plan, parameter_values(run.mechanism, run.plan.parameters)
     rtol = plan.spec.rtol if plan.spec.adaptive else None
     events = compile_events(run.mechanism, run.compiled, plan.events, values, rtol)
-    return replace(plan.spec, pieces=plan.pieces, events=events)
+    return replace(plan.spec, stops=plan.stops, events=events)

@@ -75,23 +75,16 @@ def take_stops(system: Any, r: int) -> None:
     stops.head[ROW] = r if stops.rows.shape[0] > 2 else 0  # or one table for all
 
 
-def held_between_stops(
-    system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, first: int, count: int
-) -> int:
-    """Stand for `held_until` where runs have stops."""
-    stops, control, n_p = system[1], state.control, state.p.shape[0]
-    if first == 0:
+def hold_between_stops(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
+    """Have the parameters that held at output `k`, from those of the one before; at a stop, those from before it."""
+    _, stops, _, prepare, prepare_law = system
+    control, n_p, changed = state.control, state.p.shape[0], False
+    if k == 0:
         control[abi.PASSED] = 0
         take(chunk.ps, r * n_p, n_p, state.p)
-    changed, after = False, due(stops, control[abi.PASSED])
-    while times[first] > after + same(stops, span, times[first]):
+    while times[k] > due(stops, control[abi.PASSED]) + same(stops, span, times[k]):
         changed = change(stops, control[abi.PASSED], state.p) or changed
         control[abi.PASSED] += 1
-        after = due(stops, control[abi.PASSED])
     if changed:
-        system[3](state.p)
-        system[4](state.p)
-    last = first + 1
-    while last < count and not times[last] > after + same(stops, span, times[last]):
-        last += 1
-    return last
+        prepare(state.p)
+        prepare_law(state.p)

@@ -16,14 +16,14 @@ from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import store
 from symgen.runtime.hunting import with_events
-from symgen.runtime.instances import called, signature_of, viewing
+from symgen.runtime.instances import called, signature_of
 from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.observe import observe_rates, observe_rows
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, Observed, Outputs
 from symgen.runtime.redundancy import choose_rows
 from symgen.runtime.row_variants import (
     forget_functions,
-    held_between_stops,
+    hold_between_stops,
     noted_events,
     take,
     take_stops,
@@ -154,35 +154,8 @@ def take_row(system: Any, r: int) -> None:
     """Do nothing: without stops no row has any."""
 
 
-def held_until(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, first: int, count: int) -> int:
-    """Have the parameters that held at output `first`; return the first output, up to `count`, at which others did."""
-    return count
-
-
-@called
-def observe_part(model: Any, chunk: Any, begun: Any, state: Any, outputs: Any, observed: Any, count: int) -> None:
-    """Observe what is wanted at the first outputs, at all of which the parameters of `state` held."""
-    sizes, rates, confirm, accept, observe = model
-    law = sizes, rates, confirm, accept
-    follows = state.control[abi.MASKED] > 0 and chunk.dense.shape[0] > 0
-    if chunk.rates == 1:
-        for k in range(count if follows else 0):  # the rows that stand for all follow the position
-            here, seen = between(outputs, observed, k, k + 1)
-            observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
-            if follow_rows(chunk, state, begun) != 0:
-                observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
-        if not follows:
-            observe_rates(law, outputs, count, state.p, begun, state.iw, observed, state.room)
-    if chunk.joints == 1:
-        observe_rows(observe, sizes, outputs, count, state.p, state.w, observed, state.room)
-
-
-@viewing
-def between(outputs: Any, observed: Any, first: int, last: int) -> Any:
-    """Return what belongs to some outputs."""
-    here = Outputs(outputs.times[first:last], outputs.states[first:last], outputs.status[first:last])
-    rates, multipliers = observed.accelerations[first:last], observed.multipliers[first:last]
-    return here, Observed(rates, multipliers, observed.rows[first:last])
+def hold(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
+    """Do nothing: the same parameters hold at all outputs of a run without stops."""
 
 
 def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, kept: Any) -> None:
@@ -199,7 +172,8 @@ def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, s
     chunk, state, kept
         As for `run_rows`; `state` is that of the run at its end.
     """
-    sizes, nw, count = model[0], state.w.shape[0], state.control[abi.OUTPUTS]
+    sizes, rates, confirm, accept, observe = model
+    law, nw, count = (sizes, rates, confirm, accept), state.w.shape[0], state.control[abi.OUTPUTS]
     summarise(code, state, part(chunk.summary, r * e.N_SUMMARY, e.N_SUMMARY))
     until = kept.outputs.times[kept.outputs.times.shape[0] - 1]
     if chunk.ends == 1 and count == 0 and code == abi.DONE:  # an event has ended it
@@ -209,12 +183,18 @@ def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, s
     if chunk.rates == 1:
         for i in range(state.iw.shape[0]):
             state.iw[i] = 0
-    first, begun = 0, part(chunk.ws, r * nw, nw)
-    while (chunk.rates == 1 or chunk.joints == 1) and first < count:
-        last = held_until(system, span, chunk, r, state, kept.outputs.times, first, count)
-        here, seen = between(kept.outputs, kept.observed, first, last)
-        observe_part(model, chunk, begun, state, here, seen, last - first)
-        first = last
+    begun, outputs, observed = part(chunk.ws, r * nw, nw), kept.outputs, kept.observed
+    follows = state.control[abi.MASKED] > 0 and chunk.dense.shape[0] > 0
+    for k in range(count if chunk.rates == 1 or chunk.joints == 1 else 0):
+        hold(system, span, chunk, r, state, outputs.times, k)
+        here = Outputs(outputs.times[k : k + 1], outputs.states[k : k + 1], outputs.status[k : k + 1])
+        seen = Observed(observed.accelerations[k : k + 1], observed.multipliers[k : k + 1], observed.rows[k : k + 1])
+        if chunk.rates == 1:
+            observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
+            if follows and follow_rows(chunk, state, begun) != 0:  # the rows that stand for all follow the position
+                observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
+        if chunk.joints == 1:
+            observe_rows(observe, sizes, here, 1, state.p, state.w, seen, state.room)
     length = (chunk.picks.shape[0] // 2) * kept.outputs.times.shape[0]
     values = part(chunk.values, r * length, length)
     pick(sizes, chunk.picks, kept, count, state.gauges[abi.ENERGY_START], values)
@@ -302,7 +282,7 @@ def rows_loop(name: str, loop: Any, **meanings: Any) -> Any:
 constant = rows_loop("constant", explicit.constant)
 adaptive = rows_loop("adaptive", explicit.adaptive)
 _EVENTS = {"forget": forget_functions, "noted": noted_events}
-_STOPS = {"take_row": take_stops, "held_until": held_between_stops}
+_STOPS = {"take_row": take_stops, "hold": hold_between_stops}
 constant_with_events = rows_loop("constant_with_events", with_events(explicit.constant), **_EVENTS)
 adaptive_with_events = rows_loop("adaptive_with_events", with_events(explicit.adaptive), **_EVENTS)
 constant_with_stops = rows_loop("constant_with_stops", with_stops(explicit.constant), **_STOPS)

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Watched
     from symgen.runtime.integrator import Integrator
-    from symgen.runtime.pieces import Piece
     from symgen.runtime.records import Outputs
+    from symgen.runtime.stops import Stop
 
 Array = NDArray[np.float64]
 Progress = Callable[[float], None]
@@ -73,7 +73,7 @@ class RunSpec:
         An adaptive run is stopped when it has taken, or at its present rate would take, more attempts at a step.
     duration : float or None
         In which a motion that begins at rest counts as one that crosses the mechanism [s]; until `until` by default.
-    pieces : tuple of Piece
+    stops : tuple of Stop
         Where inputs jump, and what they are from there on; the first one is what the start has.
     events : Watched or None
         Switching functions: events, and what adaptive steps end at.
@@ -96,7 +96,7 @@ class RunSpec:
     max_evaluations: int | None = None
     max_attempts: float = MAX_ATTEMPTS
     duration: float | None = None
-    pieces: tuple[Piece, ...] = ()
+    stops: tuple[Stop, ...] = ()
     events: Watched | None = None
     compares: bool = False
 

@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from symgen.runtime.entry import Entry
     from symgen.runtime.events import Events, Watched
     from symgen.runtime.integrator import Integrator
-    from symgen.runtime.pieces import Piece
     from symgen.runtime.records import Outputs
     from symgen.runtime.run import RunSpec
+    from symgen.runtime.stops import Stop
 
 Array = NDArray[np.float64]
 
@@ -90,7 +90,7 @@ class Simulation:
         self._model: tuple[Any, ...] = self.sizes, *self.setup.functions
         self._prepared: tuple[Outputs, Entry] | None = None
         self._whole = self._model, self.setup.loop
-        self._pieces: tuple[Piece, ...] = ()
+        self._stops: tuple[Stop, ...] = ()
         self._counts, self._clock = memoryview(self.state.control), memoryview(self.state.clock)
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
         self.state.gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
@@ -137,7 +137,7 @@ class Simulation:
         if anew:
             taken.pop("hunt", None)
         self.restore(taken)
-        varying = {name for piece in self.spec.pieces for name in piece.values}
+        varying = {name for stop in self.spec.stops for name in stop.values}
         numbers = {q.name: float(x) for q, x in zip(info.parameters, p, strict=False) if q.name in info.inputs}
         self.changes.give({name: x for name, x in numbers.items() if name not in varying})
         if anew:
@@ -209,11 +209,11 @@ class Simulation:
         happened = () if self.events is None else (event.t for event in self.events.happened)
         marks, found, count = np.sort([*times, *happened]), list[tuple[float, Array]](), 0
         p, places = self._first_p.copy(), self.changes.inputs
-        for stop in self.spec.pieces[self._first_stop : self.state.control[abi.PASSED]]:
-            near = abi.RESOLVED_TIME * stop.begin if self.spec.adaptive else self.same(stop.begin)
-            before, count = count, int(np.searchsorted(marks, stop.begin + near, side="right"))
+        for stop in self.spec.stops[self._first_stop : self.state.control[abi.PASSED]]:
+            near = abi.RESOLVED_TIME * stop.t if self.spec.adaptive else self.same(stop.t)
+            before, count = count, int(np.searchsorted(marks, stop.t + near, side="right"))
             if stop.values and count > before:
-                found.append((stop.begin + near, p.copy()))
+                found.append((stop.t + near, p.copy()))
                 self.compiled.prepare(found[-1][1])
             elif not stop.values:
                 count = before
@@ -233,23 +233,23 @@ class Simulation:
 
     def divide(self, spec: RunSpec) -> None:
         """Have the run stop where `spec` says, with the values of all stops that are behind."""
-        if spec.pieces is not self._pieces:
-            self._stop_at(spec.pieces)
+        if spec.stops is not self._stops:
+            self._stop_at(spec.stops)
         self.spec, now, control = spec, self._clock[abi.TIME], self.state.control
-        behind = [stop for stop in spec.pieces if not self.is_ahead(stop.begin)]
+        behind = [stop for stop in spec.stops if not self.is_ahead(stop.t)]
         control[abi.PASSED] = len(behind)
         self.changes.give({name: value for stop in behind for name, value in stop.values.items()})
         # a kink changes no number, but what multistep schemes know of the past ends there as well
-        if behind and now - behind[-1].begin <= self.same(now) and control[abi.BEGUN] == 1:
+        if behind and now - behind[-1].t <= self.same(now) and control[abi.BEGUN] == 1:
             control[abi.BEGUN] = abi.AFRESH
 
-    def _stop_at(self, pieces: tuple[Piece, ...]) -> None:
+    def _stop_at(self, stops: tuple[Stop, ...]) -> None:
         """Enter the loop that goes from stop to stop where there are any."""
-        self._pieces, (self._model, loop) = pieces, self._whole
-        if pieces:
+        self._stops, (self._model, loop) = stops, self._whole
+        if stops:
             from symgen.runtime.stopping import with_stops, with_table
 
-            self._model = with_table(self.compiled, self._model, loop, self.spec.adaptive, (pieces,))
+            self._model = with_table(self.compiled, self._model, loop, self.spec.adaptive, (stops,))
             loop = with_stops(loop)
         self.setup, self._prepared = replace(self.setup, loop=loop), None
         self.__dict__.pop("_entry", None)
@@ -319,7 +319,7 @@ class Simulation:
 
     @cached_property
     def _copied(self) -> bool:
-        """Whether all that is remembered stands in one piece of memory, but for passages."""
+        """Whether all that is remembered stands in one stop of memory, but for passages."""
         return not names_kept(self.scheme)
 
     def warm(self, outputs: Outputs) -> None:

@@ -23,7 +23,7 @@ from symgen.store.loops import from_its_source
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.pieces import Piece
+    from symgen.runtime.stops import Stop
 
 #: Numbers of `Stops.head`: the row that runs, and 1 where steps are adaptive.
 ROW, ADAPTIVE = range(2)
@@ -161,7 +161,7 @@ def with_stops(loop: Any) -> Any:
 
 
 def with_table(
-    compiled: CompiledModel, system: tuple[Any, ...], loop: Any, adaptive: bool, rows: Sequence[Sequence[Piece]]
+    compiled: CompiledModel, system: tuple[Any, ...], loop: Any, adaptive: bool, rows: Sequence[Sequence[Stop]]
 ) -> tuple[Any, ...]:
     """Return what the loop takes first that goes from stop to stop.
 
@@ -173,7 +173,7 @@ def with_table(
         The loop that is entered, and what it takes first.
     adaptive : bool
         Whether steps vary.
-    rows : sequence of sequence of Piece
+    rows : sequence of sequence of Stop
         The stops of each row.
     """
     places = {q.name: i for i, q in enumerate(compiled.info.parameters)}
@@ -182,7 +182,7 @@ def with_table(
     table = Stops(
         head=np.array([0, int(adaptive)]),
         rows=np.cumsum([0, *map(len, rows)]),
-        times=np.array([stop.begin for stop in stops], dtype=np.float64),
+        times=np.array([stop.t for stop in stops], dtype=np.float64),
         changes=np.cumsum([0, *(len(stop.values) for stop in stops)]),
         places=np.array([place for place, _ in changes], dtype=np.int64),
         values=np.array([value for _, value in changes], dtype=np.float64),

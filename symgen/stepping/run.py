@@ -17,9 +17,8 @@ from symgen.errors import InputError, SimulationError
 from symgen.runtime import abi
 from symgen.runtime.changes import begin_with_step
 from symgen.runtime.events import EventRecord, record_of
-from symgen.runtime.foreseen import Foreseen, foreseen
 from symgen.runtime.motions import refuse_jumps
-from symgen.runtime.pieces import merged, pieces_of
+from symgen.runtime.stops import Foreseen, foreseen, merged, stops_of
 from symgen.stepping.advance import Advance
 from symgen.stepping.carried import CarriedBodies
 from symgen.stepping.clock import Clock, Controller
@@ -71,7 +70,7 @@ class SteppedRun:
         self._clocks, self._calling, self._advance = list[Clock](), False, Advance(self._loop)
         inputs, self._driven = plan.inputs.words, plan.inputs.driven
         known = foreseen(plan.mechanism, plan.events) if self._adaptive else Foreseen(mechanism)
-        self._jumps, self._known = plan.inputs.pieces, known
+        self._jumps, self._known = plan.inputs.stops, known
         if known:
             self._loop.divide(self._divided(parameter_values(mechanism, self._changed)))
         self._given = {name: words for name, words in inputs.items() if isinstance(words, str)}
@@ -322,8 +321,8 @@ class SteppedRun:
         """Return what the run is to do with values of parameters: inputs jump, and formulas have kinks, elsewhere."""
         spec, driven = self._loop.spec, self._driven
         if driven is not None and driven.jumps:
-            self._jumps = pieces_of(driven, values, spec.until)
-        return replace(spec, pieces=merged(self._jumps, self._known.pieces(values, spec.until)))
+            self._jumps = stops_of(driven, values, spec.until)
+        return replace(spec, stops=merged(self._jumps, self._known.stops(values, spec.until)))
 
     def _ready(self, what: str) -> None:
         """Refuse a call from inside a controller, and have an accepted state."""

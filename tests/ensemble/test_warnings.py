@@ -11,7 +11,7 @@ from support.emitted import mechanism_of
 import symgen
 from symgen.ensemble.study import lines_of
 from symgen.errors import InputError
-from symgen.runtime.foreseen import foreseen
+from symgen.runtime.stops import foreseen
 
 STEP = 1e-2
 CONSTANT = {"method": "lagrange", "integrator": "rk4", "step": STEP, "until": 1.0}
@@ -88,7 +88,7 @@ def test_pieces_are_those_asked_for_whatever_other_threads_ask():
     known = foreseen(pushed(PUSH, at=0.123, long=1.0).mechanism)
     other = replace(known, known=Forgetful())
     for values in ({"at": 0.2, "long": 0.1}, {"at": 0.5, "long": 0.1}):
-        assert other.pieces(values, 1.0) == known.pieces(values, 1.0) != ()
+        assert other.stops(values, 1.0) == known.stops(values, 1.0) != ()
 
 
 def test_a_row_whose_input_jumps_too_often_is_a_row_that_failed():

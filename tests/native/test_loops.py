@@ -9,6 +9,7 @@ import pytest
 from symgen.native.loops import read_loop
 from symgen.runtime import rows
 from symgen.runtime.hunting import with_events
+from symgen.runtime.stopping import with_stops
 from symgen.store.emitted import COMPILER
 from symgen.store.loops import _lines, definition
 
@@ -27,11 +28,13 @@ def test_every_loop_is_in_the_language(scheme, name, events):
     loop = getattr(import_module(f"symgen.runtime.schemes.{scheme}"), name)
     loop = with_events(loop) if events else loop
     read(loop)
+    read(with_stops(loop))
 
 
-@pytest.mark.parametrize("name", ["constant", "adaptive", "constant_with_events", "adaptive_with_events"])
-def test_every_loop_over_rows_is_in_the_language(name):
-    read(getattr(rows, name))
+@pytest.mark.parametrize("kind", ["", "_with_events", "_with_stops", "_with_both"])
+@pytest.mark.parametrize("steps", ["constant", "adaptive"])
+def test_every_loop_over_rows_is_in_the_language(steps, kind):
+    read(getattr(rows, steps + kind))
 
 
 def read(loop):

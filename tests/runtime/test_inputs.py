@@ -14,9 +14,9 @@ from symgen.describe.inputs import driven
 from symgen.describe.load import load as load_mechanism
 from symgen.ensemble.sweep import sweep
 from symgen.errors import InputError
-from symgen.runtime import pieces
+from symgen.runtime import stops
 from symgen.runtime.in_time import crossings
-from symgen.runtime.pieces import pieces_of
+from symgen.runtime.stops import stops_of
 
 STIFFNESS = 40.0
 OMEGA = math.sqrt(STIFFNESS)
@@ -296,8 +296,8 @@ force = ["push - {STIFFNESS}*block.x", 0.0]
 )
 def test_times_of_jumps(model, formula, expected):
     found = driven(model.mechanism, {"push": formula})
-    pieces = pieces_of(found, model.parameters() | {s.switch: 0.0 for s in found.jumps}, 1.0)
-    assert [p.begin for p in pieces[1:]] == pytest.approx(expected, abs=1e-12)
+    pieces = stops_of(found, model.parameters() | {s.switch: 0.0 for s in found.jumps}, 1.0)
+    assert [p.t for p in pieces[1:]] == pytest.approx(expected, abs=1e-12)
 
 
 def test_random_crossings_are_all_found():
@@ -352,7 +352,7 @@ def test_bad_inputs_are_told_in_a_sentence(model, inputs, message):
 
 
 def test_more_jumps_than_are_looked_for_are_told(model, monkeypatch):
-    monkeypatch.setattr(pieces, "MOST_PIECES", 1000)
+    monkeypatch.setattr(stops, "MOST_PIECES", 1000)
     with pytest.raises(InputError, match="inputs: expected at most 1000 jumps"):
         model.simulate(until=1.0, inputs={"push": "sign(sin(1e4*t))"})
 

@@ -17,8 +17,7 @@ from symgen.describe.inputs import Jump
 from symgen.describe.kinks import kinks_of
 from symgen.describe.parser import Names, parse
 from symgen.ensemble.sweep import sweep
-from symgen.runtime.foreseen import times_between
-from symgen.runtime.pieces import Piece, merged
+from symgen.runtime.stops import Stop, merged, times_between
 
 #: Force over time, linear between points that no step would meet, and beyond them constant.
 X, Y = (0.13, 0.29, 0.41, 0.77), (0.0, 5.0, -3.0, 2.0)
@@ -198,7 +197,7 @@ def test_times_of_kinks() -> None:
 
 
 def test_kinks_and_jumps_end_pieces_together() -> None:
-    jumps = (Piece(0.0, {"u": 1.0}), Piece(0.5, {"u": 2.0}))
-    kinks = (Piece(0.0, {}), Piece(0.3, {}), Piece(0.5, {}), Piece(0.7, {}))
+    jumps = (Stop(0.0, {"u": 1.0}), Stop(0.5, {"u": 2.0}))
+    kinks = (Stop(0.0, {}), Stop(0.3, {}), Stop(0.5, {}), Stop(0.7, {}))
     assert merged(jumps, kinks) == (jumps[0], kinks[1], jumps[1], kinks[3])
     assert merged((), kinks) == kinks and merged(jumps, ()) == jumps

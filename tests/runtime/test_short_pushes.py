@@ -15,8 +15,8 @@ import symgen
 from symgen.describe.parser import Names, parse
 from symgen.ensemble.plan import make_ensemble
 from symgen.ensemble.sweep import sweep
-from symgen.runtime.foreseen import foreseen
 from symgen.runtime.in_time import InTime, crossings
+from symgen.runtime.stops import foreseen
 from symgen.vocabulary.expressions import Expr
 
 SCHEMES = ["dop853", "dopri5", "abm", "sdirk", "radau5"]

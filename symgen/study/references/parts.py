@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.describe.unforeseen import longest_step
-from symgen.runtime.foreseen import foreseen
+from symgen.runtime.stops import foreseen
 
 if TYPE_CHECKING:
     from symgen.study.references.independent import IndependentEquations
@@ -60,11 +60,11 @@ def in_parts(
     """
     motion, done = np.empty((len(times), len(y))), 0
     end = float(times[-1]) if len(times) else 0.0
-    pieces = foreseen(equations.mechanism).pieces(equations.parameters, end) if end else ()
-    for first, last in pairwise([*([piece.begin for piece in pieces] or [0.0]), end]):
+    stops = foreseen(equations.mechanism).stops(equations.parameters, end) if end else ()
+    for first, last in pairwise([*([stop.t for stop in stops] or [0.0]), end]):
         upto = int(np.searchsorted(times, last, side="right"))
         own = times[done:upto]
-        if pieces and last - first < JUMP * end:  # what acts before it up to its middle, and then what acts behind it
+        if stops and last - first < JUMP * end:  # what acts before it up to its middle, and then what acts behind it
             y = y + 0.5 * (last - first) * (equations.rate(first, y) + equations.rate(last, y))
             states = np.tile(y, (len(own), 1))
         else:

@@ -1,8 +1,8 @@
-"""Times at which formulas of a run have kinks or jump, as far as they are known before it begins.
+"""Stops of a run: times known beforehand at which inputs and formulas jump or have kinks, and what inputs are then on.
 
-An error estimate sees a kink or a jump where stages of a step lie on both sides of it, and one between two stages, as a
-push that is shorter than a step, not at all. What is known beforehand needs no estimate: adaptive runs go in pieces
-from one such time to the next.
+A run ends a step at each of these times and takes the values that hold behind it before it goes on, so that no step and
+no stage of one sees two sides of a jump. An error estimate sees a jump where stages of a step lie on both sides of it,
+and one between two stages, as a push that is shorter than a step, not at all.
 """
 
 from __future__ import annotations
@@ -15,23 +15,103 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 from symgen.describe.evaluate import parameter_values
-from symgen.describe.inputs import Jump
+from symgen.describe.inputs import Driven, Jump
 from symgen.describe.kinks import kinks_of, sides_of
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.remembered import remembered
 from symgen.errors import InputError
 from symgen.runtime.in_time import MOST_PIECES, InTime, line_of
-from symgen.runtime.pieces import SAME, Piece
 from symgen.vocabulary.expressions import names
 
+#: Jumps closer than this part of the run are one.
+SAME = 1e-14
 #: So far beside a jump, as a part of the run, a step ends and another begins.
 _BESIDE = 1e-12
 
 
-class _Found(NamedTuple):
-    """The pieces of a motion, and whether they end at all that formulas pass."""
+@dataclass(frozen=True)
+class Stop:
+    """A time at which a step of a run ends, and what holds from then on.
 
-    pieces: tuple[Piece, ...] = ()
+    Attributes
+    ----------
+    t : float
+        The time [s]; that of the first one is the start.
+    values : mapping of str to float
+        Inputs that are others than before; at the first one all that vary.
+    """
+
+    t: float
+    values: Mapping[str, float]
+
+
+def stops_of(
+    driven: Driven, values: Mapping[str, float], until: float, first: float = 0.0, behind: float = 0.0
+) -> tuple[Stop, ...]:
+    """Return the stops of a motion from `first` to `until`, none where nothing jumps.
+
+    Parameters
+    ----------
+    driven : Driven
+        What inputs are.
+    values : mapping of str to float
+        Of all parameters.
+    until, first : float
+        End of the run, and its begin [s].
+    behind : float
+        So far behind the end, as a part of it, jumps are looked for as well: data need not reach there.
+
+    Raises
+    ------
+    InputError
+        If there are too many, or smooth data end before the run does.
+    """
+    formulas = InTime(driven.mechanism, values)
+    for name, data in driven.curves.items():
+        if data.t[0] > first or data.t[-1] < until:
+            got = f"those from {data.t[0]:g} to {data.t[-1]:g} s"
+            raise InputError(f"input '{name}'", f"data from {first:g} to {until:g} s, as curves end where they do", got)
+
+    until *= 1.0 + behind
+    found = {t for data in driven.samples.values() for t in data.t}
+    for jump in driven.jumps:
+        found.update(formulas.crossings(jump, until, first))
+    times = [first]
+    for t in sorted(found):
+        if t - times[-1] > SAME * until and until - t > SAME * until:
+            times.append(t)
+    if len(times) > MOST_PIECES:
+        raise InputError("inputs", f"at most {MOST_PIECES} jumps", f"{len(times) - 1}")
+    switches = [jump for jump in driven.jumps if jump.switch]
+    if not (switches or driven.samples or len(times) > 1):
+        return ()
+    result, before = list[Stop](), dict[str, float]()
+    for begin, end in pairwise([*times, until]):
+        middle = 0.5 * (begin + end)
+        now = {name: data.at(middle) for name, data in driven.samples.items()}
+        now |= {jump.switch: 0.0 if math.isnan(x := formulas.at(jump.value, middle)) else x for jump in switches}
+        result.append(Stop(begin, {name: x for name, x in now.items() if before.get(name) != x}))
+        before = now
+    return tuple(result)
+
+
+def merged(stops: tuple[Stop, ...], kinks: tuple[Stop, ...]) -> tuple[Stop, ...]:
+    """Return stops where numbers change together with those at which none does, one of each two at the same time."""
+    if not (stops and kinks):
+        return stops or kinks
+    found, apart = list[Stop](), SAME * kinks[-1].t
+    for stop in sorted([*stops, *kinks], key=lambda stop: stop.t):
+        if found and stop.t - found[-1].t <= apart:  # one of the two changes no number
+            found[-1] = Stop(found[-1].t, {**found[-1].values, **stop.values})
+        else:
+            found.append(stop)
+    return tuple(found)
+
+
+class _Found(NamedTuple):
+    """The stops of a run, and whether these are all that formulas pass."""
+
+    stops: tuple[Stop, ...] = ()
     all: bool = True
 
 
@@ -49,15 +129,12 @@ class Foreseen:
         From `kinks_of` and `sides_of` of `symgen.describe.kinks`.
     known : dict
         What was found last, by what it depends on.
-    whole : dict
-        Whether that was all, of everything that was looked for.
     """
 
     mechanism: Mechanism
     kinks: tuple[Jump, ...] = ()
     sides: tuple[Jump, ...] = ()
     known: dict[tuple[float, ...], _Found] = field(default_factory=dict, repr=False, compare=False)
-    whole: dict[tuple[float, ...], bool] = field(default_factory=dict, repr=False, compare=False)
 
     def __bool__(self) -> bool:
         """Whether there is anything."""
@@ -68,43 +145,37 @@ class Foreseen:
         """What the times depend on: names of parameters, and t."""
         return frozenset(name for jump in (*self.kinks, *self.sides) for name in names(jump.argument))
 
-    def pieces(self, values: Mapping[str, float], until: float, first: float = 0.0) -> tuple[Piece, ...]:
-        """Return the pieces of a motion from `first` to `until`, in which no number changes; none where it is whole.
+    def stops(self, values: Mapping[str, float], until: float) -> tuple[Stop, ...]:
+        """Return the stops of a run to `until` [s], at which no number changes; none where it is whole.
 
         Parameters
         ----------
         values : mapping of str to float
             Of all parameters.
-        until, first : float
-            End of the motion, and its begin [s].
+        until : float
+            End of the run [s].
         """
-        return self._found(values, until, first).pieces
+        return self._found(values, until).stops
 
     def are_all(self, values: Mapping[str, float], until: float) -> bool:
-        """Return whether `pieces` end at all that formulas pass; with too many times they end at none.
+        """Return whether `stops` are at all that formulas pass; with too many times they are at none.
 
         Parameters
         ----------
         values, until
-            As for `pieces`.
+            As for `stops`.
         """
-        key = self._key(values, until, 0.0)
-        return self.whole[key] if key in self.whole else self._found(values, until, 0.0).all
+        return self._found(values, until).all
 
-    def _key(self, values: Mapping[str, float], until: float, first: float) -> tuple[float, ...]:
-        return until, first, *(values[name] for name in sorted(self.reads & values.keys()))
-
-    def _found(self, values: Mapping[str, float], until: float, first: float) -> _Found:
+    def _found(self, values: Mapping[str, float], until: float) -> _Found:
         if not self:
             return _Found()
-        key = self._key(values, until, first)
+        key = until, *(values[name] for name in sorted(self.reads & values.keys()))
         found = self.known.get(key)
         if found is None:  # runs that are compared, or of a sweep, often differ in nothing of that
-            found = self._looked_for(values, until, first)
+            found = self._looked_for(values, until)
             self.known.clear()  # threads of a sweep do so, too
             self.known[key] = found
-            if first == 0.0:  # runs without end ask for one window after the other
-                self.whole[key] = found.all
         return found
 
     def missed(self, values: Mapping[str, float], until: float, step: float | None) -> list[str]:
@@ -113,7 +184,7 @@ class Foreseen:
         Parameters
         ----------
         values, until
-            As for `pieces`.
+            As for `stops`.
         step : float or None
             The constant step [s]; none where steps are adaptive.
         """
@@ -134,32 +205,20 @@ class Foreseen:
         Parameters
         ----------
         values, until
-            As for `pieces`.
+            As for `stops`.
         """
         jumps = [*self.sides, *(kink for kink in self.kinks if kink.levels == (0.0,))]
         times, _ = times_between(jumps, self.mechanism, values, until)
         return min(pairwise(times), key=_length, default=None)
 
-    def times(self, values: Mapping[str, float], until: float, first: float) -> tuple[float, ...]:
-        """Return all times inside a motion at which formulas pass something [s].
-
-        Parameters
-        ----------
-        values, until, first
-            As for `pieces`.
-        """
-        return times_between((*self.kinks, *self.sides), self.mechanism, values, until, first)[0]
-
-    def _looked_for(self, values: Mapping[str, float], until: float, first: float) -> _Found:
-        kinks, all_kinks = times_between(self.kinks, self.mechanism, values, until, first)
-        sides, all_sides = times_between(self.sides, self.mechanism, values, until, first)
+    def _looked_for(self, values: Mapping[str, float], until: float) -> _Found:
+        kinks, all_kinks = times_between(self.kinks, self.mechanism, values, until)
+        sides, all_sides = times_between(self.sides, self.mechanism, values, until)
         times = set(kinks)
-        # a short piece around each: no stage of those beside it is at the very time, which belongs to one side
+        # a short part around each: no stage of those beside it is at the very time, which belongs to one side
         for t in sides:
-            times |= {beside for way in (-1.0, 1.0) if first < (beside := t + way * _BESIDE * until) < until}
-        begins = sorted(times)
-        pieces = tuple(Piece(t, {}) for t in (first, *begins)) if begins else ()
-        return _Found(pieces, all_kinks and all_sides)
+            times |= {beside for way in (-1.0, 1.0) if 0.0 < (beside := t + way * _BESIDE * until) < until}
+        return _Found(tuple(Stop(t, {}) for t in (0.0, *sorted(times))) if times else (), all_kinks and all_sides)
 
 
 def _length(pair: tuple[float, float]) -> float:
@@ -190,7 +249,7 @@ def _passed(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], d
 
 
 def times_between(
-    jumps: Sequence[Jump], mechanism: Mechanism, values: Mapping[str, float], until: float, first: float = 0.0
+    jumps: Sequence[Jump], mechanism: Mechanism, values: Mapping[str, float], until: float
 ) -> tuple[tuple[float, ...], bool]:
     """Return the times inside a run at which formulas pass levels, and whether these are all.
 
@@ -202,8 +261,8 @@ def times_between(
         Whose tables they may read.
     values : mapping of str to float
         Of all parameters.
-    until, first : float
-        End and begin of the run [s].
+    until : float
+        End of the run [s].
 
     Returns
     -------
@@ -215,17 +274,17 @@ def times_between(
     formulas, found, apart, whole = InTime(mechanism, values), set[float](), SAME * until, True
     for jump in jumps:
         try:
-            found.update(formulas.crossings(_unrolled(jump, formulas, until, first), until, first))
+            found.update(formulas.crossings(_unrolled(jump, formulas, until), until))
         except InputError:
             whole = False
     times = list[float]()
     for t in sorted(found):
-        if t - (times[-1] if times else first) > apart and until - t > apart:
+        if t - (times[-1] if times else 0.0) > apart and until - t > apart:
             times.append(t)
     return (tuple(times), whole) if len(times) <= MOST_PIECES else ((), False)
 
 
-def _unrolled(jump: Jump, formulas: InTime, until: float, first: float) -> Jump:
+def _unrolled(jump: Jump, formulas: InTime, until: float) -> Jump:
     """Return a jump with all the levels that repeat themselves where its argument is in a run.
 
     Raises
@@ -235,7 +294,7 @@ def _unrolled(jump: Jump, formulas: InTime, until: float, first: float) -> Jump:
     """
     if jump.period == 0.0:
         return jump
-    low, high = formulas.range(jump, until, first)
+    low, high = formulas.range(jump, until)
     turns = [(x - jump.levels[0]) / jump.period for x in (low, high)]
     own = jump.levels[:-1]  # the last point is the first one of the next period
     if not (turns[1] - turns[0] + 1.0) * len(own) <= MOST_PIECES:
