@@ -329,7 +329,7 @@ def test_rows_whose_inputs_jump_stay_in_the_loop_and_are_single_runs(push, steps
     model, settings = symgen.load(pushed("push")), {"until": 0.2, "times": (0.0, 0.02, 0.05, 0.1, 0.101, 0.2)}
     settings |= {"inputs": {"push": push}, **steps}
     found = symgen.sweep(model, {"crank_mass": [1.0, 2.0, 3.0]}, quantities=EVERYTHING, **settings)
-    assert found.ensemble.recipe.singly is None and found.ensemble.recipe.stops
+    assert not (found.ensemble.recipe.watch and found.ensemble.recipe.watch.alone) and found.ensemble.recipe.stops
     compare(found, model, **settings)
     jumped = symgen.sweep(
         model, {"crank_mass": [1.0]}, quantities=("crank.ax",), **settings | {"inputs": {"push": 5.0}}
