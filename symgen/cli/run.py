@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,10 +24,6 @@ from symgen.settings import Settings
 if TYPE_CHECKING:
     from symgen.api import Model
     from symgen.result.result import Result
-    from symgen.running.plan import Plan
-
-#: What the first loop that looks for events takes to compile on the machine it was measured on [s]: 10 to 25.
-FIRST_LOOP = 20.0
 
 
 @click.command(
@@ -124,29 +119,16 @@ def command(
 
 
 def _prepare(model: Model, settings: Settings, quantities: tuple[str, ...]) -> None:
-    """Refuse quantities that no result will have, and say on a terminal if a loop has to be compiled first."""
-    events = bool(model.mechanism.events or settings.stop_when or settings.record_when)
-    if not quantities and not (events and sys.stderr.isatty()):
+    """Refuse quantities that no result will have."""
+    if not quantities:
         return
+    from symgen.result.select import choose, columns_of
     from symgen.running.plan import Purpose
     from symgen.running.prepare import make_plan
     from symgen.running.starts import compiled_for
 
     plan = make_plan(model.mechanism, settings, Purpose.ROWS)
-    if quantities:
-        from symgen.result.select import choose, columns_of
-
-        choose(columns_of(plan.mechanism, compiled_for(plan.mechanism, plan.choice).info), quantities, model.name)
-    if plan.events and sys.stderr.isatty() and (seconds := seconds_of_loop(plan)):
-        click.echo(f"symgen: compiling a loop that looks for events, once: about {seconds:g} s", err=True)
-
-
-def seconds_of_loop(plan: Plan) -> float:
-    """Return about how long a run waits for a loop that looks for events to be compiled [s], 0 if it is cached."""
-    from symgen.runtime.hunting import with_events
-
-    loop = with_events(plan.integrator.loop(plan.spec.adaptive))
-    return FIRST_LOOP if loop is not None and loop.wanting() else 0.0
+    choose(columns_of(plan.mechanism, compiled_for(plan.mechanism, plan.choice).info), quantities, model.name)
 
 
 def _proposals(model: Model, settings: Settings, result: Result) -> tuple[str, ...]:

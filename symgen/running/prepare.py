@@ -145,7 +145,6 @@ def prepare(
         If the mechanism cannot be closed.
     """
     plan, assembled = decided(mechanism, settings, purpose, near)
-    _compile_loop(plan)
     assembled = assembled or assemble(plan, near)
     return begin(plan, assembled)
 
@@ -216,17 +215,6 @@ def begin(plan: Plan, assembled: Assembled) -> Prepared:
     start = replace(assembled.start, notes=(*plan.notes, *plan.bound, *assembled.start.notes))
     run = Prepared(plan, replace(assembled, start=start), plan.spec)
     return run if plan.purpose is Purpose.STATE else replace(run, spec=_watching(run))
-
-
-def _compile_loop(plan: Plan) -> None:
-    """Have a second process compile the loop of a run, where that takes longer than the code of a mechanism."""
-    if plan.purpose is not Purpose.MOTION:
-        return
-    from symgen.runtime.hunting import with_events
-    from symgen.store import ahead
-
-    loop = plan.integrator.loop(plan.spec.adaptive)
-    ahead.start(with_events(loop) if plan.events else loop)
 
 
 def _watching(run: Prepared) -> RunSpec:

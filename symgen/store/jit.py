@@ -23,10 +23,9 @@ from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import CPUDispatcher
 from numba.core.runtime import rtsys
 
-from symgen.store import ahead
 from symgen.store.identity import NotDescribable, describe, describe_function, digest, source_stamp
-from symgen.store.machine_code import Compiling, MachineCode, listen
-from symgen.store.stats import cache_stats, counters
+from symgen.store.machine_code import MachineCode, listen
+from symgen.store.stats import cache_stats
 
 __all__ = ["attach", "cache_stats", "internals_changed", "jit"]
 
@@ -174,25 +173,10 @@ class LazySignatures(CPUDispatcher):  # type: ignore[misc]  # Numba has no types
         self._can_compile = False
         return self
 
-    def wanting(self) -> bool:
-        """Whether signatures are neither compiled nor in the cache."""
-        cache = self._eager._cache
-        return not self._ready and not all(
-            isinstance(cache, MachineCode) and cache.has(signature, self.targetctx) for signature in self._signatures
-        )
-
-    def is_quick(self) -> bool:
-        """Whether signatures are compiled so fast that nobody needs to begin with it beforehand."""
-        quick = getattr(self._eager._cache, "is_quick", None)
-        return quick is not None and all(quick(signature) for signature in self._signatures)
-
     def open(self) -> bool:
         """Compile or load the signatures if that has not happened; True if a failed look-up is worth repeating."""
         if self._ready:
             return False
-        waited = ahead.finish(self)
-        if not Compiling.depth():
-            counters["compile_seconds"] += waited
         with global_compiler_lock:
             if self._ready or self._busy:  # another thread was faster, or the function calls itself
                 return self._ready

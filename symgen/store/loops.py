@@ -103,10 +103,6 @@ class LoopCode(MachineCode):
                 return False
         return super().has(sig, target_context)
 
-    def is_quick(self, sig: Any) -> bool:
-        """Whether machine code is made from the source, so that nobody needs to begin with it beforehand."""
-        return not self._by_numba and self._function(sig) is not None
-
     def _own(self, sig: Any) -> tuple[str, Path]:
         """Return the key of machine code made from the source, and where it is kept."""
         return self._place(sig, codegen(), "from the source", sources_digest("native"))

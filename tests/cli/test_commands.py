@@ -9,7 +9,6 @@ import pytest
 import symgen
 from symgen.analyses.kinds import ANALYSES
 from symgen.cli import COMMANDS, main
-from symgen.settings import Settings
 
 
 @pytest.fixture
@@ -200,24 +199,6 @@ def test_quantities_are_checked_before_the_run(cli, tmp_path, monkeypatch):
     assert code == 2 and out == "" and not list(tmp_path.iterdir())
     (said,) = err.splitlines()
     assert "quantity 'crank.omga': expected a quantity of four-bar" in said and "'crank.omega'" in said
-
-
-@pytest.mark.parametrize(("wanting", "said"), [(True, "about 20 s"), (False, None)])
-def test_a_terminal_is_told_of_a_loop_that_is_compiled_first(capsys, monkeypatch, wanting, said):
-    class Loop:
-        def wanting(self):
-            return wanting
-
-    from symgen.cli.run import _prepare
-
-    monkeypatch.setattr("symgen.runtime.hunting.with_events", lambda loop: Loop())
-    model, watched = symgen.load("pendulum"), Settings(stop_when=("t > 0.1",))
-    for shown in (True, False):
-        monkeypatch.setattr("sys.stderr.isatty", lambda shown=shown: shown)
-        _prepare(model, watched, ())
-        out, err = capsys.readouterr()
-        assert out == ""
-        assert (said in err and err.count("\n") == 1) if shown and said else not err
 
 
 def test_run_shows_a_table(cli):
