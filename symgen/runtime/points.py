@@ -164,7 +164,7 @@ def arrive(hunt: A, n: int, k: int, h: float) -> int:
 
 
 @plain
-def reached(distance: float, rate: float, curve: float, turning: int) -> float:
+def time_to(distance: float, rate: float, curve: float, turning: int) -> float:
     """Return when s' t + s'' t^2 / 2 is a distance, with `turning` 1 behind where it turns round; 0 where never."""
     square = rate * rate + 2.0 * curve * distance
     if not (abs(distance) < _FAR and square >= 0.0):
@@ -190,7 +190,7 @@ def aim(hunt: A, n: int, h: float) -> int:
         if hunt[N_HEAD + POINTS * n + k] == 0.0:
             g, d = hunt[N_HEAD + G_START * n + k], hunt[N_HEAD + D_START * n + k]
             for turning in range(2):
-                t = reached(-g, d, curve, turning)
+                t = time_to(-g, d, curve, turning)
                 if t > 0.0 and t < 2.0 * h:
                     t = _SHORT_OF * t if t > short(hunt, n, k) else t + through(hunt, n, k) + 2.0 * hunt[RESOLUTION]
                     first = min(first, t)
@@ -200,10 +200,10 @@ def aim(hunt: A, n: int, h: float) -> int:
         place = int(hunt[N_HEAD + PLACE * n + k])
         for i in range(2):
             distance = point(hunt, n, k, place + i) - s
-            t = reached(distance, rate, curve, 0)
+            t = time_to(distance, rate, curve, 0)
             if t > least and t < first and (i == 1) == (rate > 0.0):
                 first = t
-            t = reached(distance, rate, curve, 1)
+            t = time_to(distance, rate, curve, 1)
             if t > least and t < first:
                 first = t
     if first < 2.0 * h:

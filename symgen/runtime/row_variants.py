@@ -32,7 +32,7 @@ def forget_functions(state: Any) -> None:
 
 
 @called
-def noted_events(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
+def take_notes_of_events(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
     """Take what a run has noted of its events into the numbers of its row; return how the run ended.
 
     Parameters

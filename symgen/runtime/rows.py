@@ -24,8 +24,8 @@ from symgen.runtime.redundancy import choose_rows
 from symgen.runtime.row_variants import (
     forget_functions,
     hold_between_stops,
-    noted_events,
     take,
+    take_notes_of_events,
     take_stops,
 )
 from symgen.runtime.schemes import explicit
@@ -58,7 +58,7 @@ def forget(state: Any) -> None:
     """Do nothing: a run without switching functions keeps nothing of them."""
 
 
-def noted(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
+def take_notes(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
     """Return how a run ended in which no events are looked for."""
     return code
 
@@ -245,7 +245,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: A
         while code == abi.CHOOSE or code == abi.NOTED or code == abi.MET:
             if code == abi.CHOOSE:
                 follow_rows(chunk, state, state.w)
-            elif noted(code, r, observers[0].width, chunk, state) == abi.DONE:
+            elif take_notes(code, r, observers[0].width, chunk, state) == abi.DONE:
                 break
             code = integrate(system, scheme, span, state, kept.outputs)
         if code == abi.STOPPED:
@@ -255,7 +255,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: A
         if code == abi.MET:
             code = abi.DONE
         else:
-            noted(code, r, observers[0].width, chunk, state)
+            take_notes(code, r, observers[0].width, chunk, state)
         end_run(code, r, system, span, observers, chunk, state, kept)
     return int(chunk.selected.shape[0])
 
@@ -281,7 +281,7 @@ def rows_loop(name: str, loop: Any, **meanings: Any) -> Any:
 
 constant = rows_loop("constant", explicit.constant)
 adaptive = rows_loop("adaptive", explicit.adaptive)
-_EVENTS = {"forget": forget_functions, "noted": noted_events}
+_EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
 _STOPS = {"take_row": take_stops, "hold": hold_between_stops}
 constant_with_events = rows_loop("constant_with_events", with_events(explicit.constant), **_EVENTS)
 adaptive_with_events = rows_loop("adaptive_with_events", with_events(explicit.adaptive), **_EVENTS)

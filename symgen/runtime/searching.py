@@ -98,7 +98,7 @@ _CROWDED, _HEAP = 50.0, 1e-7
 
 
 @plain
-def switched(hunt: A, n: int, h: float, hunting: int) -> int:
+def switch_values(hunt: A, n: int, h: float, hunting: int) -> int:
     """Have the values of switches as they count: those within rounding of zero, or undefined, as on the same side."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     for k in range(n):
@@ -431,7 +431,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
     if hunting <= LOOK:
         if is_undefined(hunt, n) == 1:
             return NOTHING if hunting == DOUBT else FAIL
-        switched(hunt, n, h, hunting)
+        switch_values(hunt, n, h, hunting)
     if hunting >= LOOK:
         first = N_HEAD + (N_COLUMNS + N_VALUES) * n + 2 * width
         size = (notes - first) // 2
