@@ -44,7 +44,7 @@ _REACHED = 1e-2
 #: No step ends at a point after less than this part of it: a rate that is nearly infinite says nothing.
 _LEAST = 1e-12
 #: The part of the way to a jump of a step whose stages do not pass it.
-_SHORT_OF = 0.99
+SHORT_OF = 0.99
 #: Rounding of a switch is passed at once in so many times what time resolves, however short steps are.
 _MOST = 1e6
 #: Beyond the points of a table.
@@ -192,7 +192,7 @@ def aim(hunt: A, n: int, h: float) -> int:
             for turning in range(2):
                 t = time_to(-g, d, curve, turning)
                 if t > 0.0 and t < 2.0 * h:
-                    t = _SHORT_OF * t if t > short(hunt, n, k) else t + through(hunt, n, k) + 2.0 * hunt[RESOLUTION]
+                    t = SHORT_OF * t if t > short(hunt, n, k) else t + through(hunt, n, k) + 2.0 * hunt[RESOLUTION]
                     first = min(first, t)
             continue
         enter(hunt, n, k, h)

@@ -33,7 +33,7 @@ from symgen.runtime.frame import (
     TAKE,
     TRY,
 )
-from symgen.runtime.points import aim, arrive, bend, ends_at, face, short
+from symgen.runtime.points import SHORT_OF, aim, arrive, bend, ends_at, face, short
 from symgen.runtime.search_records import (
     ACCEPTED,
     ACTION,
@@ -89,8 +89,6 @@ _COUNTERS, _RESOLVED = abi.N_COUNTERS, abi.RESOLVED_TIME
 _SAME = 1e-6
 #: Attempts at extrema and rounds in a bracket, at most.
 _MOST_PROBES, _MOST_ROUNDS = 12, 200
-#: The part of the way to a jump of a step whose stages do not pass it.
-_SHORT_OF = 0.99
 #: A switch within this part of the size of its terms is on the side that it was on before.
 _ROUNDING = 1e-13
 #: So many switches within this part of the time hold a motion back.
@@ -145,7 +143,7 @@ def is_before(hunt: A, n: int) -> int:
                 return 0
             if hunt[at + POINTS * n + k] == 0.0 and hunt[LOW] > short(hunt, n, k):
                 jumps = 1
-    return 1 if jumps == 1 and hunt[HIGH] - hunt[LOW] <= (1.0 - _SHORT_OF) * hunt[LOW] else 0
+    return 1 if jumps == 1 and hunt[HIGH] - hunt[LOW] <= (1.0 - SHORT_OF) * hunt[LOW] else 0
 
 
 # -- the search --------------------------------------------------------------------------------------------------------
@@ -463,7 +461,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
         if crossed(hunt, n, G_HIGH, NOTE) >= NOTE:
             near = 1 if h == high and there >= high and ends_near(hunt, n) == 1 else 0
             if near == 0 and is_before(hunt, n) == 1:
-                hunt[DOING], hunt[TRY] = _BEFORE, _SHORT_OF * hunt[LOW]
+                hunt[DOING], hunt[TRY] = _BEFORE, SHORT_OF * hunt[LOW]
                 return TAKE
             if near == 0 and high - hunt[LOW] > hunt[RESOLUTION] and hunt[ROUNDS] < _MOST_ROUNDS:
                 hunt[TRY] = candidate(hunt, n)
