@@ -347,3 +347,26 @@ def test_a_jump_to_where_a_formula_is_undefined_ends_a_run_with_its_reason(shape
     if shape == "straight":
         found = symgen.sweep(model, {"crank_mass": [1.0, 2.0]}, **settings)
         assert found.reason.tolist() == [one.reason] * 2
+
+
+@pytest.mark.parametrize(
+    "steps", [{"step": 2e-3}, {"integrator": "dopri5", "rtol": 1e-9}], ids=["constant", "adaptive"]
+)
+@pytest.mark.parametrize("action", ["record_when", "stop_when"])
+def test_rows_with_events_and_inputs_that_jump_stay_in_the_loop_and_are_single_runs(action, steps):
+    """An event before the jump in one row and behind it in the others."""
+    model, settings = symgen.load(pushed("push")), {"until": 0.3, action: "crank.theta < 1.03", **steps}
+    settings["inputs"] = {"push": "40*crank_mass if t < 0.11 else -60"}
+    masses = [1.0, 3.0, 6.0]
+    found = symgen.sweep(model, {"crank_mass": masses}, quantities=("crank.theta",), **settings)
+    watch = found.ensemble.recipe.watch
+    assert watch is not None and not watch.alone and found.ensemble.recipe.stops
+    times = []
+    for r, mass in enumerate(masses):
+        one = model.simulate(**settings, parameters={"crank_mass": mass})
+        assert found["crank.theta"].ravel()[r] == pytest.approx(one["crank.theta"][-1], abs=1e-12)
+        name = "event.crank.theta < 1.03"
+        assert found[f"{name}.count"][r] == len(one.events)
+        times += [event.t for event in one.events[:1]]
+        assert found[f"{name}.first"][r] == pytest.approx(times[-1], abs=1e-12)
+    assert min(times) < 0.11 < max(times)
