@@ -206,7 +206,7 @@ class Changes:
         try:
             for function in self._preparing:
                 function()
-        except (ArithmeticError, ValueError, InputError):  # where nothing is compiled, as in looped code
+        except (ArithmeticError, ValueError):  # where nothing is compiled
             self.simulation.state.p[-1] = math.nan
 
     @cached_property

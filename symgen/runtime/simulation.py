@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.errors import InputError
 from symgen.ir.numerics import WARN
 from symgen.runtime import abi
 from symgen.runtime.changes import Changes
@@ -296,7 +297,10 @@ class Simulation:
             self._choose_anew(self.state.w)  # what a scheme knows of its matrices depends on the rows
             self.scheme = self.integrator.setup(self.compiled, self.spec, self.state.w).scheme
         elif code == abi.CHANGED:
-            self.changes.prepare()
+            try:
+                self.changes.prepare()
+            except InputError:  # looped code names the formula; a run ends with one reason in both shapes
+                return abi.UNPREPARED
             if not np.isfinite(self.state.p).all():
                 return abi.UNPREPARED
             return None if self.is_ahead(until) else abi.DONE
