@@ -6,7 +6,6 @@ from collections.abc import Container
 from typing import TYPE_CHECKING, Any
 
 from symgen.native.language import Function
-from symgen.native.library import kinds_of
 from symgen.native.read import Foreign
 from symgen.runtime import abi
 from symgen.runtime.ensemble_abi import PREPARE
@@ -53,5 +52,5 @@ def checked(compiled: CompiledModel, names: Container[str] = NAMES) -> dict[str,
 def _read(function: Any, kind: Any) -> Function:
     if not hasattr(function, "read"):
         raise Foreign("been left to Python, by NUMBA_DISABLE_JIT")
-    read: Function = function.read(kinds_of(kind.signature.args))
+    read: Function = function.read(kind.signature.arguments)
     return read

@@ -296,14 +296,14 @@ def _kind(reason: str) -> str:
 
 def _versions() -> dict[str, str]:
     import platform
-
-    import numba
+    from importlib.metadata import version
 
     return {
         "symgen": __version__,
         "python": platform.python_version(),
         "numpy": np.__version__,
-        "numba": numba.__version__,
+        "numba": version("numba"),
+        "llvmlite": version("llvmlite"),
     }
 
 

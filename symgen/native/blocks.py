@@ -7,23 +7,63 @@ through the stack, and a product that one sum wants stands beside that sum, so t
 
 from __future__ import annotations
 
+import re
 from collections import Counter
+from collections.abc import Callable
+from typing import NamedTuple
 
-from symgen.native.spills import Line, most_alive, through_memory
-
-#: Instructions of a block, and of one whose values wait in memory.
+#: Instructions of a block.
 LENGTH = 1000
-SHORT = 200
-#: Values alive at a time, as a part of all instructions, up to which it pays to say which of them wait in memory. Where
-#: there are more, the compiler gives most of them up without much trial, and its code is faster by a tenth.
-FEW = 0.05
+_NAME = re.compile(r'%(?:"[^"]*"|[-\w.$]+)')
+_DEFINED = re.compile(r'\s+%(?:"[^"]*"|[-\w.$]+) = (\w+)')
 _COMMUTATIVE = frozenset(("fadd", "fmul"))
 _PURE = _COMMUTATIVE | {"fsub", "fdiv", "fneg"}
 #: Ends a block without an instruction: what it jumps to is never reached, which the compiler cannot know.
 _END = 'callbr void asm sideeffect "", "!i"() memory(none) nounwind to label %{next} [label %.never]'
 
 
-def split(module: str, symbol: str, longest: int, left: int) -> str | None:
+class Line(NamedTuple):
+    """An instruction, or a label.
+
+    Attributes
+    ----------
+    text : str
+        As LLVM writes it.
+    own : str
+        The name of its result, empty if it has none.
+    does : str
+        What gives the result: ``fadd``, ``load``.
+    names : tuple of str
+        What it wants, and labels.
+    """
+
+    text: str
+    own: str
+    does: str
+    names: tuple[str, ...]
+
+    @classmethod
+    def of(cls, text: str) -> Line:
+        """Take a line of a function apart."""
+        names = tuple(_NAME.findall(text))
+        defined = _DEFINED.match(text)
+        return cls(text, names[0], defined[1], names[1:]) if defined else cls(text, "", "", names)
+
+    def renamed(self, new: Callable[[str], str]) -> Line:
+        """Return the line with other names for what it wants."""
+        names = tuple(map(new, self.names))
+        if names == self.names:
+            return self
+        head, equals, rest = self.text.partition(" = ") if self.own else ("", "", self.text)
+        instead = iter(names)
+        return Line(head + equals + _NAME.sub(lambda found: next(instead), rest), self.own, self.does, names)
+
+    def called(self, name: str) -> Line:
+        """Return the line with another name for its result."""
+        return Line(f"  {name} = {self.text.partition(' = ')[2]}", name, self.does, self.names)
+
+
+def split(module: str, symbol: str, longest: int) -> str | None:
     """Return a module with a function in blocks, None if it needs none or is not straight.
 
     Parameters
@@ -34,8 +74,6 @@ def split(module: str, symbol: str, longest: int, left: int) -> str | None:
         The function.
     longest : int
         Number of instructions up to which the function stays one block.
-    left : int
-        Number of instructions up to which it is left to the compiler which values wait in memory.
     """
     lines = module.splitlines()
     heads = f'"{symbol}"(', f"@{symbol}("  # LLVM leaves out quotes where a name does without
@@ -47,11 +85,7 @@ def split(module: str, symbol: str, longest: int, left: int) -> str | None:
     body = lines[first + 1 : last]
     if len(body) <= longest or any(line and not line.startswith("  ") for line in body[1:]):
         return None
-    plain = _without_repetitions(body)
-    if len(plain) > left and most_alive(plain) < FEW * len(plain):
-        body = through_memory(_Blocks(plain, SHORT).lines)
-    else:
-        body = [line.text for line in _Blocks(plain, LENGTH).lines]
+    body = [line.text for line in _Blocks(_without_repetitions(body), LENGTH).lines]
     return "\n".join([*lines[: first + 1], *body, *lines[last:], ""])
 
 
@@ -107,7 +141,7 @@ class _Blocks:
             if self.length >= self.longest:
                 self._end()
         if self.block:
-            self.lines += [Line.of(".never:"), Line.of("  ret i32 1")]
+            self.lines += [Line.of(".never:"), Line.of("  unreachable")]
 
     @staticmethod
     def _is_pure(line: Line) -> bool:

@@ -24,17 +24,13 @@ FUNCTIONS = {
 
 
 class Parameter(msgspec.Struct, frozen=True, gc=False):
-    """An argument of a function: a number, an array of numbers, or of loops a function by its address.
-
-    Of a `sized` array of an emitted function callers say the length as well.
-    """
+    """An argument of a function: a number, an array of numbers, or of loops a function by its address."""
 
     name: str
     type: Scalar
     array: bool = False
     rank: int = 1
     address: bool = False
-    sized: bool = False
 
 
 class Constant(msgspec.Struct, frozen=True, gc=False):

@@ -1,8 +1,7 @@
-"""Functions of `symgen.native.language` as text for LLVM, in the calling convention of Numba's functions.
+"""Functions of `symgen.native.language` as text for LLVM.
 
-Operations are those that Numba puts for the same source, in the same order and with the same liberty, contraction to
-fused multiply-add; so results are equal to the last bit. Arrays are arguments of seven parts each, of which only the
-address of the elements is used.
+Operations have the order of the source and one liberty, contraction to fused multiply-add. A function takes numbers as
+they are, an array as the address of its elements and its lengths, another function as its address.
 """
 
 from __future__ import annotations
@@ -11,10 +10,7 @@ from collections.abc import Callable, Iterable
 
 from symgen.native import language as lang
 from symgen.native import sines
-from symgen.native.llvm_values import ARRAY, DATA, INTRINSICS, LENGTH, TYPES, Values, called, handed, literal, slot
-
-#: The same as one value, as functions in C's convention get it.
-_STRUCT = "{" + ", ".join((*ARRAY[:LENGTH], "[1 x i64]", "[1 x i64]")) + "}"
+from symgen.native.llvm_values import INTRINSICS, TYPES, Values, called, literal, slot
 
 #: The argument of functions for several runs at once that says how many there are.
 COUNT_OF_LANES = "lanes"
@@ -25,35 +21,30 @@ def module(
     symbol: Callable[[lang.Function], str],
     inlined: Callable[[lang.Function], bool],
     together: bool = True,
-    alone: bool = False,
 ) -> str:
     """Return the text of a module that defines a function.
 
     Parameters
     ----------
     function : Function
-        What is defined: once in Numba's convention, under its symbol, and once in C's, under ``cfunc.`` and its symbol.
+        What is defined.
     symbol : Callable
         Gives the name of a function in machine code.
     inlined : Callable
-        Whether the body of a function that is called stands in the module too, for the compiler to copy.
+        Whether the body of a function that is called is in the module too, for the compiler to copy. Any other one has
+        to be in memory under its symbol when the module is loaded: LLVM calls address 0 for a symbol that nobody has.
     together : bool
         Whether sines and cosines of several angles are taken together (`symgen.native.sines`).
-    alone : bool
-        Whether what is called is kept where the compiler does not copy it. Without, it has to be in memory under its
-        symbol when the module is loaded: LLVM calls address 0 for a symbol that nobody has.
     """
     functions, declared = _reached(function, inlined)
-    others = "linkonce_odr " if alone else "available_externally "
     texts = []
     for f in functions:
-        linkage = "" if f is function else "internal " if is_copied(f) else others
+        linkage = "" if f is function else "internal " if is_copied(f) else "available_externally "
         texts.append(Printer(f, symbol, linkage, together).text())
     texts.extend(
         sines.definition(n) for n in (sines.width(1), sines.MOST) if any(sines.name(n) in text for text in texts)
     )
-    texts.append(_c_function(function, symbol(function)))
-    texts.extend(f"declare {_head(f, symbol(f), named=False)}" for f in declared)
+    texts.extend(f"declare {head(f, symbol(f), named=False)}" for f in declared)
     return "\n".join([*texts, *declarations(texts), ""])
 
 
@@ -92,39 +83,19 @@ def declarations(texts: Iterable[str]) -> list[str]:
     return found
 
 
-def _head(function: lang.Function, name: str, named: bool = True) -> str:
-    """Return result, name and parameters in Numba's convention."""
-    parts = ["ptr noalias" + " %.result" * named, "ptr noalias" + " %.exception" * named]
-    for p in function.parameters:
-        if p.array:
-            parts += [f"{kind} %{p.name}.{i}" if named else kind for i, kind in enumerate(ARRAY)]
-        else:
-            parts.append(f"{TYPES[p.type]} %{p.name}" if named else TYPES[p.type])
-    return f'i32 @"{name}"({", ".join(parts)}) nounwind'
+def head(function: lang.Function, name: str, named: bool = True) -> str:
+    """Return result, name and parameters."""
+    parts = [f'{kind} %"{own}"' if named else kind for p in function.parameters for kind, own in taken(p)]
+    return f'{TYPES[function.returned]} @"{name}"({", ".join(parts)}) nounwind'
 
 
-def _c_function(function: lang.Function, name: str) -> str:
-    """Return the function in C's convention, which calls the other one."""
-    kind = TYPES[function.returned]
-    lines, arguments = [f"  %.result = alloca {kind}"], ["ptr %.result", "ptr null"]
-    for p in function.parameters:
-        if p.array:
-            lines.append(f"  %{p.name}.{DATA} = extractvalue {_STRUCT} %{p.name}, {DATA}")
-        if p.sized:
-            lines.append(f"  %{p.name}.{LENGTH} = extractvalue {_STRUCT} %{p.name}, {LENGTH}, 0")
-        length = f"%{p.name}.{LENGTH}" if p.sized else ""
-        arguments += handed(p, f"%{p.name}.{DATA}" if p.array else f"%{p.name}", length)
-    parameters = ", ".join(f"{_STRUCT if p.array else TYPES[p.type]} %{p.name}" for p in function.parameters)
-    return "\n".join(
-        [
-            f'define {kind} @"cfunc.{name}"({parameters}) nounwind {{',
-            *lines,
-            f'  %.status = call i32 @"{name}"({", ".join(arguments)})',
-            f"  %.value = load {kind}, ptr %.result",
-            f"  ret {kind} %.value",
-            "}",
-        ]
-    )
+def taken(parameter: lang.Parameter) -> list[tuple[str, str]]:
+    """Return LLVM's types of what a parameter takes, and its names."""
+    if parameter.address:
+        return [("ptr", parameter.name)]
+    if not parameter.array:
+        return [(TYPES[parameter.type], parameter.name)]
+    return [("ptr", parameter.name), *(("i64", f"{parameter.name}.{axis}") for axis in range(parameter.rank))]
 
 
 class Printer(Values):
@@ -152,20 +123,18 @@ class Printer(Values):
             f"[{', '.join('double ' + literal(v) for v in x)}]"
             for name, x in f.tables.items()
         ]
-        head = f"define {self.linkage}{self.head()}{' alwaysinline' * (f.inlined and bool(self.linkage))} {{"
-        return "\n".join([*tables, head, ".entry:", *self.slots, *self.lines, "}"])
-
-    def head(self) -> str:
-        """Return result, name and parameters."""
-        return _head(self.function, self.symbol(self.function))
+        copied = " alwaysinline" * (f.inlined and bool(self.linkage))
+        begin = f"define {self.linkage}{head(f, self.symbol(f))}{copied} {{"
+        return "\n".join([*tables, begin, ".entry:", *self.slots, *self.lines, "}"])
 
     def begun(self) -> None:
         """Print what stands before the statements."""
         for p in self.function.parameters:
-            if not p.array:
-                self.take(p.name, p.type, f"%{p.name}")
-            elif p.sized:
-                self.views[p.name] = f"%{p.name}.{DATA}", (f"%{p.name}.{LENGTH}",)
+            if p.array:
+                own, *lengths = (f'%"{name}"' for _, name in taken(p))
+                self.views[p.name] = own, tuple(lengths)
+            elif not p.address:
+                self.take(p.name, p.type, f'%"{p.name}"')
 
     def take(self, name: str, kind: lang.Scalar, value: str) -> None:
         """Give an argument that is a number its name."""
@@ -203,8 +172,7 @@ class Printer(Values):
                 return False
             elif isinstance(statement, lang.Return):
                 kind = TYPES[statement.value.type]
-                self.lines.append(f"  store {kind} {self.value(statement.value)}, ptr %.result")
-                self.lines.append("  ret i32 0")
+                self.lines.append(f"  ret {kind} {self.value(statement.value)}")
                 return False
             elif not self.other(statement):
                 return False

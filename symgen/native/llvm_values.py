@@ -9,9 +9,6 @@ from symgen.native import language as lang
 from symgen.native import sines
 
 TYPES = {"float": "double", "int": "i64", "bool": "i1", "unsigned": "i32"}
-#: An array: owner, parent, size, size of an element, data, shape, stride; and where data stand.
-ARRAY = ("ptr", "ptr", "i64", "i64", "ptr", "i64", "i64")
-DATA, LENGTH = 4, 5
 _FLOATS = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
 _INTS = {"add": "add nsw", "sub": "sub nsw", "mul": "mul nsw", "and": "and", "or": "or"}
 _COMPARED = {
@@ -44,7 +41,7 @@ class Values:
     label : str
         Of the block that is being printed.
     views : dict of str to tuple
-        Address and lengths of arrays that are no arguments, or whose lengths are known.
+        Address and lengths of arrays.
     small : set of str
         Arrays of `unsigned` numbers.
     """
@@ -66,12 +63,6 @@ class Values:
         self.count += 1
         self.lines.append(f"  %.{self.count} = {text}")
         return f"%.{self.count}"
-
-    def room(self, kind: str) -> str:
-        """Return memory for the result of a function that is called, of LLVM's type `kind`."""
-        self.count += 1
-        self.slots.append(f"  %.result{self.count} = alloca {kind}")
-        return f"%.result{self.count}"
 
     def labels(self, *names: str) -> list[str]:
         """Return new labels."""
@@ -120,10 +111,7 @@ class Values:
 
     def base(self, array: str) -> str:
         """Return the address of an array."""
-        if array in self.views:
-            return self.views[array][0]
-        constant = array in self.function.tables
-        return f'@"{self.symbol(self.function)}.{array}"' if constant else f"%{array}.{DATA}"
+        return self.views[array][0] if array in self.views else f'@"{self.symbol(self.function)}.{array}"'
 
     def operation(self, kind: lang.Scalar, name: str, arguments: tuple[lang.Expression, ...]) -> str:
         """Print an operation."""
@@ -238,44 +226,27 @@ class Values:
 
     def call(self, e: lang.Call) -> str:
         """Print a call of another function."""
-        f = e.function
-        kind = TYPES[f.returned]
-        result = self.room(kind)
-        parts = [f"ptr {result}", "ptr null"]
-        for p, argument in zip(f.parameters, e.arguments, strict=True):
-            if isinstance(argument, str):
-                parts += handed(p, self.base(argument), self.views[argument][1][0] if p.sized else "")
-            else:
-                parts += handed(p, self.value(argument))
-        self.put(f'call i32 @"{self.symbol(f)}"({", ".join(parts)}) nounwind')
-        return self.put(f"load {kind}, ptr {result}")
+        return self.called(f'@"{self.symbol(e.function)}"', e.function.returned, e.arguments)
 
     def invoke(self, e: lang.Invoke) -> str:
-        """Print a call of a function by its address, which says nothing about errors."""
-        assert not isinstance(e.function, str), "emitted functions know addresses as numbers"
-        parts = [part for argument in e.arguments for part in self.handed_on(argument)]
-        address = self.put(f"inttoptr i64 {self.value(e.function)} to ptr")
-        result = self.room(TYPES[e.type])
-        self.put(f"call i32 {address}({', '.join((f'ptr {result}', 'ptr %.exception', *parts))})")
-        return self.put(f"load {TYPES[e.type]}, ptr {result}")
+        """Print a call of a function by its address: a name of a parameter, or a number."""
+        if isinstance(e.function, str):
+            return self.called(f'%"{e.function}"', e.type, e.arguments)
+        return self.called(self.put(f"inttoptr i64 {self.value(e.function)} to ptr"), e.type, e.arguments)
 
-    def handed_on(self, argument: lang.Expression | str) -> list[str]:
-        """Return an argument of a function that is known by its address."""
-        if isinstance(argument, str):
-            return self.whole(argument)
-        return [f"{TYPES[argument.type]} {self.value(argument)}"]
+    def called(self, function: str, returned: lang.Scalar, arguments: tuple[lang.Expression | str, ...]) -> str:
+        """Print a call."""
+        parts = [part for argument in arguments for part in self.handed(argument)]
+        return self.put(f"call {TYPES[returned]} {function}({', '.join(parts)}) nounwind")
 
-    def whole(self, array: str) -> list[str]:
-        """Return an array as Numba hands it on, without an owner."""
-        (data, lengths), item = self.views[array], "4" if array in self.small else "8"
-        strides = [item]
-        for n in reversed(lengths[1:]):
-            strides.insert(0, self.put(f"mul i64 {n}, {strides[0]}"))
-        size = lengths[0]
-        for n in lengths[1:]:
-            size = self.put(f"mul i64 {size}, {n}")
-        shape = (f"i64 {n}" for n in (*lengths, *strides))
-        return ["ptr null", "ptr null", f"i64 {size}", f"i64 {item}", f"ptr {data}", *shape]
+    def handed(self, argument: lang.Expression | str) -> list[str]:
+        """Return an argument of a call: a number, or by its name an array or a function."""
+        if not isinstance(argument, str):
+            return [f"{TYPES[argument.type]} {self.value(argument)}"]
+        if argument not in self.views:
+            return [f'ptr %"{argument}"']
+        data, lengths = self.views[argument]
+        return [f"ptr {data}", *(f"i64 {n}" for n in lengths)]
 
     def decide(self, e: lang.Logic) -> str:
         """Print `and` or `or`."""
@@ -302,14 +273,6 @@ class Values:
             self.jump(end)
         self.begin(end)
         return self.put(f"phi {TYPES[e.type]} {', '.join(parts)}")
-
-
-def handed(parameter: lang.Parameter, value: str, length: str = "") -> list[str]:
-    """Return an argument of a call; of an array address of its elements and, if given, length: the rest is unused."""
-    if not parameter.array:
-        return [f"{TYPES[parameter.type]} {value}"]
-    used = {DATA: value} | ({LENGTH: length} if length else {})
-    return [f"{kind} {used.get(i, 'undef')}" for i, kind in enumerate(ARRAY)]
 
 
 def slot(name: str) -> str:

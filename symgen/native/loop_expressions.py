@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ast
 import types as python
-from collections.abc import Callable
 from typing import Any
 
 from symgen.native import language as lang
@@ -22,7 +21,7 @@ class Values(Reader):
 
     Parameters
     ----------
-    function : Dispatcher
+    function : MachineFunction
         What the Python function is called through.
     tree : FunctionDef
         Its syntax tree.
@@ -30,8 +29,6 @@ class Values(Reader):
         What arguments are that are no numbers.
     parameters : tuple of Parameter
         What all of them take.
-    definition : Callable
-        Gives the syntax tree of a function, None where it is not to be read.
     """
 
     def __init__(
@@ -40,9 +37,8 @@ class Values(Reader):
         tree: ast.FunctionDef,
         arguments: dict[str, Value],
         parameters: tuple[lang.Parameter, ...],
-        definition: Callable[[Any], ast.FunctionDef | None],
     ) -> None:
-        super().__init__(function, tree, parameters, definition)
+        super().__init__(function, tree, parameters)
         self.bound = arguments
         self.pending: list[lang.Statement] = []
         self.count = 0

@@ -8,9 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from numba import types
-
 from symgen.native import language as lang
+from symgen.native import types
 from symgen.native.read_values import Foreign, as_type
 
 SCALARS: dict[Any, lang.Scalar] = {types.float64: "float", types.int64: "int", types.boolean: "bool"}
@@ -64,7 +63,7 @@ def laid_out(name: str, kind: Any) -> tuple[Value, list[lang.Parameter]]:
     ----------
     name : str
         Of the argument.
-    kind : Numba type
+    kind : Number, Array, FunctionType or Record
         Its type.
 
     Raises
@@ -76,14 +75,13 @@ def laid_out(name: str, kind: Any) -> tuple[Value, list[lang.Parameter]]:
         return lang.Variable(SCALARS[kind], name), [lang.Parameter(name, SCALARS[kind])]
     if isinstance(kind, types.FunctionType):
         return Address(name, kind.signature), [lang.Parameter(name, "int", address=True)]
-    if isinstance(kind, types.Array) and kind.layout == "C" and kind.ndim <= 3 and kind.dtype in SCALARS:
+    if isinstance(kind, types.Array) and kind.ndim <= 3 and kind.dtype in SCALARS:
         found = Array(name, SCALARS[kind.dtype], kind.ndim)
         return found, [lang.Parameter(name, found.type, True, kind.ndim)]
-    if isinstance(kind, types.BaseTuple):
-        fields = tuple(getattr(kind, "fields", ()))
-        names = fields or tuple(str(i) for i in range(len(kind)))
+    if isinstance(kind, types.Record):
+        names = kind.fields or tuple(str(i) for i in range(len(kind)))
         parts = [laid_out(f"{name}.{field}", part) for field, part in zip(names, kind, strict=True)]
-        return Record(tuple(v for v, _ in parts), fields), [p for _, ps in parts for p in ps]
+        return Record(tuple(v for v, _ in parts), kind.fields), [p for _, ps in parts for p in ps]
     raise Foreign(f"an argument of type {kind}")
 
 
@@ -111,7 +109,7 @@ def handed(kind: Any, value: Value) -> Iterator[lang.Expression | str]:
     Foreign
         If it is none of the type.
     """
-    if isinstance(value, Record) and isinstance(kind, types.BaseTuple) and len(kind) == len(value.values):
+    if isinstance(value, Record) and isinstance(kind, types.Record) and len(kind) == len(value.values):
         for part, item in zip(kind, value.values, strict=True):
             yield from handed(part, item)
     elif isinstance(value, Array) and isinstance(kind, types.Array):

@@ -5,7 +5,7 @@ that are copied into it (`symgen.runtime.instances`). All of that is known befor
 views of arrays exist while the source is read and leave nothing but names of arrays, numbers and addresses. What else
 stands in a loop is what emitted functions have, read by the same rules.
 
-What is not in this language is `Foreign`: then the loop is Numba's to compile.
+What is not in this language is `Foreign`: only Numba compiles such a loop.
 """
 
 from __future__ import annotations
@@ -13,14 +13,10 @@ from __future__ import annotations
 import ast
 import math
 import types as python
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from numba import types
-from numba.extending import _Intrinsic as Intrinsic
-
 from symgen.native import language as lang
-from symgen.native.intrinsics import inserted
+from symgen.native import types
 from symgen.native.loop_expressions import Values
 from symgen.native.loop_values import (
     EXPRESSIONS,
@@ -37,23 +33,20 @@ from symgen.native.loop_values import (
     leaves,
     renamed,
 )
-from symgen.native.read import body_of, returns
+from symgen.native.pieces import Piece, inserted
+from symgen.native.read import body_of, returns, tree_of
 from symgen.native.read_values import Foreign, as_type, truth_of
 
 
-def read_loop(
-    function: Any, arguments: tuple[Any, ...], definition: Callable[[Any], ast.FunctionDef | None]
-) -> lang.Function:
+def read_loop(function: Any, arguments: tuple[types.Kind, ...]) -> lang.Function:
     """Return a loop with the types that follow from those of its arguments.
 
     Parameters
     ----------
-    function : Dispatcher
+    function : MachineFunction
         Its Python function is the loop.
-    arguments : tuple of Numba types
-        Of its arguments.
-    definition : Callable
-        Gives the syntax tree of a function, None where it is not to be read.
+    arguments : tuple of types
+        Those of its arguments (`symgen.native.types`).
 
     Raises
     ------
@@ -63,7 +56,7 @@ def read_loop(
     names = function.py_func.__code__.co_varnames
     pairs = [laid_out(name, kind) for name, kind in zip(names, arguments, strict=False)]
     parameters = tuple(p for _, ps in pairs for p in ps)
-    return LoopReader(function, tuple(v for v, _ in pairs), parameters, definition, {}).function()
+    return LoopReader(function, tuple(v for v, _ in pairs), parameters, {}).function()
 
 
 class _Copied(NamedTuple):
@@ -78,14 +71,12 @@ class LoopReader(Values):
 
     Parameters
     ----------
-    function : Dispatcher
+    function : MachineFunction
         Its Python function is the loop.
     arguments : tuple
         What the arguments are.
     parameters : tuple of Parameter
         What they take.
-    definition : Callable
-        Gives the syntax tree of a function, None where it is not to be read.
     shared : dict
         Called parts read so far, by what they are called with.
     """
@@ -95,18 +86,15 @@ class LoopReader(Values):
         function: Any,
         arguments: tuple[Value, ...],
         parameters: tuple[lang.Parameter, ...],
-        definition: Callable[[Any], ast.FunctionDef | None],
         shared: dict[Any, lang.Function],
     ) -> None:
-        tree = definition(function)
-        if tree is None:
-            raise Foreign(f"the function '{function.__name__}'")
+        tree = tree_of(function)
         names = [x.arg for x in tree.args.args]
         if len(names) != len(arguments):
             raise Foreign("arguments other than plain ones", tree)
         # an argument that is a number has its own name, and may be given another value
         bound = {n: v for n, v in zip(names, arguments, strict=True) if not isinstance(v, lang.Variable)}
-        super().__init__(function, tree, bound, parameters, definition)
+        super().__init__(function, tree, bound, parameters)
         self.shared = shared
         self.copies: list[_Copied] = []
 
@@ -241,7 +229,7 @@ class LoopReader(Values):
         called = self.member(node.func) if isinstance(node.func, ast.Attribute) else self.meant(node.func)
         if isinstance(called, Address):
             return self.invoke(called, arguments, node)
-        if isinstance(called, Intrinsic):
+        if isinstance(called, Piece):
             return self.insert(called, arguments, node)
         if isinstance(called, type) and issubclass(called, tuple) and hasattr(called, "_fields"):
             if len(called._fields) != len(arguments):
@@ -251,8 +239,8 @@ class LoopReader(Values):
         plain = getattr(called, "py_func", None)
         if not isinstance(plain, python.FunctionType):
             raise Foreign("a call", node)
-        if called.targetoptions.get("forceinline"):
-            if called.targetoptions.get("fastmath") != self.source.targetoptions.get("fastmath"):
+        if called.inlined:
+            if called.contracted != self.source.contracted:
                 raise Foreign(f"the function '{called.__name__}', whose sums are others", node)
             return self.copy(called, arguments, node)
         return self.call_part(called, arguments, node)
@@ -282,47 +270,42 @@ class LoopReader(Values):
 
     def invoke(self, called: Address, arguments: list[Value], node: ast.Call) -> lang.Expression:
         """Return what a function gives that is known by its address."""
-        if called.signature.return_type is not types.int64:
+        if called.signature.result is not types.int64:
             raise Foreign("a function with other results", node)
-        return lang.Invoke("int", called.name, handed_on(called.signature.args, arguments))
+        return lang.Invoke("int", called.name, handed_on(called.signature.arguments, arguments))
 
-    def insert(self, called: Any, arguments: list[Value], node: ast.Call) -> Value:
-        """Return what a piece of a compiler gives."""
-        name = called._name
-        if name == "_bare" and len(arguments) == 1:
+    def insert(self, called: Piece, arguments: list[Value], node: ast.Call) -> Value:
+        """Return what a function gives that is written in LLVM's language."""
+        if called.name == "bare" and len(arguments) == 1:
             return arguments[0]  # nothing counts references here
-        if name == "_part" and len(arguments) == 3 and isinstance(arguments[0], Array):
+        if called.name == "part" and len(arguments) == 3 and isinstance(arguments[0], Array):
             source, first, size = arguments
             view = self.array(source.type)
             size = self.kept(size, node)
             self.pending.append(lang.View(view, source.name, first, size))
             return Array(view, source.type)
-        kinds: list[Any] = []
+        kinds: list[types.Number | types.Array] = []
         for value in arguments:
             if isinstance(value, Array):
-                kinds.append(types.Array(NUMBERS[value.type], value.rank, "C"))
+                kinds.append(types.Array(NUMBERS[value.type], value.rank))
             elif isinstance(value, EXPRESSIONS):
                 kinds.append(NUMBERS[value.type])
             else:
                 raise Foreign("an argument of another kind", node)
-        piece = inserted(called, tuple(kinds))
-        if piece is None:
-            raise Foreign(f"the function '{name}'", node)
-        symbol, text, signature = piece
-        nothing = signature.return_type is types.void
-        given = handed_on(signature.args, arguments)
-        return lang.Insert(SCALARS.get(signature.return_type, "int"), symbol, text, given, nothing)
+        symbol, text = inserted(called, tuple(kinds))
+        nothing = called.result is types.void
+        return lang.Insert(SCALARS.get(called.result, "int"), symbol, text, handed_on(kinds, arguments), nothing)
 
     def call_part(self, called: Any, arguments: list[Value], node: ast.Call) -> lang.Expression:
         """Return what a part gives that is called."""
-        tree = self.definition(called)
-        if tree is None or len(tree.args.args) != len(arguments):
+        tree = tree_of(called)
+        if len(tree.args.args) != len(arguments):
             raise Foreign(f"the function '{called.__name__}'", node)
         pairs = [renamed(x.arg, v) for x, v in zip(tree.args.args, arguments, strict=True)]
         inside, parameters = tuple(v for v, _ in pairs), tuple(p for _, ps in pairs for p in ps)
         key = (called, parameters)
         if key not in self.shared:
-            reader = LoopReader(called, inside, parameters, self.definition, self.shared)
+            reader = LoopReader(called, inside, parameters, self.shared)
             self.shared[key] = reader.function()
         function = self.called[called, parameters] = self.shared[key]  # type: ignore[index]  # what tells it from others
         given = (v.name if isinstance(v, Array | Address) else v for v in leaves(Record(tuple(arguments))))
@@ -330,8 +313,8 @@ class LoopReader(Values):
 
     def copy(self, called: Any, arguments: list[Value], node: ast.Call) -> Value:
         """Return what a part gives whose code is copied to where it is called."""
-        tree = self.definition(called)
-        if tree is None or len(tree.args.args) != len(arguments) or len(self.copies) > 20:
+        tree = tree_of(called)
+        if len(tree.args.args) != len(arguments) or len(self.copies) > 20:
             raise Foreign(f"the function '{called.__name__}'", node)
         own = frozenset(called.py_func.__code__.co_varnames)
         names = {name: self.fresh(name) for name in own}

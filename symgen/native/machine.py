@@ -1,35 +1,60 @@
-"""Text for LLVM to machine code by the compiler inside Numba, and machine code into this process.
+"""Text for LLVM to machine code, and machine code into this process.
 
 Symbols of one object file may be used by others that are loaded later: functions are compiled one by one, and what is
-called stands in memory already.
+called is in memory already.
 """
 
 from __future__ import annotations
 
 import functools
+import os
+import threading
 from collections.abc import Iterable
 from typing import Any
 
 import llvmlite.binding as llvm
-from numba.core.registry import cpu_target
 
 #: Straight functions of more instructions are compiled in blocks, which takes time that grows no faster than they do.
 #: Below, nothing is saved by it, and the code of one block is some five parts in a hundred faster.
 LARGEST_BLOCK = 4000
-#: In longer ones it is said as well which values wait in memory, where that pays. Below, the compiler finds that out in
-#: less time than it takes in all to compile, and its code is up to five parts in a hundred faster.
-LARGEST_LEFT = 16_000
+#: One thread at a time makes machine code or puts it into memory.
+lock = threading.RLock()
 
 
-def codegen() -> Any:
-    """Return what Numba compiles with on this processor."""
-    return cpu_target.target_context.codegen()
+@functools.cache
+def _host() -> tuple[str, str, str]:
+    """Return triple, name and features of the processor; Numba's environment variables may name another one."""
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    name = os.environ.get("NUMBA_CPU_NAME") or llvm.get_host_cpu_name()
+    features = "" if name == "generic" else llvm.get_host_cpu_features().flatten()
+    return llvm.get_process_triple(), name, os.environ.get("NUMBA_CPU_FEATURES", features)
 
 
 @functools.cache
 def processor() -> str:
     """Return what machine code depends on of this processor."""
-    return repr(codegen().magic_tuple())
+    return repr(_host())
+
+
+def _machine(level: int) -> Any:
+    """Return what makes machine code, with the passes of a level of optimisation."""
+    triple, name, features = _host()
+    # addresses are those of this process: code for x86 need not be moved again
+    relocation = "static" if triple.startswith(("x86", "i386", "i686")) else "default"
+    options = {"cpu": name, "features": features, "reloc": relocation, "codemodel": "jitdefault", "jit": True}
+    return llvm.Target.from_triple(triple).create_target_machine(opt=level, **options)
+
+
+@functools.cache
+def _best_machine() -> Any:
+    return _machine(3)
+
+
+@functools.cache
+def _engine() -> Any:
+    """Return what holds machine code in memory."""
+    return llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine(3))
 
 
 def compiled(text: str, symbol: str, vectors: bool = True) -> bytes:
@@ -46,43 +71,36 @@ def compiled(text: str, symbol: str, vectors: bool = True) -> bytes:
     """
     from symgen.native.blocks import split
 
-    target = codegen()
     module = optimised(text, vectors)
-    machine = target._tm
-    divided = split(str(module), symbol, LARGEST_BLOCK, LARGEST_LEFT)
+    machine = _best_machine()
+    divided = split(str(module), symbol, LARGEST_BLOCK)
     if divided is not None:
         module = llvm.parse_assembly(divided)
-        machine = _quick_machine()
+        machine = _machine(1)  # without the passes of which the time grows with the square of a block's length
     return bytes(machine.emit_object(module))
 
 
 def optimised(text: str, vectors: bool = True) -> Any:
-    """Return a module after the passes that Numba ends with.
+    """Return a module after the passes of the highest level.
 
     Of these, straight code needs few to become what all make of it: instructions in their plainest form, operands in
     the order that decides which product a sum is contracted with.
     """
-    target = codegen()
     module = llvm.parse_assembly(text)
-    module.triple, module.data_layout = target._llvm_module.triple, target._data_layout
-    asked = {} if vectors else {"loop_vectorize": False, "slp_vectorize": False}
-    passes, builder = target._module_pass_manager(**asked)
+    module.triple, module.data_layout = _host()[0], str(_best_machine().target_data)
+    options = llvm.create_pipeline_tuning_options(speed_level=3)
+    options.loop_vectorization, options.slp_vectorization = vectors, False
+    builder = llvm.create_pass_builder(_best_machine(), options)
     # the function of `symgen.native.sines` jumps by a ``switch``: it needs no more than straight code
     if " br " not in text and "available_externally" not in text:
         passes = llvm.create_new_module_pass_manager()
         passes.add_instruction_combine_pass()
         passes.add_reassociate_pass()
         passes.add_instruction_combine_pass()
+    else:
+        passes = builder.getModulePassManager()
     passes.run(module, builder)
     return module
-
-
-def _quick_machine() -> Any:
-    """Return the same processor without the passes of which the time grows with the square of a block's length."""
-    target = codegen()
-    options: dict[str, Any] = {"opt": 1, "features": target._tm_features}
-    target._customize_tm_options(options)
-    return llvm.Target.from_triple(llvm.get_process_triple()).create_target_machine(**options)
 
 
 def load(code: bytes, symbols: Iterable[str]) -> dict[str, int]:
@@ -90,7 +108,7 @@ def load(code: bytes, symbols: Iterable[str]) -> dict[str, int]:
 
     What it calls must be in memory before: LLVM ends the process where a symbol is missing.
     """
-    engine = codegen()._engine._ee
+    engine = _engine()
     engine.add_object_file(llvm.ObjectFileRef.from_data(code))
     engine.finalize_object()
     return {symbol: engine.get_function_address(symbol) for symbol in symbols}

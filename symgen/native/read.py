@@ -1,40 +1,31 @@
 """From the source of an emitted function to the checked language of `symgen.native.language`.
 
 Types are those that Numba would infer, for functions in which they are plain to see: a variable has one type, every
-path ends with ``return``, callees are functions of the same kind. Whatever else occurs is `Foreign`, which means that
-the function is Numba's to compile; it is no error.
+path ends with ``return``, callees are functions of the same kind. Whatever else occurs is `Foreign`: only Numba
+compiles such a function.
 """
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable
 from typing import Any
-
-import msgspec
 
 from symgen.native import language as lang
 from symgen.native.read_tables import TableValues
 from symgen.native.read_values import Foreign, Kind, as_type
 
-__all__ = ["Definition", "Foreign", "Kind", "read"]
-
-Definition = Callable[[Any], "ast.FunctionDef | None"]
+__all__ = ["Foreign", "Kind", "read"]
 
 
-def read(
-    function: Any, kinds: tuple[Kind, ...], definition: Definition, reading: tuple[object, ...] = ()
-) -> lang.Function:
+def read(function: Any, kinds: tuple[Kind, ...], reading: tuple[object, ...] = ()) -> lang.Function:
     """Return a function with the types that follow from those of its arguments.
 
     Parameters
     ----------
-    function : Dispatcher
-        What the Python function is called through; `py_func` is the function itself.
+    function : MachineFunction
+        The function; `py_func` is that of Python.
     kinds : tuple
         Type of each argument, and whether it is an array.
-    definition : Callable
-        Gives the syntax tree of a function, None where it is not to be read.
     reading : tuple
         Functions that call this one, which it must not call.
 
@@ -43,16 +34,28 @@ def read(
     Foreign
         If it is not in the language.
     """
-    tree = definition(function)
-    if tree is None:
-        raise Foreign(f"the function '{function.__name__}'")
+    tree = tree_of(function)
     if function in reading:
         raise Foreign(f"the function '{function.__name__}' calls itself", tree)
     a = tree.args
     if a.vararg or a.kwarg or a.kwonlyargs or a.posonlyargs or a.defaults or len(a.args) != len(kinds):
         raise Foreign("arguments other than plain ones", tree)
     parameters = tuple(lang.Parameter(x.arg, kind, array) for x, (kind, array) in zip(a.args, kinds, strict=True))
-    return Reader(function, tree, parameters, definition, (*reading, function)).function()
+    return Reader(function, tree, parameters, (*reading, function)).function()
+
+
+def tree_of(function: Any) -> ast.FunctionDef:
+    """Return the syntax tree of a function.
+
+    Raises
+    ------
+    Foreign
+        If its source cannot be had.
+    """
+    tree: ast.FunctionDef | None = function.tree() if hasattr(function, "tree") else None
+    if tree is None:
+        raise Foreign(f"the function '{function.__name__}'")
+    return tree
 
 
 def body_of(tree: ast.FunctionDef) -> list[ast.stmt]:
@@ -69,18 +72,17 @@ class Reader(TableValues):
         function: Any,
         tree: ast.FunctionDef,
         parameters: tuple[lang.Parameter, ...],
-        definition: Definition,
         reading: tuple[object, ...] = (),
     ) -> None:
         super().__init__(function, parameters)
-        self.source, self.tree, self.definition, self.reading = function, tree, definition, reading
+        self.source, self.tree, self.reading = function, tree, reading
         self.assigned: dict[str, int] = {}  # how often; assignments below the body itself count twice
         self.returned: set[lang.Scalar] = set()
         self.loops = 0
 
     def read(self, called: Any, kinds: tuple[Kind, ...]) -> lang.Function:
         """Return a function that this one calls."""
-        return read(called, kinds, self.definition, self.reading)
+        return read(called, kinds, self.reading)
 
     def function(self) -> lang.Function:
         """Return the function."""
@@ -101,7 +103,7 @@ class Reader(TableValues):
         fixed = {name for name, count in self.assigned.items() if count == 1 and name in self.variables}
         return lang.Function(
             name=self.source.__name__,
-            parameters=tuple(msgspec.structs.replace(p, sized=p.name in self.sized) for p in self.parameters),
+            parameters=self.parameters,
             returned=returned,
             body=statements,
             variables=self.variables,
@@ -191,7 +193,7 @@ class Reader(TableValues):
         if not isinstance(target, ast.Tuple) or not isinstance(call, ast.Call):
             return []
         called = self.of_module(call.func)
-        tree = self.definition(called) if is_inlined(called) else None
+        tree = tree_of(called) if is_inlined(called) else None
         if tree is None or len(node.targets) > 1 or call.keywords or len(call.args) != len(tree.args.args):
             raise Foreign("several values of a call", node)
         *body, last = body_of(tree)
@@ -286,7 +288,7 @@ class _Renamed(ast.NodeTransformer):
 
 def is_inlined(function: Any) -> bool:
     """Whether a function is declared to be no call."""
-    return bool(getattr(function, "targetoptions", {}).get("inline") == "always")
+    return bool(getattr(function, "inlined", False))
 
 
 def _loaded(target: ast.expr) -> ast.expr:

@@ -2,24 +2,31 @@
 
 Tables stand at the end of an array of floats, as unsigned numbers of 32 bits. Here they become integers of 64 bits
 where they are read: sums and products of places have the bits that they have where Numba counts without sign. What
-could differ, such as a difference of two of them, is `Foreign`. Pieces of Numba's compiler that find tables and call
-what stands in them are known by their names (`symgen/templates/looped/machine.py.j2`).
+could differ, such as a difference of two of them, is `Foreign`. Functions that Numba has written in LLVM's language,
+which find tables and call what is in them, are known by their names (`symgen/templates/looped/machine.py.j2`).
 """
 
 from __future__ import annotations
 
 import ast
 from abc import abstractmethod
-from typing import Any
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
-from numba import types
-from numba.extending import _Intrinsic as Intrinsic
 
 from symgen.native import language as lang
+from symgen.native import types
 from symgen.native.read_values import Foreign, Values, as_type
 
 _ELEMENTS: dict[Any, lang.Scalar] = {types.float64: "float", types.int64: "int", types.uint32: "unsigned"}
+
+
+class Written(NamedTuple):
+    """A function of an emitted module that Numba has written in LLVM's language (``numba.extending.intrinsic``)."""
+
+    name: str
+    define: Callable[..., Any]
 
 
 class TableValues(Values):
@@ -65,7 +72,7 @@ class TableValues(Values):
                 raise Foreign("an integer of other than one value", node)
             value = as_type("int", self.expression(node.args[0]))
             return value if called is np.int64 else lang.Operation("int", "low", (value,))
-        if isinstance(called, Intrinsic) and not node.keywords:
+        if isinstance(called, Written) and not node.keywords:
             return self.piece(called, node)
         if any(self.is_unsigned(x) for x in node.args):
             raise Foreign("an argument without sign", node)
@@ -107,19 +114,16 @@ class TableValues(Values):
             return getattr(np, node.attr, None)
         return None
 
-    def piece(self, called: Any, node: ast.Call) -> lang.Expression:
-        """Return what a piece of Numba's compiler gives."""
-        if called._name == "_compiled_bits" and len(node.args) == 1:
+    def piece(self, called: Written, node: ast.Call) -> lang.Expression:
+        """Return what a function gives that is written in LLVM's language."""
+        if called.name == "_compiled_bits" and len(node.args) == 1:
             return lang.Operation("int", "bits", (as_type("float", self.expression(node.args[0])),))
-        if called._name not in ("_compiled_kernel", "_compiled_code"):
-            raise Foreign(f"the function '{called._name}'", node)
-        taken = called._defn.__code__.co_argcount - 1  # but for the first one, which is the compiler's
-        if len(node.args) != taken:
-            raise Foreign("a function with other arguments", node)
-        signature, _ = called._defn(None, *(None for _ in node.args))
-        if len(signature.args) != taken or signature.return_type is not types.int64:
-            raise Foreign("a function with other results", node)
-        address, *others = (self.handed(kind, x) for kind, x in zip(signature.args, node.args, strict=True))
+        if called.name not in ("_compiled_kernel", "_compiled_code"):
+            raise Foreign(f"the function '{called.name}'", node)
+        signature, _ = called.define(None, *(None for _ in node.args))
+        if len(signature.arguments) != len(node.args) or signature.result is not types.int64:
+            raise Foreign("a function with other arguments or results", node)
+        address, *others = (self.handed(kind, x) for kind, x in zip(signature.arguments, node.args, strict=True))
         return lang.Invoke("int", address, tuple(others))
 
     def handed(self, kind: Any, node: ast.expr) -> lang.Expression | str:
@@ -128,13 +132,12 @@ class TableValues(Values):
             return as_type(_ELEMENTS[kind], self.expression(node))
         if not isinstance(node, ast.Name) or self.arrays.get(node.id) != _ELEMENTS[kind.dtype]:
             raise Foreign("an array of another kind", node)
-        self.sized.add(node.id)  # whoever has compiled what is called may count indices from the end
         return node.id
 
     def view(self, node: ast.Assign) -> list[lang.Statement]:
         """Return how an array of tables comes to its name; empty for any other assignment."""
         value = node.value
-        if not isinstance(value, ast.Call) or getattr(self.of_module(value.func), "_name", "") != "_compiled_tables":
+        if not isinstance(value, ast.Call) or getattr(self.of_module(value.func), "name", "") != "_compiled_tables":
             return []
         names = [x.id for x in (*node.targets, *value.args) if isinstance(x, ast.Name)]
         if self.depth or len(names) != 2 or len(node.targets) != 1 or self.arrays.get(names[1]) != "float":
@@ -142,7 +145,6 @@ class TableValues(Values):
         name, owner = names
         if name in self.arrays or name in self.variables or name in self.numbers:
             raise Foreign(f"variable '{name}' has two types", node)
-        self.sized.add(owner)
         self.arrays[name] = "unsigned"
         count, start = lang.Shape(owner), f"{name}.start"  # no name of Python's
         self.give(start, "int", node)

@@ -46,8 +46,6 @@ class Values(ABC):
         Types of the local variables that have been given a value so far.
     tables, called : dict
         Constant arrays and functions that have been met.
-    sized : set of str
-        Arrays whose lengths are wanted.
     """
 
     def __init__(self, function: Any, parameters: tuple[lang.Parameter, ...]) -> None:
@@ -59,7 +57,6 @@ class Values(ABC):
         self.variables: dict[str, lang.Scalar] = {}
         self.tables: dict[str, tuple[float, ...]] = {}
         self.called: dict[tuple[object, tuple[Kind, ...]], lang.Function] = {}
-        self.sized: set[str] = set()
 
     @abstractmethod
     def read(self, called: Any, kinds: tuple[Kind, ...]) -> lang.Function:
@@ -218,10 +215,7 @@ class Values(ABC):
         key = (called, kinds)
         if key not in self.called:
             self.called[key] = self.read(called, kinds)
-        function = self.called[key]
-        pairs = zip(function.parameters, arguments, strict=True)
-        self.sized.update(x for p, x in pairs if p.sized and isinstance(x, str))
-        return lang.Call(function.returned, function, arguments)
+        return lang.Call(self.called[key].returned, self.called[key], arguments)
 
     def call_builtin(self, name: str, values: list[lang.Expression], node: ast.Call) -> lang.Expression:
         """Return what a function of Python gives."""
@@ -242,10 +236,9 @@ class Values(ABC):
         raise Foreign(f"the function '{name}'", node)
 
     def length(self, node: ast.expr) -> lang.Expression:
-        """Return the length of an array, which callers have to say."""
+        """Return the length of an array."""
         if not isinstance(node, ast.Name) or not any(p.array and p.name == node.id for p in self.parameters):
             raise Foreign("the length of something else than an argument", node)
-        self.sized.add(node.id)
         return lang.Shape(node.id)
 
     def builtin(self, node: ast.expr) -> str | None:

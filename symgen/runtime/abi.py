@@ -5,9 +5,8 @@ Emitted functions are called through first-class function types, so one cached c
 
 from __future__ import annotations
 
-from numba import types
-
 from symgen.ir.program import COUNTERS, STATUS
+from symgen.native import types
 
 _F8 = types.float64
 _A = types.float64[::1]

@@ -20,6 +20,7 @@ from typing import Any, NamedTuple
 
 from numba import config, cuda, float64, int64, types
 
+from symgen.native.judge import type_of
 from symgen.runtime import abi, frame, observe, rows, watch
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.instances import Instances, viewing
@@ -65,7 +66,7 @@ STARTS = types.NamedTuple(Starts(ys=_M, ps=_M, ws=_M, limits=_A, share=_A, metri
 RESULTS = types.NamedTuple(
     Results(states=_T, status=_T, accelerations=_T, multipliers=_T, rows=_T, values=_M, summary=_M), Results
 )
-SIGNATURE = types.void(TABLEAU, SIZES, SPAN, STARTS, RESULTS)
+SIGNATURE = types.void(type_of(TABLEAU), type_of(SIZES), type_of(SPAN), STARTS, RESULTS)
 
 
 def simulated() -> bool:

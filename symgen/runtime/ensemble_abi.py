@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from numba import types
-
+from symgen.native import types
 from symgen.runtime import abi
 
 #: prepare(p).

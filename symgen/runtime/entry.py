@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
+import functools
+import itertools
 from collections.abc import Callable
 from typing import Any, Self
 
 import numpy as np
-from numba import types
 from numpy.typing import NDArray
 
-from symgen.errors import SimulationError
-from symgen.native import trampoline as ways
-from symgen.native.trampoline import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, numbers, slots
-from symgen.store.objects import made
+from symgen.native import types
+from symgen.native.calls import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, numbers, slots, trampoline
+from symgen.native.compiler import by_numba
+from symgen.store.jit import MachineFunction, made
 
 Array = NDArray[np.float64]
-#: A trampoline.
-Call = Callable[[int], int]
 #: Two of a loop's arguments, of the model, scheme, span, state and outputs.
 _SCHEME, _SPAN = -4, -3
 
@@ -28,49 +27,40 @@ class Block:
 
     Parameters
     ----------
-    result : result of a compilation
+    function : MachineFunction
         The function.
+    signature : Signature
+        Its types.
     arguments : tuple
-        What it takes.
-    call : callable
-        The trampoline for its signature.
+        Its arguments.
     """
 
-    def __init__(self, result: Any, arguments: tuple[Any, ...], call: Call) -> None:
-        self._result, self._arguments, self._call = result, list(arguments), call
-        self._kinds, self._places = _layout(result)[1:]
+    def __init__(self, function: MachineFunction, signature: types.Signature, arguments: tuple[Any, ...]) -> None:
+        self._function, self._arguments, self._kinds = function, list(arguments), signature.arguments
+        self._call, self._places = _layout(signature)
         block: Any = np.zeros(self._places[-1], dtype=np.int64)
         self._block, self._address = block, block.ctypes.data
         self._ints: Any = memoryview(block)  # read and written faster than arrays are
         self._floats: Any = memoryview(block.view(np.float64))
-        block[FUNCTION] = result.library.get_pointer_to_function(result.fndesc.llvm_func_name)
+        block[FUNCTION] = function.address(signature)
         for which in range(len(arguments)):
             self._fill(which)
 
     @classmethod
-    def of(cls, compiled: Any, arguments: tuple[Any, ...]) -> Self | None:
-        """Return the block of a function, None where it has to be called as every compiled function.
-
-        Parameters
-        ----------
-        compiled : result of a compilation
-            The function.
-        arguments : tuple
-            What it takes.
-        """
-        signature = compiled.signature
-        if len(signature.args) != len(arguments):
+    def of(cls, function: Any, signature: types.Signature | None, arguments: tuple[Any, ...]) -> Self | None:
+        """Return the block of a function, None where it is not one that is compiled here, or takes other arguments."""
+        if not isinstance(function, MachineFunction) or signature is None or by_numba():
             return None
-        call = _layout(compiled)[0] if ways.usable() else None
+        if len(signature.arguments) != len(arguments):
+            return None
         try:
-            return None if call is None else cls(compiled, arguments, call)
-        except (NotImplementedError, TypeError, ValueError):  # a function, or a record, of a kind of its own
+            return cls(function, signature, arguments)
+        except (AttributeError, TypeError, ValueError):  # a function, or a record, of a kind of its own
             return None
 
     def enter(self) -> int:
         """Call the function; return its result, a whole number."""
-        if self._call(self._address) != 0:
-            raise SimulationError("compiled code has raised an exception")
+        self._call(self._address)
         return int(self._ints[RESULT])
 
     def _fill(self, which: int) -> None:
@@ -87,8 +77,8 @@ class Block:
 class Entry(Block):
     """A compiled loop, an instance of `symgen.runtime.frame.integrate`, with all that it is entered with."""
 
-    def __init__(self, result: Any, arguments: tuple[Any, ...], call: Call) -> None:
-        super().__init__(result, arguments, call)
+    def __init__(self, function: MachineFunction, signature: types.Signature, arguments: tuple[Any, ...]) -> None:
+        super().__init__(function, signature, arguments)
         self._scheme, self._span = arguments[_SCHEME], arguments[_SPAN]
         self._which_scheme, self._which_span = len(arguments) + _SCHEME, len(arguments) + _SPAN
         first, names = self._places[self._which_span], self._span._fields
@@ -114,25 +104,21 @@ class Entry(Block):
         """Enter the loop; return how it ended."""
         floats = self._floats
         floats[self._until], floats[self._pause], floats[self._most] = until, pause, most
-        if self._call(self._address) != 0:
-            raise SimulationError("a compiled loop has raised an exception")
+        self._call(self._address)
         return int(self._ints[RESULT])
 
 
 def entry_of(loop: Any, arguments: tuple[Any, ...]) -> Entry | None:
-    """Return the entry of a loop, None where it has to be called as every compiled function.
+    """Return the entry of a loop, None where it has to be called as every function.
 
     Parameters
     ----------
-    loop : compiled function
-        With a single signature.
+    loop : RuntimeFunction
+        With a signature; anything else has no entry.
     arguments : tuple
         Model, scheme, span, state, outputs.
     """
-    if hasattr(loop, "open"):
-        loop.open()
-    compiled = list(getattr(loop, "overloads", {}).values())  # none where nothing is compiled
-    return Entry.of(compiled[0], arguments) if len(compiled) == 1 else None
+    return Entry.of(loop, getattr(loop, "signature", None), arguments)
 
 
 def direct(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable[..., Any]:
@@ -140,15 +126,14 @@ def direct(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable
 
     Parameters
     ----------
-    function : Dispatcher or function
+    function : EmittedFunction or function
         An emitted function; plain Python where nothing is compiled.
     kind : FunctionType
         Its type, of `symgen.runtime.abi`.
     *arguments
         Arrays and numbers.
     """
-    compiled = function.get_compile_result(kind.signature) if hasattr(function, "get_compile_result") else None
-    block = None if compiled is None else Block.of(compiled, arguments)
+    block = Block.of(function, kind.signature, arguments)
     if block is None:
         return lambda *first: function(*first, *arguments[len(first) :])
 
@@ -160,15 +145,8 @@ def direct(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable
     return call
 
 
-#: Of functions that were entered: themselves, so that they stay where they are, and what `_layout` returns.
-_KNOWN: dict[int, tuple[Any, tuple[Call | None, tuple[Any, ...], list[int]]]] = {}
-
-
-def _layout(result: Any) -> tuple[Call | None, tuple[Any, ...], list[int]]:
-    """Return the trampoline of a compiled function, the kinds of its arguments, and where their slots begin."""
-    if id(result) not in _KNOWN:
-        returned, kinds = result.signature.return_type, result.signature.args
-        call = ways.trampoline(returned, kinds, made)
-        sizes = () if call is None else tuple(sum(1 for _ in slots(kind)) for kind in kinds)
-        _KNOWN[id(result)] = result, (call, kinds, np.cumsum([FIRST, *sizes]).tolist())
-    return _KNOWN[id(result)][1]
+@functools.cache
+def _layout(signature: types.Signature) -> tuple[Callable[[int], Any], list[int]]:
+    """Return the trampoline of functions of a signature, and where the slots of their arguments begin."""
+    sizes = (sum(1 for _ in slots(kind)) for kind in signature.arguments)
+    return trampoline(signature, made), list(itertools.accumulate(sizes, initial=FIRST))

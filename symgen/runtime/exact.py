@@ -11,16 +11,14 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
-from numba import config
-from numba.core.types import Dispatcher
-
-from symgen.runtime import bare
-from symgen.store.jit import jit
-from symgen.store.loops import from_its_source
+from symgen.native.compiler import interpreted
+from symgen.native.pieces import Piece
+from symgen.native.types import Signature
+from symgen.store.jit import RuntimeFunction
 
 
 class Exact:
-    """A function in both forms, each made when it is first asked for: a dispatcher alone takes a millisecond.
+    """A function in both forms, each made when it is first wanted.
 
     Attributes
     ----------
@@ -28,41 +26,44 @@ class Exact:
         Its source. What it calls may be such functions as well.
     """
 
-    def __init__(self, function: Callable[..., Any], signatures: tuple[Any, ...], once: bool) -> None:
-        self.py_func, self._signatures, self._once = function, signatures, once
+    def __init__(self, function: Callable[..., Any], signature: Signature | None, once: bool) -> None:
+        self.py_func, self._signature, self._once = function, signature, once
 
     @cached_property
     def compiled(self) -> Any:
-        """The compiled function; one without signatures is for calls from compiled code, and has no wrappers."""
-        if self._signatures:
-            return from_its_source(*self._signatures, once=self._once, fastmath=False)(self.py_func)
-        wrappers = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": True}
-        return jit(fastmath=False, **wrappers)(self.py_func)
+        """The compiled function; one without signature is for calls from compiled code."""
+        return RuntimeFunction(
+            self.py_func,
+            inlined=self._signature is None,
+            contracted=False,
+            signature=self._signature,
+            once=self._once,
+        )
 
     @cached_property
     def plain(self) -> Any:
         """The function as plain Python, with all that it calls; functions that it is given are called as they are."""
-        names = {**self.py_func.__globals__, "part": bare.plain_part, "bare": bare.plain_bare}
+        names = dict(self.py_func.__globals__)
         names |= {name: plain_form(names[name]) for name in self.py_func.__code__.co_names if name in names}
         return types.FunctionType(self.py_func.__code__, names, self.py_func.__name__)
 
     @property
     def _numba_type_(self) -> Any:
-        """What compiled code takes it for."""
-        return Dispatcher(self.compiled)
+        """Type for functions that Numba compiles and that call this one."""
+        return self.compiled._numba_type_
 
 
-def exact(*signatures: Any, once: bool = False) -> Callable[[Callable[..., Any]], Any]:
+def exact(signature: Signature | None = None, once: bool = False) -> Callable[[Callable[..., Any]], Any]:
     """Return a decorator that makes a function `Exact`; plain Python where nothing is compiled.
 
     One that is called `once` a run is compiled in less time; its bits are the same.
     """
-    return lambda function: function if config.DISABLE_JIT else Exact(function, signatures, once)
+    return lambda function: function if interpreted() else Exact(function, signature, once)
 
 
 def plain_form(function: Any) -> Any:
-    """Return an exact function as plain Python, any other one as it is."""
-    return function.plain if isinstance(function, Exact) else function
+    """Return an exact function, or one in LLVM's language, as plain Python, any other one as it is."""
+    return function.plain if isinstance(function, Exact | Piece) else function
 
 
 def compiled_form(function: Any) -> Any:

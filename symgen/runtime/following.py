@@ -10,13 +10,11 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from numba import types
-
+from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime.bare import bare
 from symgen.runtime.redundancy import FALLEN
 from symgen.store.jit import jit
-from symgen.store.loops import from_its_source
 
 #: Newton's iteration at one time ends after so many steps; the state that it corrects may be at most this far off, in
 #: all and beside the sine by which the rows are apart: two branches are nearer to each other where that is small.
@@ -128,10 +126,10 @@ class Followed(NamedTuple):
     status: Any
 
 
-COURSE = types.NamedTuple((*(_I8,) * 11, _F, _F, _K, _A, _A), Course)
-STAND = types.NamedTuple((*(_A,) * 4, _K, *(_A,) * 5), Stand)
-FOLLOWED = types.NamedUniTuple(_M, 3, Followed)
-_MODEL = types.Tuple((COURSE, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE))
+COURSE = types.Record((*(_I8,) * 11, _F, _F, _K, _A, _A), Course)
+STAND = types.Record((*(_A,) * 4, _K, *(_A,) * 5), Stand)
+FOLLOWED = types.Record((_M,) * 3, Followed)
+_MODEL = types.Record((COURSE, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE))
 
 
 @jit()
@@ -311,7 +309,7 @@ def sign_of(course: Any, w: Any, dense: Any) -> float:
     return sign
 
 
-@from_its_source(_I8(_MODEL, _A, _A, _A, STAND, FOLLOWED, _K))
+@jit(_I8(_MODEL, _A, _A, _A, STAND, FOLLOWED, _K))
 def follow(model: Any, times: Any, p: Any, w: Any, stand: Any, followed: Any, control: Any) -> int:
     """Follow a motion through times that all lie behind, or all before, the time at which the loop stands.
 

@@ -24,8 +24,7 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from numba import types
-
+from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
 from symgen.runtime.instances import loop as compiled_loop
@@ -406,10 +405,10 @@ FUNCTIONS = {
 RECIPES: dict[Any, tuple[tuple[Any, ...], dict[str, Any]]] = {}
 
 
-def kinds_of(functions: Iterable[str]) -> list[Any]:
+def kinds_of(functions: Iterable[str]) -> tuple[types.Kind, ...]:
     """Return the types of what a `System` is made of, functions beside ``rhs``, ``confirm`` and ``accept`` by name."""
     called = {"rhs", "confirm", "accept", *functions}
-    return [SIZES, *(kind if name in called else types.int64 for name, kind in FUNCTIONS.items())]
+    return SIZES, *(kind if name in called else types.int64 for name, kind in FUNCTIONS.items())
 
 
 def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) -> Any:
@@ -419,14 +418,14 @@ def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) 
     ----------
     module, name : str
         The module variable that holds it.
-    scheme : Numba type
+    scheme : Record
         Of the scheme's record.
     *functions : str
         Those that it calls beside ``rhs``, ``confirm`` and ``accept``.
     **meanings
         What the names of the frame mean.
     """
-    signature = types.int64(types.Tuple(kinds_of(functions)), scheme, SPAN, STATE, OUTPUTS)
+    signature = types.int64(types.Record(kinds_of(functions)), scheme, SPAN, STATE, OUTPUTS)
     made = compiled_loop(module, name, integrate, signature, **meanings)
     RECIPES[made] = (module, name, scheme, *functions), meanings
     return made

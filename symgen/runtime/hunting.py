@@ -12,9 +12,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import types
 from numpy.typing import NDArray
 
+from symgen.native import types
 from symgen.runtime import abi, frame
 from symgen.runtime import search_records as searching
 from symgen.runtime.bare import bare, part
@@ -38,7 +38,7 @@ HuntingSystem = record("HuntingSystem", *System._fields, "happens", "decide", "r
 
 
 #: How compiled loops see what a run keeps.
-HUNTING_STATE = types.NamedTuple((*STATE.types, STATE.types[0]), HuntingState)
+HUNTING_STATE = types.Record((*STATE, STATE.parts[0]), HuntingState)
 
 
 # -- what the frame calls ----------------------------------------------------------------------------------------------
@@ -121,7 +121,7 @@ def with_events(loop: Any) -> Any:
     if loop not in _loops:
         (module, name, scheme, *functions), meanings = frame.RECIPES[loop]
         kinds = *frame.kinds_of(functions), abi.OBSERVE, abi.DECIDE, abi.RHS
-        signature = types.int64(types.Tuple(kinds), scheme, SPAN, HUNTING_STATE, OUTPUTS)
+        signature = types.int64(types.Record(kinds), scheme, SPAN, HUNTING_STATE, OUTPUTS)
         own = f"{module.rpartition('.')[2]}_{name}"
         _loops[loop] = compiled_loop(__name__, own, frame.integrate, signature, **{**meanings, **_MEANINGS})
     return _loops[loop]

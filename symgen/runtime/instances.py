@@ -13,11 +13,10 @@ import types as python
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
-from numba import njit, types
-from numba.extending import _Intrinsic as Intrinsic
-
-from symgen.store.jit import jit
-from symgen.store.loops import from_source
+from symgen.native import types
+from symgen.native.compiler import interpreted
+from symgen.native.pieces import Piece
+from symgen.store.jit import RuntimeFunction, jit
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 #: Makes a compiled function of a copy; the original, a plain or a compiled function, says what kind it was.
@@ -37,15 +36,8 @@ def viewing(function: Function) -> Function:
 
 
 def part(copy: python.FunctionType, original: Any) -> Any:
-    """Return a part of a loop, compiled for processors, and for other parts only."""
-    return njit(
-        forceinline=not hasattr(original, "called"),
-        no_cpython_wrapper=True,
-        no_cfunc_wrapper=True,
-        nogil=True,
-        error_model="numpy",
-        fastmath={"contract"},
-    )(copy)
+    """Return a part of a loop, compiled for processors."""
+    return copy if interpreted() else RuntimeFunction(copy, inlined=not hasattr(original, "called"))
 
 
 def loop(module: str, name: str, function: Any, signature: Any, once: bool = False, **meanings: Any) -> Any:
@@ -60,19 +52,18 @@ def loop(module: str, name: str, function: Any, signature: Any, once: bool = Fal
     signature : Signature
         Its types.
     once : bool
-        As for `symgen.store.loops.from_source`.
+        As for `symgen.store.jit.jit`.
     **meanings
         See `Instances`.
     """
     copy = Instances(meanings).copy(function)
     copy.__module__, copy.__name__, copy.__qualname__ = module, name, name
-    return from_source(jit(signature)(copy), once)
+    return jit(signature, once=once)(copy)
 
 
 def signature_of(loop: Any) -> Any:
     """Return the types of a compiled loop; none where nothing is compiled."""
-    (signature,) = getattr(loop, "_signatures", (types.int64(),))
-    return signature
+    return getattr(loop, "signature", types.int64())
 
 
 class Instances:
@@ -118,7 +109,7 @@ class Instances:
         given = name in self.meanings
         value = self.meanings[name] if given else function.__globals__.get(name)
         plain = getattr(value, "py_func", None)
-        if self.everything and not given and isinstance(value, Intrinsic):
+        if self.everything and not given and isinstance(value, Piece):
             raise ValueError(f"{function.__name__} needs '{name}' as a device function")
         if isinstance(value, python.FunctionType):
             return self.of(value)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from types import ModuleType
 from typing import Any
 
-from numba import config, types
-from numba.experimental.function_type import _get_jit_address
+from symgen.native import types
+from symgen.native.compiler import by_numba, interpreted
 
 _A = types.float64[::1]
 _T, _I = types.uint32[::1], types.int64
@@ -16,19 +16,24 @@ KERNEL = types.int64(types.float64, _A, _A, _A, _T, types.uint32, _A)
 GENERIC = types.int64(_T, _A, _A, _I, _I, _I, types.float64)
 
 
-def address(function: Any, machine: ModuleType, signature: Any = KERNEL) -> int:
+def address(function: Any, machine: ModuleType, signature: types.Signature = KERNEL) -> int:
     """Return the address of a function, compiled or taken from the cache if it was not.
 
     Parameters
     ----------
-    function : Dispatcher
+    function : EmittedFunction
         A function of an emitted kernel, or generic code.
     machine : module
         The generic code that will call it.
     signature : Signature
         `KERNEL` or `GENERIC`.
     """
-    if config.DISABLE_JIT:
+    if interpreted():
         machine.KERNELS.append(function)
         return len(machine.KERNELS) - 1
-    return int(_get_jit_address(function, signature))
+    if by_numba():
+        from symgen.native import judge
+
+        return judge.address(function, signature)
+    found: int = function.address(signature)
+    return found

@@ -14,10 +14,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import types
-
 from symgen.ir.numerics import SKIP
 from symgen.ir.program import LANE_COUNTERS, LANES, lane_bases
+from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime import watch as watching
@@ -303,7 +302,7 @@ def room_of_lanes(n: int, stages: int, n_p: int, nw: int, windings: int, n_times
     return LANES * (numbers + n_times * (n + abi.N_STATUS + windings))
 
 
-_MODEL = types.Tuple((SIZES, LANE_FUNCTION, LANE_FUNCTION, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
+_MODEL = types.Record((SIZES, LANE_FUNCTION, LANE_FUNCTION, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
 lane_runs = compiled_loop(
     *(__name__, "lane_runs", run_lanes, types.int64(_MODEL, TABLEAU, SPAN, CHUNK, STATE, KEPT_OF_RUN)),
     integrate=Instances(_MEANINGS).of(integrate),

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from numba import types
-
-from symgen.store.loops import from_its_source
+from symgen.native import types
+from symgen.store.jit import jit
 
 _A = types.float64[::1]
 
 
-@from_its_source(types.int64(_A, _A))
+@jit(types.int64(_A, _A))
 def stay(y: Any, w: Any) -> int:
     """Stand in for the emitted ``turn`` of models whose coordinates change as velocities do; it is never called."""
     return 0

@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from numba import types
-
+from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.store.jit import jit
-from symgen.store.loops import from_its_source
 
 _A, _K, _I8 = types.float64[::1], types.int64[::1], types.int64
 _M, _C = types.float64[:, ::1], types.float64[:, :, ::1]
@@ -48,7 +46,7 @@ class Left(NamedTuple):
     rates: Any
 
 
-LEFT = types.NamedTuple((_A, _K, _C, _I8, _K, _M, _M, _A, _A), Left)
+LEFT = types.Record((_A, _K, _C, _I8, _K, _M, _M, _A, _A), Left)
 
 
 @jit()
@@ -68,7 +66,7 @@ def bring(seen: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any
     return reached
 
 
-@from_its_source(_I8(types.Tuple((LEFT, abi.OBSERVE, abi.MEASURE)), _C, _I8, _C))
+@jit(_I8(types.Record((LEFT, abi.OBSERVE, abi.MEASURE)), _C, _I8, _C))
 def measure_rows(model: Any, found: Any, at: int, entries: Any) -> int:
     """Evaluate formulas of a run, and the entries of D that vary, at all outputs of runs.
 

@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import types
-
+from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime.bare import part
 from symgen.runtime.records import OBSERVED, OUTPUTS, SIZES
 from symgen.store.jit import jit
-from symgen.store.loops import from_its_source
 
 _A, _I, _I8 = types.float64[::1], types.int64[::1], types.int64
 
@@ -25,7 +23,7 @@ def output(sizes: Any, outputs: Any, k: int, y: Any, w: Any) -> None:
         w[abi.WINDING + i] = outputs.status[k, abi.N_STATUS + i]
 
 
-@from_its_source(_I8(types.Tuple((SIZES, abi.RHS, abi.RHS, abi.ACCEPT)), OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
+@jit(_I8(types.Record((SIZES, abi.RHS, abi.RHS, abi.ACCEPT)), OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
 def observe_rates(model: Any, outputs: Any, count: int, p: Any, w: Any, iw: Any, observed: Any, room: Any) -> int:
     """Evaluate v' and lambda at outputs.
 
@@ -58,7 +56,7 @@ def observe_rates(model: Any, outputs: Any, count: int, p: Any, w: Any, iw: Any,
     return 0
 
 
-@from_its_source(_I8(abi.OBSERVE, SIZES, OUTPUTS, _I8, _A, _A, OBSERVED, _A))
+@jit(_I8(abi.OBSERVE, SIZES, OUTPUTS, _I8, _A, _A, OBSERVED, _A))
 def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: Any, observed: Any, room: Any) -> int:
     """Evaluate a function of the motion at outputs: D v' - gamma and joint coordinates, or what was asked for.
 
@@ -90,7 +88,7 @@ def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: 
     return 0
 
 
-@from_its_source(_I8(abi.MEASURE, abi.MEASURE, SIZES, OUTPUTS, _A, _A, _A))
+@jit(_I8(abi.MEASURE, abi.MEASURE, SIZES, OUTPUTS, _A, _A, _A))
 def observe_status(geometry: Any, measure: Any, sizes: Any, outputs: Any, p: Any, w: Any, y: Any) -> int:
     """Measure states, one after the other: the status and the angles that count turns.
 

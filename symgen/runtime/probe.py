@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from symgen.native import types
 from symgen.runtime import abi
+from symgen.store.jit import MachineFunction
 from symgen.store.modules import interpreted
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
-
-#: Functions that have machine code, each for some signatures: asking for it again costs more than most calls.
-_made: WeakKeyDictionary[Any, set[int]] = WeakKeyDictionary()
 
 
 class Ready:
@@ -23,23 +21,19 @@ class Ready:
 
     Parameters
     ----------
-    function : Dispatcher or function
-        What is called; plain Python where nothing is compiled.
+    function : EmittedFunction or function
+        The function; plain Python where nothing is compiled.
     kind : FunctionType
-        Its type, of `symgen.runtime.abi`: machine code is cached under the signature that loops ask for.
+        Its type, of `symgen.runtime.abi`.
     """
 
-    def __init__(self, function: Any, kind: Any) -> None:
+    def __init__(self, function: Any, kind: types.FunctionType) -> None:
         self._function, self._kind = function, kind
 
     def __call__(self, *arguments: Any) -> Any:
         """Call it."""
-        if self._kind is not None and hasattr(self._function, "compile"):
-            made = _made.setdefault(self._function, set())
-            if id(self._kind) not in made:  # types are constants of a module
-                self._function.compile(self._kind.signature)
-                made.add(id(self._kind))
-        self._kind = None
+        if isinstance(self._function, MachineFunction):
+            self._function = self._function.caller(self._kind.signature.arguments)
         return self._function(*arguments)
 
 
@@ -51,7 +45,7 @@ class Few:
 
     Parameters
     ----------
-    function : Dispatcher or function
+    function : EmittedFunction or function
         What is called; it may only write what it has not read.
     kind : FunctionType
         As for `Ready`.

@@ -9,8 +9,7 @@ from __future__ import annotations
 from collections import namedtuple
 from typing import Any, NamedTuple
 
-from numba import types
-
+from symgen.native import types
 from symgen.runtime.start_records import LAYOUT
 
 _F, _I = types.float64, types.int64
@@ -370,16 +369,16 @@ class Projection(NamedTuple):
 KEPT = ("numbers", "plan", "filter_numbers", "filter_plan")
 
 #: How compiled loops see the records.
-SIZES = types.NamedUniTuple(_I, len(Sizes._fields), Sizes)
-SPAN = types.NamedUniTuple(_F, len(Span._fields), Span)
-STATE = types.NamedTuple((_A, _A, _A, _K, _A, _A, _K, *(_A,) * 6), State)
-OUTPUTS = types.NamedTuple((_A, _M, _M), Outputs)
-OBSERVED = types.NamedUniTuple(_M, 3, Observed)
-KEPT_OF_RUN = types.NamedTuple((OUTPUTS, OBSERVED), Kept)
-CHUNK = types.NamedTuple((_K, _A, _A, _A, _A, _K, _A, _A, _A, _I, _I, _I, LAYOUT, _A), Chunk)
-TABLEAU = types.NamedTuple((_K, _K, _A, _A, _A, _K, _I, _I, _I, _I, _I), Tableau)
-ROTATIONS = types.NamedTuple((TABLEAU, _K, _I), Rotations)
-MULTISTEP = types.NamedTuple((_A, _A, _K, _I), Multistep)
-STAGES = types.NamedTuple((_A, _A, _A, _A, _F, _I, _I, _I, _K, _A, _A, _K, _A, _K), Stages)
-ALPHA = types.NamedTuple((_F, _F, _F, _F, _A, _A, _K), Alpha)
-PROJECTION = types.NamedTuple((_I, _A, _A, _K, _K, _K), Projection)
+SIZES = types.Record((_I,) * len(Sizes._fields), Sizes)
+SPAN = types.Record((_F,) * len(Span._fields), Span)
+STATE = types.Record((_A, _A, _A, _K, _A, _A, _K, *(_A,) * 6), State)
+OUTPUTS = types.Record((_A, _M, _M), Outputs)
+OBSERVED = types.Record((_M,) * 3, Observed)
+KEPT_OF_RUN = types.Record((OUTPUTS, OBSERVED), Kept)
+CHUNK = types.Record((_K, _A, _A, _A, _A, _K, _A, _A, _A, _I, _I, _I, LAYOUT, _A), Chunk)
+TABLEAU = types.Record((_K, _K, _A, _A, _A, _K, _I, _I, _I, _I, _I), Tableau)
+ROTATIONS = types.Record((TABLEAU, _K, _I), Rotations)
+MULTISTEP = types.Record((_A, _A, _K, _I), Multistep)
+STAGES = types.Record((_A, _A, _A, _A, _F, _I, _I, _I, _K, _A, _A, _K, _A, _K), Stages)
+ALPHA = types.Record((_F, _F, _F, _F, _A, _A, _K), Alpha)
+PROJECTION = types.Record((_I, _A, _A, _K, _K, _K), Projection)

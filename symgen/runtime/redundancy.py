@@ -12,9 +12,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numba import types
 from numpy.typing import NDArray
 
+from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime.exact import compiled_form, exact
 from symgen.runtime.scales import VANISHED, entry_of

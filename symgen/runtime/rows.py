@@ -9,8 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import types
-
+from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import bare, part
@@ -30,7 +29,7 @@ from symgen.runtime.row_variants import (
 )
 from symgen.runtime.schemes import explicit
 from symgen.runtime.stopping import with_stops
-from symgen.store.loops import from_its_source
+from symgen.store.jit import jit
 
 _F8, _A = types.float64, types.float64[::1]
 
@@ -265,7 +264,7 @@ def integrate(*arguments: Any) -> int:
     raise NotImplementedError
 
 
-@from_its_source(types.int64(_F8, _A, _A, _A, _A, _A))
+@jit(types.int64(_F8, _A, _A, _A, _A, _A))
 def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
     """Stand in for the emitted ``observe`` where no joint coordinate is asked for, so that it is not compiled."""
     return 0
@@ -273,9 +272,9 @@ def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> in
 
 def rows_loop(name: str, loop: Any, **meanings: Any) -> Any:
     """Return the loop over many runs around one over a single run."""
-    args = signature_of(loop).args
-    observers = types.Tuple((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
-    signature = types.int64(types.Tuple((*args[:1], observers)), *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
+    args = signature_of(loop).arguments
+    observers = types.Record((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
+    signature = types.int64(types.Record((*args[:1], observers)), *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
     return compiled_loop(__name__, name, run_rows, signature, integrate=loop, **meanings)
 
 

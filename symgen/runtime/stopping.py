@@ -11,15 +11,15 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numba import types
 
+from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import bare
 from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.instances import signature_of
 from symgen.runtime.records import Span
-from symgen.store.loops import from_its_source
+from symgen.store.jit import jit
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
@@ -55,7 +55,7 @@ class Stops(NamedTuple):
 
 
 _A, _K = types.float64[::1], types.int64[::1]
-STOPS = types.NamedTuple((_K, _K, _A, _K, _K, _A), Stops)
+STOPS = types.Record((_K, _K, _A, _K, _K, _A), Stops)
 
 
 def due(stops: Any, count: int) -> float:
@@ -96,7 +96,7 @@ def until_stop(span: Any, until: float) -> Any:
     )
 
 
-@from_its_source(types.int64(_A))
+@jit(types.int64(_A))
 def by_caller(p: Any) -> int:
     """Stand for ``prepare`` where that is plain Python, as of looped code: whoever enters the loop calls it."""
     return 1
@@ -151,8 +151,8 @@ def with_stops(loop: Any) -> Any:
     if loop not in _loops:
         name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}"
         signature = signature_of(loop)
-        model = types.Tuple((*signature.args[:1], STOPS, types.FunctionType(signature), e.PREPARE, e.PREPARE))
-        made = compiled_loop(__name__, name, between_stops, types.int64(model, *signature.args[1:]), once=True)
+        model = types.Record((*signature.arguments[:1], STOPS, types.FunctionType(signature), e.PREPARE, e.PREPARE))
+        made = compiled_loop(__name__, name, between_stops, types.int64(model, *signature.arguments[1:]), once=True)
         _loops[loop] = globals()[name] = made  # it is known by its name, as all loops are
     return _loops[loop]
 

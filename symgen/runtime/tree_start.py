@@ -11,10 +11,10 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import types
 from numpy.typing import NDArray
 
 from symgen.ir.numerics import SKIP
+from symgen.native import types
 from symgen.runtime import abi, decisions
 from symgen.runtime.bare import bare, part
 from symgen.runtime.compiled import CompiledModel, ModelInfo
@@ -120,7 +120,7 @@ class Carrying(NamedTuple):
 
 
 _I, _A = types.int64[::1], types.float64[::1]
-_CARRYING = types.NamedTuple((*(types.int64,) * 3, *(_I,) * 5, _A), Carrying)
+_CARRYING = types.Record((*(types.int64,) * 3, *(_I,) * 5, _A), Carrying)
 
 
 @exact(types.int64(abi.OBSERVE, abi.MEASURE, abi.OBSERVE, LAYOUT, INSTANT, INSTANT, _CARRYING, _A, _I, _I))

@@ -1,65 +1,288 @@
-"""Numba functions whose machine code outlives the process, in a cache that a crash or a stranger cannot spoil.
+"""Functions that are compiled from their source when they are first called, in a cache that survives crashes.
 
-Numba's own disk cache keeps an index of pickles beside the source: a truncated index raises at import, a foreign one
-runs code, an unwritable folder raises at decoration, and two processes can cross each other's entries. This one keeps
-one self-checking file per compiled signature in the user's cache folder (`symgen.store.machine_code`).
-
-It stands on internals of Numba, which `internals_changed` lists and `tests/store/test_canary.py` watches.
+`jit` compiles functions of the runtime, which take records of arrays, numbers and functions; `symgen.store.emitted`
+compiles those of emitted modules. An entry of the cache is one self-checking file for each function and types of its
+arguments. Its key holds everything that machine code depends on: the sources, the types, the processor, and the version
+of llvmlite.
 """
 
 from __future__ import annotations
 
+import ast
+import contextlib
 import functools
-import inspect
-import types
-from collections.abc import Callable
-from typing import Any, TypeVar
+import gc
+import marshal
+import re
+import sys
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
 
-import numba
-from numba.core import event, sigutils
-from numba.core.caching import _Cache
-from numba.core.compiler import CompileResult
-from numba.core.compiler_lock import global_compiler_lock
-from numba.core.registry import CPUDispatcher
-from numba.core.runtime import rtsys
+import llvmlite
 
-from symgen.store.identity import NotDescribable, describe, describe_function, digest, source_stamp
-from symgen.store.machine_code import MachineCode, listen
-from symgen.store.stats import cache_stats
+from symgen.errors import InputError
+from symgen.native import types
+from symgen.native.calls import caller, kind_of
+from symgen.native.compiler import COMPILER, by_numba, compiler, interpreted
+from symgen.native.machine import load, lock, processor
+from symgen.store import private
+from symgen.store.identity import digest, file_digest, source_stamp, sources_digest
+from symgen.store.paths import cache_location
+from symgen.store.stats import Clock
+from symgen.store.upkeep import NATIVE
 
-__all__ = ["attach", "cache_stats", "internals_changed", "jit"]
+if TYPE_CHECKING:
+    from symgen.native.read import Kind
 
-
-_DEFAULTS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
+__all__ = ["Entry", "MachineFunction", "RuntimeFunction", "jit", "made", "syntax_tree"]
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
+_FORMAT = "3"
+#: Types of the arguments of a function.
+Arguments = tuple[types.Kind, ...]
+_NUMBERS = {"float": types.float64, "int": types.int64, "bool": types.boolean}
 
 
-def jit(*signatures: Any, **options: Any) -> Callable[[_Function], _Function]:
-    """Compile a function with Numba when it is first called, through the cache.
+class Entry(NamedTuple):
+    """Machine code in the cache: type of the result, functions called with types of their arguments, object file."""
 
-    With signatures, exactly these are compiled, all at the first call, and any other arguments are a TypeError; this is
-    what a loop with first-class functions needs (a parameter of type ``FunctionType`` takes any compiled function of
-    its signature). Without, each new combination of argument types is compiled when it occurs. Importing a module
-    compiles nothing in either case.
+    returned: str
+    called: tuple[tuple[str, tuple[Kind, ...]], ...]
+    code: bytes
+
+
+class Code(NamedTuple):
+    """Machine code in memory."""
+
+    address: int
+    signature: types.Signature
+
+
+class MachineFunction(ABC):
+    """A function that has machine code once it is called, or its address wanted.
 
     Parameters
     ----------
-    *signatures : Signature or str
-        As for `numba.njit`; none for compilation by the types of the arguments.
-    **options : Any
-        As for `numba.njit`; by default ``nogil=True, error_model="numpy", fastmath={"contract"}``, where contraction
-        to fused multiply-add is the only liberty taken with floating-point arithmetic.
+    function : function
+        The Python function.
+    inlined : bool
+        Whether compiled code that calls it has its statements instead.
+    contracted : bool
+        Whether multiplication and addition may be fused.
+
+    Attributes
+    ----------
+    py_func : function
+        The Python function.
+    """
+
+    __name__: str
+    __qualname__: str
+
+    def __init__(self, function: Any, inlined: bool = False, contracted: bool = True) -> None:
+        self.py_func, self.inlined, self.contracted = function, inlined, contracted
+        functools.update_wrapper(self, function, updated=())
+        self._codes = dict[Arguments, Code]()
+        self._callers = dict[Arguments, Callable[..., Any]]()
+
+    @abstractmethod
+    def tree(self) -> ast.FunctionDef | None:
+        """Return the syntax tree of the function, None where its source cannot be had."""
+
+    @abstractmethod
+    def identity(self) -> str:
+        """Return the sources and options that machine code depends on."""
+
+    @abstractmethod
+    def made(self, arguments: Arguments, symbol: str) -> Entry:
+        """Return machine code, made from the source with everything in memory that it calls.
+
+        Raises
+        ------
+        Foreign
+            If the function is outside the language.
+        """
+
+    def code(self, arguments: Arguments) -> Code:
+        """Return the machine code for arguments of some types.
+
+        Raises
+        ------
+        InputError
+            If the function is outside the language.
+        """
+        if arguments not in self._codes:
+            with lock:
+                if arguments not in self._codes:
+                    self._codes[arguments] = self._loaded(arguments)
+        return self._codes[arguments]
+
+    def address(self, signature: types.Signature) -> int:
+        """Return the address of the machine code."""
+        return self.code(signature.arguments).address
+
+    def caller(self, arguments: Arguments) -> Callable[..., Any]:
+        """Return a function that calls the machine code with arguments of some types."""
+        if arguments not in self._callers:
+            self._callers[arguments] = caller(*self.code(arguments))
+        return self._callers[arguments]
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Call the machine code for the types of the arguments."""
+        return self.caller(tuple(map(kind_of, arguments)))(*arguments)
+
+    def __reduce__(self) -> str:
+        return str(self.__qualname__)  # pickled by name, as functions are: another process compiles or loads its own
+
+    def key(self, arguments: Arguments) -> str:
+        """Return all that the machine code for arguments of some types depends on."""
+        return "\n".join((self.identity(), repr(arguments), processor(), _environment(), sources_digest("native")))
+
+    def symbol(self, arguments: Arguments) -> str:
+        """Return the name in machine code, which holds a digest of all that the machine code depends on."""
+        name = f"{self.__name__}_{digest(self.key(arguments))[:32]}"
+        return f"_ZN6symgen{len(name)}{name}E"  # as of a function in a namespace
+
+    def _loaded(self, arguments: Arguments) -> Code:
+        """Put machine code into memory, from the cache or made anew."""
+        from symgen.native.read import Foreign
+
+        symbol, key, location = self.symbol(arguments), self.key(arguments), cache_location()
+        name = f"{plain_name(self.__qualname__, 60)}-{digest(key)[:32]}{private.SUFFIX}"
+        path = location.path / NATIVE / plain_name(self.__module__, 100) / name
+        with Clock() as clock:
+            entry = self._kept(path, key) if location.persistent else None
+            clock.loaded = entry is not None
+            if entry is None:
+                try:
+                    with uncollected():
+                        entry = self.made(arguments, symbol)
+                except Foreign as foreign:
+                    own = f"the function '{self.__module__}.{self.__name__}'"
+                    expected = "the language of compiled functions"
+                    raise InputError(own, expected, str(foreign), f"{COMPILER}=numba compiles it") from foreign
+                if location.persistent:
+                    private.write(path, key, marshal.dumps(tuple(entry)))
+            address = load(entry.code, (symbol,))[symbol]
+        if not clock.loaded and compiler() == "explain":
+            print(f"{self.__module__}.{self.__name__} compiled in {clock.seconds:.3f} s", file=sys.stderr)
+        return Code(address, types.Signature(_NUMBERS[entry.returned], arguments))
+
+    def _kept(self, path: Path, key: str) -> Entry | None:
+        """Return the content of the cache, with everything in memory that it calls."""
+        data = private.read(path, key)
+        if data is None:
+            return None
+        entry = Entry(*marshal.loads(data))
+        for name, kinds in entry.called:
+            self.py_func.__globals__[name].code(arguments_of(kinds))
+        return entry
+
+
+class RuntimeFunction(MachineFunction):
+    """A function of the runtime: a loop, or a part that loops call.
+
+    Parameters
+    ----------
+    function, inlined, contracted
+        As for `MachineFunction`.
+    signature : Signature, optional
+        Types of a loop; by default they are those of the arguments it is called with.
+    once : bool
+        Whether it is called about once a run: then it is compiled in less time, without operations in vectors.
+    """
+
+    def __init__(
+        self,
+        function: Any,
+        inlined: bool = False,
+        contracted: bool = True,
+        signature: types.Signature | None = None,
+        once: bool = False,
+    ) -> None:
+        super().__init__(function, inlined, contracted)
+        self.signature, self._once = signature, once
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Call the machine code."""
+        if by_numba():
+            return self.by_numba(*arguments)
+        if self.signature is None:
+            return super().__call__(*arguments)
+        return self.entry(*arguments)
+
+    @functools.cached_property
+    def entry(self) -> Callable[..., Any]:
+        """The machine code of a loop, called with arguments of its signature."""
+        assert self.signature is not None, "a loop has a signature"
+        return self.caller(self.signature.arguments)
+
+    @property
+    def by_numba(self) -> Any:
+        """The function as Numba compiles it."""
+        from symgen.native.judge import dispatcher
+
+        own = () if self.signature is None else (self.signature,)
+        return dispatcher(self.py_func, self.inlined, self.contracted, *own)
+
+    @property
+    def _numba_type_(self) -> Any:
+        """Type for functions that Numba compiles and that call this one."""
+        from numba.core.types import Dispatcher
+
+        return Dispatcher(self.by_numba)
+
+    def tree(self) -> ast.FunctionDef | None:
+        """Return the syntax tree of the function, None where its source cannot be had."""
+        try:
+            return syntax_tree(_lines(self.py_func.__code__.co_filename), self.py_func)
+        except (OSError, ValueError):
+            return None
+
+    def identity(self) -> str:
+        """Return the sources and options that machine code depends on."""
+        function = self.py_func
+        meanings = (f"{name} {_meaning(function.__globals__.get(name))}" for name in function.__code__.co_names)
+        options = f"{self.contracted} {self._once}"
+        return "\n".join((f"{self.__module__}.{self.__qualname__}", options, *meanings, source_stamp(function)))
+
+    def made(self, arguments: Arguments, symbol: str) -> Entry:
+        """Return machine code, made from the source."""
+        from symgen.native.loops import read_loop
+        from symgen.native.loops_llvm import loop_module
+        from symgen.native.machine import compiled
+
+        function = read_loop(self, arguments)
+        code = compiled(loop_module(function, symbol), symbol, vectors=not self._once)
+        return Entry(function.returned, (), code)
+
+
+def jit(
+    signature: types.Signature | None = None, *, once: bool = False, contracted: bool = True
+) -> Callable[[_Function], _Function]:
+    """Return a decorator that compiles a function of the runtime when it is first called, through the cache.
+
+    Parameters
+    ----------
+    signature : Signature, optional
+        Types of a loop, which is called from Python; without, the function is one that loops call.
+    once : bool
+        Whether the function is called about once a run: then it is compiled in less time.
+    contracted : bool
+        Whether multiplication and addition may be fused.
 
     Returns
     -------
-    Callable
-        A decorator; it returns a Numba dispatcher, or the plain function under ``NUMBA_DISABLE_JIT=1``.
+    callable
+        Returns a `RuntimeFunction`, or the plain function under ``NUMBA_DISABLE_JIT=1``.
 
     Examples
     --------
+    >>> from symgen.native.types import float64
     >>> from symgen.store.jit import jit
-    >>> @jit("float64(float64)")
+    >>> @jit(float64(float64))
     ... def double(x):
     ...     return 2.0 * x
     >>> double(2)
@@ -67,159 +290,119 @@ def jit(*signatures: Any, **options: Any) -> Callable[[_Function], _Function]:
     """
 
     def decorate(function: _Function) -> _Function:
-        compiled: _Function = _decorate(function, signatures, options)
-        return compiled
+        if interpreted():
+            return function
+        compiled: Any = RuntimeFunction(function, contracted=contracted, signature=signature, once=once)
+        return cast("_Function", compiled)
 
     return decorate
 
 
-def attach(dispatcher: Any, stamp: str | None = None) -> None:
-    """Give a Numba function the crash-safe cache; must happen before it is first compiled.
+def made(text: str, symbol: str) -> bytes:
+    """Return the object file of a module in LLVM's language, from the cache or made anew.
 
     Parameters
     ----------
-    dispatcher : Dispatcher
-        Made by ``numba.njit`` without ``cache=True``. Anything else, such as a plain function under
-        ``NUMBA_DISABLE_JIT=1``, is left alone.
-    stamp : str, optional
-        Digest of all sources the function depends on; by default that of symgen's runtime and of the function's file.
+    text : str
+        The module; everything of it that matters on this processor.
+    symbol : str
+        Its function.
     """
-    if not isinstance(dispatcher, CPUDispatcher) or unusable():
-        return
-    function = dispatcher.py_func
-    try:
-        # a stamp that is given covers the function's text, so its place there says which one it is
-        own = f"{function.__qualname__} {function.__code__.co_firstlineno}" if stamp else describe_function(function)
-        stamp = stamp or source_stamp(function)
-        identity = digest(stamp, own, describe(dict(dispatcher.targetoptions)))
-    except (NotDescribable, OSError, ValueError):  # an empty closure cell is a ValueError
-        return
-    _name(function, identity)
-    listen()
-    dispatcher._cache = MachineCode(function, stamp, identity)
+    from symgen.native.machine import compiled
+
+    key = "\n".join((text, processor(), _environment()))
+    place = cache_location()
+    path = place.path / NATIVE / plain_name(symbol.rpartition(".")[0], 100) / f"{digest(key)[:32]}{private.SUFFIX}"
+    kept = private.read(path, key)
+    if kept is None:
+        kept = compiled(text, symbol)
+        if place.persistent:
+            private.write(path, key, kept)
+    return kept
 
 
-def internals_changed() -> list[str]:
-    """Return a sentence for each internal of Numba that is not as this module needs it; empty if all is well."""
-    problems = []
-    for owner, name, parameters in _INTERNALS:
-        found = getattr(owner, name, None)
-        if found is None:
-            problems.append(f"{owner.__name__} has no '{name}' any more")
-        elif parameters is not None and list(inspect.signature(found).parameters) != parameters:
-            problems.append(
-                f"{owner.__name__}.{name} should take ({', '.join(parameters)}), but takes {inspect.signature(found)}"
-            )
-    abstract: frozenset[str] = getattr(_Cache, "__abstractmethods__", frozenset())
-    if abstract != (wanted := {"cache_path", "load_overload", "save_overload", "enable", "disable", "flush"}):
-        problems.append(f"numba's _Cache should ask for {sorted(wanted)}, but asks for {sorted(abstract)}")
-    return problems
+def arguments_of(kinds: tuple[Kind, ...]) -> Arguments:
+    """Return arguments in types of the language of emitted functions as types of compiled functions."""
+    numbers = {**_NUMBERS, "unsigned": types.uint32}
+    return tuple(types.Array(numbers[kind], 1) if array else numbers[kind] for kind, array in kinds)
 
 
-# What is used of Numba beyond its documented interface: owner, name, parameters (None: only its presence matters).
-_INTERNALS: tuple[tuple[Any, str, list[str] | None], ...] = (
-    (CompileResult, "_reduce", ["self"]),
-    (
-        CompileResult,
-        "_rebuild",
-        [
-            *("target_context", "libdata", "fndesc", "env", "signature", "objectmode"),
-            *("lifted", "typeann", "reload_init", "referenced_envs"),
-        ],
-    ),
-    (CompileResult, "codegen", None),
-    (CPUDispatcher, "compile", ["self", "sig"]),
-    (CPUDispatcher, "add_overload", ["self", "cres"]),
-    (CPUDispatcher, "get_call_template", ["self", "args", "kws"]),
-    (CPUDispatcher, "get_compile_result", ["self", "sig"]),
-    (CPUDispatcher, "_search_new_conversions", ["self", "args", "kws"]),
-    (CPUDispatcher, "_can_compile", None),
-    (sigutils, "normalize_signature", ["sig"]),
-    (event, "register", ["kind", "listener"]),
-    (type(rtsys), "initialize", ["self", "ctx"]),
-)
+def kinds_of(arguments: Arguments) -> tuple[Kind, ...]:
+    """Return types of arguments in the language of emitted functions.
+
+    Raises
+    ------
+    InputError
+        If the language has no such type.
+    """
+    names = {number: name for name, number in _NUMBERS.items()} | {types.uint32: "unsigned"}
+    found: list[Any] = []
+    for kind in arguments:
+        array = isinstance(kind, types.Array)
+        number = kind.dtype if isinstance(kind, types.Array) else kind
+        if number not in names or (isinstance(kind, types.Array) and kind.ndim != 1):
+            raise InputError("arguments of an emitted function", "numbers and arrays of one dimension", repr(kind))
+        found.append((names[number], array))
+    return tuple(found)
 
 
 @functools.cache
-def unusable() -> bool:
-    """Without the internals everything still works, only uncached."""
-    return bool(internals_changed())
+def _environment() -> str:
+    """Return everything outside a function that its machine code depends on, apart from the processor."""
+    return "\n".join((_FORMAT, llvmlite.__version__))
 
 
-def _decorate(function: Any, signatures: tuple[Any, ...], options: dict[str, Any]) -> Any:
-    eager = numba.njit(**{**_DEFAULTS, **options})(function)
-    if not isinstance(eager, CPUDispatcher):  # NUMBA_DISABLE_JIT=1
-        return eager
-    attach(eager)
-    return LazySignatures.of(eager, signatures) if signatures else eager
+def plain_name(name: str, length: int) -> str:
+    """Return the end of a name with characters that file systems know."""
+    return re.sub(r"[^\w.-]", "_", name)[-length:]
 
 
-class LazySignatures(CPUDispatcher):  # type: ignore[misc]  # Numba has no types
-    """A dispatcher for given signatures only, which are compiled when it is first called or asked for them.
+def _meaning(value: Any) -> str:
+    """Return the meaning of a global name: which function it is, or the number."""
+    function = getattr(value, "py_func", value)
+    named = hasattr(function, "__qualname__")
+    return f"{function.__module__}.{function.__qualname__}" if named else repr(value) if _is_plain(value) else ""
 
-    The compiled code is made by an ordinary dispatcher and then entered here. Compilation stays switched off in this
-    one all the time, so that a call from another thread meanwhile cannot compile for the types of its arguments.
+
+def _is_plain(value: Any) -> bool:
+    return isinstance(value, bool | int | float | str | None)
+
+
+@contextlib.contextmanager
+def uncollected() -> Iterator[None]:
+    """Look for no garbage where many objects are made, of which none is garbage."""
+    collecting = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if collecting:
+            gc.enable()
+
+
+def syntax_tree(lines: Sequence[str], function: Any) -> ast.FunctionDef | None:
+    """Return the syntax tree of a function that begins at a line's first column, None where there is none.
+
+    Parameters
+    ----------
+    lines : sequence of str
+        Of its file.
+    function : function
+        As it was loaded from there.
     """
-
-    _eager: Any
-    _signatures: tuple[Any, ...]
-    _ready: bool
-    _busy: bool
-
-    @classmethod
-    def of(cls, eager: Any, signatures: tuple[Any, ...]) -> LazySignatures:
-        self = cls(eager.py_func, targetoptions=eager.targetoptions)
-        self._eager, self._signatures, self._ready, self._busy = eager, signatures, False, False
-        self._can_compile = False
-        return self
-
-    def open(self) -> bool:
-        """Compile or load the signatures if that has not happened; True if a failed look-up is worth repeating."""
-        if self._ready:
-            return False
-        with global_compiler_lock:
-            if self._ready or self._busy:  # another thread was faster, or the function calls itself
-                return self._ready
-            self._busy = True
-            try:
-                for signature in self._signatures:
-                    self._eager.compile(signature)
-                for result in self._eager.overloads.values():
-                    self.add_overload(result)
-                self._ready = True
-            finally:
-                self._busy = False
-        return True
-
-    # The C part asks this when no compiled signature fits and compilation is off: the first call always ends here.
-    def _search_new_conversions(self, *args: Any, **kws: Any) -> bool:
-        opened = self.open()
-        return bool(super()._search_new_conversions(*args, **kws)) or opened
-
-    def __reduce__(self) -> str:
-        return str(self.__qualname__)  # pickled by name, as functions are: another process compiles or loads its own
-
-    def get_call_template(self, args: Any, kws: Any) -> Any:
-        """Answer the type inference of a caller that is being compiled."""
-        self.open()
-        return super().get_call_template(args, kws)
-
-    def get_compile_result(self, sig: Any) -> Any:
-        """Answer a ``FunctionType`` parameter that is given this function."""
-        self.open()
-        return super().get_compile_result(sig)
+    first = function.__code__.co_firstlineno - 1  # of its decorators, if there are some
+    begin = next((i for i in range(first, len(lines)) if lines[i].startswith("def ")), len(lines))
+    rest = range(begin + 1, len(lines))
+    end = next((i for i in rest if lines[i][:1].strip() and not lines[i].startswith(")")), len(lines))
+    try:
+        found = ast.parse("\n".join(lines[first:end])).body
+    except SyntaxError:
+        return None
+    return found[0] if len(found) == 1 and isinstance(found[0], ast.FunctionDef) else None
 
 
-_identities: dict[tuple[str, str], str] = {}
-
-
-def _name(function: types.FunctionType, identity: str) -> None:
-    """See to it that one name stands for one function in this process.
-
-    Symbols are named after module, qualified name, argument types and a counter that starts anew in each process. Two
-    functions of the same name, made by a factory for instance, could be cached by two processes under the same symbol,
-    and a third process might then run one for the other (`test_factory_functions_are_kept_apart`).
-    """
-    key = (function.__module__, function.__qualname__)
-    if function.__closure__ or _identities.setdefault(key, identity) != identity:
-        function.__qualname__ += f".{identity[:16]}"
+@functools.lru_cache(maxsize=64)
+def _lines(file: str) -> tuple[str, ...]:
+    """Return the lines of a file, none of one that has been edited since it was loaded."""
+    content = Path(file).read_bytes()
+    return tuple(content.decode().split("\n")) if digest(content) == file_digest(file) else ()

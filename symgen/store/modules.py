@@ -1,13 +1,13 @@
-"""Emitted modules as Python modules: found by path, named by their folder, with the crash-safe cache attached.
+"""Emitted modules as Python modules: found by path, named by their folder, their functions compiled through the cache.
 
-The name is what Numba writes into machine code, so it is the same in every process:
-``symgen_generated.<folder>.<stem>``. The package exists in memory only; an emitted module may import its siblings
-(``from .model import geometry``), and these are loaded from the same folder first. What counts is content: nothing here
-looks at a file's time, and no byte code is written beside the modules.
+The name is the same in every process: ``symgen_generated.<folder>.<stem>``. The package exists in memory only; an
+emitted module may import its siblings (``from .model import geometry``), and these are loaded from the same folder
+first. Content alone counts: nothing here looks at a file's time, and no byte code is written beside the modules.
 """
 
 from __future__ import annotations
 
+import builtins
 import dis
 import hashlib
 import importlib.util
@@ -24,6 +24,7 @@ from typing import Any
 
 from symgen.errors import InputError
 from symgen.store import private
+from symgen.store.emitted import EmittedFunction, Origin, imported
 from symgen.store.paths import cache_location
 from symgen.store.upkeep import BYTECODE
 
@@ -199,8 +200,8 @@ def _execute(name: str, source: _Source, stamp: str) -> ModuleType:
     module.__package__ = package
     module.__spec__ = ModuleSpec(name, None, origin=str(source.path))
     setattr(module, _STAMP, stamp)
-    # Before it is executed: Numba looks the module up by name when it takes compiled code from the cache.
     sys.modules[name] = module
+    module.__dict__["__builtins__"] = {**vars(builtins), "__import__": imported}
     try:
         exec(source.code, module.__dict__)
     except BaseException:
@@ -212,13 +213,9 @@ def _execute(name: str, source: _Source, stamp: str) -> ModuleType:
 
 
 def _attach(module: ModuleType, stamp: str, source: _Source) -> None:
-    own = [value for value in vars(module).values() if getattr(value, "py_func", None) is not None]
-    if own:
-        from symgen.store.emitted import EmittedFunction, Origin
-
-        for value in own:
-            if value.py_func.__module__ == module.__name__:
-                EmittedFunction.of(value, Origin(stamp, source.content))
+    for value in vars(module).values():
+        if isinstance(value, EmittedFunction) and value.py_func.__module__ == module.__name__:
+            value.origin = Origin(stamp, source.content)
 
 
 def interpreted(function: Any) -> Any:

@@ -1,30 +1,28 @@
-"""How often compiled code was found in the cache, and what compiling and loading cost."""
+"""How often compiled code was in the cache, and what compiling and loading cost."""
 
 from __future__ import annotations
 
-from typing import TypedDict
+import threading
+import time
+from typing import ClassVar, Self, TypedDict
 
 
 class CacheStats(TypedDict):
     """Counters of this process since it started; take the difference of two for one run.
 
-    `compile_seconds` holds translation by Numba, writing to the cache, and waiting for another process that does both,
-    `load_seconds` reading from it. Functions that are compiled or loaded while another one is being compiled are
-    counted in `hits` and `misses`, and their seconds belong to the outer one, so no second is counted twice. Of the
-    functions of emitted modules, `translated` counts those whose machine code was made from their source, `foreign`
-    those that were left to Numba (`symgen.store.emitted`).
+    `compile_seconds` holds translation and writing to the cache, `load_seconds` reading from it. Functions that are
+    compiled or loaded while another one is being compiled are counted in `hits` and `misses`, and their seconds belong
+    to the outer one, so no second is counted twice.
     """
 
     hits: int
     misses: int
-    translated: int
-    foreign: int
     compile_seconds: float
     load_seconds: float
 
 
-# One for the process: written only under Numba's compiler lock.
-counters = CacheStats(hits=0, misses=0, translated=0, foreign=0, compile_seconds=0.0, load_seconds=0.0)
+# One for the process: written only by the thread that compiles.
+counters = CacheStats(hits=0, misses=0, compile_seconds=0.0, load_seconds=0.0)
 
 
 def cache_stats() -> CacheStats:
@@ -35,3 +33,33 @@ def cache_stats() -> CacheStats:
 def seconds_in_cache() -> float:
     """Return the seconds that this process has spent compiling or loading compiled code."""
     return counters["compile_seconds"] + counters["load_seconds"]
+
+
+class Clock:
+    """Counts one function that is compiled or loaded, and adds the time unless an outer clock is running.
+
+    Attributes
+    ----------
+    loaded : bool
+        Set inside where the cache had the function.
+    seconds : float
+        Time spent inside, known at the end.
+    """
+
+    _here: ClassVar[threading.local] = threading.local()
+    loaded = False
+    seconds = 0.0
+
+    def __enter__(self) -> Self:
+        self._outermost = not getattr(self._here, "running", False)
+        self._here.running = True
+        self._started = time.perf_counter()
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *error: object) -> None:
+        self.seconds = time.perf_counter() - self._started
+        if kind is None:
+            counters["hits" if self.loaded else "misses"] += 1
+        if self._outermost:
+            self._here.running = False
+            counters["load_seconds" if self.loaded else "compile_seconds"] += self.seconds

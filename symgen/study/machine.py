@@ -9,7 +9,7 @@ from pathlib import Path
 from symgen.memory import processors
 
 #: Libraries whose versions matter for run times and last digits.
-LIBRARIES = ("numpy", "numba", "sympy", "scipy")
+LIBRARIES = ("numpy", "llvmlite", "numba", "sympy", "scipy")
 
 
 def processor() -> str:

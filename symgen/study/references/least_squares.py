@@ -1,6 +1,7 @@
 """The shortest of the best solutions of few linear equations, compiled: by Householder, or by Jacobi where rows depend.
 
 Written out number by number: Numba takes longer for NumPy's `qr` and `lstsq` than for all else of a reference motion.
+References are compiled by Numba, not by the compiler of the runs that they judge.
 """
 
 from __future__ import annotations
@@ -8,20 +9,20 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numba
 import numpy as np
 
-from symgen.store.jit import jit
 from symgen.study.references.independent import CUTOFF
 
-#: Signature of what takes a matrix, its right side and room for the solution.
-_EQUATIONS = "(float64[:, ::1], float64[::1], float64[::1])"
+#: Decorator of functions of references.
+compiled = numba.njit(nogil=True, error_model="numpy", fastmath={"contract"})
 #: Rows depend on each other where the smallest diagonal entry of the factor is below this share of the largest.
 DEPENDENT = 1e-7
 #: Rows are at right angles where their cosine is below this; after so many rounds what is left is rounding.
 RIGHT, ROUNDS = 1e-15, 40
 
 
-@jit(f"boolean{_EQUATIONS}")
+@compiled  # type: ignore[untyped-decorator]  # Numba is untyped
 def _by_reflections(a: Any, b: Any, x: Any) -> bool:
     """Set x to the shortest solution of A x = b by Householder's reflections of the rows of A, which are overwritten.
 
@@ -70,7 +71,7 @@ def _by_reflections(a: Any, b: Any, x: Any) -> bool:
     return True
 
 
-@jit(f"void{_EQUATIONS}")
+@compiled  # type: ignore[untyped-decorator]  # Numba is untyped
 def _by_rotations(a: Any, b: Any, x: Any) -> None:
     """Set x to the shortest of the best solutions of A x = b by Hestenes' rotations of rows; overwrites A and b.
 
@@ -112,7 +113,7 @@ def _by_rotations(a: Any, b: Any, x: Any) -> None:
                 x[j] += b[i] / squares[i] * a[i, j]
 
 
-@jit(f"void{_EQUATIONS}")
+@compiled  # type: ignore[untyped-decorator]  # Numba is untyped
 def shortest(a: Any, b: Any, x: Any) -> None:
     """Set x to the shortest of those for which A x is nearest to b.
 

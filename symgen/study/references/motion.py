@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -25,10 +25,9 @@ from numpy.typing import NDArray
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import SimulationError
 from symgen.result.points import Points
-from symgen.store.jit import jit
 from symgen.study.references.curves import curves
 from symgen.study.references.independent import CUTOFF, IndependentEquations
-from symgen.study.references.least_squares import shortest
+from symgen.study.references.least_squares import compiled, shortest
 from symgen.study.references.parts import Advance, by_outputs, in_parts, longest_of
 from symgen.study.references.reference import Reference
 from symgen.study.references.stiff import OverBudgetError, by_radau, is_stiff
@@ -54,6 +53,8 @@ BUDGET, FEW, DEPENDENT = 3_000_000, 9, 20
 _F8, _A, _I8, _I = types.float64, types.float64[::1], types.int64, types.int64[::1]
 #: equations(t, q, v, p, out).
 EQUATIONS = types.FunctionType(types.int64(_F8, _A, _A, _A, _A))
+_RATE = types.void(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _A)
+_EXTRAPOLATE = types.int64(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _F8, _F8, _A, _A, _I8, _I)
 
 
 class CompiledEquations(IndependentEquations):
@@ -91,7 +92,7 @@ class CompiledEquations(IndependentEquations):
     def rate(self, t: float, y: Array) -> Array:
         """Return (v, v'), as `IndependentEquations.rate` does."""
         found = np.empty(2 * self.n)
-        _rate(
+        _for_all(_rate, _RATE)(
             self._function,
             self._index,
             self.m,
@@ -133,7 +134,7 @@ class CompiledEquations(IndependentEquations):
             If the step collapses or the budget is used up.
         """
         y = y.copy()
-        code = _extrapolate(
+        code = _for_all(_extrapolate, _EXTRAPOLATE)(
             *(self._function, self._index, self.m, self.n, self.mass, self.values, t, y, until, rtol, scale, state),
             *(self.budget, used),
         )
@@ -168,7 +169,7 @@ class CompiledEquations(IndependentEquations):
         return function
 
 
-@jit(types.void(types.Array(_F8, 2, "C"), _A, _A, _A, _A))
+@compiled  # type: ignore[untyped-decorator]  # Numba is untyped
 def _by_gauss(d: Any, gamma: Any, f: Any, mass: Any, found: Any) -> None:
     """Set `found` to the v' of D v' = gamma that is nearest to M^-1 f in the metric of M."""
     m, n = d.shape
@@ -195,7 +196,7 @@ def _by_gauss(d: Any, gamma: Any, f: Any, mass: Any, found: Any) -> None:
         found[j] = root[j] * free[j]
 
 
-@jit(types.void(types.Array(_F8, 2, "C"), _A, _A, _A, _A))
+@compiled  # type: ignore[untyped-decorator]  # Numba is untyped
 def _with_multipliers(d: Any, gamma: Any, f: Any, mass: Any, found: Any) -> None:
     """Set `found` to the v' of M v' + D^T l = f and D v' = gamma."""
     m, n = d.shape
@@ -220,7 +221,7 @@ def _with_multipliers(d: Any, gamma: Any, f: Any, mass: Any, found: Any) -> None
         found[j] = solution[j] if finite else math.nan
 
 
-@jit(types.void(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _A))
+@compiled  # type: ignore[untyped-decorator]  # Numba is untyped
 def _rate(function: Any, index: Any, m: int, n: int, mass: Any, p: Any, t: float, y: Any, rate: Any) -> None:
     """Set ``rate`` to (v, v'), v' by least squares in the metric of M, or with multipliers where M has no inverse."""
     k = index.shape[0] // 2
@@ -240,7 +241,7 @@ def _rate(function: Any, index: Any, m: int, n: int, mass: Any, p: Any, t: float
         _with_multipliers(d, gamma, f, mass, rate[n:])
 
 
-@jit(types.int64(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _F8, _F8, _A, _A, _I8, _I))
+@compiled  # type: ignore[untyped-decorator]  # Numba is untyped
 def _extrapolate(
     function: Any,
     index: Any,
@@ -307,6 +308,12 @@ def _extrapolate(
             return 2
     state[0] = step
     return 0
+
+
+@cache
+def _for_all(function: Any, signature: Any) -> Any:
+    """Return a function compiled for equations of any mechanism, known by their address."""
+    return numba.njit(signature, nogil=True, error_model="numpy", fastmath={"contract"})(function.py_func)
 
 
 # -- a motion ----------------------------------------------------------------------------------------------------------

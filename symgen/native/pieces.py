@@ -1,0 +1,80 @@
+"""Functions of the runtime that are written in LLVM's language, such as arithmetic in vectors.
+
+A `Piece` stands in a loop like any function. Machine code has a function that LLVM copies into its caller, written with
+llvmlite when a loop is compiled; plain Python, Numba and CUDA have the plain form.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from symgen.native import types
+
+
+class Piece:
+    """A function in two forms.
+
+    Parameters
+    ----------
+    name : str
+        Name of the function.
+    plain : function
+        The plain form.
+    result : Number
+        Type of the result.
+    writers : str
+        Module with a function of the same name that takes a builder and the arguments, arrays as addresses, and
+        writes the instructions; empty where readers of loops know the piece themselves.
+    """
+
+    def __init__(
+        self, name: str, plain: Callable[..., Any], result: types.Number = types.void, writers: str = ""
+    ) -> None:
+        self.name, self.plain, self.result, self.writers = name, plain, result, writers
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Call the plain form."""
+        return self.plain(*arguments)
+
+    @property
+    def _numba_type_(self) -> Any:
+        """Type for Numba, which compiles the plain form."""
+        from numba.core.types import Dispatcher
+
+        from symgen.native.judge import dispatcher
+
+        return Dispatcher(dispatcher(self.plain, True))
+
+
+class Inserted(NamedTuple):
+    """A function in LLVM's language: its name, and its text."""
+
+    symbol: str
+    text: str
+
+
+@functools.cache
+def inserted(piece: Piece, kinds: tuple[types.Number | types.Array, ...]) -> Inserted:
+    """Return the function that a piece is for arguments of some types: numbers, and arrays, taken as addresses."""
+    from llvmlite import ir
+
+    numbers = {types.float64: ir.DoubleType(), types.int64: ir.IntType(64), types.boolean: ir.IntType(1)}
+    parameters = [numbers[k.dtype].as_pointer() if isinstance(k, types.Array) else numbers[k] for k in kinds]
+    symbol = f"symgen.{piece.name}." + "".join("a" * isinstance(k, types.Array) + repr(k)[0] for k in kinds)
+    module = ir.Module(symbol)
+    nothing = piece.result is types.void
+    returned = ir.VoidType() if nothing else numbers[piece.result]
+    function = ir.Function(module, ir.FunctionType(returned, parameters), symbol)
+    function.linkage = "internal"
+    function.attributes.add("alwaysinline")
+    builder = ir.IRBuilder(function.append_basic_block())
+    value = getattr(importlib.import_module(piece.writers), piece.name)(builder, *function.args)
+    if nothing:
+        builder.ret_void()
+    else:
+        builder.ret(value)
+    lines = str(module).splitlines()
+    return Inserted(symbol, "\n".join(line for line in lines if not line.startswith((";", "target "))))

@@ -1,0 +1,88 @@
+"""Types of what compiled functions take and return.
+
+`float64`, `int64`, `uint32` and `boolean` are numbers, and `void` is the result of a function without one.
+``float64[::1]`` is a contiguous array of one dimension, ``float64[:, ::1]`` one of two; ``int64(float64, int64)`` is a
+signature. The spelling is Numba's, so that emitted modules, which name these types, mean the same with both compilers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number, or nothing."""
+
+    name: str
+
+    def __getitem__(self, axes: slice | tuple[slice, ...]) -> Array:
+        return Array(self, len(axes) if isinstance(axes, tuple) else 1)
+
+    def __call__(self, *arguments: Kind) -> Signature:
+        """Return the signature of a function with this result."""
+        return Signature(self, arguments)
+
+    def __repr__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True)
+class Array:
+    """A contiguous array of numbers."""
+
+    dtype: Number
+    ndim: int
+
+    def __repr__(self) -> str:
+        return f"{self.dtype}[{':, ' * (self.ndim - 1)}::1]"
+
+
+@dataclass(frozen=True)
+class Signature:
+    """Types of a function's result and arguments."""
+
+    result: Number
+    arguments: tuple[Kind, ...]
+
+    def __repr__(self) -> str:
+        return f"{self.result}({', '.join(map(repr, self.arguments))})"
+
+
+@dataclass(frozen=True)
+class FunctionType:
+    """A compiled function as an argument, by its address."""
+
+    signature: Signature
+
+    def __repr__(self) -> str:
+        return f"&{self.signature}"
+
+
+@dataclass(frozen=True)
+class Record:
+    """A tuple, with the class of named ones."""
+
+    parts: tuple[Kind, ...]
+    made: Any = tuple
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """Names of its parts, empty where they have none."""
+        return getattr(self.made, "_fields", ())
+
+    def __iter__(self) -> Iterator[Kind]:
+        return iter(self.parts)
+
+    def __len__(self) -> int:
+        return len(self.parts)
+
+    def __repr__(self) -> str:
+        return f"{self.made.__name__}{self.parts!r}"
+
+
+Kind = Number | Array | FunctionType | Record
+
+float64, int64, uint32, boolean, void = (Number(name) for name in ("float64", "int64", "uint32", "boolean", "void"))
