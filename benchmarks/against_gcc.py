@@ -19,9 +19,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-import numba
 import numpy as np
-from numba import types
 from rich.console import Console
 from rich.table import Table
 
@@ -32,7 +30,9 @@ from symgen.formulate.formulate import formulate
 from symgen.ir.program import Block, Layout
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
+from symgen.native import types
 from symgen.runtime import abi
+from symgen.store.jit import jit
 
 FLAGS = ("-O3", "-march=native", "-ffp-contract=fast", "-fno-math-errno", "-shared", "-fPIC")
 REPEATS = 15
@@ -40,7 +40,7 @@ REPEATS = 15
 _A, _I = types.float64[::1], types.int64[::1]
 
 
-@numba.njit(types.float64(abi.RHS, _A, _A, _A, _I, _A, types.int64), error_model="numpy")  # type: ignore[untyped-decorator]  # Numba is untyped
+@jit(types.float64(abi.RHS, _A, _A, _A, _I, _A, types.int64))
 def _repeat_emitted(rhs: Any, y: Any, p: Any, w: Any, iw: Any, ydot: Any, count: int) -> float:
     for _ in range(count):
         rhs(0.0, y, p, w, iw, ydot)

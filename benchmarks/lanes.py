@@ -15,7 +15,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numba import types
 from rich.table import Table
 
 from benchmarks.show import show
@@ -23,6 +22,7 @@ from symgen.api import load
 from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.ensemble.lanes import aligned
 from symgen.ir.program import LANES, lane_bases
+from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime.bare import bare
 from symgen.runtime.lanes import LANE_FUNCTION

@@ -16,15 +16,15 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-import numba
 import numpy as np
-from numba import types
 from rich.console import Console
 from rich.table import Table
 
 from benchmarks.against_gcc import _repeat_emitted
 from symgen.api import load
+from symgen.native import types
 from symgen.runtime import abi
+from symgen.store.jit import jit
 
 MODELS = ("four-bar", "andrews", "bricard")
 INTEGRATORS = ("rk4", "dop853")
@@ -40,7 +40,7 @@ REPEATS = 200
 _A, _I = types.float64[::1], types.int64[::1]
 
 
-@numba.njit(types.int64(abi.ACCEPT, _A, _A, _A, _I, types.int64), error_model="numpy")  # type: ignore[untyped-decorator]  # Numba is untyped
+@jit(types.int64(abi.ACCEPT, _A, _A, _A, _I, types.int64))
 def _repeat_accept(accept: Any, y: Any, p: Any, w: Any, iw: Any, count: int) -> int:
     bits = 0
     for _ in range(count):
@@ -48,12 +48,12 @@ def _repeat_accept(accept: Any, y: Any, p: Any, w: Any, iw: Any, count: int) -> 
     return bits
 
 
-@numba.njit(types.int64(abi.RHS, _A, _A, _A, _A, _I, _A, types.int64), error_model="numpy")  # type: ignore[untyped-decorator]  # Numba is untyped
+@jit(types.int64(abi.RHS, _A, _A, _A, _A, _I, _A, types.int64))
 def _repeat_waiting(rhs: Any, start: Any, y: Any, p: Any, w: Any, iw: Any, ydot: Any, count: int) -> int:
     bits = 0
     for _ in range(count):
         bits |= rhs(0.0, y, p, w, iw, ydot)
-        for i in range(len(start)):
+        for i in range(start.shape[0]):
             y[i] = start[i] + 1e-300 * ydot[i]
     return bits
 

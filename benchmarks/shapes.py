@@ -31,9 +31,8 @@ PIECES = ("four-bar", "slider-crank", "andrews", "scissor-lift", "n-four-bar:40"
 
 def measure(model: str, shape: str, method: str) -> dict[str, Any]:
     """Compile a model and evaluate it often; called in a process of its own."""
-    from numba import types
-
     from symgen.api import load
+    from symgen.native import types
     from symgen.runtime import abi
     from symgen.runtime.bare import bare
     from symgen.store.jit import jit

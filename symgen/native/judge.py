@@ -33,7 +33,7 @@ def type_of(kind: types.Kind) -> Any:
     if isinstance(kind, types.FunctionType):
         return numba.types.FunctionType(signature_of(kind.signature))
     parts = tuple(map(type_of, kind))
-    return numba.types.NamedTuple(parts, kind.made) if kind.fields else numba.types.Tuple(parts)
+    return numba.types.BaseTuple.from_types(parts, kind.made if kind.fields else None)
 
 
 @functools.cache

@@ -1,4 +1,4 @@
-"""Whether functions made from their source are those that Numba compiles; run apart, on a processor named to Numba.
+"""Whether emitted functions compiled here are those that Numba compiles; run apart, on a processor that is named.
 
 python -m native.judge four-bar direct-correction
 python -m native.judge four-bar direct-correction --lanes
@@ -73,28 +73,21 @@ def judged(folder: Path, model: str, methods: tuple[str, ...], lanes: bool = Fal
 
 def judged_in_lanes(folder: Path, stems: list[str]) -> list[str]:
     """Return what differs in the functions that loops over lanes call; all others stand in them."""
-    found = []
+    found, names = [], set[str]()
     for stem in stems:
         direct, plain = load_twice(folder / f"{stem}.py")
         for name in {"rhs", "accept"} & set(own_functions(direct)):
+            names.add(name)
             size = LANES * direct.NUMBERS
             found += [
                 f"{stem}: {d}" for d in differences(getattr(direct, name), getattr(plain, name), (NUMBER, ARRAY), size)
             ]
+    assert len(names) == 2, "nothing was judged"
     return found
 
 
-def of_file(path: Path) -> list[str]:
-    """Return what differs in function ``f`` of a module."""
-    direct, plain = load_twice(path)
-    return differences(direct.f, plain.f, arguments_of(direct.f), 64, rounds=8)
-
-
 if __name__ == "__main__":
-    if sys.argv[1].endswith(".py"):
-        print(*of_file(Path(sys.argv[1])), sep="\n")
-    else:
-        with tempfile.TemporaryDirectory() as made:
-            lanes = "--lanes" in sys.argv
-            methods = tuple(word for word in sys.argv[2:] if word != "--lanes")
-            print(*judged(Path(made), sys.argv[1], methods, lanes), sep="\n")
+    with tempfile.TemporaryDirectory() as made:
+        lanes = "--lanes" in sys.argv
+        methods = tuple(word for word in sys.argv[2:] if word != "--lanes")
+        print(*judged(Path(made), sys.argv[1], methods, lanes), sep="\n")

@@ -1,39 +1,36 @@
-"""Short runs to the last bit; run apart, on a processor named to Numba, by the compiler that the environment names.
+"""Short runs, run apart, by the compiler that the environment names: what they give, and whether Numba was imported.
 
-python -m native.loops pendulum lagrange rk4 four-bar ggl radau5
+python -m native.loops straight pendulum lagrange rk4 four-bar ggl radau5
 """
 
 from __future__ import annotations
 
-import hashlib
+import json
 import sys
+from typing import Any
 
 import numpy as np
+from support.emitted import mechanism_of
+from support.models import EVERYTHING, ROUGH
 
-from symgen.api import Model, load
-from symgen.native.library import Library
+from symgen.api import load
+
+OWN = {"everything": EVERYTHING, "rough": ROUGH}
 
 
-def digest_of(model: Model, method: str, integrator: str, **changes: object) -> str:
-    """Return what a run gives, and what made its loop."""
-    result = model.simulate(method=method, integrator=integrator, until=0.5, output_step=0.07, **changes)
-    arrays = (result.t, result.q.values, result.v.values, result.kinetic, result.smallest_pivot)
-    counts = (result.steps, result.rejected, result.evaluations, result.iterations)
-    found = hashlib.sha256(b"".join(np.asarray(a).tobytes() for a in (*arrays, counts)))
+def run(model: str, method: str, integrator: str, shape: str) -> dict[str, Any]:
+    """Return the numbers of a run of a model of the tests or of the catalogue."""
+    subject = load(mechanism_of(OWN[model])) if model in OWN else load(model)
+    result = subject.simulate(method=method, integrator=integrator, until=0.5, output_step=0.07, shape=shape)
     assert result.status == "ok" and result.steps > 2
-    return found.hexdigest()
-
-
-def makers() -> set[bool]:
-    """Return whether loops that were entered were made from their source."""
-    from symgen.runtime.frame import RECIPES
-
-    return {isinstance(made.library, Library) for loop in RECIPES for made in loop.overloads.values()}
+    arrays = {"t": result.t, "q": result.q.values, "v": result.v.values, "kinetic": result.kinetic}
+    return {
+        "states": {name: np.asarray(array).tolist() for name, array in arrays.items()},
+        "steps": [result.steps, result.rejected],
+    }
 
 
 if __name__ == "__main__":
-    words = sys.argv[1:]
-    for i in range(0, len(words), 3):
-        print(*words[i : i + 3], digest_of(load(words[i]), *words[i + 1 : i + 3]))
-    (from_source,) = makers()
-    print("from the source" if from_source else "by Numba", file=sys.stderr)
+    shape, *words = sys.argv[1:]
+    runs = [run(*words[i : i + 3], shape) for i in range(0, len(words), 3)]
+    print(json.dumps({"runs": runs, "numba": "numba" in sys.modules}))

@@ -8,10 +8,11 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from symgen.native import blocks, llvm, machine, spills
+from symgen.native import blocks, llvm, machine
 from symgen.store import emitted
+from symgen.store.modules import load_module
 
-from .twofold import arguments_of, differences, load_twice, machine_code, written
+from .twofold import arguments_of, differences, load_twice, uncontracted, written
 
 SYMBOL = "_ZN6symgen1fE"
 
@@ -39,8 +40,8 @@ def long_function(terms: int, seed: int = 0) -> str:
 
 def optimised(folder, text: str) -> tuple[str, str]:
     """Return the text of a function behind the optimiser, and its symbol."""
-    direct, _ = load_twice(written(folder, text))
-    function = direct.f.read((("float", True), ("float", True)))
+    direct = load_module(written(folder, text)).f
+    function = direct.read(arguments_of(direct))
     symbol = emitted._symbol(function)
     return str(machine.optimised(llvm.module(function, emitted._symbol, lambda called: True))), symbol
 
@@ -58,38 +59,33 @@ def block_lengths(text: str) -> list[int]:
     return [*lengths[1:], count]
 
 
-@pytest.mark.parametrize(
-    "left", [pytest.param(10_000, marks=pytest.mark.slow), 300], ids=["left to the compiler", "through memory"]
-)
 @pytest.mark.parametrize("terms", [600, pytest.param(3000, marks=pytest.mark.slow)])
-def test_the_same_numbers_as_in_one_block(tmp_path, monkeypatch, terms, left):
-    text = long_function(terms, terms + left)
+def test_the_same_numbers_as_in_one_block(tmp_path, monkeypatch, terms):
+    text = long_function(terms, terms)
     monkeypatch.setattr(machine, "LARGEST_BLOCK", 300)
-    monkeypatch.setattr(machine, "LARGEST_LEFT", left)
     monkeypatch.setattr(blocks, "LENGTH", 200)
-    monkeypatch.setattr(blocks, "FEW", 1.0)
     called = []
     split = blocks.split
     monkeypatch.setattr(blocks, "split", lambda *a: called.append(split(*a)) or called[-1])
-    direct, plain = load_twice(written(tmp_path / f"long{terms}_{left}", text))
-    assert differences(direct.f, plain.f, arguments_of(direct.f), terms, rounds=3) == []
+    direct, plain = load_twice(written(tmp_path / f"long{terms}", text))
+    with uncontracted():
+        assert differences(direct.f, plain.f, arguments_of(direct.f), terms, rounds=3) == []
     assert called and called[0] is not None and called[0].count("callbr") >= terms // 250
-    assert ("%.again.1 = load" in called[0]) == (left < terms)
 
 
 def test_short_functions_and_those_with_branches_stay_as_they_are(tmp_path):
     text, symbol = optimised(tmp_path / "short", long_function(100))
-    assert blocks.split(text, symbol, 10_000, 10_000) is None
-    assert blocks.split(text, "_ZN6symgen5otherE", 10, 10) is None
+    assert blocks.split(text, symbol, 10_000) is None
+    assert blocks.split(text, "_ZN6symgen5otherE", 10) is None
     branches = "def f(y, out):\n    if y[0] > 1.0:\n        out[0] = y[1]\n    out[1] = y[2]\n    return 0\n"
     text, symbol = optimised(tmp_path / "branches", branches)
-    assert blocks.split(text, symbol, 1, 1) is None
+    assert blocks.split(text, symbol, 1) is None
 
 
 def test_blocks_are_about_as_long_as_asked_for_and_read_what_they_want(tmp_path, monkeypatch):
     monkeypatch.setattr(blocks, "LENGTH", 250)
     text, symbol = optimised(tmp_path / "blocks", long_function(2000))
-    divided = blocks.split(text, symbol, 100, 10_000)
+    divided = blocks.split(text, symbol, 100)
     lengths = block_lengths(divided)
     assert len(lengths) > 8 and max(lengths) < 250 + 60 + 2 * 30  # a line with what it waits for, and all reads at once
     loads = re.findall(r"%(\.b\d+\.\S+) = load", divided)
@@ -101,7 +97,7 @@ def test_blocks_are_about_as_long_as_asked_for_and_read_what_they_want(tmp_path,
 def test_a_product_stands_in_the_block_of_the_sum_that_wants_it(tmp_path, monkeypatch):
     monkeypatch.setattr(blocks, "LENGTH", 120)
     text, symbol = optimised(tmp_path / "products", long_function(1500, 3))
-    divided = blocks.split(text, symbol, 100, 10_000)
+    divided = blocks.split(text, symbol, 100)
     names = re.compile(r"%[-\w.$]+")
     times = Counter(names.findall(divided))
     for block in re.split(r"\n(?=\.block)", divided.partition("\n}")[0]):
@@ -112,51 +108,10 @@ def test_a_product_stands_in_the_block_of_the_sum_that_wants_it(tmp_path, monkey
         assert alone <= set(used) and alone <= defined
 
 
-def test_code_in_blocks_runs_in_the_process_that_made_it(tmp_path, monkeypatch):
+def test_code_in_blocks_does_what_python_does(tmp_path, monkeypatch):
     monkeypatch.setattr(machine, "LARGEST_BLOCK", 100)
-    direct, _ = load_twice(written(tmp_path / "run", long_function(900, 7)))
-    call, from_source = machine_code(direct.f, arguments_of(direct.f))
-    out = np.zeros(900)
-    assert from_source and call(np.linspace(0.1, 2.0, 900), out) == 0
-    expected = np.zeros(900)
-    direct.f.py_func(np.linspace(0.1, 2.0, 900), expected)
+    function = load_module(written(tmp_path / "run", long_function(900, 7))).f
+    out, expected = np.zeros((2, 900))
+    assert function(np.linspace(0.1, 2.0, 900), out) == 0
+    function.py_func(np.linspace(0.1, 2.0, 900), expected)
     np.testing.assert_allclose(out, expected, rtol=1e-9)
-
-
-def test_no_more_values_are_held_than_there_are_registers(tmp_path, monkeypatch):
-    monkeypatch.setattr(blocks, "FEW", 1.0)
-    text, symbol = optimised(tmp_path / "held", long_function(2000))
-    divided = blocks.split(text, symbol, 100, 100)
-    assert alive(blocks.split(text, symbol, 100, 10_000)) > 40
-    # what one line wants beside what is held: two values that are wanted nowhere else, and the products of a sum
-    assert alive(divided) <= spills.REGISTERS + 4
-    stored = re.findall(r"store double (\S+), ptr %\.kept\.(\d+)", divided)
-    back = re.findall(r"load double, ptr %\.kept\.\d+", divided)
-    assert len({name for name, _ in stored}) == len(stored) <= len(back)
-    assert len({place for _, place in stored}) < len(stored) / 2, "places are used again"
-
-
-def test_the_compiler_is_left_alone_where_most_values_wait(tmp_path, monkeypatch):
-    text, symbol = optimised(tmp_path / "left", long_function(2000))
-    lines = [spills.Line.of(line) for line in text[text.index("define ") :].partition("\n}")[0].splitlines()[1:]]
-    most = spills.most_alive(lines) / len(lines)
-    for few, divided in ((most * 1.1, True), (most * 0.9, False)):
-        monkeypatch.setattr(blocks, "FEW", few)
-        assert ("%.kept" in blocks.split(text, symbol, 100, 100)) == divided
-
-
-def alive(text: str) -> int:
-    """Return how many floats are wanted later, at the line where most are, constants and inputs in memory aside."""
-    names = re.compile(r"%[-\w.$]+")
-    body = text[text.index("define ") :].partition("\n}")[0].splitlines()[1:]
-    floats = {names.findall(line)[0] for line in body if re.match(r"  %\S+ = (f\w+ .*|load )double", line)}
-    first, last = {}, {}
-    for i, line in enumerate(body):
-        for name in names.findall(line):
-            first.setdefault(name, i)
-            last[name] = i
-    ends = [0] * (len(body) + 1)
-    for name in floats:
-        ends[first[name]] += 1
-        ends[last[name]] -= 1
-    return int(np.cumsum(ends).max())

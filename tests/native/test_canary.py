@@ -1,50 +1,107 @@
-"""Fails with a clear sentence when a new version of Numba changed what `symgen.native` stands on."""
+"""Fails with a clear sentence where a version of llvmlite is no longer what `symgen.native` stands on."""
 
 from __future__ import annotations
 
-import numba
+import ctypes
+import inspect
+
+import llvmlite
+import llvmlite.binding as llvm
 import pytest
-from numba.core.codegen import JITCPUCodegen
-from numba.core.registry import cpu_target
+from llvmlite import ir
 
-from symgen.native import internals, machine
+from symgen.native import machine
+from symgen.runtime import vector_code
+
+CHANGED = f"llvmlite {llvmlite.__version__} changed; adapt symgen/native/machine.py: "
+#: What is used of it: owner, name, and parameters that are given.
+USED = (
+    *((llvm, name, ()) for name in ("initialize_native_target", "initialize_native_asmprinter")),
+    *((llvm, name, ()) for name in ("get_host_cpu_name", "get_host_cpu_features", "get_process_triple")),
+    (llvm, "parse_assembly", ("llvmir",)),
+    (llvm, "create_mcjit_compiler", ("module", "target_machine")),
+    (llvm, "create_pass_builder", ("tm", "pto")),
+    (llvm, "create_pipeline_tuning_options", ("speed_level",)),
+    (llvm, "create_new_module_pass_manager", ()),
+    (llvm.Target, "from_triple", ("triple",)),
+    (llvm.Target, "create_target_machine", ("cpu", "features", "opt", "reloc", "codemodel", "jit")),
+    (llvm.TargetMachine, "emit_object", ("module",)),
+    (llvm.TargetMachine, "target_data", ()),
+    (llvm.PassBuilder, "getModulePassManager", ()),
+    (llvm.ModulePassManager, "add_instruction_combine_pass", ()),
+    (llvm.ModulePassManager, "add_reassociate_pass", ()),
+    (llvm.ModulePassManager, "run", ("module", "pb")),
+    (llvm.PipelineTuningOptions, "loop_vectorization", ()),
+    (llvm.PipelineTuningOptions, "slp_vectorization", ()),
+    (llvm.ObjectFileRef, "from_data", ("data",)),
+    (llvm.ExecutionEngine, "add_object_file", ("obj_file",)),
+    (llvm.ExecutionEngine, "finalize_object", ()),
+    (llvm.ExecutionEngine, "get_function_address", ("name",)),
+)
+#: A sum of products, of which the first has no branch and the second one has.
+PLAIN = """
+define double @"symgen.canary.{name}"(double %a, double %b, ptr %c) {{
+  %x = load double, ptr %c
+  %y = fmul contract double %a, %b
+  %z = fadd contract double %y, %x
+  {end}
+  ret double %z
+}}
+"""
+BRANCH = "br label %end\nend:"
 
 
-def test_the_internals_of_numba_are_as_expected():
-    problems = internals.changed()
-    assert not problems, f"Numba {numba.__version__} changed; adapt symgen/native: " + "; ".join(problems)
+@pytest.mark.parametrize(("owner", "name", "parameters"), USED, ids=lambda x: getattr(x, "__name__", str(x)))
+def test_what_is_used_of_llvmlite_is_there(owner, name, parameters):
+    found = getattr(owner, name, None)
+    assert found is not None, f"{CHANGED}{owner.__name__} has no '{name}' any more"
+    if parameters:
+        taken = list(inspect.signature(found).parameters)
+        assert set(parameters) <= set(taken), f"{CHANGED}{owner.__name__}.{name} takes {taken}"
 
 
-def test_what_is_missing_or_takes_other_arguments_is_named(monkeypatch):
-    odd = ((JITCPUCodegen, "gone", ["self"]), (JITCPUCodegen, "magic_tuple", ["self", "more"]))
-    monkeypatch.setattr(internals, "_NEEDED", odd)
-    monkeypatch.setattr(internals, "_OF_THE_COMPILER", ("_tm", "_gone"))
-    assert internals.changed() == [
-        "JITCPUCodegen has no 'gone' any more",
-        "JITCPUCodegen.magic_tuple should take (self, more), but takes (self)",
-        "the compiler has no '_gone' any more",
-    ]
+@pytest.mark.parametrize("end", ["", BRANCH], ids=["few passes", "all passes"])
+def test_text_is_parsed_optimised_emitted_loaded_and_called(end):
+    name = f"symgen.canary.{'branch' if end else 'straight'}"
+    text = PLAIN.format(name=name.rpartition(".")[2], end=end)
+    module = machine.optimised(text)
+    assert "define double" in str(module), CHANGED + "the text of a module is no text for LLVM"
+    assert "alloca" not in str(module) and str(module).count("\nend:") == 0, CHANGED + "passes do nothing"
+    code = machine.compiled(text, name)
+    assert code == machine.compiled(text, name), CHANGED + "an object file is another one each time"
+    address = machine.load(code, [name])[name]
+    assert address, CHANGED + "what is loaded is not found by its name"
+    function = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_void_p)(address)
+    assert function(2.0, 3.0, ctypes.addressof(ctypes.c_double(4.0))) == 10.0, CHANGED + "a call gives something else"
 
 
-def test_another_calling_convention_is_seen(monkeypatch):
-    monkeypatch.setattr(internals, "_CONVENTION", "void ()")
-    (problem,) = internals.changed()
-    assert problem.startswith("functions should be called as void (), but are called as i32 (")
+def test_what_is_loaded_may_call_what_was_loaded_before():
+    inner, outer = "symgen.canary.inner", "symgen.canary.outer"
+    texts = {
+        inner: f'define i64 @"{inner}"(i64 %x) {{\n  %y = add i64 %x, 1\n  ret i64 %y\n}}\n',
+        outer: f'declare i64 @"{inner}"(i64)\n'
+        f'define i64 @"{outer}"(i64 %x) {{\n  %y = call i64 @"{inner}"(i64 %x)\n  ret i64 %y\n}}\n',
+    }
+    for name, text in texts.items():
+        address = machine.load(machine.compiled(text, name), [name])[name]
+    found = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64)(address)(41)
+    assert found == 42, CHANGED + "object files do not find each other's symbols"
 
 
-@pytest.mark.parametrize("name", ["BOUNDSCHECK", "DEBUGINFO_DEFAULT"])
-def test_nothing_is_made_from_the_source_where_numba_is_asked_to_check(monkeypatch, name):
-    monkeypatch.setattr(internals.config, name, 1)
-    assert not internals.usable.__wrapped__()
-    monkeypatch.setattr(internals.config, name, 0)
-    assert internals.usable.__wrapped__()
-
-
-def test_machine_code_is_for_the_processor_that_numba_compiles_for():
-    # The address of a function of the text, called in C's convention, is all that loading gives.
-    text = 'define i64 @"symgen.test.seven"() {\n  ret i64 7\n}\n'
-    assert cpu_target.target_context.codegen() is machine.codegen()
-    (address,) = machine.load(machine.compiled(text, "symgen.test.seven"), ["symgen.test.seven"]).values()
-    assert address > 0
+def test_what_is_no_text_for_llvm_is_refused():
     with pytest.raises(RuntimeError):
         machine.compiled("define nonsense", "f")
+
+
+def test_vectors_are_written_by_its_builder():
+    double = ir.DoubleType()
+    module = ir.Module("symgen.canary.vectors")
+    kind = ir.FunctionType(ir.IntType(1), [ir.IntType(64), double.as_pointer()])
+    function = ir.Function(module, kind, "symgen.canary.finite")
+    builder = ir.IRBuilder(function.append_basic_block())
+    builder.ret(vector_code.finite(builder, *function.args))
+    address = machine.load(machine.compiled(str(module), function.name), [function.name])[function.name]
+    call = ctypes.CFUNCTYPE(ctypes.c_bool, ctypes.c_int64, ctypes.c_void_p)(address)
+    for last, expected in ((1.0, True), (float("nan"), False)):
+        array = (ctypes.c_double * 16)(*[0.5] * 15, last)
+        assert call(16, ctypes.addressof(array)) == expected, CHANGED.replace("native/machine", "runtime/vector_code")

@@ -8,19 +8,17 @@ from types import FunctionType
 
 import numpy as np
 import pytest
-from numba import types
 
 from symgen.ir.program import LANES
 from symgen.native.language import Assign, Return, Shape
-from symgen.native.library import Library
 from symgen.native.llvm import is_copied, module
 from symgen.native.machine import optimised
 from symgen.native.read import Foreign, read
 from symgen.store.emitted import EmittedFunction
 from symgen.store.modules import load_module
 
-from .test_read import A, Dispatcher, F
-from .twofold import apart, own_functions
+from .test_read import A, F, Source
+from .twofold import ARRAY, NUMBER, apart, own_functions
 
 EMITTED = Path(__file__).parents[2] / "generated" / "four_bar"
 LAWS = ("lagrange_lanes", "baumgarte_lanes", "direct_correction_lanes")
@@ -39,11 +37,9 @@ def test_functions_over_lanes_do_what_python_does(stem):
     for name in own_functions(law) if corrected else ("rhs", "accept"):
         function = getattr(law, name)
         given = arguments(function)
-        kinds = tuple({"t": types.float64, "lanes": types.int64}.get(x, types.float64[::1]) for x in given)
         before = rng.uniform(0.5, 1.5, law.NUMBERS * LANES)
         found, expected = before.copy(), before.tolist()
         function(*({"t": 0.3, "z": found, "lanes": LANES}[x] for x in given))
-        assert isinstance(function.overloads[kinds].library, Library), f"{name} is left to Numba"
         if not (corrected and name == "accept"):  # from such a state the correction ends where rounding says
             interpreted(function)(*({"t": 0.3, "z": expected, "lanes": LANES}[x] for x in given))
             np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-11, err_msg=name)
@@ -60,8 +56,8 @@ def interpreted(function, spaces=None):
 
 def test_what_is_no_call_is_copied():
     law = load_module(EMITTED / "direct_correction_lanes.py")
-    f = law.accept.read((F, A))
-    assert f.parameters[1].sized and not f.inlined and not is_copied(f)
+    f = law.accept.read((NUMBER, ARRAY))
+    assert not f.inlined and not is_copied(f)
     blocks = {x.name: x for x in f.called}
     assert {"geometry", "measure", "spread"} <= {*blocks} and all(is_copied(x) for x in blocks.values())
     sines = {x.name: x for x in blocks["geometry"].called[0].called}
@@ -71,7 +67,7 @@ def test_what_is_no_call_is_copied():
 def test_loops_over_lanes_become_vectors():
     """Of all sums and products half at least: the others are what is left over where lanes do not fill vectors."""
     law = load_module(EMITTED / "lagrange_lanes.py")
-    f = law.rhs.read((F, A))
+    f = law.rhs.read((NUMBER, ARRAY))
     text = str(optimised(module(f, lambda x: x.name, lambda x: False)))
     found = re.findall(r"= f(?:add|sub|mul|div)\b[^<\n]*?(<\d+ x double>|double)", text)
     assert sum(x != "double" for x in found) >= len(found) / 2 > 50
@@ -82,19 +78,14 @@ def test_loops_over_lanes_become_vectors():
 PAIR = "def pair(x, a):\n    n = x*a\n    n = n + 1.0\n    return n - x, n\n"
 
 
-def pair(text: str = PAIR) -> Dispatcher:
-    made = Dispatcher(text, {"other": 3.0})
-    made.targetoptions = {"inline": "always"}
-    return made
-
-
-def of(line: str, **names: object):
-    return read(Dispatcher(f"def f(x, z):\n    {line}\n    return 0\n", names), (F, A), lambda f: getattr(f, "tree", 0))
+def of(line: str, text: str = PAIR):
+    pair = Source(text, {"other": 3.0}, inlined=True)
+    return read(Source(f"def f(x, z):\n    {line}\n    return 0\n", {"pair": pair}), (F, A))
 
 
 def test_several_values_of_a_function_that_is_no_call():
     """Its statements stand in its place, under names of their own: `n` of the caller is another one."""
-    f = of("n = 7.0; x, n = pair(x + n, 2.0); z[0] = n", pair=pair())
+    f = of("n = 7.0; x, n = pair(x + n, 2.0); z[0] = n")
     assert {"n", "x", "pair.x", "pair.a", "pair.n"} <= {*f.variables} and {*f.variables.values()} == {"float"}
     assert not f.called and all(isinstance(s, Assign) for s in f.body[:-2])
 
@@ -115,14 +106,13 @@ def test_several_values_of_a_function_that_is_no_call():
         ("a = len(b)", PAIR),
     ],
 )
-def test_what_is_left_to_numba(line, text):
+def test_what_is_outside(line, text):
     with pytest.raises(Foreign):
-        of(line, pair=pair(text))
+        of(line, text)
 
 
 def test_lengths_of_arguments():
     f = of("n = len(z) // 3")
-    assert f.parameters[1].sized
     assert f.body[0].value.arguments[0] == Shape("z") and isinstance(f.body[1], Return)
 
 

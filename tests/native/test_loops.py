@@ -1,19 +1,24 @@
-"""Loops made from their source: all of them are in the language, and they are Numba's to the last bit."""
+"""Loops compiled from their source: all of them are in the language, and they do what Numba's do."""
 
 from __future__ import annotations
 
-from importlib import import_module
+import importlib
+import json
+import sys
 
+import numpy as np
 import pytest
 
+from symgen.errors import InputError
+from symgen.native.compiler import COMPILER
 from symgen.native.loops import read_loop
+from symgen.native.types import float64
 from symgen.runtime import rows
 from symgen.runtime.hunting import with_events
 from symgen.runtime.stopping import with_stops
-from symgen.store.emitted import COMPILER
-from symgen.store.loops import _lines, definition
+from symgen.store import jit as store
 
-from .twofold import process
+from .twofold import by, process
 
 SCHEMES = {
     **dict.fromkeys(("explicit", "adams", "implicit"), ("constant", "adaptive")),
@@ -25,7 +30,7 @@ LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
 @pytest.mark.parametrize(("scheme", "name"), LOOPS)
 @pytest.mark.parametrize("events", [False, True])
 def test_every_loop_is_in_the_language(scheme, name, events):
-    loop = getattr(import_module(f"symgen.runtime.schemes.{scheme}"), name)
+    loop = getattr(importlib.import_module(f"symgen.runtime.schemes.{scheme}"), name)
     loop = with_events(loop) if events else loop
     read(loop)
     read(with_stops(loop))
@@ -38,26 +43,46 @@ def test_every_loop_over_rows_is_in_the_language(steps, kind):
 
 
 def read(loop):
-    """Raise where a part of a loop is left to Numba."""
-    (signature,) = loop._signatures
-    read_loop(loop._eager, signature.args, definition)
+    """Raise where a part of a loop is outside."""
+    read_loop(loop, loop.signature.arguments)
 
 
-def test_a_loop_whose_file_was_edited_since_it_was_loaded_is_numbas(tmp_path, monkeypatch):
+@store.jit(float64(float64))
+def doubled(x):
+    """Make a list, as a user's loop might."""
+    numbers = [x, 2.0 * x]
+    return numbers[1]
+
+
+def test_a_loop_outside_the_language_says_so_and_is_numbas_where_asked_for():
+    told = (
+        f"the function '{__name__}.doubled': expected the language of compiled functions, "
+        f"got an expression 'List' (line 4); {COMPILER}=numba compiles it"
+    )
+    for _ in range(2):
+        with pytest.raises(InputError) as error:
+            doubled(2.0)
+        assert str(error.value) == told
+    with by("numba"):
+        assert doubled(2.0) == 4.0
+
+
+def test_a_loop_whose_file_was_edited_since_it_was_loaded_is_told(tmp_path, monkeypatch):
     """The definition at its place in the file is another one by then."""
     file = tmp_path / "edited_later.py"
-    text = (
-        "from numba import njit\n@njit(error_model='numpy', fastmath={'contract'})\ndef area(x):\n    return 2.0 * x\n"
-    )
-    file.write_text(text)
+    head = "from symgen.native.types import float64\nfrom symgen.store.jit import jit\n\n\n"
+    file.write_text(f"{head}@jit(float64(float64))\ndef area(x):\n    return 2.0 * x\n")
     monkeypatch.syspath_prepend(tmp_path)
-    area = import_module("edited_later").area
-    assert definition(area) is not None
+    area = importlib.import_module("edited_later").area
+    text = file.read_text()
+    assert area.tree() is not None
     file.write_text(text.replace("2.0", "3.0"))
-    _lines.cache_clear()
-    assert definition(area) is None
+    store._lines.cache_clear()
+    with pytest.raises(InputError, match=r"'edited_later\.area': .* got the function 'area'"):
+        area(1.0)
+    file.write_text(text)
+    store._lines.cache_clear()
     assert area(1.0) == 2.0
-    _lines.cache_clear()
 
 
 #: Every loop, by a model, a method and an integrator that enter it.
@@ -70,15 +95,30 @@ CASES = {
     "projected": ("four-bar", "index3-augmented-lagrangian", "trapezoidal"),
     "lie": ("heavy-top", "lagrange", "rkmk4"),
 }
+#: Integrators whose steps depend on rounding, as errors are estimated.
+ADAPTIVE = {"dop853", "abm", "radau5"}
+
+
+def compared(shape, *words):
+    """Assert that short runs by both compilers are the same to what rounding grows to."""
+    found = []
+    for compiler in ("source", "numba"):
+        done = json.loads(process("native.loops", shape, *words, **{COMPILER: compiler}).stdout)
+        assert done["numba"] == (compiler == "numba")
+        found.append(done["runs"])
+    for integrator, one, other in zip(words[2::3], *found, strict=True):
+        assert integrator in ADAPTIVE or one["steps"] == other["steps"]
+        for name, numbers in one["states"].items():
+            size = np.abs(other["states"][name]).max()
+            np.testing.assert_allclose(numbers, other["states"][name], rtol=0, atol=1e-9 * size, err_msg=name)
 
 
 @pytest.mark.slow  # Numba compiles the loops once more
 @pytest.mark.parametrize("case", CASES)
-def test_runs_are_numbas_to_the_last_bit(case):
-    """Where nothing can be contracted, as emitted functions are judged (`test_judge`)."""
-    found = []
-    for compiler, made in (("libm", "from the source"), ("numba", "by Numba")):
-        done = process("native.loops", *CASES[case], **{COMPILER: compiler})
-        assert done.stderr.strip().endswith(made)
-        found.append(done.stdout)
-    assert found[0] == found[1]
+def test_runs_are_numbas(case):
+    compared("straight", *CASES[case])
+
+
+def test_a_run_imports_no_numba():
+    for shape, *case in (("straight", "four-bar", "lagrange", "rk4"), ("looped", "pendulum", "lagrange", "rk4")):
+        assert not json.loads(process("native.loops", shape, *case).stdout)["numba"]

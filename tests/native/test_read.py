@@ -1,4 +1,4 @@
-"""What is in the language of emitted functions, with which types, and what is left to Numba."""
+"""What is in the language of emitted functions, with which types, and what is outside."""
 
 from __future__ import annotations
 
@@ -14,25 +14,29 @@ from symgen.native.read import Foreign, read
 A, F, N = ("float", True), ("float", False), ("int", False)
 
 
-class Dispatcher:
-    """A function as dispatchers hold it, with its syntax tree."""
+class Source:
+    """A function with its syntax tree, as readers want it."""
 
-    def __init__(self, text: str, names: dict[str, object]) -> None:
-        self.tree = ast.parse(text).body[0]
+    def __init__(self, text: str, names: dict[str, object], inlined: bool = False) -> None:
+        self._tree, self.inlined = ast.parse(text).body[0], inlined
         space = {"math": math, **names}
         exec(text, space)
-        self.__name__ = self.tree.name
-        self.py_func = space[self.tree.name]
+        self.__name__ = self._tree.name
+        self.py_func = space[self.__name__]
+
+    def tree(self) -> ast.FunctionDef | None:
+        """Return the syntax tree."""
+        return self._tree
 
 
-def function(text: str, **names: object) -> Dispatcher:
+def function(text: str, **names: object) -> Source:
     """Return a function that was not read yet."""
-    return Dispatcher(text, names)
+    return Source(text, names)
 
 
 def of(text: str, *kinds: tuple[str, bool], **names: object):
     """Read a function."""
-    return read(function(text, **names), kinds, lambda f: getattr(f, "tree", None))
+    return read(function(text, **names), kinds)
 
 
 def body_of(line: str, **names: object):
@@ -182,7 +186,7 @@ def test_calls_of_functions_of_the_same_kind():
         ("return 1.0", "paths that return nothing, or different types"),
     ],
 )
-def test_whatever_else_is_left_to_numba(line, why):
+def test_whatever_else_is_outside(line, why):
     with pytest.raises(Foreign) as told:
         of(f"def f(y, w):\n    {line}\n    return 0\n", A, A, N=-2, X=np.zeros(3), Z=np.zeros(2, int))
     assert str(told.value).startswith(why)
@@ -206,14 +210,16 @@ def test_whatever_else_is_left_to_numba(line, why):
         ("def f(y):\n    for i in range(2.0):\n        pass\n    return 0\n", "a range"),
     ],
 )
-def test_functions_that_are_left_to_numba(text, why):
+def test_functions_that_are_outside(text, why):
     f = function(text, N=0)
     f.py_func.__globals__["f"] = f
     with pytest.raises(Foreign) as told:
-        read(f, (A,) * f.py_func.__code__.co_argcount, lambda g: g.tree)
+        read(f, (A,) * f.py_func.__code__.co_argcount)
     assert str(told.value).startswith(why)
 
 
-def test_a_function_whose_source_is_gone_is_left_to_numba():
+def test_a_function_whose_source_is_gone_is_outside():
+    gone = function("def f(y):\n    return 0\n")
+    gone._tree = None
     with pytest.raises(Foreign, match="the function 'f'"):
-        read(function("def f(y):\n    return 0\n"), (A,), lambda f: None)
+        read(gone, (A,))

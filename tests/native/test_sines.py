@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import math
-import os
-from unittest import mock
 
 import mpmath
 import numpy as np
@@ -15,10 +13,9 @@ from symgen.api import load
 from symgen.native import sines
 from symgen.native.machine import compiled
 from symgen.native.machine import load as load_code
-from symgen.store.emitted import COMPILER
 from symgen.store.modules import load_module
 
-from .twofold import arguments_of, machine_code, same, written
+from .twofold import arguments_of, by, written
 
 WIDTHS = (4, 8)
 
@@ -92,7 +89,7 @@ def test_far_angles_are_left_to_the_library(both, far):
     angles, sine, cosine = both([0.5, far, -2.0, 3.0])
     for x, s, c in zip(angles, sine, cosine, strict=True):
         expected = (math.sin(x), math.cos(x)) if math.isfinite(x) else (math.nan, math.nan)
-        assert same([s, c], expected)
+        np.testing.assert_array_equal([s, c], expected)
 
 
 MANY = """
@@ -124,8 +121,7 @@ def f(y, out):
 
 def groups_of(tmp_path, name: str, *texts: str) -> list[tuple[object, ...]]:
     function = load_module(written(tmp_path / name, *texts)).f
-    read = function.read((("float", True), ("float", True)))
-    return [call for calls in sines.groups(read).values() for call in calls]
+    return [call for calls in sines.groups(function.read(arguments_of(function))).values() for call in calls]
 
 
 CALLED = """
@@ -148,14 +144,10 @@ def test_which_angles_are_taken_together(tmp_path):
 
 def test_functions_with_and_without(tmp_path):
     """Sums of two numbers up to 3, each within one unit of its own last place."""
-    path = written(tmp_path / "with", MANY)
-    together = load_module(path).f
-    with mock.patch.dict(os.environ, {COMPILER: "libm"}):
-        alone = load_module(written(tmp_path / "without", MANY)).f
-        plain, direct = machine_code(alone, arguments_of(alone))
-        assert direct
-    one, direct = machine_code(together, arguments_of(together))
-    assert direct
+    together, alone = (load_module(written(tmp_path / name, MANY)).f for name in ("with", "without"))
+    one = together.caller(arguments_of(together))
+    with by("libm"):
+        plain = alone.caller(arguments_of(alone))
     rng = np.random.default_rng(3)
     differ = 0
     for _ in range(200):
@@ -174,7 +166,7 @@ def test_right_hand_side_of_andrews():
     start = model.assemble(compiled_model)
     found = []
     for name in ("source", "libm"):
-        with mock.patch.dict(os.environ, {COMPILER: name}):
+        with by(name):
             law = load_module(compiled_model.law_module.__file__, f"sines_{name}.andrews")
             ydot = np.zeros_like(start.y)
             law.rhs(0.0, start.y.copy(), start.p.copy(), start.w.copy(), np.zeros(16, dtype=np.int64), ydot)

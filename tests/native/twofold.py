@@ -1,8 +1,7 @@
-"""Emitted modules loaded twice: with functions made from their source, and with functions compiled by Numba."""
+"""Emitted modules loaded twice: with functions compiled by symgen's own route, and with functions of Numba."""
 
 from __future__ import annotations
 
-import ctypes
 import os
 import subprocess
 import sys
@@ -14,10 +13,11 @@ from typing import Any
 from unittest import mock
 
 import numpy as np
-from numba import types
+from numba.core.dispatcher import Dispatcher
 
-from symgen.native.library import Library
-from symgen.store.emitted import COMPILER
+from symgen.native import machine, types
+from symgen.native.compiler import COMPILER
+from symgen.store.emitted import EmittedFunction
 from symgen.store.modules import load_module
 
 ARRAY, WHOLE, NUMBER = types.float64[::1], types.int64[::1], types.float64
@@ -26,9 +26,14 @@ TESTS = Path(__file__).parents[1]
 BY_NAME = {"t": NUMBER, "x": NUMBER, "iw": WHOLE, **dict.fromkeys(("y", "p", "w", "ydot", "out", "k", "r", "j"), ARRAY)}
 #: Of functions that have one of these, the others are integers too, but for ``w``.
 INTEGERS = dict.fromkeys(("step", "column", "section", "k"), types.int64)
+#: What two right translations may differ by, of the largest number beside: nothing is contracted in either.
+ROUNDING = 1e-12
+#: Makes both compilers make code for a processor without fused multiply-add, if it is set when they start.
+GENERIC = {"NUMBA_CPU_NAME": "generic"}
 
 HEAD = "import math\n\nimport numpy as np\nfrom numba import njit\n\n"
-DECORATOR = '@njit(error_model="numpy", fastmath={"contract"})\n'
+#: Emitted functions may be contracted as well; Numba, which compiles for this processor, would choose other products.
+DECORATOR = '@njit(error_model="numpy")\n'
 
 
 def written(folder: Path, *functions: str, head: str = HEAD, name: str = "model") -> Path:
@@ -39,25 +44,31 @@ def written(folder: Path, *functions: str, head: str = HEAD, name: str = "model"
     return path
 
 
+def by(compiler: str) -> Any:
+    """Return a context in which a compiler of `symgen.native.compiler` is used."""
+    return mock.patch.dict(os.environ, {COMPILER: compiler})
+
+
 @contextmanager
-def by_numba() -> Iterator[None]:
-    """See to it that modules loaded inside are compiled by Numba."""
-    with mock.patch.dict(os.environ, {COMPILER: "numba"}):
+def uncontracted() -> Iterator[None]:
+    """See to it that machine code made inside is for a processor without fused multiply-add."""
+    known = machine._host, machine.processor, machine._best_machine
+    for each in known:
+        each.cache_clear()
+    with mock.patch.dict(os.environ, GENERIC):
         yield
+    for each in known:
+        each.cache_clear()
 
 
 def load_twice(path: Path) -> tuple[ModuleType, ModuleType]:
-    """Return a module with functions made from their source, and one with functions compiled by Numba.
-
-    Sines are the C library's in both; those that are taken together are judged by `test_sines`.
-    """
-    with mock.patch.dict(os.environ, {COMPILER: "libm"}):
-        direct = load_module(path)
-    with by_numba():
+    """Return a module with functions compiled here, and one with functions compiled by Numba."""
+    direct = load_module(path)
+    with by("numba"):
         return direct, load_module(path, f"by_numba.{path.parent.name.replace('.', '_')}.{path.stem}")
 
 
-def arguments_of(function: Any) -> tuple[Any, ...]:
+def arguments_of(function: Any) -> tuple[types.Kind, ...]:
     """Return the types of a function's arguments, told by their names."""
     code = function.py_func.__code__
     names = code.co_varnames[: code.co_argcount]
@@ -69,34 +80,6 @@ def own_functions(module: ModuleType) -> list[str]:
     """Return the names of the functions that a module defines."""
     found = ((name, getattr(value, "py_func", None)) for name, value in vars(module).items())
     return [name for name, function in found if function is not None and function.__module__ == module.__name__]
-
-
-def machine_code(function: Any, arguments: tuple[Any, ...]) -> tuple[Any, bool]:
-    """Return a function as ctypes calls it, in Numba's convention, and whether it was made from its source."""
-    function.compile(arguments)
-    result = function.overloads[arguments]
-    address = result.library.get_pointer_to_function(result.fndesc.llvm_func_name)
-    returned = ctypes.c_double if result.signature.return_type == NUMBER else ctypes.c_int64
-    prototype: list[Any] = [ctypes.c_void_p, ctypes.c_void_p]
-    for kind in arguments:
-        if isinstance(kind, types.Array):
-            prototype += [ctypes.c_void_p] * 2 + [ctypes.c_int64] * 2 + [ctypes.c_void_p] + [ctypes.c_int64] * 2
-        else:
-            prototype.append(ctypes.c_double if kind == NUMBER else ctypes.c_int64)
-    entry = ctypes.CFUNCTYPE(ctypes.c_int32, *prototype)(address)
-
-    def call(*values: Any) -> Any:
-        passed: list[Any] = []
-        for value in values:
-            if isinstance(value, np.ndarray):
-                passed += [None, None, value.size, 8, value.ctypes.data, value.size, 8]
-            else:
-                passed.append(value)
-        answer = returned()
-        assert entry(ctypes.addressof(answer), None, *passed) == 0
-        return answer.value
-
-    return call, isinstance(result.library, Library)
 
 
 def states(rng: np.random.Generator, size: int) -> Iterator[np.ndarray]:
@@ -122,30 +105,42 @@ def states(rng: np.random.Generator, size: int) -> Iterator[np.ndarray]:
 
 
 def same(one: Any, other: Any) -> bool:
-    """Whether numbers are the same to the last bit; a NaN is any other NaN, whose sign nothing rests on."""
-    one, other = np.asarray(one, float), np.asarray(other, float)
-    nan = np.isnan(one)
-    return bool(np.array_equal(nan, np.isnan(other)) and one[~nan].tobytes() == other[~nan].tobytes())
+    """Whether numbers are the same to rounding: NaN where the other is NaN, and infinite where it is infinite.
+
+    The magnitude that rounding is a share of is that of the largest finite number: what cancels was as large.
+    """
+    one, other = np.atleast_1d(np.asarray(one, float)), np.atleast_1d(np.asarray(other, float))
+    finite = np.isfinite(one)
+    if not np.array_equal(one[~finite], other[~finite], equal_nan=True) or not np.isfinite(other[finite]).all():
+        return False
+    scale = np.abs([one[finite], other[finite]]).max(initial=0.0)
+    with np.errstate(over="ignore"):
+        return bool(np.all(np.abs(one[finite] - other[finite]) <= ROUNDING * scale))
 
 
-def differences(direct: Any, plain: Any, arguments: Sequence[Any], size: int, rounds: int = 2) -> list[str]:
-    """Call a function made from its source and the same compiled by Numba; say where they differ.
+def differences(
+    direct: Any, plain: Any, arguments: Sequence[types.Kind], size: int, rounds: int = 2, compiler: str = "libm"
+) -> list[str]:
+    """Call a function compiled here and the same compiled by Numba; say where they differ.
 
     Parameters
     ----------
-    direct, plain : Dispatcher
+    direct, plain : function
         The two.
     arguments : sequence
-        Numba's types of the arguments.
+        Types of the arguments.
     size : int
         Length of arrays of floats.
     rounds : int
         How often all kinds of numbers are tried.
+    compiler : str
+        The word for the compiler; sines are the C library's by default, as Numba's are.
     """
+    assert isinstance(direct, EmittedFunction) and isinstance(plain, Dispatcher), "one of each compiler"
     rng = np.random.default_rng(size)
-    one, from_source = machine_code(direct, tuple(arguments))
-    other, again = machine_code(plain, tuple(arguments))
-    found = [] if from_source and not again else [f"{direct.__name__} was not made from its source"]
+    with by(compiler):
+        one = direct.caller(tuple(arguments))
+    found: list[str] = []
     for round_ in range(rounds):
         for number in states(rng, size):
             values: list[Any] = []
@@ -157,22 +152,22 @@ def differences(direct: Any, plain: Any, arguments: Sequence[Any], size: int, ro
                 else:
                     values.append(float(number[0]) if kind == NUMBER else round_)
             mine, yours = ([v.copy() if isinstance(v, np.ndarray) else v for v in values] for _ in range(2))
-            answers = one(*mine), other(*yours)
+            answers = one(*mine), plain(*yours)
             pairs = [answers, *zip(mine, yours, strict=True)]
             found += [f"{direct.__name__}: argument {i - 1}" for i, (a, b) in enumerate(pairs) if not same(a, b)]
     return found
 
 
 def apart(*words: str) -> str:
-    """Return what `native.judge` says in a process where nothing can be contracted; see `test_judge`."""
-    return process("native.judge", *words).stdout.strip()
+    """Return what `native.judge` says in a process where nothing can be contracted."""
+    return process("native.judge", *words, **GENERIC).stdout.strip()
 
 
 def process(module: str, *words: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Run a module of the tests where nothing can be contracted, with these variables in its environment."""
-    path = os.pathsep.join(filter(None, (str(TESTS), os.environ.get("PYTHONPATH"))))
-    given = {**os.environ, "NUMBA_CPU_NAME": "generic", "PYTHONPATH": path, **environment}
+    """Run a module of the tests with these variables in its environment."""
+    path = os.pathsep.join(filter(None, (str(TESTS), str(TESTS.parent), os.environ.get("PYTHONPATH"))))
     command = [sys.executable, "-m", module, *words]
+    given = {**os.environ, "PYTHONPATH": path, **environment}
     done = subprocess.run(command, cwd=TESTS, env=given, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr[-3000:]
     return done
