@@ -22,29 +22,29 @@ from typing import Any
 
 import numpy as np
 
+from symgen.native import types
+from symgen.runtime import abi
+from symgen.store.jit import jit
+
 #: Straight code of larger mechanisms takes many minutes to compile.
 LARGEST_STRAIGHT = 40
 SIZES = (1, 10, 40, 100, 400, 1000)
 #: Mechanisms of ``--pieces``, each with kernels that those before it have not.
 PIECES = ("four-bar", "slider-crank", "andrews", "scissor-lift", "n-four-bar:40", "bricard", "stewart-platform")
+_F8, _A, _I8 = types.float64, types.float64[::1], types.int64
+
+
+@jit(_I8(abi.RHS, _F8, _A, _A, _A, types.int64[::1], _A, _I8))
+def many(rhs: Any, t: float, y: Any, p: Any, w: Any, iw: Any, rate: Any, count: int) -> int:
+    """Call a right-hand side often."""
+    for _ in range(count):
+        rhs(t, y, p, w, iw, rate)
+    return 0
 
 
 def measure(model: str, shape: str, method: str) -> dict[str, Any]:
     """Compile a model and evaluate it often; called in a process of its own."""
     from symgen.api import load
-    from symgen.native import types
-    from symgen.runtime import abi
-    from symgen.runtime.bare import bare
-    from symgen.store.jit import jit
-
-    f8, a, i8 = types.float64, types.float64[::1], types.int64
-
-    @jit(i8(abi.RHS, f8, a, a, a, types.int64[::1], a, i8))
-    def many(rhs: Any, t: float, y: Any, p: Any, w: Any, iw: Any, rate: Any, count: int) -> int:
-        y, p, w, iw, rate = bare(y), bare(p), bare(w), bare(iw), bare(rate)
-        for _ in range(count):
-            rhs(t, y, p, w, iw, rate)
-        return 0
 
     began = time.process_time()
     loaded = load(model)

@@ -52,8 +52,9 @@ def numbers(kind: types.Kind, value: Any) -> Iterator[int | float]:
     if kind is types.float64:
         yield float(value)
     elif isinstance(kind, types.Array):
-        flags = value.flags  # of an array; anything else has none
-        if not flags.c_contiguous or value.ndim != kind.ndim or value.dtype != _DTYPES[kind.dtype]:
+        if not isinstance(value, np.ndarray):
+            raise TypeError(f"expected an array {kind}, got {type(value).__name__}")
+        if not value.flags.c_contiguous or value.ndim != kind.ndim or value.dtype != _DTYPES[kind.dtype]:
             raise TypeError(f"expected an array {kind}, got one of {value.ndim} dimensions of {value.dtype}")
         yield value.__array_interface__["data"][0]
         yield from value.shape

@@ -54,7 +54,7 @@ def tree_of(function: Any) -> ast.FunctionDef:
     """
     tree: ast.FunctionDef | None = function.tree() if hasattr(function, "tree") else None
     if tree is None:
-        raise Foreign(f"the function '{function.__name__}'")
+        raise Foreign(f"'{function.__name__}', whose definition is not at the first column of a file as it was loaded")
     return tree
 
 

@@ -37,7 +37,7 @@ def test_a_netcdf_file_holds_everything(tmp_path):
     assert float(rest["crank.theta"][-1]) == pytest.approx(one["crank.theta"][-1], abs=1e-13)
     assert float(heavy["crank.theta"][-1]) > float(rest["crank.theta"][-1])
     assert data.attrs["mechanism"] == "four-bar" and json.loads(data.attrs["parameters"])["rocker_mass"] == 5.0
-    assert set(json.loads(data.attrs["versions"])) == {"symgen", "python", "numpy", "numba"}
+    assert set(json.loads(data.attrs["versions"])) == {"symgen", "python", "numpy", "numba", "llvmlite"}
 
 
 def test_a_finished_file_is_not_computed_again_by_mistake(tmp_path):

@@ -26,8 +26,8 @@ from symgen.running import automatic
 from symgen.running.prepare import make_plan
 from symgen.runtime import decisions
 from symgen.settings import Settings
-from symgen.store.jit import cache_stats
 from symgen.store.paths import ENVIRONMENT_VARIABLE
+from symgen.store.stats import cache_stats
 
 DATA = Path(__file__).parents[1] / "data"
 

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import pytest
-from numba import types
 from support.both_shapes import spatial
 from support.emitted import mechanism_of
 from support.models import EVERYTHING, ROUGH
@@ -20,11 +19,20 @@ from symgen.formulate.formulate import formulate
 from symgen.formulate.measures import Model as Derivation
 from symgen.lower.looped.instances import instances
 from symgen.lower.windings import winding_order
+from symgen.native import types
 from symgen.runtime.abi import OBSERVE
 from symgen.store.jit import jit
 from symgen.store.paths import ENVIRONMENT_VARIABLE
 
 CRANK = "sin(crank.theta)*rod.vx + k*t**2"
+
+
+_A = types.float64[::1]
+
+
+@jit(types.int64(OBSERVE, types.float64, _A, _A, _A, _A, _A))
+def entered(function, t, y, p, w, ydot, out):
+    return function(t, y, p, w, ydot, out)
 
 
 def names_of(mechanism) -> Names:
@@ -61,13 +69,6 @@ def test_values_and_rates_are_those_of_the_formula(shape):
     ]
     found = side(0.3, y, k, compiled.scratch(), ydot)
     np.testing.assert_allclose(found, expected, rtol=1e-14)
-
-    array = types.float64[::1]
-
-    @jit(types.int64(OBSERVE, types.float64, array, array, array, array, array))
-    def entered(function, t, y, p, w, ydot, out):
-        return function(t, y, p, w, ydot, out)
-
     out = np.zeros(6)
     entered(side.function, 0.3, y, k, compiled.scratch(), ydot, out)
     np.testing.assert_allclose(out, expected, rtol=1e-14)

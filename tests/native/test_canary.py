@@ -30,7 +30,7 @@ USED = (
     (llvm.PassBuilder, "getModulePassManager", ()),
     (llvm.ModulePassManager, "add_instruction_combine_pass", ()),
     (llvm.ModulePassManager, "add_reassociate_pass", ()),
-    (llvm.ModulePassManager, "run", ("module", "pb")),
+    (llvm.ModulePassManager, "run", ()),
     (llvm.PipelineTuningOptions, "loop_vectorization", ()),
     (llvm.PipelineTuningOptions, "slp_vectorization", ()),
     (llvm.ObjectFileRef, "from_data", ("data",)),
@@ -38,11 +38,12 @@ USED = (
     (llvm.ExecutionEngine, "finalize_object", ()),
     (llvm.ExecutionEngine, "get_function_address", ("name",)),
 )
-#: A sum of products, of which the first has no branch and the second one has.
+#: A sum with a product by one, which passes take out, and with a jump, or without one, which takes fewer passes.
 PLAIN = """
 define double @"symgen.canary.{name}"(double %a, double %b, ptr %c) {{
   %x = load double, ptr %c
-  %y = fmul contract double %a, %b
+  %u = fmul double %a, 1.0
+  %y = fmul contract double %u, %b
   %z = fadd contract double %y, %x
   {end}
   ret double %z
@@ -64,9 +65,8 @@ def test_what_is_used_of_llvmlite_is_there(owner, name, parameters):
 def test_text_is_parsed_optimised_emitted_loaded_and_called(end):
     name = f"symgen.canary.{'branch' if end else 'straight'}"
     text = PLAIN.format(name=name.rpartition(".")[2], end=end)
-    module = machine.optimised(text)
-    assert "define double" in str(module), CHANGED + "the text of a module is no text for LLVM"
-    assert "alloca" not in str(module) and str(module).count("\nend:") == 0, CHANGED + "passes do nothing"
+    module = str(machine.optimised(text))
+    assert "define double" in module and " br " not in module and " 1.0" not in module, CHANGED + "passes do nothing"
     code = machine.compiled(text, name)
     assert code == machine.compiled(text, name), CHANGED + "an object file is another one each time"
     address = machine.load(code, [name])[name]

@@ -35,7 +35,10 @@ CASES = (
 
 @pytest.mark.parametrize(
     ("model", "methods"),
-    [pytest.param(*case, id=f"{case[0]}-{case[1][0]}", marks=() if case is FIRST else pytest.mark.slow) for case in CASES],
+    [
+        pytest.param(*case, id=f"{case[0]}-{case[1][0]}", marks=() if case is FIRST else pytest.mark.slow)
+        for case in CASES
+    ],
 )
 def test_functions_are_numbas(model, methods):
     assert apart(model, *methods) == ""

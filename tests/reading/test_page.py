@@ -4,12 +4,12 @@ import re
 from html.parser import HTMLParser
 
 import pytest
-from numba import config
 
 from symgen.cli import main
 from symgen.describe import load
 from symgen.formulate.formulate import formulate
 from symgen.lower.model import lower_model
+from symgen.native.compiler import interpreted
 from symgen.reading import page as pages
 from symgen.reading.patterns import of_factor
 
@@ -119,7 +119,7 @@ def test_a_page_that_would_be_too_large_leaves_out_the_code(tmp_path, monkeypatc
 
 def test_listings_make_room_for_the_right_hand_side(four_bar, tmp_path, monkeypatch):
     text, _ = four_bar
-    if config.DISABLE_JIT:  # there is no machine code to list, and the page says so
+    if interpreted():  # there is no machine code to list, and the page says so
         assert "Python, by NUMBA_DISABLE_JIT." in text and "const rates = null;" in text
         return
     script = re.search(r"const rates = (\(\(\) => \{.*?\}\)\(\));", text, re.DOTALL)[1]

@@ -1,16 +1,12 @@
 """The compiled least-norm solver against singular values."""
 
-import numba
 import numpy as np
 import pytest
 
-from symgen.runtime.exact import plain_form
+from symgen.runtime.exact import compiled_form, plain_form
 from symgen.runtime.least_norm import least_norm
 
-
-@numba.njit
-def compiled(a, m, n, b, x, room, order):
-    return least_norm(a, m, n, b, x, room, order)
+compiled = compiled_form(least_norm)
 
 
 def solve(a, b):

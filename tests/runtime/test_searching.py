@@ -1,16 +1,15 @@
-"""The search for events as compiled code: from its source, so that a first run with events does not wait for Numba."""
+"""The search for events as compiled code."""
 
 import numpy as np
 import pytest
 
-from symgen.native.library import kinds_of
 from symgen.runtime import abi, frame, hunting, search_records, searching, switching
 from symgen.runtime.exact import plain_form
 
 
 def test_the_search_is_in_the_language_of_emitted_code():
-    """`read` raises where a function, or one that it calls, would be left to Numba."""
-    function = searching.decide.read(kinds_of(abi.DECIDE.signature.args))
+    """`read` raises where a function, or one that it calls, is outside."""
+    function = searching.decide.read(abi.DECIDE.signature.arguments)
     called = {f.name: f for f in function.called}
     assert called.keys() >= {"look", "keep", "give_back", "take_in", "candidate", "settle", "concealed"}
     assert "hidden" in {f.name for f in called["concealed"].called}

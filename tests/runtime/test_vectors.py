@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-import numba
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -14,6 +13,7 @@ from support.checks import assert_same_motion
 
 from symgen.runtime import vectors
 from symgen.runtime.blocks import BLOCK, padded
+from symgen.store.jit import jit
 
 Array = NDArray[np.float64]
 #: States of up to four blocks are treated in pairs of numbers where emitted functions have just written them.
@@ -22,7 +22,7 @@ WIDTHS = (BLOCK, 3 * BLOCK, 4 * BLOCK, 5 * BLOCK, 9 * BLOCK)
 ROUNDINGS = 16 * np.finfo(np.float64).eps
 
 
-@numba.njit(error_model="numpy", fastmath={"contract"})  # type: ignore[untyped-decorator]  # Numba is untyped
+@jit()
 def combined(
     how: int, h: float, first: int, last: int, column: Any, value: Any, rows: Any, base: Any, out: Any
 ) -> None:
@@ -35,7 +35,7 @@ def combined(
         vectors.total(width, h, first, last, column, value, rows, out)
 
 
-@numba.njit(error_model="numpy")  # type: ignore[untyped-decorator]  # Numba is untyped
+@jit()
 def taken(how: int, array: Any, out: Any) -> None:
     if how == 0:
         vectors.copied(out.shape[0], array, out)

@@ -5,20 +5,17 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numba
 import numpy as np
 import pytest
-from numba import types
-from numba.core.registry import cpu_target
 from support.remembering import CONSTANT, PAIRS
 
 import symgen
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.native import trampoline
+from symgen.native import calls, types
 from symgen.runtime import abi, sparse
 from symgen.runtime.simulation import Simulation
-from symgen.store.jit import jit
+from symgen.store.jit import jit, made
 
 DEFECTS = Path(__file__).resolve().parents[1] / "data" / "defects"
 LOOSE = {"max_violation": 1.0, "max_energy_error": 1e9}
@@ -102,17 +99,6 @@ def test_room_for_factors_is_made_on_the_way():
     np.testing.assert_array_equal(sim.state, state)
 
 
-def test_where_numba_is_not_as_expected_loops_are_called_as_ever(monkeypatch):
-    model = symgen.load("pendulum")
-    expected = model.start(integrator="rk4", step=1e-3)
-    monkeypatch.setattr(trampoline, "usable", lambda: False)
-    sim = model.start(integrator="rk4", step=1e-3)
-    assert sim._loop._entry is None and expected._loop._entry is not None
-    for run in (sim, expected):
-        run.step(0.01)
-    assert_same(sim, expected)
-
-
 def test_without_compilation_steps_are_plain_python(tmp_path):
     code = (
         "import symgen\n"
@@ -134,7 +120,10 @@ def test_without_compilation_steps_are_plain_python(tmp_path):
 # -- the trampoline ----------------------------------------------------------------------------------------------------
 
 
-@jit("float64(float64, int64, float64[::1], UniTuple(int64[::1], 2), float64[:, ::1])")
+N, F = types.int64, types.float64
+
+
+@jit(F(F, N, F[::1], types.Record((N[::1], N[::1])), F[:, ::1]))
 def mixed(x, n, a, pair, m):
     total = x + n + m.shape[0] * m[1, 2] + pair[0][1] - pair[1].shape[0]
     for i in range(a.shape[0]):
@@ -145,48 +134,32 @@ def mixed(x, n, a, pair, m):
 
 def test_all_kinds_of_arguments_arrive():
     """A function that uses all parts of its arguments, called with a block that is laid out by hand."""
-    mixed.open()
-    (result,) = mixed.overloads.values()
-    call = trampoline.trampoline(result.signature.return_type, result.signature.args)
+    call = calls.trampoline(mixed.signature, made)
     a, b, c, m = np.arange(1.0, 4.0), np.array([5, 6]), np.arange(7), np.arange(12.0).reshape(3, 4)
     flat = [0, 11]
     for array in (a, b, c, m):
-        flat += [0, 0, array.size, 8, array.ctypes.data, *array.shape, *array.strides]
+        flat += [array.ctypes.data, *array.shape]
     source, target = np.array([1.5, 2.5]), np.zeros(2)
-    block = np.zeros(trampoline.FIRST + len(flat), dtype=np.int64)
-    block[trampoline.FIRST :] = flat
-    block.view(np.float64)[trampoline.FIRST] = 0.25
-    block[trampoline.FUNCTION] = result.library.get_pointer_to_function(result.fndesc.llvm_func_name)
-    block[[trampoline.COPY, trampoline.SOURCE, trampoline.BYTES]] = target.ctypes.data, source.ctypes.data, 16
-    assert call(block.ctypes.data) == 0
+    block = np.zeros(calls.FIRST + len(flat), dtype=np.int64)
+    block[calls.FIRST :] = flat
+    block.view(np.float64)[calls.FIRST] = 0.25
+    block[calls.FUNCTION] = mixed.address(mixed.signature)
+    block[[calls.COPY, calls.SOURCE, calls.BYTES]] = target.ctypes.data, source.ctypes.data, 16
+    call(block.ctypes.data)
     expected = mixed(0.25, 11, np.arange(1.0, 4.0), (b, c), m)
-    assert block.view(np.float64)[trampoline.RESULT] == expected == 0.25 + 11 + 3 * 6.0 + 6 - 7 + 1.0 + 4.0 + 9.0
+    assert block.view(np.float64)[calls.RESULT] == expected == 0.25 + 11 + 3 * 6.0 + 6 - 7 + 1.0 + 4.0 + 9.0
     np.testing.assert_array_equal(a, [-1.0, -2.0, -3.0])
     np.testing.assert_array_equal(target, source)
 
 
-def test_a_process_has_a_trampoline_once_whoever_asks_for_it():
-    f8 = types.float64
-    first = trampoline.trampoline(f8, (f8, f8, f8))
-    assert first is not None
-    assert trampoline.trampoline(f8, (f8, f8, f8), lambda text, name: pytest.fail("made twice")) is first
-
-
-def test_the_internals_of_numba_are_as_expected(monkeypatch):
-    problems = trampoline.changed()
-    assert not problems, f"Numba {numba.__version__} changed; adapt symgen/native/trampoline.py: " + "; ".join(problems)
-    monkeypatch.setattr(trampoline.function_type, "_get_jit_address", lambda function: 0)
-    monkeypatch.setattr(trampoline, "_FIELDS", {types.float64[::1]: ("data",)})
-    missing, other = trampoline.changed()
-    assert missing == "numba.experimental.function_type should have _get_jit_address(func, sig)"
-    assert "should hold ('data',), but hold ('meminfo'," in other
-
-
-def test_what_cannot_be_laid_out_has_no_trampoline(monkeypatch):
-    f8 = types.float64
-    assert trampoline.trampoline(f8, (types.unicode_type,)) is None
-    assert trampoline.trampoline(types.boolean, (f8,)) is None
-    assert trampoline.trampoline(f8, (types.Array(f8, 1, "A"),)) is None
-    convention = cpu_target.target_context.call_conv.get_function_type(f8, (f8, f8))
-    monkeypatch.setattr(type(cpu_target.target_context.call_conv), "get_function_type", lambda *_: convention)
-    assert trampoline.trampoline(f8, (f8,)) is None  # arguments are passed otherwise than expected
+@pytest.mark.parametrize(
+    ("position", "argument"),
+    [(2, np.zeros(6)[::2]), (2, np.zeros(3, int)), (2, [1.0]), (3, (np.arange(2),)), (4, np.zeros(3)), (0, "x")],
+)
+def test_arguments_of_other_types_are_refused(position, argument):
+    arguments = [0.25, 11, np.zeros(3), (np.arange(2), np.arange(2)), np.zeros((2, 3))]
+    arguments[position] = argument
+    with pytest.raises((TypeError, ValueError, AttributeError)):
+        mixed(*arguments)
+    with pytest.raises(TypeError, match="expected 5 arguments, got 1"):
+        mixed(0.25)

@@ -1,36 +1,46 @@
 """Each test has a cache of its own; what must happen in another process goes through `python`.
 
-That process is a fork of one in which Numba is imported and nothing is compiled; where a variable is given that Python
-or Numba reads when it starts, an interpreter is started.
+That process is a fork of one in which everything is imported and nothing is compiled; where a variable is given that
+Python or Numba reads when it starts, an interpreter is started.
 """
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 from support import processes
 
-MODEL = """\
+NJIT = '@njit(error_model="numpy", fastmath={"contract"})\n'
+MODEL = f'''
 import math
-import numba
+import numpy as np
+from numba import njit
 
-@numba.njit(nogil=True, error_model="numpy", fastmath={"contract"})
-def geometry(y, w):
-    w[0] = math.sin(y[0])
-"""
+TABLE_X = np.array([0.0, 1.0, 2.0])
 
-LAW = """\
-import numba
+{NJIT}def table(x):
+    """A table."""
+    return 1.0 if x <= TABLE_X[1] else TABLE_X[2]
+
+
+{NJIT}def geometry(t, y, w):
+    """A sine."""
+    w[0] = math.sin(y[0])*table(y[0])
+    return 0
+'''
+
+LAW = f"""
+from numba import njit
 from .model import geometry
 
-@numba.njit(nogil=True, error_model="numpy", fastmath={"contract"})
-def rhs(t, y, p, w, iw, ydot):
-    geometry(y, w)
+{NJIT}def rhs(t, y, p, w, iw, ydot):
+    geometry(t, y, w)
     ydot[0] = y[1]
     ydot[1] = -p[0] * w[0]
     iw[0] += 1
@@ -38,22 +48,18 @@ def rhs(t, y, p, w, iw, ydot):
 """
 
 LOOPS = """\
-from numba import types
+from symgen.native.types import FunctionType, float64, int64
 from symgen.store.jit import jit
 
-RHS = types.FunctionType(
-    types.int64(
-        types.float64, types.float64[::1], types.float64[::1], types.float64[::1], types.int64[::1], types.float64[::1]
-    )
-)
-ARRAY = types.float64[::1]
+ARRAY = float64[::1]
+RHS = FunctionType(int64(float64, ARRAY, ARRAY, ARRAY, int64[::1], ARRAY))
 
 @jit()
 def advance(y, ydot, h):
     for i in range(y.shape[0]):
         y[i] += h * ydot[i]
 
-@jit(types.int64(RHS, types.int64, types.float64, ARRAY, ARRAY, ARRAY, types.int64[::1], ARRAY))
+@jit(int64(RHS, int64, float64, ARRAY, ARRAY, ARRAY, int64[::1], ARRAY))
 def euler(rhs, steps, h, y, p, w, iw, ydot):
     for k in range(steps):
         status = rhs(k * h, y, p, w, iw, ydot)
@@ -62,7 +68,7 @@ def euler(rhs, steps, h, y, p, w, iw, ydot):
         advance(y, ydot, h)
     return 0
 
-@jit("float64(float64)")
+@jit(float64(float64))
 def never_called(x):
     return 3.0 * x
 """
@@ -72,7 +78,7 @@ RUN = """\
 import json, sys
 import numpy as np
 from symgen.store.modules import load_module
-from symgen.store.jit import cache_stats
+from symgen.store.stats import cache_stats
 import loops
 
 law = load_module(sys.argv[1])
@@ -93,7 +99,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture
-def generated(tmp_path: Path) -> Path:
+def generated(tmp_path: Path) -> Iterator[Path]:
     """A folder with an emitted model and one law, and a library `loops` on the path of `python`."""
     folder = tmp_path / "generated" / FOLDER
     folder.mkdir(parents=True)
@@ -101,7 +107,15 @@ def generated(tmp_path: Path) -> Path:
     (folder / "lagrange.py").write_text(LAW)
     (tmp_path / "library").mkdir()
     (tmp_path / "library" / "loops.py").write_text(LOOPS)
-    return folder
+    yield folder
+    for name in [name for name in sys.modules if name.startswith("symgen_generated")]:
+        del sys.modules[name]
+
+
+@pytest.fixture
+def law(generated: Path, cache: Path) -> Path:
+    """The emitted law, and a cache of its own."""
+    return generated / "lagrange.py"
 
 
 @pytest.fixture

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import ctypes
 import os
 import pickle
 import subprocess
@@ -7,15 +8,19 @@ import sys
 import threading
 from pathlib import Path
 
-import numba
 import numpy as np
 import pytest
-from numba import types
 
+from symgen.errors import InputError
+from symgen.native.machine import load
+from symgen.native.types import FunctionType, float64, int64
 from symgen.store import identity, jit, private
 from symgen.store.stats import cache_stats
 
-from .conftest import LAW, MODEL, RUN
+from .conftest import LAW, LOOPS, MODEL, RUN
+
+#: What `RUN` compiles: of the loop `advance` is a part.
+ALL = ["euler", "geometry", "rhs", "table"]
 
 
 def compiled(cache: Path) -> list[str]:
@@ -23,61 +28,63 @@ def compiled(cache: Path) -> list[str]:
     return sorted(path.name.rpartition("-")[0] for path in (cache / "native").rglob("*.bin"))
 
 
-@pytest.mark.slow
+def counts(found: dict) -> tuple[int, int]:
+    return found["hits"], found["misses"]
+
+
 class TestSecondProcess:
-    def test_finds_loop_and_emitted_function_whatever_the_hash_seed(self, cache, generated, python):
-        law = generated / "lagrange.py"
+    def test_finds_everything_whatever_the_hash_seed(self, law, cache, python):
         first = python(RUN, law, PYTHONHASHSEED="1")
-        assert (first["hits"], first["misses"]) == (0, 4)  # euler, advance, rhs, geometry
+        assert counts(first) == (0, 4)
         assert first["compile_seconds"] > 0 and first["load_seconds"] == 0
-        assert compiled(cache) == ["advance", "euler", "geometry", "rhs"]
+        assert compiled(cache) == ALL
         second = python(RUN, law, PYTHONHASHSEED="2")
-        assert (second["hits"], second["misses"]) == (2, 0)  # what they call is inside
+        assert counts(second) == (4, 0)
         assert second["load_seconds"] > 0 and second["compile_seconds"] == 0
         assert second["y"] == first["y"] and second["status"] == 0
         # Another folder with the same name and content, such as a checkout, has the same machine code.
-        copy = generated.parent.parent / "copy" / generated.name
+        copy = law.parents[2] / "copy" / law.parent.name
         copy.mkdir(parents=True)
-        for path in generated.iterdir():
+        for path in law.parent.iterdir():
             (copy / path.name).write_bytes(path.read_bytes())
-        third = python(RUN, copy / "lagrange.py")
-        assert (third["hits"], third["misses"]) == (2, 0)
+        assert counts(python(RUN, copy / law.name)) == (4, 0)
 
-    def test_compiles_again_what_was_edited_and_all_that_calls_it(self, cache, generated, python):
-        law = generated / "lagrange.py"
+    def test_compiles_again_what_was_edited_and_all_that_calls_it(self, law, python):
         python(RUN, law)
         # Same size and same time stamp: only the content tells.
         status = law.stat()
         law.write_text(LAW.replace("-p[0]", "+p[0]"))
         os.utime(law, ns=(status.st_atime_ns, status.st_mtime_ns))
         edited = python(RUN, law)
-        assert (edited["hits"], edited["misses"]) == (2, 1)  # euler and geometry; rhs
-        assert edited["y"][0] > 1
-        (generated / "model.py").write_text(MODEL.replace("sin", "cos"))
-        edited = python(RUN, law)
-        assert (edited["hits"], edited["misses"]) == (1, 2)  # euler; rhs and geometry
+        assert counts(edited) == (3, 1) and edited["y"][0] > 1
+        law.with_name("model.py").write_text(MODEL.replace("sin", "cos"))
+        assert counts(python(RUN, law)) == (1, 3)
 
-    def test_survives_every_kind_of_damage(self, cache, generated, python, tmp_path):
-        law = generated / "lagrange.py"
+    @pytest.mark.parametrize(
+        "name", ["table", *(pytest.param(name, marks=pytest.mark.slow) for name in ("rhs", "geometry", "euler"))]
+    )
+    def test_survives_every_kind_of_damage(self, law, cache, python, tmp_path, name):
         good = python(RUN, law)
         witness = tmp_path / "witness"
 
-        class Foreign:
+        class Harmful:
             def __reduce__(self):
                 return Path.touch, (witness,)
 
-        foreign = pickle.dumps(Foreign())
-        rhs, euler = next(cache.rglob("rhs-*.bin")), next(cache.rglob("euler-*.bin"))
+        (entry,) = (cache / "native").rglob(f"{name}-*.bin")
+        (other,) = (cache / "native").rglob(f"{'rhs' if name == 'euler' else 'euler'}-*.bin")
         code = next((cache / "bytecode").glob("lagrange-*.bin"))
-        machine_code = rhs.read_bytes()
-        for content in (machine_code[:-1], machine_code[:50], b"", foreign, euler.read_bytes()):
-            rhs.write_bytes(content)
+        whole = entry.read_bytes()
+        flipped = bytes([*whole[:-40], whole[-40] ^ 4, *whole[-39:]])
+        for content in (whole[:-1], whole[:70], b"", flipped, other.read_bytes(), pickle.dumps(Harmful())):
+            entry.write_bytes(content)
             code.write_bytes(code.read_bytes()[: len(content) % 97])
             found = python(RUN, law)
-            assert (found["hits"], found["misses"]) == (2, 1)  # euler and geometry; rhs
-            assert found["y"] == good["y"]
-        assert not witness.exists()
-        assert python(RUN, law)["misses"] == 0  # and it was written anew
+            assert counts(found) == (3, 1) and found["y"] == good["y"]
+            assert entry.read_bytes() == whole, "written anew, and the same"
+        entry.unlink()
+        assert counts(python(RUN, law)) == (3, 1)
+        assert not witness.exists() and python(RUN, law)["misses"] == 0
 
     def test_compiles_again_when_a_helper_in_another_file_was_edited(self, cache, python, tmp_path):
         library = tmp_path / "library"
@@ -85,239 +92,158 @@ class TestSecondProcess:
         (library / "inner.py").write_text("from symgen.store.jit import jit\n@jit()\ndef f(x):\n    return 2.0 * x\n")
         (library / "middle.py").write_text("from inner import f\n")
         (library / "outer.py").write_text(
-            "from symgen.store.jit import jit\nfrom middle import f\n@jit()\ndef g(x):\n    return f(x)\n"
+            "from symgen.native.types import float64\nfrom symgen.store.jit import jit\nfrom middle import f\n"
+            "@jit(float64(float64))\ndef g(x):\n    return f(x)\n"
         )
         script = """
 import json, outer
 from symgen.store.stats import cache_stats
 print(json.dumps([outer.g(1.0), cache_stats()["misses"]]))
 """
-        assert python(script) == [2.0, 2]
+        assert python(script) == [2.0, 1]
         assert python(script) == [2.0, 0]
         # of another length: Python takes its byte code for that of a file of this length and of this second
         (library / "inner.py").write_text((library / "inner.py").read_text().replace("2.0", "3.25"))
-        assert python(script) == [3.25, 2]
+        assert python(script) == [3.25, 1]
 
     def test_works_uncached_where_nothing_can_be_written(self, generated, python, tmp_path):
         (tmp_path / "file").write_text("")
         found = python(RUN, generated / "lagrange.py", SYMGEN_CACHE_DIR=str(tmp_path / "file" / "cache"))
-        assert (found["hits"], found["misses"], found["status"]) == (0, 4, 0)
+        assert (*counts(found), found["status"]) == (0, 4, 0)
 
-    def test_two_at_once(self, cache, generated, python, tmp_path):
-        law = generated / "lagrange.py"
+    def test_two_at_once_and_one_that_is_killed(self, law, python, tmp_path):
         path = os.pathsep.join([str(tmp_path / "library"), str(Path(__file__).parents[2])])
         environment = {**os.environ, "PYTHONPATH": path}
-        processes = [
-            subprocess.Popen([sys.executable, "-c", RUN, law], env=environment, stdout=subprocess.DEVNULL)
-            for _ in range(2)
-        ]
-        assert [process.wait() for process in processes] == [0, 0]
-        assert python(RUN, law)["misses"] == 0
+        command = [sys.executable, "-c", RUN, str(law)]
+        running = [subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL) for _ in range(3)]
+        running[0].kill()
+        assert [process.wait() for process in running][1:] == [0, 0]
+        assert counts(python(RUN, law)) == (4, 0)
 
-    def test_factory_functions_are_kept_apart(self, cache, python, tmp_path):
-        (tmp_path / "library").mkdir()
-        (tmp_path / "library" / "factory.py").write_text("""\
-from numba import types
-from symgen.store.jit import jit
-@jit(types.float64(types.FunctionType(types.float64(types.float64)), types.float64))
-def apply(function, x):
-    return function(x)
-def make(factor, step):
-    @jit()
-    def scale(x):
-        return factor * step(x)
-    return scale
-@jit()
-def one(x):
-    return x
-@jit()
+    def test_a_loop_by_numba_takes_functions_by_numba_and_leaves_nothing(self, law, cache, python):
+        first = python(RUN, law)
+        kept = compiled(cache)
+        plain = python(RUN, law, SYMGEN_COMPILER="numba")
+        assert counts(plain) == (0, 0) and compiled(cache) == kept == ALL
+        np.testing.assert_allclose(plain["y"], first["y"], rtol=1e-14)
+
+    def test_nothing_is_compiled_where_numba_would_not(self, law, cache, python):
+        plain = python(RUN, law, NUMBA_DISABLE_JIT="1")
+        assert (*counts(plain), plain["status"]) == (0, 0, 0) and compiled(cache) == []
+
+
+@jit.jit(float64(float64))
+def at_the_top(x):
+    """Twice as much."""
+    return 2.0 * x
+
+
+@jit.jit()
 def half(x):
     return 0.5 * x
-""")
-        script = """
-import json, sys, factory
-from symgen.store.jit import cache_stats
-steps = {"one": factory.one, "half": factory.half}
-made = [factory.make(float(text[0]), steps[text[1:]]) for text in sys.argv[1:]]
-for function in made:
-    function(1.0)
-print(json.dumps([[factory.apply(function, 1.0) for function in made], cache_stats()["hits"]]))
-"""
-        assert python(script, "2one") == [[2.0], 0]
-        assert python(script, "3one") == [[3.0], 2]  # apply and one
-        assert python(script, "2half") == [[1.0], 1]
-        assert python(script, "2one", "3one", "2half") == [[2.0, 3.0, 1.0], 4]
-        assert python(script, "3one", "2half", "2one") == [[3.0, 1.0, 2.0], 4]
-
-    def test_switches_of_numba(self, cache, generated, python):
-        plain = python(RUN, generated / "lagrange.py", NUMBA_DISABLE_JIT="1")
-        assert (plain["hits"], plain["misses"], plain["status"]) == (0, 0, 0)
-        python(RUN, generated / "lagrange.py")
-        other = python(RUN, generated / "lagrange.py", NUMBA_BOUNDSCHECK="1")  # other machine code
-        assert (other["hits"], other["misses"]) == (0, 4)
 
 
-@jit.jit("float64(float64)")
-def at_the_top(x):
-    return x
+@jit.jit(float64(float64))
+def quarter(x):
+    return half(half(x))
+
+
+@jit.jit(int64(FunctionType(int64(int64)), int64))
+def count(function, n):
+    return function(n) + 1
+
+
+@jit.jit(int64(int64))
+def next_one(n):
+    return n + 1
+
+
+@jit.jit(float64(float64))
+def wrong(x):
+    return x.nothing
+
+
+def again(function, **options):
+    """The same function, not yet compiled in this process."""
+    return jit.RuntimeFunction(function.py_func, signature=function.signature, **options)
 
 
 class TestDecorator:
     def test_is_pickled_by_name(self):
         assert pickle.loads(pickle.dumps(at_the_top)) is at_the_top
 
-    def test_defaults_and_documentation(self, cache):
-        @jit.jit()
-        def double(x):
-            """Twice as much."""
-            return 2.0 * x
+    def test_is_named_and_described_as_the_function(self):
+        assert at_the_top.__name__ == "at_the_top" and at_the_top.__doc__ == "Twice as much."
+        assert at_the_top.contracted and not jit.jit(contracted=False)(lambda x: x).contracted
 
-        assert double(3.0) == 6.0
-        assert double.__name__ == "double" and double.__doc__ == "Twice as much."
-        options = {name: double.targetoptions[name] for name in ("nogil", "error_model", "fastmath")}
-        assert options == {"nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
-        assert jit.jit(fastmath=False)(lambda x: x).targetoptions["fastmath"] is False
-
-    def test_signatures_are_compiled_at_the_first_call_and_nothing_else_ever(self, cache):
-        @jit.jit("float64(float64)", types.int64(types.int64))
-        def double(x):
-            return 2 * x
-
-        assert double.signatures == []
-        before = cache_stats()
-        assert double(2) == 4
-        assert cache_stats()["misses"] - before["misses"] == 2
-        assert double.signatures == [(types.float64,), (types.int64,)]
-        assert double(2.5) == 5.0
-        assert double(np.float32(1.5)) == 3.0  # safe conversion
-        with pytest.raises(TypeError, match="No matching definition"):
-            double("2")
-        assert len(double.signatures) == 2
+    def test_is_compiled_at_the_first_call_and_never_again(self, cache):
+        double, before = again(at_the_top), cache_stats()
+        assert compiled(cache) == []
+        assert double(2) == 4.0 and isinstance(double(2), float)
+        assert double(np.float32(1.5)) == 3.0
+        assert cache_stats()["misses"] - before["misses"] == 1 and compiled(cache) == ["at_the_top"]
+        for arguments in ((), (1.0, 2.0), (None,)):
+            with pytest.raises(TypeError):
+                double(*arguments)
 
     def test_is_called_from_compiled_code_and_given_as_a_function(self, cache):
-        @jit.jit("float64(float64)")
-        def half(x):
-            return 0.5 * x
-
-        @jit.jit("float64(float64)")
-        def quarter(x):
-            return half(half(x))
-
-        @jit.jit(types.float64(types.FunctionType(types.float64(types.float64)), types.float64))
-        def apply(function, x):
-            return function(x)
-
         assert quarter(8.0) == 2.0
-        third = jit.jit("float64(float64)")(lambda x: x / 3)
-        assert apply(third, 9.0) == 3.0  # compiled by being given
-        assert apply(half, 9.0) == 4.5
+        assert half(9.0) == 4.5  # compiled for what it is called with
+        assert count(next_one, 40) == 42  # compiled by being given
 
-    def test_an_error_of_the_compiler_comes_at_every_call(self, cache):
-        @jit.jit("float64(float64)")
-        def wrong(x):
-            return x.nothing
-
+    def test_an_error_of_the_reader_comes_at_every_call(self, cache):
         for _ in range(2):
-            with pytest.raises(numba.TypingError, match="nothing"):
+            with pytest.raises(InputError, match=r"\.wrong': expected the language .* SYMGEN_COMPILER=numba"):
                 wrong(1.0)
 
     def test_first_calls_from_several_threads(self, cache):
-        @jit.jit("float64(float64)")
-        def double(x):
-            return 2 * x
-
-        results: list[float] = []
+        double, before, results = again(at_the_top), cache_stats(), list[float]()
         threads = [threading.Thread(target=lambda: results.append(double(2))) for _ in range(4)]
         for thread in threads:
             thread.start()
         for thread in threads:
             thread.join()
-        assert results == [4.0] * 4
-        assert all(isinstance(value, float) for value in results)  # never compiled for int
-        assert double.signatures == [(types.float64,)]
+        assert results == [4.0] * 4 and cache_stats()["misses"] - before["misses"] == 1
 
-    def test_what_closes_over_an_odd_object_stays_uncached(self, cache):
-        class Odd:
-            def __init__(self):
-                self.value = 1
-
-        odd = Odd()
-
-        def closes(x):
-            return x if odd is None else 2 * x
-
-        closes_jitted = jit.jit()(lambda x: 2 * x)
-        assert type(closes_jitted._cache).__name__ == "MachineCode"
-        assert type(jit.jit()(closes)._cache).__name__ == "NullCache"
-
-    def test_recompile_forgets_and_works(self, cache):
-        @jit.jit()
-        def flushed(x):
-            return 2 * x
-
-        flushed(1)
-        assert compiled(cache)
-        flushed.recompile()
-        assert flushed(2) == 4
-        assert len(compiled(cache)) == 1
+    def test_options_are_part_of_the_key(self, cache):
+        keys = {again(at_the_top, **options).key((float64,)) for options in ({}, {"contracted": False}, {"once": True})}
+        assert len(keys) == 3
 
 
-def test_nothing_is_unpickled_from_a_folder_that_others_can_enter(cache, monkeypatch):
-    def double(x):
-        return 2 * x
-
-    jit.jit()(double)(1.0)
+def test_nothing_is_read_from_a_folder_that_others_can_enter(cache, monkeypatch):
+    again(at_the_top)(1.0)
     folder = next((cache / "native").iterdir())
     folder.chmod(0o750)
-    monkeypatch.setattr(pickle, "loads", lambda *_: pytest.fail("unpickled"))
-    assert jit.jit()(double)(1.0) == 2.0
+    monkeypatch.setattr(jit.marshal, "loads", lambda *_: pytest.fail("read"))
+    assert again(at_the_top)(1.0) == 2.0
+
+
+class TestMade:
+    """Object files of text in LLVM's language are made once and read again."""
+
+    TEXT = 'define i64 @"{name}"(i64 %x) {{\n  %y = add i64 %x, {more}\n  ret i64 %y\n}}\n'
+
+    def test_an_object_file_is_made_once(self, cache, monkeypatch):
+        name = "symgen.test_jit.first"
+        code = jit.made(self.TEXT.format(name=name, more=3), name)
+        monkeypatch.setattr("symgen.native.machine.compiled", lambda text, symbol: pytest.fail("made twice"))
+        assert jit.made(self.TEXT.format(name=name, more=3), name) == code
+        call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64)(load(code, [name])[name])
+        assert call(39) == 42
+        assert len(compiled(cache)) == 1
+
+    def test_another_text_of_the_same_name_and_a_spoilt_file_are_made_anew(self, cache):
+        name = "symgen.test_jit.second"
+        code = jit.made(self.TEXT.format(name=name, more=1), name)
+        assert jit.made(self.TEXT.format(name=name, more=2), name) != code
+        for path in (cache / "native").rglob("*.bin"):
+            content = bytearray(path.read_bytes())
+            content[-1] ^= 1
+            path.write_bytes(content)
+        assert jit.made(self.TEXT.format(name=name, more=1), name) == code
 
 
 class TestIdentity:
-    def test_equal_content_gives_equal_text(self):
-        def text() -> str:
-            value = {"a": [1, 2.5, None, b"x"], "b": {"p", "q", "r"}, "c": np.arange(3.0), "d": np.float64(1)}
-            return identity.describe(value)
-
-        assert text() == text()
-
-    @pytest.mark.parametrize(
-        ("one", "other"),
-        [
-            (1, 1.0),
-            (1, True),
-            (0.0, -0.0),
-            (1.0, np.float64(1)),
-            ("1", 1),
-            ((1,), [1]),
-            (np.zeros(2), np.zeros(3)),
-            (np.zeros(2), np.zeros(2, np.float32)),
-            (np.zeros((2, 1)), np.zeros((1, 2))),
-            (("a", "b"), ("a,b",)),
-            (types.float64, types.float32),
-        ],
-    )
-    def test_other_content_gives_another_text(self, one, other):
-        assert identity.describe(one) != identity.describe(other)
-
-    def test_functions_differ_by_what_they_do_and_close_over(self):
-        def make(c, default=1):
-            def f(x, y=default):
-                return c * x + y
-
-            return f
-
-        texts = {identity.describe_function(f) for f in (make(1), make(2), make(1, 2), lambda x: x, lambda x: -x)}
-        assert len(texts) == 5
-        assert identity.describe_function(make(1)) == identity.describe_function(make(1))
-
-    def test_what_has_no_content_is_refused(self):
-        recursive: list[object] = []
-        recursive.append(recursive)
-        for value in (object(), recursive, np.array([object()])):
-            with pytest.raises(identity.NotDescribable):
-                identity.describe(value)
-
     def test_the_stamp_covers_runtime_and_integrators(self, tmp_path, monkeypatch):
         (tmp_path / "store").mkdir()
         for folder in ("runtime", "integrators"):
@@ -330,6 +256,16 @@ class TestIdentity:
                 (tmp_path / path).write_text("a = 2")
             stamps.add(identity.sources_digest.__wrapped__("runtime", "integrators"))
         assert len(stamps) == 4
+
+    def test_what_a_name_means_is_part_of_the_key(self, monkeypatch):
+        keys = set()
+        for meaning in (half, at_the_top, 3.0, 3, -0.0, 0.0):
+            monkeypatch.setitem(globals(), "half", meaning)
+            keys.add(again(quarter).key((float64,)))
+        assert len(keys) == 6
+
+    def test_the_loops_of_these_tests_are_parts_and_loops(self):
+        assert LOOPS.count("@jit()") == 1, "what `ALL` rests on"
 
 
 def test_the_head_of_a_file_holds_its_key(tmp_path):

@@ -8,17 +8,15 @@ import numpy as np
 import pytest
 
 from symgen.errors import InputError
+from symgen.store.emitted import EmittedFunction
 from symgen.store.modules import load_module
 
 from .conftest import FOLDER, LAW, MODEL
 
 
 @pytest.fixture(autouse=True)
-def forget(cache):
-    """Leave no emitted module behind for the next test."""
-    yield
-    for name in [name for name in sys.modules if name.startswith("symgen_generated")]:
-        del sys.modules[name]
+def _own_cache(cache):
+    """A cache of its own for each test."""
 
 
 def rate(module, angle=1.0):
@@ -34,7 +32,7 @@ def test_the_name_comes_from_folder_and_file(generated):
     assert law.__file__ == str(generated / "lagrange.py")
     assert law.geometry is sys.modules[f"symgen_generated.{FOLDER}.model"].geometry
     assert rate(law) == pytest.approx(-9.81 * np.sin(1.0))
-    assert {type(law.rhs._cache).__name__, type(law.geometry._cache).__name__} == {"MachineCode"}
+    assert isinstance(law.rhs, EmittedFunction) and isinstance(law.geometry, EmittedFunction)
     assert sorted(path.name for path in generated.iterdir()) == ["lagrange.py", "model.py"]  # nothing written there
 
 
@@ -124,8 +122,11 @@ def test_a_module_that_fails_is_not_kept(generated):
 def test_importing_the_store_is_cheap():
     script = """
 import sys
-import symgen.store.entries, symgen.store.modules, symgen.store.stats, symgen.store.paths
-print(sorted({"numba", "numpy", "platformdirs", "filelock", "sympy"} & set(sys.modules)))
+import symgen.store.entries, symgen.store.stats, symgen.store.paths
+known = {"numba", "llvmlite", "numpy", "platformdirs", "filelock", "sympy"}
+assert not known & {*sys.modules}, known & {*sys.modules}
+import symgen.store.modules
+print(sorted(known & {*sys.modules} - {"llvmlite", "numpy"}))
 """
     project = str(Path(__file__).parents[2])
     output = subprocess.run([sys.executable, "-c", script], cwd=project, capture_output=True, text=True, check=True)
