@@ -15,6 +15,7 @@ import sys
 import tempfile
 import time
 from statistics import median
+from typing import Any
 
 import numpy as np
 
