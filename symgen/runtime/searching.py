@@ -77,7 +77,7 @@ from symgen.runtime.search_records import (
     WHOLE,
     WIDTH,
 )
-from symgen.runtime.switching import asked, first_root, hidden, is_finite, side_of
+from symgen.runtime.switching import asked, dip, first_root, is_finite, side_of
 from symgen.store.emitted import plain
 
 A = Any
@@ -209,7 +209,7 @@ def concealed(hunt: A, n: int) -> float:
             d0, d1 = (high - low) * hunt[at + D_LOW * n + k], (high - low) * hunt[at + D_HIGH * n + k]
             side, direction = hunt[at + LOCAL * n + k], hunt[at + DIRECTION * n + k]
             if is_finite(d0 + d1) == 1 and asked(direction, side, side_of(g1, side)) == 0:
-                x = min(x, hidden(g0, d0, g1, d1, side, direction, 0.0))
+                x = min(x, dip(g0, d0, g1, d1, side))
     return float(low + x * (high - low)) if x < 1.0 else float(high)
 
 
