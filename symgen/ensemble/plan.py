@@ -242,7 +242,7 @@ def make_ensemble(
     late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in kept)
     # what Python does something between; and measures behind the loops know the inputs of one part
     measured = driving.changes and any(q.source >= SIDE for q in kept)
-    parts = resets or late or measured or (joint and bool(events))
+    parts = resets or late or measured
     alone = parts or joint
     watch = Watch(mechanism, events, ends, alone) if alone or events or looks else None
     # single runs add up all that outputs ask for, which their steps follow, too
