@@ -6,6 +6,8 @@ import math
 
 from symgen.store.emitted import plain
 
+#: Iterations for the root of a cubic, most of which halve a part at worst.
+_ITERATIONS = 60
 #: What is below this part of g at both ends is rounding.
 _ROUNDING = 1e-14
 
@@ -52,6 +54,24 @@ def is_finite(x: float) -> int:
 
 
 @plain
+def root_between(g0: float, d0: float, g1: float, d1: float, side: float, low: float, high: float) -> float:
+    """Return where the cubic leaves a side between two of its extrema: Newton's iteration, halves where it strays."""
+    rise, x = g1 - g0, 0.5 * (low + high)
+    for _ in range(_ITERATIONS):
+        g = cubic(g0, d0, g1, d1, x)
+        if side * g >= 0.0:
+            low = x
+        else:
+            high = x
+        slope = d0 + x * (2.0 * (3.0 * rise - 2.0 * d0 - d1) + x * 3.0 * (d0 + d1 - 2.0 * rise))
+        following = x - g / slope if slope != 0.0 else low
+        if abs(following - x) <= _ROUNDING:
+            return following
+        x = following if following > low and following < high else 0.5 * (low + high)
+    return x
+
+
+@plain
 def first_root(g0: float, d0: float, g1: float, d1: float, side: float) -> float:
     """Return where the cubic first leaves a side, g1 being on the other one; 0 where it has left it already."""
     low, below = 0.0, 1 if side * g0 >= 0.0 else 0
@@ -61,13 +81,7 @@ def first_root(g0: float, d0: float, g1: float, d1: float, side: float) -> float
             continue
         above = 0 if k < 2 and side * cubic(g0, d0, g1, d1, high) >= 0.0 else 1
         if below == 1 and above == 1:
-            for _ in range(60):
-                middle = 0.5 * (low + high)
-                if side * cubic(g0, d0, g1, d1, middle) >= 0.0:
-                    low = middle
-                else:
-                    high = middle
-            return 0.5 * (low + high)
+            return root_between(g0, d0, g1, d1, side, low, high)
         low, below = high, 1 - above
     return 0.0
 
