@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numba import types
 from numpy.typing import NDArray
 
+from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime.exact import exact
 from symgen.runtime.probe import Ready
@@ -76,7 +76,7 @@ class Further(NamedTuple):
 
 
 _I, _A = types.int64[::1], types.float64[::1]
-JOINTS = types.NamedTuple((LAYOUT, LAYOUT, _I, *(_A,) * 4), Joints)
+JOINTS = types.Record((LAYOUT, LAYOUT, _I, *(_A,) * 4), Joints)
 
 
 def joints_held(info: ModelInfo, base: Layout, values: Sequence[int], rates: Sequence[int], scratch: Array) -> Joints:

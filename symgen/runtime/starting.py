@@ -28,7 +28,7 @@ from symgen.runtime.start_records import ASKED, INSTANT, MODEL, WORK, Asked, Clo
 
 _A, _I = types.float64[::1], types.int64[::1]
 #: A model, its ``observe``, and the joint coordinates that starts hold.
-_HOLDING = types.Tuple((MODEL, abi.OBSERVE, JOINTS))
+_HOLDING = types.Record((MODEL, abi.OBSERVE, JOINTS))
 
 
 @exact(types.int64(_HOLDING, INSTANT, ASKED, WORK), once=True)
