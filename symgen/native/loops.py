@@ -270,9 +270,10 @@ class LoopReader(Values):
 
     def invoke(self, called: Address, arguments: list[Value], node: ast.Call) -> lang.Expression:
         """Return what a function gives that is known by its address."""
-        if called.signature.result is not types.int64:
+        result = SCALARS.get(called.signature.result)
+        if result is None:
             raise Foreign("a function with other results", node)
-        return lang.Invoke("int", called.name, handed_on(called.signature.arguments, arguments))
+        return lang.Invoke(result, called.name, handed_on(called.signature.arguments, arguments))
 
     def insert(self, called: Piece, arguments: list[Value], node: ast.Call) -> Value:
         """Return what a function gives that is written in LLVM's language."""

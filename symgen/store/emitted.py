@@ -11,14 +11,13 @@ import ast
 import builtins
 import functools
 from collections.abc import Callable
-from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
 
 from symgen.native import types
 from symgen.native.compiler import by_numba, compiler, interpreted
 from symgen.native.read_tables import Written
-from symgen.store.identity import source_stamp
+from symgen.store.identity import content, source_stamp
 from symgen.store.jit import Arguments, Entry, MachineFunction, arguments_of, kinds_of, syntax_tree
 
 if TYPE_CHECKING:
@@ -102,8 +101,7 @@ def plain(function: _Function) -> _Function:
         numbas: _Function = njit(error_model="numpy", fastmath={"contract"})(function)
         return numbas
     compiled: Any = EmittedFunction(function)
-    path = Path(function.__code__.co_filename)
-    compiled.origin = Origin(source_stamp(function), path.read_bytes())
+    compiled.origin = Origin(source_stamp(function), content(function.__code__.co_filename))
     return cast("_Function", compiled)
 
 

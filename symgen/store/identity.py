@@ -9,6 +9,7 @@ from __future__ import annotations
 import functools
 import hashlib
 import inspect
+import linecache
 import types
 from collections.abc import Iterable
 from pathlib import Path
@@ -46,15 +47,15 @@ def source_stamp(function: Any) -> str:
     """
     files = sorted({inspect.getfile(reached) for reached in _reached(function, {})})
     # Contents without names: the same sources in another place give the same machine code.
-    return digest(*sorted(_file_digest(file) for file in files), sources_digest(*_SOURCE_FOLDERS))
+    return digest(*sorted(file_digest(file) for file in files), sources_digest(*_SOURCE_FOLDERS))
 
 
-def _file_digest(path: str) -> str:
-    """Return the digest of a file; of a function without one, as in a console, that of its name alone."""
+def content(path: str) -> bytes:
+    """Return the content of a source file, or of a cell of a notebook, which is no file; empty where there is none."""
     try:
-        return file_digest(path)
+        return Path(path).read_bytes()
     except OSError:
-        return digest(path)
+        return "".join(linecache.getlines(path)).encode()
 
 
 def _reached(function: Any, seen: dict[int, Any]) -> Iterable[Any]:
@@ -78,7 +79,7 @@ def _near(module: types.ModuleType, function: Any) -> bool:
 @functools.cache
 def file_digest(path: str) -> str:
     """Return the digest of what a file held when it was first asked for, at the latest when it was loaded."""
-    return digest(Path(path).read_bytes())
+    return digest(content(path))
 
 
 @functools.cache

@@ -28,7 +28,7 @@ from symgen.native.calls import caller, kind_of
 from symgen.native.compiler import COMPILER, by_numba, compiler, interpreted
 from symgen.native.machine import load, lock, processor
 from symgen.store import private
-from symgen.store.identity import digest, file_digest, source_stamp, sources_digest
+from symgen.store.identity import content, digest, file_digest, source_stamp, sources_digest
 from symgen.store.paths import cache_location
 from symgen.store.stats import Clock
 from symgen.store.upkeep import NATIVE
@@ -238,10 +238,7 @@ class RuntimeFunction(MachineFunction):
 
     def tree(self) -> ast.FunctionDef | None:
         """Return the syntax tree of the function, None where its source cannot be had."""
-        try:
-            return syntax_tree(_lines(self.py_func.__code__.co_filename), self.py_func)
-        except (OSError, ValueError):
-            return None
+        return syntax_tree(_lines(self.py_func.__code__.co_filename), self.py_func)
 
     def identity(self) -> str:
         """Return the sources and options that machine code depends on."""
@@ -367,7 +364,7 @@ def _meaning(value: Any) -> str:
 
 
 def _is_plain(value: Any) -> bool:
-    return isinstance(value, bool | int | float | str | None)
+    return value is None or isinstance(value, int | float | str)
 
 
 @contextlib.contextmanager
@@ -406,5 +403,5 @@ def syntax_tree(lines: Sequence[str], function: Any) -> ast.FunctionDef | None:
 @functools.lru_cache(maxsize=64)
 def _lines(file: str) -> tuple[str, ...]:
     """Return the lines of a file, none of one that has been edited since it was loaded."""
-    content = Path(file).read_bytes()
-    return tuple(content.decode().split("\n")) if digest(content) == file_digest(file) else ()
+    text = content(file)
+    return tuple(text.decode().split("\n")) if digest(text) == file_digest(file) else ()

@@ -16,6 +16,7 @@ from symgen.runtime import rows
 from symgen.runtime.hunting import with_events
 from symgen.runtime.stopping import with_stops
 from symgen.store import jit as store
+from symgen.store.paths import ENVIRONMENT_VARIABLE
 
 from .twofold import by, process
 
@@ -66,8 +67,9 @@ def test_a_loop_outside_the_language_says_so_and_is_numbas_where_asked_for():
         assert doubled(2.0) == 4.0
 
 
-def test_a_loop_whose_file_was_edited_since_it_was_loaded_is_told(tmp_path, monkeypatch):
-    """The definition at its place in the file is another one by then."""
+def test_a_loop_whose_file_was_edited_since_it_was_loaded_is_refused(tmp_path, monkeypatch):
+    """The definition at its place in the file is another one by then; nothing is in the cache."""
+    monkeypatch.setenv(ENVIRONMENT_VARIABLE, str(tmp_path / "cache"))
     file = tmp_path / "edited_later.py"
     head = "from symgen.native.types import float64\nfrom symgen.store.jit import jit\n\n\n"
     file.write_text(f"{head}@jit(float64(float64))\ndef area(x):\n    return 2.0 * x\n")
