@@ -82,23 +82,15 @@ class RunTask:
 
 
 @dataclass(frozen=True)
-class LimitTask:
+class LimitTask(RunTask):
     """Find the largest constant step of a method and an integrator for a case."""
 
-    level: Level
-    method: str
-    integrator: str
-    reference: Fields
-    coordinates: str = "absolute"
 
-
-def compute(task: ReferenceTask | RunTask | LimitTask) -> Fields:
+def compute(task: ReferenceTask | RunTask) -> Fields:
     """Compute a cell; see the classes of tasks."""
     if isinstance(task, ReferenceTask):
         return reference_of(task.level)
-    if isinstance(task, RunTask):
-        return _run(task).to_json()
-    return _limit(task)
+    return _limit(task) if isinstance(task, LimitTask) else _run(task).to_json()
 
 
 # -- runs --------------------------------------------------------------------------------------------------------------
@@ -123,10 +115,6 @@ class RunFields:
         """Return what JSON can express; numbers that are not finite are None."""
         fields = dict(self.__dict__)
         return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in fields.items()}
-
-
-#: Of a run whose process died.
-CRASHED = RunFields(judged.DIVERGED, None, "failed", "its process died", 0, None, None, None, "", "")
 
 
 def _nothing(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") -> RunFields:
