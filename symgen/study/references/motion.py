@@ -14,7 +14,7 @@ import math
 from collections.abc import Callable, Mapping
 from functools import cache, cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numba
 import numpy as np
@@ -26,14 +26,12 @@ from symgen.describe.mechanism import Mechanism
 from symgen.errors import SimulationError
 from symgen.result.points import Points
 from symgen.study.references.curves import curves
+from symgen.study.references.formulas import Formulas
 from symgen.study.references.independent import CUTOFF, IndependentEquations
 from symgen.study.references.least_squares import compiled, shortest
 from symgen.study.references.parts import Advance, by_outputs, in_parts, longest_of
 from symgen.study.references.reference import Reference
 from symgen.study.references.stiff import OverBudgetError, by_radau, is_stiff
-
-if TYPE_CHECKING:
-    from symgen.vocabulary.expressions import Expr
 
 Array = NDArray[np.float64]
 
@@ -82,12 +80,9 @@ class CompiledEquations(IndependentEquations):
 
     def evaluate(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array, Array, Array]:
         """Return Phi, D, nu, gamma and f at a state."""
-        m, k = self.m, len(self._entries)
-        flat = np.zeros(3 * m + k + self.n)
+        flat = np.zeros(3 * self.m + len(self._entries) + self.n)
         self._function(float(t), np.ascontiguousarray(q), np.ascontiguousarray(v), self.values, flat)
-        d = np.zeros((m, self.n))
-        d[self._row_index, self._column_index] = flat[m : m + k]
-        return flat[:m], d, flat[m + k : 2 * m + k], flat[2 * m + k : 3 * m + k], flat[3 * m + k :]
+        return self._parted(flat)
 
     def rate(self, t: float, y: Array) -> Array:
         """Return (v, v'), as `IndependentEquations.rate` does."""
@@ -149,10 +144,7 @@ class CompiledEquations(IndependentEquations):
     def _parameter_symbols(self) -> dict[str, Any]:
         return {p.name: symbol for p, symbol in zip(self.mechanism.parameters, self.symbols, strict=True)}
 
-    def _weight(self, i: int, mass: Expr, gravity: Expr) -> Any:
-        return self._expression(mass) * self._expression(gravity)
-
-    def _compile(self, outputs: list[Any]) -> Callable[..., Any]:
+    def _compile(self, formulas: Formulas, outputs: list[Any]) -> Callable[..., Any]:
         """Return the outputs as a compiled function (t, q, v, p, out)."""
         shared, results = sp.cse(outputs, symbols=sp.numbered_symbols("x"), order="canonical")
         names = [*(f"q{i} = q[{i}]" for i in range(self.n)), *(f"v{i} = v[{i}]" for i in range(self.n))]

@@ -238,10 +238,10 @@ def _integrated(
     progress: Progress | None,
 ) -> Reference:
     """Integrate independently derived equations twice."""
-    from symgen.study.references.independent_space import independent_equations
+    from symgen.study.references.independent import IndependentEquations
 
     name, fine_tolerance, coarse_tolerance, goes_on = SOLVERS[solver]
-    equations = independent_equations(mechanism, parameters)
+    equations = IndependentEquations(mechanism, parameters)
     y = equations.project(0.0, equations.state(*start))
 
     def part(first: float, share: float) -> Progress:
