@@ -82,11 +82,11 @@ def test_a_solver_that_gives_up_costs_its_reference_alone(monkeypatch):
     def gives_up(*arguments, **options):
         raise ValueError("array must not contain infs or NaNs")
 
-    monkeypatch.setattr("scipy.integrate.solve_ivp", gives_up)
+    monkeypatch.setattr("scipy.integrate.Radau", gives_up)
     monkeypatch.setattr("symgen.study.references.motion.is_stiff", lambda equations, y, until: True)
     mechanism = symgen.load("pendulum").mechanism
     equations = CompiledEquations(mechanism, {p.name: p.value for p in mechanism.parameters})
-    with pytest.raises(SimulationError, match="cannot be integrated beyond t = 0 s: array must not"):
+    with pytest.raises(SimulationError, match="cannot be integrated beyond t = 0 s: the state is not finite"):
         motion(equations, np.array([-1.0, 0.0]), np.zeros(2), np.array([0.0, 0.1]))
 
 

@@ -29,9 +29,10 @@ from symgen.study.references.curves import curves
 from symgen.study.references.formulas import Formulas
 from symgen.study.references.independent import CUTOFF, IndependentEquations
 from symgen.study.references.least_squares import compiled, shortest
-from symgen.study.references.parts import Advance, by_outputs, in_parts, longest_of
+from symgen.study.references.parts import in_parts, longest_of
 from symgen.study.references.reference import Reference
-from symgen.study.references.stiff import OverBudgetError, by_radau, is_stiff
+from symgen.study.references.solvers import OverBudgetError, Progress, Scheme, by_steps
+from symgen.study.references.stiff import is_stiff
 
 Array = NDArray[np.float64]
 
@@ -47,6 +48,8 @@ COLUMNS = 8
 #: Evaluations after which a reference of few coordinates is given up. Costs of an evaluation grow with their square;
 #: with dependent rows it needs singular values, which cost about so many times as much.
 BUDGET, FEW, DEPENDENT = 3_000_000, 9, 20
+#: Evaluations of an integration by Radau after which it is given up, those of Jacobians included.
+STIFF_BUDGET = 400_000
 
 _F8, _A, _I8, _I = types.float64, types.float64[::1], types.int64, types.int64[::1]
 #: equations(t, q, v, p, out).
@@ -338,12 +341,18 @@ def motion(
     equations.dependent = bool(np.linalg.matrix_rank(d, CUTOFF * np.linalg.norm(d)) < equations.m) if d.size else False
     stiff = is_stiff(equations, y, float(times[-1]))
     scale = _scale(y, equations.n)
-    integrate = by_radau if stiff else _by_extrapolation
+
+    def integrate(rtol: float, every: int, progress: Progress) -> Array:
+        if stiff:
+            scheme = Scheme("Radau", rtol, every, most=STIFF_BUDGET)
+            return by_steps(equations, y, times, scheme, progress, scale)
+        return _by_extrapolation(equations, y, times, rtol, every, progress, scale)
+
     attempts = [(STIFF_FINE, STIFF_COARSE)] if stiff else [(FINE, COARSE), (ROUGH_FINE, ROUGH_COARSE)]
     for tolerances in attempts:
         try:
-            fine = integrate(equations, y, times, tolerances[0], 1, lambda done: say(0.6 * done), scale)
-            coarse = integrate(equations, y, times, tolerances[1], 2, lambda done: say(0.6 + 0.4 * done), scale)
+            fine = integrate(tolerances[0], 1, lambda done: say(0.6 * done))
+            coarse = integrate(tolerances[1], 2, lambda done: say(0.6 + 0.4 * done))
             break
         except SimulationError:
             if tolerances == attempts[-1]:
@@ -357,27 +366,27 @@ def motion(
     return Reference(how, max(estimated, 1e-14), times, fine)
 
 
-Walk = Callable[[float], None]
-
-
 def _by_extrapolation(
-    equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, progress: Walk, scale: Array
+    equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, progress: Progress, scale: Array
 ) -> Array:
     """Return q at `times`; every `every`-th output is projected."""
     used, longest = np.zeros(1, dtype=np.int64), longest_of(equations, times)
 
-    def begin() -> Advance:
-        step = np.zeros(1)  # the one to try next
+    def part(t: float, y: Array, times: Array, progress: Progress) -> Array:
+        found, step = np.empty((len(times), len(y))), np.zeros(1)  # the step to try next
+        for k, following in enumerate(times.tolist()):
+            if following > t:
+                count = max(1, math.ceil((following - t) / longest))
+                for first, last in pairwise(np.linspace(t, following, count + 1).tolist()):
+                    y = equations.advance(first, y, last, rtol, scale, step, used)
+                t = following
+            if k % every == 0:
+                y = equations.project(t, y)
+            found[k] = y
+            progress(t / (times[-1] or 1.0))
+        return found
 
-        def advance(t: float, y: Array, following: float) -> Array:
-            parts = max(1, math.ceil((following - t) / longest))
-            for first, last in pairwise(np.linspace(t, following, parts + 1).tolist()):
-                y = equations.advance(first, y, last, rtol, scale, step, used)
-            return y
-
-        return advance
-
-    return in_parts(equations, y, times, progress, by_outputs(equations, every, begin))[:, : equations.n]
+    return in_parts(equations, y, times, progress, part)[:, : equations.n]
 
 
 def _scale(y: Array, n: int) -> Array:

@@ -27,8 +27,6 @@ JUMP = 3e-12
 #: Called with the time at which a part begins, the state there, the times at which states are wanted, the last of them
 #: the part's end, and what is told how far it is; returns the states.
 Integrate = Callable[[float, Array, Array, Callable[[float], None]], Array]
-#: Called with a time, the state there and another time; returns the state at that.
-Advance = Callable[[float, Array, float], Array]
 
 
 def longest_of(equations: IndependentEquations, times: Array) -> float:
@@ -78,30 +76,3 @@ def in_parts(
 def _up_to(share: float, progress: Callable[[float], None]) -> Callable[[float], None]:
     """Return what is told how far a part is that ends at a share of the whole."""
     return lambda part: progress(share * part)
-
-
-def by_outputs(equations: IndependentEquations, every: int, begin: Callable[[], Advance]) -> Integrate:
-    """Return what integrates a part from output to output.
-
-    Parameters
-    ----------
-    equations : IndependentEquations
-        What is integrated.
-    every : int
-        Every so many-th output is projected.
-    begin : callable
-        Returns, for each part, what takes a state at a time to another time.
-    """
-
-    def integrate(t: float, y: Array, times: Array, progress: Callable[[float], None]) -> Array:
-        result, advance = np.empty((len(times), len(y))), begin()
-        for k, following in enumerate(times.tolist()):
-            if following > t:
-                y, t = advance(t, y, following), following
-            if k % every == 0:
-                y = equations.project(t, y)
-            result[k] = y
-            progress(t / (times[-1] or 1.0))
-        return result
-
-    return integrate

@@ -10,14 +10,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.errors import SimulationError
 from symgen.result.agreement import agreement
-from symgen.study.references.parts import in_parts, longest_of
+from symgen.study.references.parts import longest_of
+from symgen.study.references.solvers import Scheme, by_steps
 
 if TYPE_CHECKING:
     from symgen.result.points import Points
@@ -31,8 +32,6 @@ Array = NDArray[np.float64]
 NEAR = 1e-2
 #: Steps of the runs, as fractions of the first one's.
 PHASES = (1.0, 0.93, 0.81, 1.11, 0.71, 0.62)
-#: What evaluations far off the constraints end with.
-FAILURES = (ArithmeticError, ValueError, np.linalg.LinAlgError)
 #: Two runs that differ by less, as a share of the mechanism's size, are not doubted further.
 GOOD = 1e-9
 
@@ -164,52 +163,5 @@ def _half(progress: Callable[[float], None], run: int) -> Callable[[float], None
 def march(
     equations: IndependentEquations, y: Array, times: Array, step: float, progress: Callable[[float], None]
 ) -> Array:
-    """Return q at `times` by DOP853 at a constant step, mass-weighted projections after each.
-
-    Raises
-    ------
-    SimulationError
-        If the state is no longer finite.
-    """
-
-    def part(first: float, y: Array, times: Array, progress: Callable[[float], None]) -> Array:
-        return _marched(equations, first, y, times, step, progress)
-
-    return in_parts(equations, y, times, progress, part)[:, : equations.n]
-
-
-def _marched(
-    equations: IndependentEquations,
-    first: float,
-    y: Array,
-    times: Array,
-    step: float,
-    progress: Callable[[float], None],
-) -> Array:
-    """Return the states at `times` from that at `first` on, see `march`."""
-    from scipy.integrate import DOP853
-
-    make: Any = DOP853  # SciPy's types do not know infinite tolerances
-    motion, solver = np.empty((len(times), len(y))), None
-    for k, t in enumerate(times.tolist()):
-        if t > first and solver is None:
-            # no error exceeds an infinite tolerance, so every step is the largest allowed, or ends at an output
-            begin = min(step, t - first)
-            solver = make(equations.rate, first, y, t, first_step=begin, max_step=step, atol=np.inf)
-        elif solver is not None:
-            solver.t_bound, solver.status, solver.h_abs = t, "running", step
-        while solver is not None and solver.status == "running":
-            try:
-                solver.step()
-                if solver.status == "failed" or not np.all(np.isfinite(solver.y)):
-                    raise FloatingPointError
-                solver.y = equations.project(float(solver.t), solver.y)
-                solver.f = solver.fun(float(solver.t), solver.y)
-            except FAILURES as error:
-                raise SimulationError(
-                    f"the reference motion cannot be integrated beyond t = {solver.t:.6g} s: the state is not finite"
-                ) from error
-            y = solver.y
-        motion[k] = y
-        progress(t / (times[-1] or 1.0))
-    return motion
+    """Return q at `times` by DOP853 at a constant step, mass-weighted projections after each."""
+    return by_steps(equations, y, times, Scheme("DOP853", np.inf, step=step), progress)

@@ -13,30 +13,28 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from msgspec import structs
 from numpy.typing import NDArray
 
-from symgen.describe.kinks import compares_state
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import InputError, SimulationError
+from symgen.errors import InputError
 from symgen.result.agreement import AGREEMENT
 from symgen.result.points import Points
 from symgen.study.references.closed_space import CLOSED_SPACE
-from symgen.study.references.parts import in_parts, longest_of
-from symgen.study.references.passing import FAILURES, Watch, pass_through
+from symgen.study.references.passing import Watch, pass_through
 from symgen.study.references.solvers import (
     AUTO,
-    LOOKED_AT,
-    SHORTEST,
+    MOST_CALLS,
     SOLVERS,
-    UNSEEN,
+    CollapsedError,
+    Progress,
+    Scheme,
+    by_steps,
     check_solver,
     in_one_go,
-    jacobian_for,
-    unseen_in,
 )
 
 if TYPE_CHECKING:
@@ -44,8 +42,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Steps below this fraction of the mean one, so many in a row, do not get anywhere: a singular position.
-COLLAPSE, PATIENCE, MORE_PATIENCE = 1e-3, 30, 300
 #: Two runs through singular positions that agree by chance understate their error; it was up to five times the
 #: difference with `n-four-bar`, whose exact motion is known.
 DOUBT = 5.0
@@ -71,10 +67,6 @@ class Reference:
     times: Array
     q: Array
     note: str = ""
-
-
-#: Called with how far the work is, from 0 to 1.
-Progress = Callable[[float], None]
 
 
 def reference(
@@ -248,17 +240,23 @@ def _integrated(
         return lambda done: None if progress is None else progress(first + share * done)
 
     if not goes_on:
-        fine = in_one_go(equations, y, times, name, fine_tolerance, part(0.0, 0.6))
-        coarse = in_one_go(equations, y, times, name, coarse_tolerance, part(0.6, 0.4))
+        fine = in_one_go(equations, y, times, Scheme(name, fine_tolerance, most=MOST_CALLS), part(0.0, 0.6))
+        coarse = in_one_go(equations, y, times, Scheme(name, coarse_tolerance, most=MOST_CALLS), part(0.6, 0.4))
     else:
         watch, sizes = Watch(equations, y), list[float]()
+
+        def see(size: float, t: float, state: Array) -> None:
+            sizes.append(size)
+            watch.see(t, state)
+
         try:
-            fine = _integrate(equations, y, times, name, fine_tolerance, 1, True, part(0.0, 0.5), watch, sizes)
-        except _CollapsedError:
+            fine = by_steps(equations, y, times, Scheme(name, fine_tolerance), part(0.0, 0.5), see=see)
+            collapsed = False
+        except CollapsedError:
+            collapsed = True
+        if collapsed or watch.passed:
             return _through(mechanism, parameters, equations, y, times, sizes, part(0.5, 0.5))
-        if watch.passed:
-            return _through(mechanism, parameters, equations, y, times, sizes, part(0.5, 0.5))
-        coarse = _integrate(equations, y, times, name, coarse_tolerance, 3, False, part(0.5, 0.5))
+        coarse = by_steps(equations, y, times, Scheme(name, coarse_tolerance, 3, False), part(0.5, 0.5))
     estimated = Points.of(mechanism, parameters).distance(fine, coarse)
     how = (
         f"independently derived equations, SciPy {name} at {fine_tolerance:g}, projected at every output; "
@@ -272,10 +270,6 @@ def _usual(sizes: list[float]) -> float:
     ordered = np.sort(np.array(sizes))
     covered = np.cumsum(ordered)
     return float(ordered[int(np.searchsorted(covered, 0.5 * covered[-1]))])
-
-
-class _CollapsedError(SimulationError):
-    """Steps became too small to get anywhere, or the state is not finite: a singular position lies ahead."""
 
 
 def _through(
@@ -302,79 +296,3 @@ def _through(
             "motion takes, and errors are distances to one of them"
         )
     return Reference(how, max(DOUBT * found.difference, 1e-14), times, found.q, note)
-
-
-def _integrate(
-    equations: IndependentEquations,
-    y: Array,
-    times: Array,
-    name: str,
-    rtol: float,
-    every: int,
-    mass_weighted: bool,
-    progress: Progress,
-    watch: Watch | None = None,
-    sizes: list[float] | None = None,
-) -> Array:
-    """Return q at `times`; steps end at the outputs, and every `every`-th output is projected and gone on from.
-
-    A `watch` sees every step; `sizes` collects their lengths [s]. Where forces compare the state, a step that has not
-    seen all of them is taken again, half as long.
-    """
-    import scipy.integrate
-
-    scale = np.maximum(np.abs(y), 1.0)
-    make: Any = getattr(scipy.integrate, name)  # SciPy's types know no arrays of tolerances
-    compares = compares_state(equations.mechanism)
-    longest = min(longest_of(equations, times), float(times[-1]) / LOOKED_AT if compares and len(times) else np.inf)
-    more = {"rtol": rtol, "atol": rtol * scale, "max_step": longest, **jacobian_for(equations, name)}
-    # each jump of a force takes some tiny steps as well
-    patience = MORE_PATIENCE if compares else PATIENCE
-
-    def part(first: float, y: Array, times: Array, progress: Progress) -> Array:
-        motion = np.empty((len(times), len(y)))
-        solver: Any = None  # nor that a step changes the status
-        usual, steps, tiny = 0.0, 0, 0
-        for k, t in enumerate(times.tolist()):
-            if t > first:
-                if solver is None:
-                    solver = make(equations.rate, first, y, t, **more)
-                else:
-                    solver.t_bound, solver.status = t, "running"
-                    # the step before an output is cut short; going on with it would waste evaluations
-                    solver.h_abs = max(solver.h_abs, usual)
-                while solver.status == "running":
-                    before, at, state = solver.h_abs, float(solver.t), solver.y
-                    try:
-                        message = solver.step()
-                        looks = compares and solver.status != "failed"
-                        unseen = unseen_in(equations, solver.dense_output(), at, solver.t, scale) if looks else 0.0
-                    except FAILURES as error:
-                        where = f"t = {solver.t:.6g} s"
-                        raise _CollapsedError(
-                            f"the reference motion cannot be integrated beyond {where}: the state is not finite"
-                        ) from error
-                    if unseen > UNSEEN * rtol and solver.step_size > SHORTEST * t:
-                        solver = make(equations.rate, at, state, t, first_step=0.5 * solver.step_size, **more)
-                        continue
-                    steps += 1
-                    # of steps that are cut short before an output there is one in a row; many tiny ones lead nowhere
-                    mean = (solver.t - first) / steps
-                    tiny = tiny + 1 if solver.step_size is not None and solver.step_size < COLLAPSE * mean else 0
-                    if solver.status == "failed" or tiny >= patience or not np.all(np.isfinite(solver.y)):
-                        reason = message or ("the step size collapses" if tiny else "the state is not finite")
-                        where = f"t = {solver.t:.6g} s"
-                        raise _CollapsedError(f"the reference motion cannot be integrated beyond {where}: {reason}")
-                    if watch is not None and sizes is not None:
-                        watch.see(float(solver.t), solver.y)
-                        sizes.append(float(solver.step_size))
-                    usual = before if solver.status == "finished" else solver.h_abs
-                if k % every == 0:
-                    solver.y = equations.project(t, solver.y, mass_weighted)
-                    solver.f = solver.fun(t, solver.y)
-                y = solver.y
-            motion[k] = y
-            progress(t / (times[-1] or 1.0))
-        return motion
-
-    return in_parts(equations, y, times, progress, part)[:, : equations.n]
