@@ -314,9 +314,7 @@ def _for_all(function: Any, signature: Any) -> Any:
 # -- a motion ----------------------------------------------------------------------------------------------------------
 
 
-def motion(
-    equations: CompiledEquations, q: Array, v: Array, times: Array, progress: Callable[[float], None] | None = None
-) -> Reference:
+def motion(equations: CompiledEquations, q: Array, v: Array, times: Array) -> Reference:
     """Return the reference motion from a start that is consistent within rounding.
 
     Parameters
@@ -327,32 +325,29 @@ def motion(
         The start.
     times : Array
         Where the motion is wanted [s], increasing from 0.
-    progress : callable, optional
-        Called with the fraction that is done.
 
     Raises
     ------
     SimulationError
         If the motion cannot be integrated within the budget, e.g. into a singularity.
     """
-    say = progress or (lambda done: None)
     y = equations.project(0.0, np.concatenate([q, v]))
     d = equations.evaluate(0.0, y[: equations.n], y[equations.n :])[1] * equations.root
     equations.dependent = bool(np.linalg.matrix_rank(d, CUTOFF * np.linalg.norm(d)) < equations.m) if d.size else False
     stiff = is_stiff(equations, y, float(times[-1]))
     scale = _scale(y, equations.n)
 
-    def integrate(rtol: float, every: int, progress: Progress) -> Array:
+    def integrate(rtol: float, every: int) -> Array:
         if stiff:
             scheme = Scheme("Radau", rtol, every, most=STIFF_BUDGET)
-            return by_steps(equations, y, times, scheme, progress, scale)
-        return _by_extrapolation(equations, y, times, rtol, every, progress, scale)
+            return by_steps(equations, y, times, scheme, scale=scale)
+        return _by_extrapolation(equations, y, times, rtol, every, scale)
 
     attempts = [(STIFF_FINE, STIFF_COARSE)] if stiff else [(FINE, COARSE), (ROUGH_FINE, ROUGH_COARSE)]
     for tolerances in attempts:
         try:
-            fine = integrate(tolerances[0], 1, lambda done: say(0.6 * done))
-            coarse = integrate(tolerances[1], 2, lambda done: say(0.6 + 0.4 * done))
+            fine = integrate(tolerances[0], 1)
+            coarse = integrate(tolerances[1], 2)
             break
         except SimulationError:
             if tolerances == attempts[-1]:
@@ -367,12 +362,12 @@ def motion(
 
 
 def _by_extrapolation(
-    equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, progress: Progress, scale: Array
+    equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, scale: Array
 ) -> Array:
     """Return q at `times`; every `every`-th output is projected."""
     used, longest = np.zeros(1, dtype=np.int64), longest_of(equations, times)
 
-    def part(t: float, y: Array, times: Array, progress: Progress) -> Array:
+    def part(t: float, y: Array, times: Array, _: Progress) -> Array:
         found, step = np.empty((len(times), len(y))), np.zeros(1)  # the step to try next
         for k, following in enumerate(times.tolist()):
             if following > t:
@@ -383,10 +378,9 @@ def _by_extrapolation(
             if k % every == 0:
                 y = equations.project(t, y)
             found[k] = y
-            progress(t / (times[-1] or 1.0))
         return found
 
-    return in_parts(equations, y, times, progress, part)[:, : equations.n]
+    return in_parts(equations, y, times, lambda done: None, part)[:, : equations.n]
 
 
 def _scale(y: Array, n: int) -> Array:

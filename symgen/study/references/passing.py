@@ -36,6 +36,12 @@ PHASES = (1.0, 0.93, 0.81, 1.11, 0.71, 0.62)
 GOOD = 1e-9
 
 
+def scaled_values(d: Array) -> Array:
+    """Return the singular values of rows that are scaled to length 1."""
+    lengths = np.linalg.norm(d, axis=1)
+    return np.asarray(np.linalg.svd(d / np.where(lengths > 0.0, lengths, 1.0)[:, None], compute_uv=False))
+
+
 class Watch:
     """Keeps the smallest and the largest of the smallest singular values of D (rows scaled) that a run has met.
 
@@ -57,11 +63,7 @@ class Watch:
     def _values(self, t: float, y: Array) -> Array:
         n = self.equations.n
         d = self.equations.evaluate(t, y[:n], y[n:])[1]
-        if not np.all(np.isfinite(d)):
-            return np.zeros(len(d))
-        lengths = np.linalg.norm(d, axis=1)
-        scaled = d / np.where(lengths > 0.0, lengths, 1.0)[:, None]
-        return np.asarray(np.linalg.svd(scaled, compute_uv=False), dtype=np.float64)
+        return scaled_values(d) if np.all(np.isfinite(d)) else np.zeros(len(d))
 
     def see(self, t: float, y: Array) -> None:
         """Look at a state."""

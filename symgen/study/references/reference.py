@@ -11,7 +11,7 @@ asked for, for every mechanism: then schemes, too, are others than symgen's.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -158,10 +158,19 @@ def pendulum(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, ti
 
 
 def n_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
-    """((N + 1) / 3 + N) theta'' = g ((N + 1) / 2 + N) sin(theta), theta clockwise from the upward vertical."""
+    """All verticals turn alike, and couplers are carried: see `parallel_cranks`."""
+    return parallel_cranks([body.name for body in mechanism.bodies], times)
+
+
+def parallel_cranks(names: Sequence[str], times: Array) -> Closed:
+    """((N + 1) / 3 + N) theta'' = g ((N + 1) / 2 + N) sin(theta), theta clockwise from the upward vertical.
+
+    The bodies are ``vertical0`` to ``verticalN`` and ``coupler0`` to ``couplerN-1``, of 1 m and 1 kg; verticals begin
+    upright with 1 rad/s to the right. This is the regular branch of their motion.
+    """
     from scipy.integrate import solve_ivp
 
-    n = int(mechanism.name.removeprefix("n-four-bar-"))
+    n = sum(name.startswith("coupler") for name in names)
     factor = 9.81 * ((n + 1) / 2 + n) / ((n + 1) / 3 + n)
 
     def solve(rtol: float) -> Array:
@@ -176,13 +185,11 @@ def n_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, 
     theta = solve(3e-14)
     s, c, zero = np.sin(theta), np.cos(theta), np.zeros(len(times))
     columns: list[Array] = []
-    for body in mechanism.bodies:
-        if body.name.startswith("vertical"):
-            i = int(body.name.removeprefix("vertical"))
-            columns += [i + 0.5 * s, 0.5 * c, math.pi / 2 - theta]
+    for name in names:
+        if name.startswith("vertical"):
+            columns += [int(name.removeprefix("vertical")) + 0.5 * s, 0.5 * c, math.pi / 2 - theta]
         else:
-            i = int(body.name.removeprefix("coupler"))
-            columns += [i + 0.5 + s, c, zero]
+            columns += [int(name.removeprefix("coupler")) + 0.5 + s, c, zero]
     estimated = 2.0 * float(np.abs(solve(1e-12) - theta).max(initial=0.0))
     return "the equation of the regular branch in one coordinate, DOP853 at 3e-14", estimated, np.column_stack(columns)
 

@@ -106,7 +106,7 @@ def by_steps(
     y: Array,
     times: Array,
     scheme: Scheme,
-    progress: Progress,
+    progress: Progress = lambda done: None,
     scale: Array | None = None,
     see: Callable[[float, float, Array], None] | None = None,
 ) -> Array:
@@ -120,7 +120,7 @@ def by_steps(
         What is integrated, from which state, and where it is wanted [s].
     scheme : Scheme
         How.
-    progress : callable
+    progress : callable, optional
         Called with the fraction that is done.
     scale : Array, optional
         Sizes that errors are measured by; those of the state, 1 at least, unless given.

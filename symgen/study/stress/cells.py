@@ -232,7 +232,6 @@ def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, k
             violation = float(np.linalg.norm(phi))
     return Run(
         finished=outcome.code == abi.DONE,
-        over_budget=False,
         errors=errors,
         sines=np.array(known["sines"]),
         violation=violation,

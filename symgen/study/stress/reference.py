@@ -19,7 +19,8 @@ from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
 from symgen.runtime.motions import refuse_jumps
 from symgen.settings import Settings
-from symgen.study.references.reference import closed_form
+from symgen.study.references.passing import scaled_values
+from symgen.study.references.reference import closed_form, parallel_cranks
 from symgen.study.stress.bench import FREE_LENGTH, Level
 from symgen.study.stress.outcome import ACCURATE, TRUSTED
 
@@ -150,35 +151,11 @@ def _closed(level: Level, parameters: Mapping[str, float], q: Array, times: Arra
     if level.closed is None:
         return "", 0.0, None
     if level.closed == "parallelogram":
-        return parallelogram(times)
+        return parallel_cranks(("vertical0", "coupler0", "vertical1"), times)
     base = load_mechanism(level.closed)
     formula = closed_form(base)
     assert formula is not None, "levels name only what has a closed form"
     return formula(base, {p.name: parameters[p.name] for p in base.parameters}, q, times)
-
-
-def parallelogram(times: Array) -> tuple[str, float, Array]:
-    """Return the regular branch of crank, coupler and rocker of 1 m and 1 kg, from upright with 1 rad/s to the right.
-
-    (2/3 + 1) theta'' = 2 g sin(theta), theta clockwise from the upward vertical: two rods turn, one is carried.
-    """
-    from scipy.integrate import solve_ivp
-
-    def solve(rtol: float) -> Array:
-        found = solve_ivp(
-            lambda _, y: [y[1], 9.81 * 2.0 / (2.0 / 3.0 + 1.0) * math.sin(y[0])],
-            *((0.0, float(times[-1])), [0.0, 1.0], "DOP853", times),
-            rtol=rtol,
-            atol=rtol,
-            max_step=0.01,
-        )
-        return np.asarray(found.y[0], dtype=float)
-
-    theta = solve(3e-14)
-    s, c, zero = np.sin(theta), np.cos(theta), np.zeros(len(times))
-    columns = [0.5 * s, 0.5 * c, math.pi / 2 - theta, 0.5 + s, c, zero, 1.0 + 0.5 * s, 0.5 * c, math.pi / 2 - theta]
-    estimated = 2.0 * float(np.abs(solve(1e-12) - theta).max(initial=0.0))
-    return "the equation of the regular branch in one coordinate, DOP853 at 3e-14", estimated, np.column_stack(columns)
 
 
 def _sines(equations: Any, times: Array, q: Array) -> Array:
@@ -188,8 +165,7 @@ def _sines(equations: Any, times: Array, q: Array) -> Array:
     values, rank = [], 0
     for t, at in zip(times, q, strict=True):
         d = equations.evaluate(float(t), at, np.zeros(equations.n))[1]
-        lengths = np.linalg.norm(d, axis=1)
-        singular = np.linalg.svd(d / np.where(lengths > 0.0, lengths, 1.0)[:, None], compute_uv=False)
+        singular = scaled_values(d)
         rank = rank or int(np.sum(singular > 1e-6))
         values.append(float(singular[rank - 1]) if rank else 1.0)
     largest = max(values)
