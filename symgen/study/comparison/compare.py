@@ -154,13 +154,13 @@ class ReferenceTask:
     times: Array
     reference_by: str = AUTO
 
-    def outcome(self, progress: Callable[[float], None] | None = None) -> Outcome:
+    def outcome(self) -> Outcome:
         """Return the motion as what JSON can express, or why there is none."""
         mechanism, settings = self.mechanism, self.settings
         compiled, start = prepare(mechanism, settings, Purpose.STATE).assembled.of_bodies
         values, state = parameter_values(mechanism, settings.parameters), compiled.info.parts(start.y)
         try:
-            found = reference(mechanism, values, *state, self.times, progress, self.reference_by, not settings.start)
+            found = reference(mechanism, values, *state, self.times, self.reference_by, not settings.start)
         except SimulationError as error:
             return {"unusable": str(error)}
         return {"how": found.how, "estimated_error": found.estimated_error, "note": found.note, "q": found.q.tolist()}
@@ -244,7 +244,7 @@ class _Work:
 
         def motion(task: ReferenceTask) -> Outcome:
             say("reference", 0.0)
-            return task.outcome(lambda done: say("reference", done))
+            return task.outcome()
 
         motions, interrupted = run_cells([self.reference], motion, self.journal)
         if interrupted:

@@ -31,7 +31,7 @@ from symgen.study.references.independent import CUTOFF, IndependentEquations
 from symgen.study.references.least_squares import compiled, shortest
 from symgen.study.references.parts import in_parts, longest_of
 from symgen.study.references.reference import Reference
-from symgen.study.references.solvers import OverBudgetError, Progress, Scheme, by_steps
+from symgen.study.references.solvers import OverBudgetError, Scheme, by_steps
 from symgen.study.references.stiff import is_stiff
 
 Array = NDArray[np.float64]
@@ -367,7 +367,7 @@ def _by_extrapolation(
     """Return q at `times`; every `every`-th output is projected."""
     used, longest = np.zeros(1, dtype=np.int64), longest_of(equations, times)
 
-    def part(t: float, y: Array, times: Array, _: Progress) -> Array:
+    def part(t: float, y: Array, times: Array) -> Array:
         found, step = np.empty((len(times), len(y))), np.zeros(1)  # the step to try next
         for k, following in enumerate(times.tolist()):
             if following > t:
@@ -380,7 +380,7 @@ def _by_extrapolation(
             found[k] = y
         return found
 
-    return in_parts(equations, y, times, lambda done: None, part)[:, : equations.n]
+    return in_parts(equations, y, times, part)[:, : equations.n]
 
 
 def _scale(y: Array, n: int) -> Array:

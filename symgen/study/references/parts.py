@@ -25,8 +25,8 @@ Array = NDArray[np.float64]
 JUMP = 3e-12
 
 #: Called with the time at which a part begins, the state there, the times at which states are wanted, the last of them
-#: the part's end, and what is told how far it is; returns the states.
-Integrate = Callable[[float, Array, Array, Callable[[float], None]], Array]
+#: the part's end; returns the states.
+Integrate = Callable[[float, Array, Array], Array]
 
 
 def longest_of(equations: IndependentEquations, times: Array) -> float:
@@ -38,7 +38,6 @@ def in_parts(
     equations: IndependentEquations,
     y: Array,
     times: Array,
-    progress: Callable[[float], None],
     integrate: Integrate,
 ) -> Array:
     """Return the states at some times, integrated part by part.
@@ -51,8 +50,6 @@ def in_parts(
         The state at the time 0.
     times : Array
         Increasing from 0 or later [s].
-    progress : callable
-        Called with the fraction that is done.
     integrate : callable
         See `Integrate`.
     """
@@ -67,12 +64,7 @@ def in_parts(
             states = np.tile(y, (len(own), 1))
         else:
             wanted = own if len(own) and own[-1] == last else np.append(own, last)
-            states = integrate(first, y, wanted, _up_to(last / end if end else 1.0, progress))
+            states = integrate(first, y, wanted)
             y = states[-1]
         motion[done:upto], done = states[: len(own)], upto
     return motion
-
-
-def _up_to(share: float, progress: Callable[[float], None]) -> Callable[[float], None]:
-    """Return what is told how far a part is that ends at a share of the whole."""
-    return lambda part: progress(share * part)

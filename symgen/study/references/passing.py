@@ -8,7 +8,6 @@ say nothing about the branch.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -108,7 +107,6 @@ def pass_through(
     times: Array,
     step: float,
     points: Points,
-    progress: Callable[[float], None],
     phases: tuple[float, ...] = PHASES,
 ) -> Passage:
     """Run with different steps until two runs agree well; of all pairs the one that agrees best is returned.
@@ -121,8 +119,6 @@ def pass_through(
         Step of the first run [s].
     points : Points
         What distances are measured between.
-    progress : callable
-        Called with the fraction that is done, supposing that two runs are enough.
     phases : tuple of float
         Steps as fractions of `step`.
 
@@ -138,7 +134,7 @@ def pass_through(
     best: Passage | None = None
     for i, phase in enumerate(phases):
         try:
-            motion = march(equations, y, times, phase * step, _half(progress, i))
+            motion = march(equations, y, times, phase * step)
         except SimulationError as error:
             failures.append(str(error))
             continue
@@ -156,14 +152,6 @@ def pass_through(
     return best
 
 
-def _half(progress: Callable[[float], None], run: int) -> Callable[[float], None]:
-    """Return the progress of one run as a part of that of two."""
-    first = min(0.5 * run, 0.5)
-    return lambda done: progress(first + 0.5 * done)
-
-
-def march(
-    equations: IndependentEquations, y: Array, times: Array, step: float, progress: Callable[[float], None]
-) -> Array:
+def march(equations: IndependentEquations, y: Array, times: Array, step: float) -> Array:
     """Return q at `times` by DOP853 at a constant step, mass-weighted projections after each."""
-    return by_steps(equations, y, times, Scheme("DOP853", np.inf, step=step), progress)
+    return by_steps(equations, y, times, Scheme("DOP853", np.inf, step=step))

@@ -30,7 +30,6 @@ from symgen.study.references.solvers import (
     MOST_CALLS,
     SOLVERS,
     CollapsedError,
-    Progress,
     Scheme,
     by_steps,
     check_solver,
@@ -75,7 +74,6 @@ def reference(
     q: Array,
     v: Array,
     times: Array,
-    progress: Progress | None = None,
     solver: str = AUTO,
     own_start: bool = True,
 ) -> Reference:
@@ -91,8 +89,6 @@ def reference(
         Consistent start.
     times : Array
         Where the motion is wanted [s], increasing from 0 or later.
-    progress : callable, optional
-        Called with the fraction that is done.
     solver : str
         ``auto``, or one of `SOLVERS`.
     own_start : bool
@@ -106,12 +102,12 @@ def reference(
         If the motion cannot be integrated, e.g. into a singularity.
     """
     if check_solver(solver) != AUTO:
-        return _integrated(mechanism, parameters, (q, v), times, solver, progress)
+        return _integrated(mechanism, parameters, (q, v), times, solver)
     closed = closed_form(mechanism) if own_start else None
     if closed is not None:
         how, estimated, motion = closed(mechanism, parameters, q, times)
         return Reference(how, estimated, times, motion)
-    return _integrated(mechanism, parameters, (q, v), times, "scipy-dop853", progress)
+    return _integrated(mechanism, parameters, (q, v), times, "scipy-dop853")
 
 
 def closed_form(mechanism: Mechanism) -> Callable[[Mechanism, Mapping[str, float], Array, Array], Closed] | None:
@@ -234,7 +230,6 @@ def _integrated(
     start: tuple[Array, Array],
     times: Array,
     solver: str,
-    progress: Progress | None,
 ) -> Reference:
     """Integrate independently derived equations twice."""
     from symgen.study.references.independent import IndependentEquations
@@ -243,12 +238,9 @@ def _integrated(
     equations = IndependentEquations(mechanism, parameters)
     y = equations.project(0.0, equations.state(*start))
 
-    def part(first: float, share: float) -> Progress:
-        return lambda done: None if progress is None else progress(first + share * done)
-
     if not goes_on:
-        fine = in_one_go(equations, y, times, Scheme(name, fine_tolerance, most=MOST_CALLS), part(0.0, 0.6))
-        coarse = in_one_go(equations, y, times, Scheme(name, coarse_tolerance, most=MOST_CALLS), part(0.6, 0.4))
+        fine = in_one_go(equations, y, times, Scheme(name, fine_tolerance, most=MOST_CALLS))
+        coarse = in_one_go(equations, y, times, Scheme(name, coarse_tolerance, most=MOST_CALLS))
     else:
         watch, sizes = Watch(equations, y), list[float]()
 
@@ -257,13 +249,13 @@ def _integrated(
             watch.see(t, state)
 
         try:
-            fine = by_steps(equations, y, times, Scheme(name, fine_tolerance), part(0.0, 0.5), see=see)
+            fine = by_steps(equations, y, times, Scheme(name, fine_tolerance), see=see)
             collapsed = False
         except CollapsedError:
             collapsed = True
         if collapsed or watch.passed:
-            return _through(mechanism, parameters, equations, y, times, sizes, part(0.5, 0.5))
-        coarse = by_steps(equations, y, times, Scheme(name, coarse_tolerance, 3, False), part(0.5, 0.5))
+            return _through(mechanism, parameters, equations, y, times, sizes)
+        coarse = by_steps(equations, y, times, Scheme(name, coarse_tolerance, 3, False))
     estimated = Points.of(mechanism, parameters).distance(fine, coarse)
     how = (
         f"independently derived equations, SciPy {name} at {fine_tolerance:g}, projected at every output; "
@@ -286,11 +278,10 @@ def _through(
     y: Array,
     times: Array,
     sizes: list[float],
-    progress: Progress,
 ) -> Reference:
     """Return the reference of a motion that comes near singular positions."""
     step = _usual(sizes) if sizes else float(times[-1]) / 1000.0
-    found = pass_through(equations, y, times, step, Points.of(mechanism, parameters), progress)
+    found = pass_through(equations, y, times, step, Points.of(mechanism, parameters))
     how = (
         f"independently derived equations, SciPy DOP853 at constant steps near {step:.2g} s, projected after every "
         f"step, through singular positions; estimated from {found.runs} runs whose steps fall differently"

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from symgen.study.references.independent import IndependentEquations
 
 Array = NDArray[np.float64]
-#: Called with how far the work is, from 0 to 1.
-Progress = Callable[[float], None]
 
 #: Tolerances of the two integrations of the general route; the first one is the reference.
 FINE, COARSE = 3e-14, 3e-13
@@ -106,7 +104,6 @@ def by_steps(
     y: Array,
     times: Array,
     scheme: Scheme,
-    progress: Progress = lambda done: None,
     scale: Array | None = None,
     see: Callable[[float, float, Array], None] | None = None,
 ) -> Array:
@@ -120,8 +117,6 @@ def by_steps(
         What is integrated, from which state, and where it is wanted [s].
     scheme : Scheme
         How.
-    progress : callable, optional
-        Called with the fraction that is done.
     scale : Array, optional
         Sizes that errors are measured by; those of the state, 1 at least, unless given.
     see : callable, optional
@@ -147,7 +142,7 @@ def by_steps(
     # each jump of a force takes some tiny steps as well
     patience = MORE_PATIENCE if compares else PATIENCE
 
-    def part(first: float, y: Array, times: Array, progress: Progress) -> Array:
+    def part(first: float, y: Array, times: Array) -> Array:
         motion = np.empty((len(times), len(y)))
         solver: Any = None  # nor that a step changes the status
         usual, steps, tiny = scheme.step or 0.0, 0, 0
@@ -186,17 +181,16 @@ def by_steps(
                     project(solver)
                 y = solver.y
             motion[k] = y
-            progress(t / (times[-1] or 1.0))
         return motion
 
     def project(solver: Any) -> None:
         solver.y = equations.project(float(solver.t), solver.y, scheme.mass_weighted)
         solver.f = solver.fun(float(solver.t), solver.y)
 
-    return in_parts(equations, y, times, progress, part)[:, : equations.n]
+    return in_parts(equations, y, times, part)[:, : equations.n]
 
 
-def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: Scheme, progress: Progress) -> Array:
+def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: Scheme) -> Array:
     """Return q at `times` from a multistep solver: its history forbids changes on the way, so outputs are projected."""
     from scipy.integrate import solve_ivp
 
@@ -207,7 +201,7 @@ def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: S
     if scheme.name == "BDF":
         more["jac"] = lambda t, y: jacobian(rate, t, y)
 
-    def part(first: float, y: Array, times: Array, _: Progress) -> Array:
+    def part(first: float, y: Array, times: Array) -> Array:
         if times[-1] <= first:
             return np.tile(y, (len(times), 1))
         span = float(times[-1]) - first
@@ -220,11 +214,9 @@ def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: S
             blind = [b - a for a, b in steps if unseen_in(equations, found.sol, a, b, scale) > UNSEEN * scheme.rtol]
             longest = 0.5 * max(blind, default=0.0)
             if longest < FEWEST * span:
-                progress(float(times[-1]) / float(end))
                 return np.asarray(found.y.T)
 
-    end = times[-1] if len(times) else 0.0
-    found = in_parts(equations, y, times, progress, part)
+    found = in_parts(equations, y, times, part)
     states = [equations.project(float(t), state) for t, state in zip(times, found, strict=True)]
     return np.array(states).reshape(len(times), len(y))[:, : equations.n]
 
