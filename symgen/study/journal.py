@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 FORM = 1
 HEADER = json.dumps({"symgen-journal": FORM}).encode() + b"\n"
 #: Modules of studies that put finished cells into words and tables; no cell depends on them.
-TELLING = frozenset({"study/stress/findings.py", "study/stress/map.py", "study/stress/rows.py"})
+WORDING = frozenset({"study/stress/findings.py", "study/stress/map.py", "study/stress/rows.py"})
 
 Outcome = dict[str, Any]
 
@@ -81,7 +81,7 @@ def code_identity() -> str:
     for folder in ("compiling", "integrators", "native", "reruns", "result", "running", "runtime", "store", "study"):
         for path in sorted((package / folder).rglob("*.py")):
             name = path.relative_to(package).as_posix()
-            if name not in TELLING:
+            if name not in WORDING:
                 found.update(name.encode() + b"\0" + path.read_bytes())
     for name in ("api.py", "settings.py"):
         found.update((package / name).read_bytes())

@@ -135,8 +135,8 @@ def run_cells(
     advance()
     interrupted = False
     try:
-        with contextlib.closing(_computed(missing, compute, processes, patience)) as found:
-            for cell, outcome in found:
+        with contextlib.closing(_computed(missing, compute, processes, patience)) as computed:
+            for cell, outcome in computed:
                 if outcome is not None:
                     journal.add(cell.key, outcome)
                 advance(cell.cost)

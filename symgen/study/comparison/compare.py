@@ -128,7 +128,7 @@ def compare(
     InputError
         If a name or number is wrong; nothing has been run then.
     """
-    asked = Settings(
+    common = Settings(
         until=until,
         output_step=output_step,
         parameters=parameters or {},
@@ -142,7 +142,7 @@ def compare(
         shape=shape,
     )
     runs = Combinations(methods, integrators, steps, rtols, coordinates)
-    return compare_all([model], asked, runs, reference_by, progress, jobs, journal)[0]
+    return compare_all([model], common, runs, reference_by, progress, jobs, journal)[0]
 
 
 @dataclass(frozen=True)
@@ -160,10 +160,15 @@ class ReferenceTask:
         compiled, start = prepare(mechanism, settings, Purpose.STATE).assembled.of_bodies
         values, state = parameter_values(mechanism, settings.parameters), compiled.info.parts(start.y)
         try:
-            found = reference(mechanism, values, *state, self.times, self.reference_by, not settings.start)
+            motion = reference(mechanism, values, *state, self.times, self.reference_by, not settings.start)
         except SimulationError as error:
             return {"unusable": str(error)}
-        return {"how": found.how, "estimated_error": found.estimated_error, "note": found.note, "q": found.q.tolist()}
+        return {
+            "how": motion.how,
+            "estimated_error": motion.estimated_error,
+            "note": motion.note,
+            "q": motion.q.tolist(),
+        }
 
 
 @dataclass(frozen=True)
@@ -239,17 +244,17 @@ class _Work:
         codes = [Cell(f"{self.model.name} {i}", self.model.name, task) for i, task in enumerate(tasks)]
         return [self.reference, *codes] if groups else []
 
-    def run(self, say: Callable[[str, float], None]) -> Study:
+    def run(self, show: Callable[[str, float], None]) -> Study:
         """Run all rows, one at a time: those that the journal does not hold."""
 
         def motion(task: ReferenceTask) -> Outcome:
-            say("reference", 0.0)
+            show("reference", 0.0)
             return task.outcome()
 
         motions, interrupted = run_cells([self.reference], motion, self.journal)
         if interrupted:
             return self.study(True)
-        known, assembled = _reference(motions[self.reference.key], self.times), dict[Any, Assembled]()
+        reference_motion, assembled = _reference(motions[self.reference.key], self.times), dict[Any, Assembled]()
         points = Points.of(self.model.mechanism, self.model.parameters(self.settings[0].parameters))
 
         def row(i: int) -> Outcome:
@@ -257,29 +262,29 @@ class _Work:
             if plan.key not in assembled:
                 assembled[plan.key] = assemble(plan)
             run = begin(plan, assembled[plan.key])
-            say(f"{settings.method}, {settings.integrator}", 1.0 + i)
+            show(f"{settings.method}, {settings.integrator}", 1.0 + i)
             runs = timed(run.integrate, settings.repeat, AT_LEAST)
             if runs.outcome.interrupted:
                 raise KeyboardInterrupt
-            return to_entry(*measured(run, runs, known, points))
+            return to_entry(*measured(run, runs, reference_motion, points))
 
         return self.study(run_cells(self.rows, row, self.journal)[1])
 
     def study(self, interrupted: bool) -> Study:
         """Return the study of the rows that are done."""
-        found = self.journal.get(self.reference.key) or {"unusable": ""}
+        motion = self.journal.get(self.reference.key) or {"unusable": ""}
         done = [from_entry(entry) for cell in self.rows if (entry := self.journal.get(cell.key)) is not None]
-        base, why = self.settings[0], found.get("unusable")
+        base, why = self.settings[0], motion.get("unusable")
         without = "there is no reference, so errors are unknown"
         return Study(
             mechanism=self.model.name,
-            how=found.get("how", "none"),
-            estimated_error=found.get("estimated_error", float("nan")),
+            how=motion.get("how", "none"),
+            estimated_error=motion.get("estimated_error", float("nan")),
             until=self.end,
             rows=with_ratios([row for row, _ in done]),
             interrupted=interrupted,
             traces=tuple(trace for _, trace in done),
-            note=found.get("note", f"{without}: {why}" if why else without),
+            note=motion.get("note", f"{without}: {why}" if why else without),
             title=self.model.mechanism.title,
             digest=digest(self.model.mechanism),
             step=self.model.mechanism.defaults.step,
@@ -299,7 +304,7 @@ def _reference(entry: Outcome, times: Array) -> Reference | None:
 
 def compare_all(
     models: Sequence[str | Path | Mechanism | Model],
-    asked: Settings,
+    common: Settings,
     runs: Combinations,
     reference_by: str = AUTO,
     progress: Progress | None = None,
@@ -312,7 +317,7 @@ def compare_all(
     ----------
     models : sequence of str, path, Mechanism or Model
         What to run; all of it is checked before anything is run.
-    asked : Settings
+    common : Settings
         What all runs have in common.
     runs : Combinations
         What differs.
@@ -336,12 +341,12 @@ def compare_all(
         arguments.of_kind("journal", journal, Journal, "a symgen.study.journal.Journal")
     works, kept = [], Journal() if journal is None else journal
     for model in models:
-        chosen = _chosen(load(model), asked)
-        end = _end(chosen, asked.until)
-        times = _times(chosen, end, asked.output_step)
+        chosen = _chosen(load(model), common)
+        end = _end(chosen, common.until)
+        times = _times(chosen, end, common.output_step)
         small = chosen.mechanism.body_coordinates <= LARGEST_STRAIGHT
-        shape = "straight" if asked.shape == "auto" and small else asked.shape
-        base = replace(asked, output_step=None, shape=shape, until=end, times=times.tolist())
+        shape = "straight" if common.shape == "auto" and small else common.shape
+        base = replace(common, output_step=None, shape=shape, until=end, times=times.tolist())
         settings = list(runs.settings(base, chosen.mechanism.defaults.step))
         plans = [make_plan(chosen.mechanism, s) for s in settings]  # refuses what is wrong before anything is run
         works.append(_Work(chosen, end, times, settings, plans, reference_by, kept))
@@ -361,22 +366,22 @@ def compare_all(
     for work in works:
         prefix = f"{work.model.name}: " if len(works) > 1 else ""
 
-        def say(what: str, done: float, prefix: str = prefix, reached: float = reached) -> None:
+        def show(what: str, done: float, prefix: str = prefix, reached: float = reached) -> None:
             report(prefix + what, reached + done, total)
 
-        studies.append(work.run(say))
+        studies.append(work.run(show))
         reached += work.total
         if studies[-1].interrupted:
             break
     return studies
 
 
-def _chosen(model: Model, asked: Settings) -> Model:
+def _chosen(model: Model, common: Settings) -> Model:
     """Return a model without events that are only recorded, others being refused, with the largest step for all."""
     mechanism = model.mechanism
-    refuse_events("compare", mechanism, asked)
+    refuse_events("compare", mechanism, common)
     plain = structs.replace(mechanism, events=()) if mechanism.events else mechanism
-    plain = bounded(plain, asked.max_step)
+    plain = bounded(plain, common.max_step)
     return model if plain is mechanism else Model(plain)
 
 
@@ -388,7 +393,7 @@ def _end(model: Model, until: float | None) -> float:
 
 
 def _times(model: Model, end: float, output_step: float | None) -> Array:
-    """Return the common output times: multiples of the asked or the mechanism's step, at most about `OUTPUTS`."""
+    """Return the common output times: multiples of the given or the mechanism's step, at most about `OUTPUTS`."""
     own = model.mechanism.defaults.output_step
     size = COPIES * output_size(model.mechanism)
     if output_step is not None:

@@ -89,15 +89,15 @@ class Formulas:
 
     def rows(self) -> list[Row]:
         """Return the rows of joints, and one for the length of each body's Euler parameters."""
-        found = [self._row(row) for joint in self.mechanism.joints for row in joint.rows]
+        rows = [self._row(row) for joint in self.mechanism.joints for row in joint.rows]
         for body in self.mechanism.bodies:
             if _turns_in_space(body):
                 i = self.first[body.name] + 3
                 e, rates = self.q[i : i + 4], self.v[i : i + 4]
                 phi = (sum((x**2 for x in e), sp.S.Zero) - 1) / 2
                 gamma = -sum((x**2 for x in rates), sp.S.Zero)
-                found.append((phi, {i + k: e[k] for k in range(4)}, sp.S.Zero, gamma))
-        return found
+                rows.append((phi, {i + k: e[k] for k in range(4)}, sp.S.Zero, gamma))
+        return rows
 
     def forces(self) -> list[Any]:
         """Return the generalised forces by coordinate, the terms of inertia that hold no acceleration among them."""
@@ -146,14 +146,14 @@ class Formulas:
 
     def _gradient(self, s: Any) -> dict[int, Any]:
         free = s.free_symbols
-        found = {i: sp.diff(s, symbol) for i, symbol in enumerate(self.q) if symbol in free}
-        return {i: e for i, e in found.items() if e != 0}
+        entries = {i: sp.diff(s, symbol) for i, symbol in enumerate(self.q) if symbol in free}
+        return {i: e for i, e in entries.items() if e != 0}
 
     def _by_rates(self, speed: Any) -> dict[int, Any]:
         """Return the coefficients of the rates in something linear in them."""
         free = speed.free_symbols
-        found = {i: sp.diff(speed, v) for i, v in enumerate(self.v) if v in free}
-        return {i: e for i, e in found.items() if e != 0}
+        entries = {i: sp.diff(speed, v) for i, v in enumerate(self.v) if v in free}
+        return {i: e for i, e in entries.items() if e != 0}
 
     def _along(self, e: Any) -> Any:
         """Return the derivative of a function of q along the motion."""
@@ -285,9 +285,9 @@ def _gyroscopic(tensor: sp.Matrix, e: list[Any], rates: list[Any]) -> list[Any]:
     """Return dT/de - (d/dt dT/de' without e'') of the energy of turning T."""
     omega = sp.Matrix(angular_velocity(e, rates))
     kinetic = (omega.T * tensor * omega)[0] / 2
-    found = []
+    terms = []
     for k in range(4):
         momentum = sp.diff(kinetic, rates[k])
         along = sum((sp.diff(momentum, e[j]) * rates[j] for j in range(4)), sp.S.Zero)
-        found.append(sp.diff(kinetic, e[k]) - along)
-    return found
+        terms.append(sp.diff(kinetic, e[k]) - along)
+    return terms

@@ -97,14 +97,14 @@ class IndependentEquations:
 
     def velocities(self, y: Array) -> Array:
         """Return the velocities as results have them: angular velocity in body axes."""
-        found = list[Array]()
+        speeds = list[Array]()
         for body in self.mechanism.bodies:
             i, size = self.first[body.name], len(body.coordinates)
             rates = y[self.n + i : self.n + i + size]
             if size == 7:
                 rates = np.concatenate([rates[:3], 2.0 * _turning(y[i + 3 : i + 7]) @ rates[3:]])
-            found.append(rates)
-        return np.concatenate(found)
+            speeds.append(rates)
+        return np.concatenate(speeds)
 
     def evaluate(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array, Array, Array]:
         """Return Phi, D, nu, gamma and f at a state; nonholonomic rows have Phi 0."""
@@ -177,17 +177,17 @@ class IndependentEquations:
         u, values, w = self._independent(d)
         rows = self.usual * w
         system = np.block([[mass, rows.T], [rows, np.zeros((len(values), len(values)))]])
-        asked = self.usual * (u.T @ gamma) / values
-        found: Array = np.linalg.solve(system, np.concatenate([f, asked]))[: self.n]
-        return found
+        right = self.usual * (u.T @ gamma) / values
+        accelerations: Array = np.linalg.solve(system, np.concatenate([f, right]))[: self.n]
+        return accelerations
 
     def _inertia(self, q: Array) -> Array:
         """Return the mass matrices of the rates of Euler parameters, completed along e; shape (bodies, 4, 4)."""
         e = q[np.array(self._first_e, dtype=int)[:, None] + np.arange(4)]
         turning = np.array([_turning(row) for row in e]).reshape(-1, 3, 4)
         along = np.trace(self._tensors, axis1=1, axis2=2)[:, None, None] * e[:, :, None] * e[:, None, :]
-        found: Array = 4.0 * np.swapaxes(turning, 1, 2) @ self._tensors @ turning + along
-        return found
+        inertia: Array = 4.0 * np.swapaxes(turning, 1, 2) @ self._tensors @ turning + along
+        return inertia
 
     # -- from formulas to numbers --------------------------------------------------------------------------------------
 

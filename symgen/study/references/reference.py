@@ -127,10 +127,10 @@ def _from_catalogue(mechanism: Mechanism) -> bool:
     family = _family(mechanism)
     size = mechanism.name.removeprefix("n-four-bar-")
     try:
-        found = load(f"{family}:{size}" if family == "n-four-bar" else family)
+        entry = load(f"{family}:{size}" if family == "n-four-bar" else family)
     except InputError:
         return False
-    return structs.replace(found, defaults=mechanism.defaults) == mechanism
+    return structs.replace(entry, defaults=mechanism.defaults) == mechanism
 
 
 # -- formulas ----------------------------------------------------------------------------------------------------------
@@ -175,8 +175,8 @@ def parallel_cranks(names: Sequence[str], times: Array) -> Closed:
 
         end = float(times[-1])
         # short steps: interpolation to the output times must not be what limits the accuracy
-        found = solve_ivp(rate, (0.0, end), [0.0, 1.0], "DOP853", times, rtol=rtol, atol=rtol, max_step=0.01)
-        return np.asarray(found.y[0], dtype=float)
+        solution = solve_ivp(rate, (0.0, end), [0.0, 1.0], "DOP853", times, rtol=rtol, atol=rtol, max_step=0.01)
+        return np.asarray(solution.y[0], dtype=float)
 
     theta = solve(3e-14)
     s, c, zero = np.sin(theta), np.cos(theta), np.zeros(len(times))
@@ -281,16 +281,16 @@ def _through(
 ) -> Reference:
     """Return the reference of a motion that comes near singular positions."""
     step = _usual(sizes) if sizes else float(times[-1]) / 1000.0
-    found = pass_through(equations, y, times, step, Points.of(mechanism, parameters))
+    passage = pass_through(equations, y, times, step, Points.of(mechanism, parameters))
     how = (
         f"independently derived equations, SciPy DOP853 at constant steps near {step:.2g} s, projected after every "
-        f"step, through singular positions; estimated from {found.runs} runs whose steps fall differently"
+        f"step, through singular positions; estimated from {passage.runs} runs whose steps fall differently"
     )
     note = ""
-    if found.parted is not None:
+    if passage.parted is not None:
         note = (
             f"the two reference runs that agree best part by more than {AGREEMENT:g} of the mechanism's size at "
-            f"t = {found.parted:.4g} s, behind a singular position: from there on it is not known which branch the "
+            f"t = {passage.parted:.4g} s, behind a singular position: from there on it is not known which branch the "
             "motion takes, and errors are distances to one of them"
         )
-    return Reference(how, max(DOUBT * found.difference, 1e-14), times, found.q, note)
+    return Reference(how, max(DOUBT * passage.difference, 1e-14), times, passage.q, note)

@@ -207,17 +207,17 @@ def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: S
         span = float(times[-1]) - first
         longest = min(bound, span / LOOKED_AT if compares else np.inf)
         while True:
-            found = solve(rate, (first, float(times[-1])), y, scheme.name, times, max_step=longest, **more)
-            if not found.success or not np.all(np.isfinite(found.y)):
-                raise CollapsedError(float(found.t[-1]) if len(found.t) else first, found.message)
-            steps = pairwise(found.sol.ts.tolist()) if compares else ()
-            blind = [b - a for a, b in steps if unseen_in(equations, found.sol, a, b, scale) > UNSEEN * scheme.rtol]
+            solution = solve(rate, (first, float(times[-1])), y, scheme.name, times, max_step=longest, **more)
+            if not solution.success or not np.all(np.isfinite(solution.y)):
+                raise CollapsedError(float(solution.t[-1]) if len(solution.t) else first, solution.message)
+            steps = pairwise(solution.sol.ts.tolist()) if compares else ()
+            blind = [b - a for a, b in steps if unseen_in(equations, solution.sol, a, b, scale) > UNSEEN * scheme.rtol]
             longest = 0.5 * max(blind, default=0.0)
             if longest < FEWEST * span:
-                return np.asarray(found.y.T)
+                return np.asarray(solution.y.T)
 
-    found = in_parts(equations, y, times, part)
-    states = [equations.project(float(t), state) for t, state in zip(times, found, strict=True)]
+    solution = in_parts(equations, y, times, part)
+    states = [equations.project(float(t), state) for t, state in zip(times, solution, strict=True)]
     return np.array(states).reshape(len(times), len(y))[:, : equations.n]
 
 

@@ -70,15 +70,15 @@ def _moved(level: Level) -> Fields:
     falling = fastest_decay(mechanism, compiled, start)
     if moved is None:
         try:
-            found = motion(equations, q, v, times) if planar else agreed(mechanism, parameters, times, falling)
+            reference = motion(equations, q, v, times) if planar else agreed(mechanism, parameters, times, falling)
         except SimulationError as error:  # over its budget, or at a singular position
             if not planar:
                 raise
             try:
-                found = agreed(mechanism, parameters, times, falling)
+                reference = agreed(mechanism, parameters, times, falling)
             except SimulationError as other:
                 raise SimulationError(f"{error}; {other}") from None
-        how, estimated, moved = found.how, found.estimated_error, found.q
+        how, estimated, moved = reference.how, reference.estimated_error, reference.q
     return {
         "unusable": None,
         "how": how,
@@ -93,12 +93,12 @@ def _moved(level: Level) -> Fields:
     }
 
 
-def without_reference(known: Mapping[str, Any]) -> str | None:
+def without_reference(motion: Mapping[str, Any]) -> str | None:
     """Return why the outcome of a reference judges nothing, None where it does."""
-    if known["unusable"] is not None:
-        return str(known["unusable"])
-    if known["estimated_error"] > TRUSTED * ACCURATE:
-        return f"the two reference runs differ by {known['estimated_error']:.2g} m"
+    if motion["unusable"] is not None:
+        return str(motion["unusable"])
+    if motion["estimated_error"] > TRUSTED * ACCURATE:
+        return f"the two reference runs differ by {motion['estimated_error']:.2g} m"
     return None
 
 

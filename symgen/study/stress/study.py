@@ -110,7 +110,7 @@ def stress(
     InputError
         If a name is wrong; nothing has been run then.
     """
-    asked = Settings(
+    common = Settings(
         max_violation=max_violation,
         max_energy_error=max_energy_error,
         max_step=max_step,
@@ -127,27 +127,27 @@ def stress(
     models = arguments.listed("models", [models] if isinstance(models, str) else models, "a list of models")
     bases = [Base.of(model) for model in models or (DEFAULT_MODEL,)]
     for base in bases:
-        refuse_events("stress", base.mechanism, asked)
+        refuse_events("stress", base.mechanism, common)
         refuse_weightless(base.mechanism)
     bases = [base.without_events() for base in bases]
     chosen = tuple(dict.fromkeys(CASES.canonical(name, "--cases") for name in cases or CASES.names))
-    wanted = tuple(dict.fromkeys(methods or (*METHODS.names, AUTO)))
-    for name in wanted:
+    names = tuple(dict.fromkeys(methods or (*METHODS.names, AUTO)))
+    for name in names:
         if name != AUTO:
             METHODS.get(name, "--methods")
     skipped: list[tuple[str, str, str]] = []
-    levels = list(_levels(bases, chosen, quick, skipped, asked.max_step))
+    levels = list(_levels(bases, chosen, quick, skipped, common.max_step))
     study = _Study(
         bases=bases,
         levels=levels,
-        methods=wanted,
+        methods=names,
         quick=quick,
         journal=Journal() if journal is None else journal,
         jobs=jobs,
-        say=progress or (lambda what, status: None),
+        progress=progress or (lambda what, status: None),
         compilation=compilation,
-        limits=Limits(asked.max_violation, asked.max_energy_error, asked.max_attempts),
-        coordinates=asked.coordinates,
+        limits=Limits(common.max_violation, common.max_energy_error, common.max_attempts),
+        coordinates=common.coordinates,
     )
     return study.run(tuple(skipped))
 
@@ -180,7 +180,7 @@ class _Study:
     quick: bool
     journal: Journal
     jobs: int
-    say: Progress
+    progress: Progress
     compilation: float
     limits: Limits
     coordinates: str
@@ -188,14 +188,14 @@ class _Study:
     @cached_property
     def left_out(self) -> tuple[tuple[str, str, str, str], ...]:
         """Pairs that are not run, by mechanism; those of families of their own are small."""
-        asked = [pair for name in self.methods for pair in (pairs(name)[:1] if self.quick else pairs(name))]
-        found = []
+        everything = [pair for name in self.methods for pair in (pairs(name)[:1] if self.quick else pairs(name))]
+        out = []
         for base in self.bases:
             made = [base.stressed, *(level.mechanism for level in self.levels if level.model == base.name)]
             # cases that differ in their start alone share code, and have the name of the base
             distinct = list({mechanism.name: mechanism for mechanism in made}.values())
-            found += left_out(distinct, asked, self.compilation, self.coordinates == "joint")
-        return tuple(found)
+            out += left_out(distinct, everything, self.compilation, self.coordinates == "joint")
+        return tuple(out)
 
     def run(self, skipped: tuple[tuple[str, str, str], ...]) -> Stress:
         """Compute references, then runs, then largest steps."""
@@ -205,7 +205,7 @@ class _Study:
             runs, interrupted = self._computed("runs", list(self._runs(motions)))
         if not interrupted:
             searches, interrupted = self._computed("largest steps", list(self._searches(motions)))
-        unusable = [(task.level, why) for task, known in motions if (why := without_reference(known)) is not None]
+        unusable = [(task.level, why) for task, motion in motions if (why := without_reference(motion)) is not None]
         return Stress(
             models=tuple(base.name for base in self.bases),
             rows=tuple(_row(task, outcome) for task, outcome in runs),
@@ -221,33 +221,35 @@ class _Study:
     def _computed(self, what: str, tasks: Sequence[Task]) -> tuple[list[tuple[Task, Outcome]], bool]:
         """Return the tasks that are done with their outcomes, and whether the study was interrupted."""
         cells = [_cell(task) for task in tasks]
-        done, interrupted = run_cells(cells, compute, self.journal, self.jobs, lambda status: self.say(what, status))
+        done, interrupted = run_cells(
+            cells, compute, self.journal, self.jobs, lambda status: self.progress(what, status)
+        )
         return [(cell.task, done[cell.key]) for cell in cells if cell.key in done], interrupted
 
     def _runs(self, motions: Motions) -> Iterator[RunTask]:
-        for task, known in motions:
+        for task, motion in motions:
             for pair in self._pairs(task.level):
                 if self._is_compiled(task.level, pair):
-                    yield RunTask(task.level, *pair, known, self.limits, self.coordinates)
+                    yield RunTask(task.level, *pair, motion, self.limits, self.coordinates)
 
     def _pairs(self, level: Level) -> tuple[tuple[str, str], ...]:
         if level.pairs is not None:
             return tuple(pair for pair in level.pairs if pair[0] in self.methods)
         names = [n for n in self.methods if level.methods is None or n in level.methods]
-        found = [pairs(name, level.constant_steps) for name in names]
-        return tuple(pair for fit in found for pair in (fit[:1] if self.quick else fit))
+        fitting = [pairs(name, level.constant_steps) for name in names]
+        return tuple(pair for fit in fitting for pair in (fit[:1] if self.quick else fit))
 
     def _searches(self, motions: Motions) -> Iterator[LimitTask]:
         """Yield one case of each model and family for which largest steps are looked for, with every method."""
         cases: dict[tuple[str, str], list[tuple[Level, Outcome]]] = {}
-        for task, known in motions:
+        for task, motion in motions:
             if task.level.family in LIMITED:
-                cases.setdefault((task.level.model, task.level.family), []).append((task.level, known))
+                cases.setdefault((task.level.model, task.level.family), []).append((task.level, motion))
         for (_, family), own in cases.items():
-            level, known = own[0 if family == "duration" else min(1, len(own) - 1)]
+            level, motion = own[0 if family == "duration" else min(1, len(own) - 1)]
             for pair in ((name, METHODS.get(name).default_integrator) for name in self.methods if name != AUTO):
                 if self._is_compiled(level, pair):
-                    yield LimitTask(level, *pair, known, coordinates=self.coordinates)
+                    yield LimitTask(level, *pair, motion, coordinates=self.coordinates)
 
     def _is_compiled(self, level: Level, pair: tuple[str, str]) -> bool:
         return (level.mechanism.name, *pair) not in [out[:3] for out in self.left_out]
