@@ -1,4 +1,4 @@
-"""What ``symgen inspect`` writes whole: a LaTeX document, and a page."""
+"""What ``symgen inspect`` writes as LaTeX, and as a page."""
 
 from __future__ import annotations
 
@@ -111,17 +111,8 @@ class Started:
         return cls(plan, choice, mechanism, run.compiled, run.start, tuple(map(float, q)))
 
 
-def refuse(wanted: bool, shape: str) -> None:
-    """Refuse options that mean nothing together."""
-    if not wanted:
-        expected = "--format latex --document, with which alone --select and --symbols mean something"
-        raise InputError("inspect", expected, "other options")
-    if shape == "looped":
-        raise InputError("--shape", "straight code, as a document shows the equations of one mechanism", "looped")
-
-
-def write_document(name: str, asked: Asked, select: str | None, symbols: bool) -> str:
-    """Return the equations as a LaTeX document."""
+def latex_of(name: str, asked: Asked, select: str | None, symbols: bool, whole: bool) -> str:
+    """Return the equations as LaTeX: a document, or a part of one."""
     from symgen.api import Model
     from symgen.compiling.choose_coordinates import choose_coordinates
     from symgen.describe.load import read_raw
@@ -136,7 +127,7 @@ def write_document(name: str, asked: Asked, select: str | None, symbols: bool) -
     found = model.equations_in(choose_coordinates(model.mechanism, asked.coordinates, "straight").name)
     wanted = tuple(item.strip() for item in (select or "").split(",") if item.strip())
     steps = law(asked.named, asked.options, found.derived.driving is not None)
-    return document(found.mechanism, found.derived, steps, values, wanted)
+    return document(found.mechanism, found.derived, steps, values, wanted, whole)
 
 
 def write_page(name: str, asked: Asked, output: str) -> None:

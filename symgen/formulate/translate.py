@@ -15,7 +15,7 @@ from symgen.ir.program import of_table
 from symgen.vocabulary.expressions import SMOOTH, Call, Expr, Name, Number, Reading
 from symgen.vocabulary.functions import ELEMENTARY
 
-_UNARY = {**{getattr(sp, name): name for name in ELEMENTARY}, sp.Abs: "abs", sp.sign: "sign"}
+_UNARY = {**{getattr(sp, name): name for name in ELEMENTARY}, sp.Abs: "abs", sp.sign: "sign", sp.floor: "floor"}
 _RELATIONS = {
     sp.StrictLessThan: "lt",
     sp.LessThan: "le",

@@ -14,11 +14,12 @@ import sympy as sp
 from symgen import arguments
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, nearest
-from symgen.formulate.display import Display, latex_name
 from symgen.formulate.formulate import formulate
+from symgen.reading import boxes
 from symgen.reading.interpolated import functions
 from symgen.reading.quantities import OF_DRIVERS, QUANTITIES, Entries, nodes_of
 from symgen.reading.structure import shared_terms, structure
+from symgen.reading.symbolic import Boxed, Symbolic
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -295,11 +296,10 @@ class SymbolicEquations:
 
         Lines are as long as they are: a document with broken lines is what ``symgen inspect --document`` writes.
         """
-        lines = []
-        for name in names or self._quantities:
-            lines.append(f"{QUANTITIES.get(name, (name,))[0]} = {self._latex(self.quantity(name))}")
-        lines += [f"{self._latex(symbol)} = {self._latex(value)}" for symbol, value in self._of(names).items()]
-        return " \\\\\n".join(lines)
+        sides = [({"power": "P"}.get(name, name), self.quantity(name)) for name in names or self._quantities]
+        sides += [(symbol.name, value) for symbol, value in self._of(names).items()]
+        box = Boxed().box
+        return " \\\\\n".join(f"{boxes.latex(boxes.name(left))} = {boxes.latex(box(right))}" for left, right in sides)
 
     def _repr_latex_(self) -> str:
         """Return what a notebook shows where it has no HTML."""
@@ -315,7 +315,7 @@ class SymbolicEquations:
         sizes = f"{e.nq} coordinates, {e.nv} velocities, {e.m} constraint rows, in {self.coordinates} coordinates"
         parts = [f"<p><b>{escape(e.name)}</b>: {escape(sizes)}</p>"]
         for name in self._quantities:
-            words, count = QUANTITIES[name][1], self._size(name)
+            words, count = QUANTITIES[name], self._size(name)
             head = f"<summary><code>{name}</code>: {escape(words)}, {count} operations</summary>"
             text = f"$$\\begin{{gathered}}{self.latex(name)}\\end{{gathered}}$$" if count <= 400 else "too long to show"
             parts.append(f"<details>{head}{escape(text)}</details>")
@@ -333,15 +333,15 @@ class SymbolicEquations:
         return nodes_of(self._written)
 
     @cached_property
-    def _plain(self) -> Display:
-        return Display(self._written, evaluated=True)
+    def _plain(self) -> Symbolic:
+        return Symbolic(self._written)
 
     @cached_property
-    def _named(self) -> Display:
+    def _named(self) -> Symbolic:
         ends = [node for _, entries in self.nodes.values() for *_, node in entries]
         taken = {symbol.name for symbol in self._plain.symbols.values()}
         names = shared_terms(self._written.graph, ends, structure(self.mechanism, self._written), taken)
-        return Display(self._written, evaluated=True, named=names)
+        return Symbolic(self._written, names)
 
     def _symbols(self, space: str) -> Mapping[str, Any]:
         found = [s for (kind, _), s in self._plain.symbols.items() if kind == space]
@@ -372,7 +372,3 @@ class SymbolicEquations:
         """Return the definitions that quantities need; of all unless some are named."""
         used = [name for name in names or self._quantities if self.sharing or self._is_large(name)]
         return self._definitions([n for name in used for *_, n in self.nodes[name][1]])
-
-    def _latex(self, expression: Any) -> str:
-        symbols = {s: latex_name(s.name) for s in expression.free_symbols}
-        return str(sp.latex(expression, symbol_names=symbols, mat_delim="(", full_prec=False))

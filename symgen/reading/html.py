@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from html import escape
 
 from symgen.reading.boxes import Box, mathml
-from symgen.reading.sheet import Block, Line
+from symgen.reading.sheet import Line
 from symgen.reading.typeset import broken
 
 
@@ -67,13 +67,6 @@ def equation(line: Line, tail: str = "") -> str:
     return f'<div class="equation">{"".join(found)}</div>'
 
 
-def equations(items: Iterable[Line | Block]) -> str:
+def equations(lines: Iterable[Line]) -> str:
     """Return equations one below the other."""
-    return "\n".join(matrix(item) if isinstance(item, Block) else equation(item) for item in items)
-
-
-def matrix(block: Block) -> str:
-    """Return a matrix with its name."""
-    lines = "".join(f"<mtr>{''.join(f'<mtd>{mathml(entry)}</mtd>' for entry in line)}</mtr>" for line in block.entries)
-    inside = f"{mathml(block.left)}<mo>=</mo><mrow><mo>(</mo><mtable>{lines}</mtable><mo>)</mo></mrow>"
-    return f'<div class="equation"><math>{inside}</math></div>'
+    return "\n".join(map(equation, lines))

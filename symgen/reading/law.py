@@ -67,6 +67,11 @@ class Step:
         """The whole equation."""
         return row(self.left, sign("="), self.right)
 
+    @property
+    def latex(self) -> str:
+        """The equation as a line of an environment such as ``aligned``."""
+        return rf"{latex(self.left)} &= {latex(self.right)}" + (r" && \text{(solved)}" if self.solved else "")
+
     def __str__(self) -> str:
         return ("solve " if self.solved else "") + plain(self.box)
 
@@ -98,8 +103,7 @@ class Law:
             if step.purpose != before:
                 lines.append(rf"&\text{{{escaped(step.function)}}}")
                 before = step.purpose
-            note = r" \quad \text{(solved)}" if step.solved else ""
-            lines.append(f"{latex(step.left)} &= {latex(step.right)}{note}")
+            lines.append(step.latex)
         return " \\\\\n".join(lines)
 
     def _repr_latex_(self) -> str:

@@ -17,8 +17,8 @@ from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
 from symgen.player.live import rates_parts
 from symgen.player.page import rates_script
-from symgen.reading.boxes import Box, row, sign
-from symgen.reading.html import attribute, equation, equations, fold, math, matrix, section, short, small, table
+from symgen.reading.boxes import dot, name, row, sign, transposed
+from symgen.reading.html import attribute, equation, equations, fold, math, section, short, small, table
 from symgen.reading.law import Law
 from symgen.reading.listing import code_listing, file_listing
 from symgen.reading.patterns import of_factor, of_jacobian, picture
@@ -279,7 +279,7 @@ class _Page:
             parts.append(equation(gamma[r.name]))
             parts.append(self._lines_of(r.name) if code else "")
             parts.append("</div>")
-        parts += [matrix(block) for block in self.sheet.jacobian(joint.name)]
+        parts.append(equations(self.sheet.jacobian(joint.name)))
         nodes = [n for r in rows for n in (r.phi, r.nu, r.gamma, *(x for _, x in r.entries)) if n is not None]
         names = f"{escape(joint.kind)} between {escape(' and '.join(dict.fromkeys(joint.bodies)))}"
         head = f"<b>{escape(joint.name)}</b>: {names}, {len(rows)} rows, {g.operations(nodes)} operations"
@@ -310,7 +310,7 @@ class _Page:
         sheet = self.sheet
         found = [f'<div class="equation">{math(_MOTION)}</div>', small("Numbers are rounded to six digits.")]
         if self.e.nv <= _WHOLE:
-            found.append(fold("M and D as matrices", "".join(map(matrix, sheet.whole()))))
+            found.append(fold("M and D as matrices", equations(sheet.whole())))
         parts = [
             ("rates of the coordinates", equations(sheet.rates()) or "q' = v"),
             ("mass matrix M; what is not written is zero or symmetric", equations(sheet.mass())),
@@ -375,8 +375,6 @@ _OFFERED = "Scripts find it at work: window.symgen.rates(t, y, p) returns the ra
 _POWER = "energies, and the power of forces without potential; b v' + c is that of drivers without rows"
 _SKETCH = "A joint in the picture leads to its rows; these lead to the file and to the lines that compute them."
 _MOTION = row(
-    *(Box("name", text="M", width=1.0), Box("dot", (Box("name", text="v", width=1.0),), width=1.0), sign("+")),
-    Box("power", (Box("name", text="D"), Box("name", text="T")), width=1.0),
-    *(Box("name", text="lambda"), sign("="), Box("name", text="f"), sign(",")),
-    *(Box("name", text="D"), Box("dot", (Box("name", text="v"),)), sign("="), Box("name", text="gamma")),
+    *(name("M"), dot(name("v")), sign("+"), transposed(name("D")), name("lambda"), sign("="), name("f"), sign(",")),
+    *(name("D"), dot(name("v")), sign("="), name("gamma")),
 )

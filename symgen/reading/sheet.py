@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from symgen.describe.printer import to_text
-from symgen.reading.boxes import Box, bracket, dot, name, row, sign
+from symgen.reading.boxes import Box, bracket, dot, matrix, name, row, sign
 from symgen.reading.structure import structure
-from symgen.reading.typeset import Sum, Typesetter, as_box, columns
+from symgen.reading.typeset import Sum, Typesetter, atom
 from symgen.vocabulary.expressions import call
 
 if TYPE_CHECKING:
@@ -28,15 +28,6 @@ class Line:
 
     left: Box
     right: Sum
-    key: str = ""
-
-
-@dataclass(frozen=True)
-class Block:
-    """A matrix with its name, entries as boxes."""
-
-    left: Box
-    entries: tuple[tuple[Box, ...], ...]
     key: str = ""
 
 
@@ -102,9 +93,9 @@ class Sheet:
             found.setdefault(v.name.rpartition(".")[0], []).append(i)
         return found
 
-    def jacobian(self, joint: str) -> list[Block]:
+    def jacobian(self, joint: str) -> list[Line]:
         """Return the blocks of D of a joint's rows, by what the velocities belong to; those that are 0 are left out."""
-        rows, found = self.of(joint), list[Block]()
+        rows, found = self.of(joint), list[Line]()
         for group, indices in self.groups.items():
             entries = [[dict(r.entries).get(i, self.equations.graph.zero) for i in indices] for r in rows]
             if any(n != self.equations.graph.zero for line in entries for n in line):
@@ -112,25 +103,21 @@ class Sheet:
                 found.append(self._block(left, entries, joint))
         return found
 
-    def _block(self, left: Box, nodes: list[list[int]], key: str = "") -> Block:
+    def _block(self, left: Box, nodes: list[list[int]], key: str = "") -> Line:
         """Return a matrix that is no wider than a line: its widest entries get names."""
-        boxes = [[as_box(self.writer.sum(n)) for n in line] for line in nodes]
-        tried: set[int] = set()
-        while columns(boxes) + left.width > LINE - 3.0:
-            flat = [(b.width, n) for pair in zip(boxes, nodes, strict=True) for b, n in zip(*pair, strict=True)]
-            waiting = [entry for entry in flat if entry[1] not in tried]
-            if not waiting:
-                break
-            widest = max(waiting)[1]
-            tried.add(widest)
-            short = as_box(self.writer.narrowed(widest))
-            boxes = [
-                [short if n == widest else b for b, n in zip(*pair, strict=True)]
-                for pair in zip(boxes, nodes, strict=True)
-            ]
-        return Block(left, tuple(map(tuple, boxes)), key)
+        waiting = {n for line in nodes for n in line}
+        found = self._matrix(nodes)
+        while waiting and found.width + left.width > LINE - 3.0:
+            widest = max(waiting, key=lambda n: (self.writer.box(n).width, n))
+            waiting.remove(widest)
+            self.writer.narrow(widest)
+            found = self._matrix(nodes)
+        return Line(left, atom(found), key)
 
-    def whole(self) -> list[Block]:
+    def _matrix(self, nodes: Iterable[Iterable[int]]) -> Box:
+        return matrix([[self.writer.box(n) for n in line] for line in nodes])
+
+    def whole(self) -> list[Line]:
         """Return M, and D where it has rows, as matrices; for small mechanisms."""
         e, zero = self.equations, self.equations.graph.zero
         masses = {
@@ -138,17 +125,13 @@ class Sheet:
         }
         everything = {"M": [[masses.get((i, j), zero) for j in range(e.nv)] for i in range(e.nv)]}
         everything["D"] = [[dict(r.entries).get(j, zero) for j in range(e.nv)] for r in self.rows]
-        return [
-            Block(name(k), tuple(tuple(as_box(self.writer.sum(n)) for n in line) for line in nodes))
-            for k, nodes in everything.items()
-            if nodes
-        ]
+        return [Line(name(k), atom(self._matrix(nodes))) for k, nodes in everything.items() if nodes]
 
     # -- motion ----------------------------------------------------------------------------------------------------
 
-    def mass(self) -> list[Line | Block]:
+    def mass(self) -> list[Line]:
         """Return the diagonal entries of M as equations, and its blocks as matrices."""
-        found: list[Line | Block] = []
+        found = list[Line]()
         for block in self.equations.mass:
             names = [self.equations.velocities[i].name for i in block.columns]
             if len(names) == 1:

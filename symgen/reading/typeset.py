@@ -5,11 +5,12 @@ What is used more than once, and what would make a term too wide, gets a name an
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from symgen.formulate.equations import Equations
+from symgen.ir.graph import Graph
 from symgen.ir.program import of_table
 from symgen.reading.boxes import (
     Box,
@@ -24,15 +25,21 @@ from symgen.reading.boxes import (
     number,
     over,
     power,
+    python,
     row,
     sign,
 )
+from symgen.reading.interpolated import called
+from symgen.reading.quantities import input_names
 
 #: Widest term, in units of the type's size; a line of a document has 44 of them.
 TERM = 30.0
 #: What is used more than once is written out where it has no more names and literals.
 SHORT = 3
+#: Expressions with more operations, written out without sharing, are named by that number in text.
+LONGEST = 1500
 _RELATIONS = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "step": ">"}
+_PYTHON = {"abs": "Abs", "min": "Min", "max": "Max"}
 _CONDITIONS = (*_RELATIONS, "and", "or", "not", "defined")
 
 
@@ -85,8 +92,97 @@ def leading(term: Term, first: bool) -> tuple[Box, ...]:
     return (sign("-" if term.negative else "+"),)
 
 
-class Typesetter:
-    """Writes nodes of derived equations.
+class Writer:
+    """Writes nodes of a graph, each operation as it is.
+
+    Parameters
+    ----------
+    graph : Graph
+        Holds the nodes.
+    inputs : mapping
+        Inputs as they are written.
+    exact : bool
+        Whether numbers have all digits.
+    """
+
+    def __init__(self, graph: Graph, inputs: Mapping[tuple[str, int], Box], exact: bool = False) -> None:
+        self.graph, self.inputs, self.exact = graph, inputs, exact
+        self._written: dict[int, Sum] = {}
+
+    def sum(self, node: int) -> Sum:
+        """Return a node as a sum."""
+        if node not in self._written:
+            for n in self.graph.needed([node], self._written.__contains__):
+                if n not in self._written:
+                    self._written[n] = self._made(n)
+        return self._written[node]
+
+    def box(self, node: int) -> Box:
+        """Return a node in one line."""
+        return as_box(self.sum(node))
+
+    def _made(self, node: int) -> Sum:
+        op, args, payload = self.graph.nodes[node]
+        if op == "const":
+            value = float(payload)  # type: ignore[arg-type]  # a constant's payload is a float
+            return (Term(value < 0.0, (number(abs(value), self.exact),)),)
+        if op == "input":
+            return atom(self.inputs[self.graph.key(node)])
+        sums = [self._written[a] for a in args]
+        if op in ("add", "sub"):
+            return sums[0] + (sums[1] if op == "add" else _turned(sums[1]))
+        if op == "neg":
+            return _turned(sums[0])
+        if op == "mul":
+            return (_square(sums[0]) if args[0] == args[1] else _product(_one(sums[0]), _one(sums[1])),)
+        if op == "div":
+            above, below = _one(sums[0]), _one(sums[1])
+            signs = above.negative != below.negative
+            return (Term(signs, above.factors + below.below, above.below + below.factors),)
+        if op == "pow":
+            return atom(power(_whole(sums[0]), as_box(sums[1])))
+        if op == "where":
+            return atom(cases([(as_box(sums[1]), self._condition(args[0])), (as_box(sums[2]), None)]))
+        if op in _CONDITIONS:
+            return atom(cases([(number(1.0), self._condition(node)), (number(0.0), None)]))
+        if op == "table":
+            table, what = of_table(payload)
+            marks = {"value": "", "slope": "'", "second": "''"}[what]
+            return atom(call(table + marks, [as_box(s) for s in sums], called(payload)))
+        return atom(call(op, [as_box(s) for s in sums], _PYTHON.get(op, "")))
+
+    def _condition(self, node: int) -> Box:
+        """Return a node, 0 or 1 in the graph, as a condition."""
+        op, args, _ = self.graph.nodes[node]
+        if op in _RELATIONS:
+            return row(as_box(self._written[args[0]]), sign(_RELATIONS[op]), as_box(self._written[args[1]]))
+        if op in ("and", "or"):
+            return row(bracket(self._condition(args[0])), sign(op), bracket(self._condition(args[1])))
+        if op == "not":
+            return row(sign("not"), bracket(self._condition(args[0])))
+        if op == "defined":
+            return call("defined", [as_box(self._written[args[0]])])
+        return row(as_box(self._written[node]), sign("!="), number(0.0))
+
+
+def texts(equations: Equations) -> Callable[[int], str]:
+    """Return a function that writes nodes as text that Python and SymPy read, with all digits.
+
+    In place of an expression with more than `LONGEST` operations stands their number.
+    """
+    graph = equations.graph
+    names = {key: name(text, whole=True) for key, text in input_names(equations).items()}
+    writer = Writer(graph, names, exact=True)
+
+    def text(node: int) -> str:
+        count = graph.tree_operations([node])
+        return f"<{count} operations>" if count > LONGEST else python(writer.box(node))
+
+    return text
+
+
+class Typesetter(Writer):
+    """Writes nodes of derived equations in terms that are no wider than a line.
 
     Parameters
     ----------
@@ -108,17 +204,10 @@ class Typesetter:
     def __init__(
         self, equations: Equations, ends: Iterable[int], named: Mapping[int, str], taken: Container[str] = ()
     ) -> None:
-        self.equations, self.graph, self.taken = equations, equations.graph, taken
-        self.inputs: dict[tuple[str, int], str] = {("t", 0): "t"}
-        for space, quantities in (
-            ("q", equations.coordinates),
-            ("v", equations.velocities),
-            ("p", equations.parameters),
-        ):
-            self.inputs.update({(space, i): quantity.name for i, quantity in enumerate(quantities)})
-        self.definitions: dict[int, tuple[Box, Sum]] = {}
         self._parameters = apart(quantity.name for quantity in equations.parameters)
-        self._written: dict[int, Sum] = {}
+        super().__init__(equations.graph, {key: self.symbol(text) for key, text in input_names(equations).items()})
+        self.taken = taken
+        self.definitions: dict[int, tuple[Box, Sum]] = {}
         self._full: dict[int, Sum] = {}
         self._number = 0
         listed = list(ends)
@@ -133,15 +222,10 @@ class Typesetter:
         """Return the name of a quantity as it is typeset: no two parameters alike."""
         return self._parameters.get(text) or name(text)
 
-    def sum(self, node: int) -> Sum:
-        """Return a node as it is used: its name where it has one."""
-        return self._written[node]
-
-    def narrowed(self, node: int) -> Sum:
-        """Return a node under a name, given now unless it has one: for entries of wide matrices."""
+    def narrow(self, node: int) -> None:
+        """Give a node a name unless it has one: for entries of wide matrices."""
         if node not in self.definitions and self.graph.nodes[node].op not in ("const", "input"):
             self._give(node, None)
-        return self._written[node]
 
     def used(self, nodes: Iterable[int]) -> list[int]:
         """Return the nodes with names that `nodes` are written with, in evaluation order."""
@@ -174,52 +258,6 @@ class Typesetter:
             title = f"s{self._number}"
         self.definitions[node] = name(title), self._full[node]
         self._written[node] = atom(name(title))
-
-    # -- operations ------------------------------------------------------------------------------------------------
-
-    def _made(self, node: int) -> Sum:
-        op, args, payload = self.graph.nodes[node]
-        if op == "const":
-            value = float(payload)  # type: ignore[arg-type]  # a constant's payload is a float
-            return (Term(value < 0.0, (number(abs(value)),)),)
-        if op == "input":
-            assert isinstance(payload, tuple), "an input's payload is its key"
-            space, index = payload
-            return atom(self.symbol(self.inputs.get(payload, f"{space}{index}")))
-        sums = [self._written[a] for a in args]
-        if op in ("add", "sub"):
-            return sums[0] + (sums[1] if op == "add" else _turned(sums[1]))
-        if op == "neg":
-            return _turned(sums[0])
-        if op == "mul":
-            return (_square(sums[0]) if args[0] == args[1] else _product(_one(sums[0]), _one(sums[1])),)
-        if op == "div":
-            above, below = _one(sums[0]), _one(sums[1])
-            signs = above.negative != below.negative
-            return (Term(signs, above.factors + below.below, above.below + below.factors),)
-        if op == "pow":
-            return atom(power(_whole(sums[0]), as_box(sums[1])))
-        if op == "where":
-            return atom(cases([(as_box(sums[1]), self._condition(args[0])), (as_box(sums[2]), None)]))
-        if op in _CONDITIONS:
-            return atom(cases([(number(1.0), self._condition(node)), (number(0.0), None)]))
-        if op == "table":
-            table, what = of_table(payload)
-            return atom(call(table + {"value": "", "slope": "'", "second": "''"}[what], [as_box(s) for s in sums]))
-        return atom(call(op, [as_box(s) for s in sums]))
-
-    def _condition(self, node: int) -> Box:
-        """Return a node, 0 or 1 in the graph, as a condition."""
-        op, args, _ = self.graph.nodes[node]
-        if op in _RELATIONS:
-            return row(as_box(self._written[args[0]]), sign(_RELATIONS[op]), as_box(self._written[args[1]]))
-        if op in ("and", "or"):
-            return row(bracket(self._condition(args[0])), sign(op), bracket(self._condition(args[1])))
-        if op == "not":
-            return row(sign("not"), bracket(self._condition(args[0])))
-        if op == "defined":
-            return call("defined", [as_box(self._written[args[0]])])
-        return row(as_box(self._written[node]), sign("!="), number(0.0))
 
 
 def _turned(terms: Sum) -> Sum:
@@ -269,9 +307,3 @@ def broken(terms: Sum, first: float, others: float) -> list[list[Box]]:
         lines[-1] += parts
         left -= wide
     return lines
-
-
-def columns(entries: Sequence[Sequence[Box]]) -> float:
-    """Return the width of a matrix."""
-    widths = [max([box.width for box in column]) for column in zip(*entries, strict=True)]
-    return sum(widths, 1.5) + len(widths)
