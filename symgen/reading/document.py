@@ -191,7 +191,6 @@ def _nomenclature(sheet: Sheet, values: Mapping[str, float]) -> list[str]:
 
 def _law(law: Law) -> list[str]:
     found = [rf"\section*{{The law of \texttt{{{_breakable(law.method)}}}}}", f"{_words(law.summary)}."]
-    for function, purpose in dict.fromkeys((step.function, step.purpose) for step in law.steps):
-        rows = [step.latex for step in law.steps if step.function == function]
-        found += [rf"\paragraph{{{_words(function)}}} {_words(purpose)}", *_aligned(rows)]
+    for function, purpose, steps in law.parts:
+        found += [rf"\paragraph{{{_words(function)}}} {_words(purpose)}", *_aligned([step.latex for step in steps])]
     return found

@@ -190,8 +190,7 @@ class SymbolicEquations:
     @cached_property
     def definitions(self) -> Mapping[Any, Any]:
         """What the names of shared terms stand for, by symbol, each written with earlier ones; empty without any."""
-        used = self._quantities if self.sharing else [name for name in self._quantities if self._is_large(name)]
-        return MappingProxyType(self._definitions([n for name in used for *_, n in self.nodes[name][1]]))
+        return MappingProxyType(self._of(()))
 
     @cached_property
     def notes(self) -> tuple[str, ...]:
@@ -251,7 +250,7 @@ class SymbolicEquations:
 
         asked = names or ("Phi",)
         shared = self if self.sharing else self.shared()
-        definitions = shared._definitions([n for name in asked for *_, n in self.nodes[name][1]])
+        definitions = shared._of(asked)
         terms = {symbol: sp.Symbol(f"_term{i}", real=True) for i, symbol in enumerate(definitions)}
         outputs = [shared.quantity(name).xreplace(terms) for name in asked]
         written = [(terms[symbol], value.xreplace(terms)) for symbol, value in definitions.items()]
@@ -362,13 +361,9 @@ class SymbolicEquations:
     def _put(self, expression: Any) -> Any:
         return expression.xreplace(self.values) if self.values else expression
 
-    def _definitions(self, ends: Iterable[int]) -> dict[Any, Any]:
-        """Return what the names in `ends` stand for, in evaluation order."""
-        display, graph = self._named, self._written.graph
-        needed = [n for n in graph.needed(ends) if n in display.named and display.named[n] not in self.values]
-        return {display.named[n]: self._put(display.definition(n)) for n in needed}
-
-    def _of(self, names: Iterable[str]) -> Mapping[Any, Any]:
-        """Return the definitions that quantities need; of all unless some are named."""
-        used = [name for name in names or self._quantities if self.sharing or self._is_large(name)]
-        return self._definitions([n for name in used for *_, n in self.nodes[name][1]])
+    def _of(self, names: Iterable[str]) -> dict[Any, Any]:
+        """Return the definitions that quantities need, in evaluation order; of all unless some are named."""
+        display, used = self._named, [x for x in names or self._quantities if self.sharing or self._is_large(x)]
+        needed = self._written.graph.needed(n for name in used for *_, n in self.nodes[name][1])
+        named = [n for n in needed if n in display.named and display.named[n] not in self.values]
+        return {display.named[n]: self._put(display.definition(n)) for n in named}

@@ -96,26 +96,28 @@ class Law:
     options: Mapping[str, str]
     steps: tuple[Step, ...]
 
+    @property
+    def parts(self) -> list[tuple[str, str, list[Step]]]:
+        """Emitted functions with what they compute and their steps."""
+        found: dict[tuple[str, str], list[Step]] = {}
+        for step in self.steps:
+            found.setdefault((step.function, step.purpose), []).append(step)
+        return [(function, purpose, steps) for (function, purpose), steps in found.items()]
+
     def latex(self) -> str:
         """Return the steps as lines of LaTeX, for an environment such as ``aligned``."""
-        lines, before = list[str](), ""
-        for step in self.steps:
-            if step.purpose != before:
-                lines.append(rf"&\text{{{escaped(step.function)}}}")
-                before = step.purpose
-            lines.append(step.latex)
+        lines = list[str]()
+        for function, _, steps in self.parts:
+            lines += [rf"&\text{{{escaped(function)}}}", *(step.latex for step in steps)]
         return " \\\\\n".join(lines)
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle \begin{{aligned}} {self.latex()} \end{{aligned}}$"
 
     def __str__(self) -> str:
-        lines, before = [f"{self.method}: {self.summary}"], ""
-        for step in self.steps:
-            if step.purpose != before:
-                lines.append(f"{step.function}: {step.purpose}")
-                before = step.purpose
-            lines.append(f"  {step}")
+        lines = [f"{self.method}: {self.summary}"]
+        for function, purpose, steps in self.parts:
+            lines += [f"{function}: {purpose}", *(f"  {step}" for step in steps)]
         return "\n".join(lines)
 
 

@@ -326,13 +326,12 @@ class _Page:
         return found
 
     def _law(self) -> list[str]:
-        found, before = [f"<p>{escape(self.subject.law.summary)}</p>"], ""
-        for step in self.subject.law.steps:
-            if step.purpose != before:
-                found.append(f"<h3>{escape(step.function)}: {escape(step.purpose)}</h3>")
-                before = step.purpose
-            note = ' <span class="small">solved</span>' if step.solved else ""
-            found.append(f'<div class="equation">{math(step.box)}{note}</div>')
+        found = [f"<p>{escape(self.subject.law.summary)}</p>"]
+        for function, purpose, steps in self.subject.law.parts:
+            found.append(f"<h3>{escape(function)}: {escape(purpose)}</h3>")
+            for step in steps:
+                note = ' <span class="small">solved</span>' if step.solved else ""
+                found.append(f'<div class="equation">{math(step.box)}{note}</div>')
         return [fold("steps", "\n".join(found), True)]
 
     def _operations(self) -> list[str]:

@@ -11,27 +11,18 @@ from sympy.core.function import AppliedUndef
 
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations
-from symgen.formulate.translate import NotReal, Translator, table_function
+from symgen.formulate.translate import TO_SYMPY, NotReal, Translator, table_function
 from symgen.ir.graph import Graph
 from symgen.reading.boxes import Box, dot, matrix, name
 from symgen.reading.quantities import input_names
 from symgen.reading.typeset import Writer
-from symgen.vocabulary.functions import ELEMENTARY
 
-_RELATIONS = {"lt": sp.StrictLessThan, "le": sp.LessThan, "gt": sp.StrictGreaterThan, "ge": sp.GreaterThan}
-_LOGIC = {"and": sp.And, "or": sp.Or}
-#: Operations that SymPy's own arithmetic does well; others are left as they are.
-_EVALUATED: dict[str, Any] = {
-    "add": lambda a, b: a + b,
-    "sub": lambda a, b: a - b,
-    "mul": lambda a, b: a * b,
-    "div": lambda a, b: a / b,
-    "neg": lambda a: -a,
-    "pow": lambda a, b: a**b,
-    "abs": sp.Abs,
-    **{function: getattr(sp, function) for function in ELEMENTARY},
+_CONDITIONS = {
+    **{"lt": sp.StrictLessThan, "le": sp.LessThan, "gt": sp.StrictGreaterThan, "ge": sp.GreaterThan},
+    **{"step": sp.StrictGreaterThan, "and": sp.And, "or": sp.Or, "not": sp.Not},
 }
-_UNEVALUATED = {"floor": sp.floor, "min": sp.Min, "max": sp.Max, "atan2": sp.atan2, "sign": sp.sign}
+#: What SymPy leaves as it is: to compare expressions takes it long.
+_UNEVALUATED = {"floor": sp.floor, "min": sp.Min, "max": sp.Max}
 
 
 class Symbolic:
@@ -78,24 +69,21 @@ class Symbolic:
             return table_function(str(payload))(*values)
         if op == "where":
             return sp.Piecewise((values[1], self._condition(args[0])), (values[2], True), evaluate=False)
-        if op in _EVALUATED:
-            return _EVALUATED[op](*values)
         if op in _UNEVALUATED:
             return _UNEVALUATED[op](*values, evaluate=False)
-        return sp.Piecewise((sp.Integer(1), self._condition(node)), (sp.Integer(0), True), evaluate=False)
+        if op in _CONDITIONS or op == "defined":
+            return sp.Piecewise((sp.Integer(1), self._condition(node)), (sp.Integer(0), True), evaluate=False)
+        return TO_SYMPY[op](*values)
 
     def _condition(self, node: int) -> Any:
         """Return a node, 0 or 1 in the graph, as a condition."""
         op, args, _ = self.graph.nodes[node]
-        if op in _RELATIONS or op == "step":
-            return _RELATIONS.get(op, sp.StrictGreaterThan)(*(self._built[a] for a in args), evaluate=False)
-        if op in _LOGIC:
-            return _LOGIC[op](*(self._condition(a) for a in args), evaluate=False)
         if op == "defined":  # what is no number differs from itself
             return sp.Eq(self._built[args[0]], self._built[args[0]], evaluate=False)
-        if op == "not":
-            return sp.Not(self._condition(args[0]), evaluate=False)
-        return sp.Ne(self._built[node], 0, evaluate=False)
+        if op not in _CONDITIONS:
+            return sp.Ne(self._built[node], 0, evaluate=False)
+        operand = self._condition if op in ("and", "or", "not") else self._built.__getitem__
+        return _CONDITIONS[op](*map(operand, args), evaluate=False)
 
 
 def number(value: float) -> Any:
