@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -16,9 +15,9 @@ from symgen.report.words import counted
 
 if TYPE_CHECKING:
     from symgen.api import Model
-    from symgen.cli._reading import Asked
     from symgen.describe.mechanism import Mechanism, Topology
     from symgen.formulate.equations import Equations
+    from symgen.settings import Settings
 
 
 #: A wider Jacobian is listed entry by entry only.
@@ -60,27 +59,29 @@ def command(
     Coordinates, constraints, Jacobian with its pattern, quadratic velocity terms, forces, mass matrix, sizes, degrees
     of freedom, redundant rows, operation counts before and after common subexpressions, and what was left out and why.
     """
-    from symgen.cli._reading import Asked, latex_of, write_page
+    from symgen.cli._reading import latex_of, write_page
+    from symgen.settings import Settings
 
-    asked = Asked(method, {}, parameters, shape, coordinates)
-    asked = replace(asked, options=_own(options, asked.named))
+    named = method or "direct-correction"
+    own = {f"method.{key}": value for key, value in _own(options, named).items()}
+    settings = Settings(named, options=own, shape=shape, coordinates=coordinates, parameters=parameters)
     if as_json and form not in (None, "json"):
         raise InputError("--json", "the same as --format json", f"--format {form} as well")
     form = "json" if as_json else form or "text"
     if output is not None:
         if as_json or document or select is not None or symbols or form != "text":
             raise InputError("inspect: -o", "a page, which has everything", "options of text, LaTeX or JSON beside it")
-        write_page(model, asked, output)
+        write_page(model, settings, output)
         return OK
     if form == "latex":
         if document and shape == "looped":
             raise InputError("--shape", "straight code, as a document shows the equations of one mechanism", "looped")
-        click.echo(latex_of(model, asked, select, symbols, document), nl=False)
+        click.echo(latex_of(model, settings, select, symbols, document), nl=False)
         return OK
     if document or select is not None or symbols:
         expected = "--format latex, with which alone --document, --select and --symbols mean something"
         raise InputError("inspect", expected, f"--format {form}")
-    facts = describe(model, asked)
+    facts = describe(model, settings, method is not None)
     if form == "json":
         write_json(facts)
     else:
@@ -101,30 +102,30 @@ def _own(options: dict[str, str], method: str) -> dict[str, str]:
     return found
 
 
-def describe(name: str, asked: Asked) -> dict[str, Any]:
+def describe(name: str, settings: Settings, with_method: bool) -> dict[str, Any]:
     """Return everything that is shown, expressions as text."""
     from symgen.api import load
-    from symgen.cli._reading import Started
+    from symgen.cli._reading import at_start
     from symgen.formulate.formulate import formulate
     from symgen.reading.typeset import texts
 
     model = load(name)
-    started = Started.of(model, asked)
-    plan, choice, start = started.plan, started.choice, started.start
-    mechanism, compiled = started.mechanism, started.compiled
+    run, mechanism, choice = at_start(model, settings)
+    plan, start = run.plan, run.start
     of_tree: dict[str, Any] = {}
     if mechanism.topology is not None:
         of_tree = {"topology": _topology(mechanism.topology, mechanism), "tree": _links(mechanism.topology)}
     equations = formulate(mechanism)
     show = texts(equations)
-    values = model.parameters(asked.parameters)
+    values = model.parameters(settings.parameters)
+    known = [{"name": p.name, "unit": p.unit, "value": values[p.name]} for p in equations.parameters]
     facts: dict[str, Any] = {
         "mechanism": model.name,
         "state": {"coordinates": plan.coordinates, "reason": plan.coordinates_reason},
         **of_tree,
         "title": model.mechanism.title,
         "sizes": _sizes(equations),
-        "shape": {"shape": compiled.shape, "reason": plan.shape_reason, "kernels": _kernels(model)},
+        "shape": {"shape": run.compiled.shape, "reason": plan.shape_reason, "kernels": _kernels(model)},
         "rank": start.rank,
         "degrees_of_freedom": equations.nv - start.rank,
         "redundant_rows": list(start.redundant_rows),
@@ -132,16 +133,8 @@ def describe(name: str, asked: Asked) -> dict[str, Any]:
         "notes": list(start.notes),
         "coordinates": [{"name": q.name, "unit": q.unit} for q in equations.coordinates],
         "velocities": [{"name": v.name, "unit": v.unit} for v in equations.velocities],
-        "parameters": [
-            {"name": p.name, "unit": p.unit, "value": values[p.name]}
-            for p in equations.parameters
-            if p.name not in equations.inputs
-        ],
-        "inputs": [
-            {"name": p.name, "unit": p.unit, "value": values[p.name]}
-            for p in equations.parameters
-            if p.name in equations.inputs
-        ],
+        "parameters": [p for p in known if p["name"] not in equations.inputs],
+        "inputs": [p for p in known if p["name"] in equations.inputs],
         "rows": [
             {
                 "name": row.name,
@@ -174,7 +167,7 @@ def describe(name: str, asked: Asked) -> dict[str, Any]:
         "operations": _operations(equations),
         "left_out": [{"what": o.what, "why": o.why} for o in equations.omissions],
     }
-    if asked.method is not None:
+    if with_method:
         facts["method"] = _method(mechanism, equations, choice)
     return facts
 

@@ -29,8 +29,7 @@ if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Joint, Mechanism
     from symgen.formulate.equations import Equations
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.running.prepare import Prepared
 
 #: Largest page [bytes]; emitted code is left out of a page that would be larger.
 LARGEST = 2_000_000
@@ -68,16 +67,12 @@ class Subject:
         Its steps.
     values : mapping
         Values of the parameters.
-    q : sequence of float, optional
-        Coordinates of bodies that are drawn; as described by default.
     facts : sequence of str
         Sentences about the start, and what was chosen.
     text : str
         The file, where there is one.
-    compiled : CompiledModel, optional
-        The code of a run, from which the page has its right-hand side.
-    start : Start, optional
-        Where the run begins.
+    run : Prepared, optional
+        The run whose start is drawn, and from whose code the page has its right-hand side; None: it does not close.
     """
 
     whole: Mechanism
@@ -86,11 +81,17 @@ class Subject:
     choice: MethodChoice
     law: Law
     values: Mapping[str, float]
-    q: Sequence[float] | None = None
     facts: Sequence[str] = ()
     text: str = ""
-    compiled: CompiledModel | None = None
-    start: Start | None = None
+    run: Prepared | None = None
+
+    @property
+    def q(self) -> list[float] | None:
+        """Coordinates of bodies that are drawn; None: as described."""
+        if self.run is None:
+            return None
+        compiled, start = self.run.assembled.of_bodies
+        return [float(x) for x in start.y[: compiled.info.nq]]
 
 
 def check_size(mechanism: Mechanism) -> None:
@@ -169,10 +170,10 @@ class _Page:
 
     def rates(self) -> tuple[list[str], str]:
         """Return the right-hand side as scripts, the best first, or why there is none."""
-        compiled, start = self.subject.compiled, self.subject.start
-        if compiled is None or start is None:
+        run = self.subject.run
+        if run is None:
             return [], "the mechanism does not close"
-        parts, why = rates_parts(compiled, start)
+        parts, why = rates_parts(run.compiled, run.start)
         return [rates_script(part) for part in parts], why
 
     def text(self, listed: frozenset[str]) -> str:
@@ -200,9 +201,9 @@ class _Page:
         ]
         data: dict[str, Any] = {
             "t": 0.0,
-            "q": None if s.q is None else [float(x) for x in s.q],
+            "q": s.q,
             "names": [f"{b.name}.{c}" for b in s.whole.bodies for c in b.coordinates],
-            "y0": None if s.start is None else [float(x) for x in s.start.y],
+            "y0": None if s.run is None else [float(x) for x in s.run.start.y],
             "state": [x.name for x in (*e.coordinates, *e.velocities)],
             "rows": [r.name for r in e.rows],
         }
