@@ -59,12 +59,13 @@ def command(
     Coordinates, constraints, Jacobian with its pattern, quadratic velocity terms, forces, mass matrix, sizes, degrees
     of freedom, redundant rows, operation counts before and after common subexpressions, and what was left out and why.
     """
-    from symgen.cli._reading import latex_of, write_page
+    from symgen.cli._reading import latex_of, method_of, write_page
     from symgen.settings import Settings
 
     named = method or "direct-correction"
     own = {f"method.{key}": value for key, value in _own(options, named).items()}
     settings = Settings(named, options=own, shape=shape, coordinates=coordinates, parameters=parameters)
+    method_of(settings)  # refuses options that are numbers of runs
     if as_json and form not in (None, "json"):
         raise InputError("--json", "the same as --format json", f"--format {form} as well")
     form = "json" if as_json else form or "text"
