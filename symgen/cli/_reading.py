@@ -86,7 +86,7 @@ def write_page(name: str, settings: Settings, output: str) -> None:
     model = load(name)
     check_size(model.mechanism)
     speeds = sum(len(body.speeds) for body in model.mechanism.bodies)
-    if settings.shape == "auto" and speeds <= MOST_STRAIGHT:  # `auto` asks the cache; a page stays what it is
+    if settings.shape == "auto" and speeds <= MOST_STRAIGHT:  # whatever a run would take
         settings = replace(settings, shape="straight")
     mechanism, choice, run = model.mechanism, method_of(settings), None
     try:
