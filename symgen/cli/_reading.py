@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING
 import click
 import msgspec
 
-from symgen.errors import InputError
-
 if TYPE_CHECKING:
     from symgen.api import Model
     from symgen.compiling.pipeline import MethodChoice
@@ -73,16 +71,14 @@ def write_page(name: str, settings: Settings, output: str) -> None:
     """Write the page of a mechanism."""
     from symgen.api import load
     from symgen.errors import AssemblyError
-    from symgen.files import check_writable, write_whole
+    from symgen.files import write_whole
     from symgen.formulate.formulate import formulate
+    from symgen.player.page import check_page
     from symgen.reading.law import law
     from symgen.reading.page import MOST_STRAIGHT, Subject, check_size, page
     from symgen.reading.source import text_of
 
-    path = Path(output)
-    if path.suffix.lower() not in (".html", ".htm"):
-        raise InputError("inspect: -o", "a name that ends in .html", f"'{path.name}'")
-    check_writable("inspect: -o", path)
+    path = check_page("inspect: -o", Path(output))
     model = load(name)
     check_size(model.mechanism)
     speeds = sum(len(body.speeds) for body in model.mechanism.bodies)

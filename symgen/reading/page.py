@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -16,7 +15,7 @@ from symgen.errors import InputError
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
 from symgen.player.live import rates_parts
-from symgen.player.page import rates_script
+from symgen.player.page import as_json, rates_script
 from symgen.reading.boxes import dot, name, row, sign, transposed
 from symgen.reading.html import attribute, equation, equations, fold, math, section, short, small, table
 from symgen.reading.law import Law
@@ -207,7 +206,6 @@ class _Page:
             "state": [x.name for x in (*e.coordinates, *e.velocities)],
             "rows": [r.name for r in e.rows],
         }
-        told = json.dumps(data, allow_nan=False).replace("<", "\\u003c")
         head = (
             '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
             f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'
@@ -215,7 +213,7 @@ class _Page:
             f"<title>{escape(title)}: equations</title><style>{_web('style.css')}</style></head><body>"
         )
         script = f"const rates = {_RATES};\n{_web('script.js')}"
-        tail = f'<script type="application/json" id="data">{told}</script><script>{script}</script>'
+        tail = f'<script type="application/json" id="data">{as_json(data)}</script><script>{script}</script>'
         return "\n".join([head, *body, tail, "</body></html>\n"])
 
     # -- sections --------------------------------------------------------------------------------------------------
