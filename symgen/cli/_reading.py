@@ -52,11 +52,11 @@ def latex_of(name: str, settings: Settings, select: str | None, symbols: bool, w
     raw, source = read_raw(name)
     model = Model(validate(with_symbols(raw) if symbols else raw, source))
     values = model.parameters(settings.parameters)
-    found = model.equations_in(choose_coordinates(model.mechanism, settings.coordinates, "straight").name)
+    equations = model.equations_in(choose_coordinates(model.mechanism, settings.coordinates, "straight").name)
     wanted = tuple(item.strip() for item in (select or "").split(",") if item.strip())
     choice = method_of(settings)
-    steps = law(choice.method.name, choice.options, found.derived.driving is not None)
-    return document(found.mechanism, found.derived, steps, values, wanted, whole)
+    steps = law(choice.method.name, choice.options, equations.derived.driving is not None)
+    return document(equations.mechanism, equations.derived, steps, values, wanted, whole)
 
 
 def method_of(settings: Settings) -> MethodChoice:

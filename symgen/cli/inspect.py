@@ -92,15 +92,15 @@ def command(
 
 def _own(options: dict[str, str], method: str) -> dict[str, str]:
     """Return options of a method by their own names; they are given with its name, with ``method``, or with none."""
-    found = {}
+    own = {}
     for key, value in options.items():
         owner, _, name = key.rpartition(".")
         if owner not in ("", "method", method):
             raise InputError(f"--option {key}", f"{method}.NAME, method.NAME or NAME", f"'{key}'")
-        if name in found:
+        if name in own:
             raise InputError(f"--option {key}", "each option once", f"{name} twice")
-        found[name] = value
-    return found
+        own[name] = value
+    return own
 
 
 def describe(name: str, settings: Settings, with_method: bool) -> dict[str, Any]:
@@ -119,7 +119,7 @@ def describe(name: str, settings: Settings, with_method: bool) -> dict[str, Any]
     equations = formulate(mechanism)
     show = texts(equations)
     values = model.parameters(settings.parameters)
-    known = [{"name": p.name, "unit": p.unit, "value": values[p.name]} for p in equations.parameters]
+    parameters = [{"name": p.name, "unit": p.unit, "value": values[p.name]} for p in equations.parameters]
     facts: dict[str, Any] = {
         "mechanism": model.name,
         "state": {"coordinates": plan.coordinates, "reason": plan.coordinates_reason},
@@ -134,8 +134,8 @@ def describe(name: str, settings: Settings, with_method: bool) -> dict[str, Any]
         "notes": list(start.notes),
         "coordinates": [{"name": q.name, "unit": q.unit} for q in equations.coordinates],
         "velocities": [{"name": v.name, "unit": v.unit} for v in equations.velocities],
-        "parameters": [p for p in known if p["name"] not in equations.inputs],
-        "inputs": [p for p in known if p["name"] in equations.inputs],
+        "parameters": [p for p in parameters if p["name"] not in equations.inputs],
+        "inputs": [p for p in parameters if p["name"] in equations.inputs],
         "rows": [
             {
                 "name": row.name,

@@ -60,22 +60,22 @@ def name(text: str, whole: bool = False) -> Box:
 
 def apart(names: Iterable[str]) -> dict[str, Box]:
     """Return names of one kind as they are typeset; where both ``l1`` and ``l_1`` are names, the first is whole."""
-    known = set(names)
-    return {text: name(text, whole=re.sub(r"^([A-Za-z])(\d+)$", r"\1_\2", text) in known - {text}) for text in known}
+    every = set(names)
+    return {text: name(text, whole=re.sub(r"^([A-Za-z])(\d+)$", r"\1_\2", text) in every - {text}) for text in every}
 
 
 def letter_of(text: str) -> tuple[str, str]:
     """Return the letter that a name is typeset with, and its index."""
     body, _, quantity = text.rpartition(".")
     if not body:
-        found = re.fullmatch(r"([A-Za-z])_?(\d+)", text)
-        return (found[1], found[2]) if found else (text, "")
+        match = re.fullmatch(r"([A-Za-z])_?(\d+)", text)
+        return (match[1], match[2]) if match else (text, "")
     if quantity in ("c", "s"):
         return quantity, body
-    if found := re.fullmatch(r"([vweα])([xyz0-3])", quantity):
-        return ("omega" if found[1] == "w" else found[1]), f"{found[2]},{body}"
-    if found := re.fullmatch(r"a([0-2])([0-2])", quantity):
-        return "A", f"{int(found[1]) + 1}{int(found[2]) + 1},{body}"
+    if match := re.fullmatch(r"([vweα])([xyz0-3])", quantity):
+        return ("omega" if match[1] == "w" else match[1]), f"{match[2]},{body}"
+    if match := re.fullmatch(r"a([0-2])([0-2])", quantity):
+        return "A", f"{int(match[1]) + 1}{int(match[2]) + 1},{body}"
     return quantity, body
 
 

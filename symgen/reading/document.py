@@ -119,17 +119,17 @@ def _head(mechanism: Mechanism, sheet: Sheet) -> list[str]:
 
 def selected(equations: Equations, select: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the sections and the joints that are asked for; ``joints.D`` is a joint, ``D`` the Jacobian."""
-    known = tuple(dict.fromkeys(row.joint for row in equations.rows))
+    with_rows = tuple(dict.fromkeys(row.joint for row in equations.rows))
     sections, joints = list[str](), list[str]()
     for item in select:
         joint = item.removeprefix("joints.")
         if item in SECTIONS:
             sections.append(item)
-        elif joint in known:
+        elif joint in with_rows:
             joints.append(joint)
         else:
             expected = f"a joint with rows, or one of {', '.join(SECTIONS)}"
-            raise InputError("--select", expected, f"'{item}'", nearest(item, (*SECTIONS, *known)))
+            raise InputError("--select", expected, f"'{item}'", nearest(item, (*SECTIONS, *with_rows)))
     return tuple(sections), tuple(joints)
 
 
@@ -148,10 +148,10 @@ def _words(text: str) -> str:
 
 
 def _aligned(rows: Sequence[str]) -> list[str]:
-    found = []
+    texts = []
     for first in range(0, len(rows), _TOGETHER):
-        found.append("\\begin{align*}\n" + " \\\\\n".join(rows[first : first + _TOGETHER]) + "\n\\end{align*}")
-    return found
+        texts.append("\\begin{align*}\n" + " \\\\\n".join(rows[first : first + _TOGETHER]) + "\n\\end{align*}")
+    return texts
 
 
 def _lines(lines: Iterable[Line], tail: str = "") -> list[str]:
@@ -171,26 +171,26 @@ def _line(line: Line, tail: str = "") -> list[str]:
 
 
 def _nomenclature(sheet: Sheet, values: Mapping[str, float]) -> list[str]:
-    found = [r"\section*{Nomenclature}"]
+    lines = [r"\section*{Nomenclature}"]
     notes = {p.name: f", {p.note}" for p in sheet.mechanism.parameters if p.note}
     for title, quantities in sheet.quantities():
         if not quantities:
             continue
-        found += [
+        lines += [
             rf"\subsection*{{{title}}}",
             r"\begin{longtable}{@{}p{0.3\textwidth}p{0.36\textwidth}p{0.12\textwidth}r@{}}",
         ]
         for quantity in quantities:
             value = f"{values[quantity.name]:.6g}" if title in ("Parameters", "Inputs") else ""
             symbol = latex(sheet.writer.symbol(quantity.name))
-            told = _words(quantity.name + notes.get(quantity.name, ""))
-            found.append(rf"${symbol}$ & \raggedright {told} & {_words(quantity.unit)} & {value} \\")
-        found.append(r"\end{longtable}")
-    return found
+            meaning = _words(quantity.name + notes.get(quantity.name, ""))
+            lines.append(rf"${symbol}$ & \raggedright {meaning} & {_words(quantity.unit)} & {value} \\")
+        lines.append(r"\end{longtable}")
+    return lines
 
 
 def _law(law: Law) -> list[str]:
-    found = [rf"\section*{{The law of \texttt{{{_breakable(law.method)}}}}}", f"{_words(law.summary)}."]
+    lines = [rf"\section*{{The law of \texttt{{{_breakable(law.method)}}}}}", f"{_words(law.summary)}."]
     for function, purpose, steps in law.parts:
-        found += [rf"\paragraph{{{_words(function)}}} {_words(purpose)}", *_aligned([step.latex for step in steps])]
-    return found
+        lines += [rf"\paragraph{{{_words(function)}}} {_words(purpose)}", *_aligned([step.latex for step in steps])]
+    return lines

@@ -218,17 +218,17 @@ class SymbolicEquations:
         InputError
             If a name is not one of the equations.
         """
-        known = {s.name: s for s in (*self._plain.symbols.values(), *self._named.named.values())}
+        symbols = {s.name: s for s in (*self._plain.symbols.values(), *self._named.named.values())}
         new = dict[Any, Any]()
         for key, value in values.items():
             name = key.name if isinstance(key, sp.Symbol) else str(key)
-            if name not in known:
-                raise InputError("subs", "a name of the equations", f"'{name}'", nearest(name, known))
-            new[known[name]] = sp.sympify(value)
+            if name not in symbols:
+                raise InputError("subs", "a name of the equations", f"'{name}'", nearest(name, symbols))
+            new[symbols[name]] = sp.sympify(value)
         left = {symbol for value in self.values.values() for symbol in value.free_symbols}
-        found = {key: value.xreplace(new) for key, value in self.values.items()}
-        found |= {key: value for key, value in new.items() if key not in found or key not in left}
-        return replace(self, values=found)
+        replaced = {key: value.xreplace(new) for key, value in self.values.items()}
+        replaced |= {key: value for key, value in new.items() if key not in replaced or key not in left}
+        return replace(self, values=replaced)
 
     def lambdify(self, *names: str, modules: str | Sequence[Any] = "numpy") -> Callable[..., Any]:
         """Return a function ``(t, q, v, p=None, turned=None)`` that computes quantities, shared terms once.
@@ -248,24 +248,24 @@ class SymbolicEquations:
         """
         import numpy as np
 
-        asked = names or ("Phi",)
+        quantities = names or ("Phi",)
         shared = self if self.sharing else self.shared()
-        definitions = shared._of(asked)
+        definitions = shared._of(quantities)
         terms = {symbol: sp.Symbol(f"_term{i}", real=True) for i, symbol in enumerate(definitions)}
-        outputs = [shared.quantity(name).xreplace(terms) for name in asked]
+        outputs = [shared.quantity(name).xreplace(terms) for name in quantities]
         written = [(terms[symbol], value.xreplace(terms)) for symbol, value in definitions.items()]
         symbols = [self.t, *(list(group.values()) for group in (self.q, self.v, self.parameters, self.turned))]
         tables = functions(self.derived.tables)
         libraries = [tables, *([modules] if isinstance(modules, str) else modules)]
-        compute = sp.lambdify(symbols, outputs, libraries, cse=lambda given: (written, given))
-        known = list(parameter_values(self.mechanism).values())
+        compute = sp.lambdify(symbols, outputs, libraries, cse=lambda unchanged: (written, unchanged))
+        described = list(parameter_values(self.mechanism).values())
 
         def computed(t: float, q: Any, v: Any, p: Any = None, turned: Any = None) -> Any:
             """Return the quantities at a state."""
             last = [0.0] * len(self.turned) if turned is None else turned
             with np.errstate(all="ignore"):  # both branches of a condition are computed, one of which may be undefined
-                found = compute(t, q, v, known if p is None else p, last)
-            return found[0] if len(asked) == 1 else tuple(found)
+                results = compute(t, q, v, described if p is None else p, last)
+            return results[0] if len(quantities) == 1 else tuple(results)
 
         return computed
 
@@ -343,8 +343,8 @@ class SymbolicEquations:
         return Symbolic(self._written, names)
 
     def _symbols(self, space: str) -> Mapping[str, Any]:
-        found = [s for (kind, _), s in self._plain.symbols.items() if kind == space]
-        return MappingProxyType({s.name: s for s in found})
+        symbols = [s for (kind, _), s in self._plain.symbols.items() if kind == space]
+        return MappingProxyType({s.name: s for s in symbols})
 
     def _size(self, name: str) -> int:
         return self._written.graph.tree_operations(n for *_, n in self.nodes[name][1])
@@ -355,8 +355,8 @@ class SymbolicEquations:
     def _matrix(self, name: str) -> Any:
         shape, entries = self.nodes[name]
         display = self._named if self.sharing or self._is_large(name) else self._plain
-        found = {(i, j): self._put(display.expression(node)) for i, j, node in entries}
-        return sp.ImmutableDenseMatrix(*shape, lambda i, j: found.get((int(i), int(j)), sp.S.Zero))
+        values = {(i, j): self._put(display.expression(node)) for i, j, node in entries}
+        return sp.ImmutableDenseMatrix(*shape, lambda i, j: values.get((int(i), int(j)), sp.S.Zero))
 
     def _put(self, expression: Any) -> Any:
         return expression.xreplace(self.values) if self.values else expression

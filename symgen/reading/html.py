@@ -40,12 +40,12 @@ def fold(head: str, inside: str, is_open: bool = False, ident: str = "", marked:
 
 def table(lines: Sequence[Sequence[str]], numbers: int = 0) -> str:
     """Return a table of HTML; the last `numbers` columns are numbers."""
-    found = []
+    rows = []
     for i, line in enumerate(lines):
         tag, first = "th" if i == 0 else "td", len(line) - numbers
         cells = (f"<{tag}{' class=n' if k >= first else ''}>{text}</{tag}>" for k, text in enumerate(line))
-        found.append(f"<tr>{''.join(cells)}</tr>")
-    return f"<table>{''.join(found)}</table>"
+        rows.append(f"<tr>{''.join(cells)}</tr>")
+    return f"<table>{''.join(rows)}</table>"
 
 
 def math(box: Box) -> str:
@@ -56,15 +56,15 @@ def math(box: Box) -> str:
 def equation(line: Line, tail: str = "") -> str:
     """Return an equation, broken where it is long."""
     lines = broken(line.right, 62.0 - line.left.width, 62.0)
-    found = []
+    parts = []
     for i, boxes in enumerate(lines):
         inside = "".join(map(mathml, boxes))
         if i == 0:
             inside = f"{mathml(line.left)}<mo>=</mo>{inside}"
         if tail and i == len(lines) - 1:
             inside += "<mo>=</mo><mn>0</mn>"
-        found.append(f"<div{' class=more' if i else ''}><math>{inside}</math></div>")
-    return f'<div class="equation">{"".join(found)}</div>'
+        parts.append(f"<div{' class=more' if i else ''}><math>{inside}</math></div>")
+    return f'<div class="equation">{"".join(parts)}</div>'
 
 
 def equations(lines: Iterable[Line]) -> str:

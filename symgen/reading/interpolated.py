@@ -20,10 +20,10 @@ def called(payload: object) -> str:
 
 def functions(tables: Iterable[Interpolation]) -> dict[str, Any]:
     """Return the interpolated functions and their derivatives by the names that expressions call them by."""
-    found: dict[str, Any] = {}
+    by_name: dict[str, Any] = {}
     for table in tables:
         for order in range(3):
             payload = f"{SMOOTH if table.pieces else ''}{table.name}" + "'" * order
             value = np.vectorize(lambda x, table=table, order=order: table.value(float(x), order), otypes=[float])
-            found[called(payload)] = value
-    return found
+            by_name[called(payload)] = value
+    return by_name

@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 LARGEST = 2_000_000
 #: Mechanisms with more rows and velocities have no page.
 MOST_ROWS = 1500
-#: Where the right-hand side is put, and what is said of it [with so many bytes at most]: text of files is escaped.
-_RATES, _TOLD, _SPARE = "<!--rates-->", "<!--told-->", 1000
+#: Places of the right-hand side and of a sentence about it, which text of files cannot have; bytes of the sentence.
+_RATES, _SENTENCE, _SPARE = "<!--rates-->", "<!--sentence-->", 1000
 #: Up to so many velocities of bodies a page has the code of a run in straight lines, unless asked otherwise.
 MOST_STRAIGHT = 150
 #: Shared terms that stand together.
@@ -118,11 +118,11 @@ def page(subject: Subject) -> str:
     InputError
         If it is larger without the code, too.
     """
-    made = _Page(subject)
-    scripts, why = made.rates()
+    parts = _Page(subject)
+    scripts, why = parts.rates()
     fits, size = "", 0
-    for listed in made.listings():
-        text = made.text(listed)
+    for listed in parts.listings():
+        text = parts.text(listed)
         size = len(text.encode())
         if size > LARGEST:
             continue
@@ -137,8 +137,8 @@ def page(subject: Subject) -> str:
 
 
 def _with_rates(text: str, script: str, why: str) -> str:
-    told = _OFFERED if script else f"This page offers no right-hand side to scripts: {why}."
-    return text.replace(_RATES, script or "null", 1).replace(_TOLD, f'<p class="small">{escape(told)}</p>', 1)
+    sentence = _OFFERED if script else f"This page offers no right-hand side to scripts: {why}."
+    return text.replace(_RATES, script or "null", 1).replace(_SENTENCE, f'<p class="small">{escape(sentence)}</p>', 1)
 
 
 class _Page:
@@ -154,18 +154,18 @@ class _Page:
 
     @cached_property
     def computed(self) -> dict[str, list[Computed]]:
-        found: dict[str, list[Computed]] = {}
+        by_row: dict[str, list[Computed]] = {}
         for line in computed(self.program, self.e, self.source):
-            found.setdefault(line.row, []).append(line)
-        return found
+            by_row.setdefault(line.row, []).append(line)
+        return by_row
 
     def listings(self) -> list[frozenset[str]]:
         """Return which modules are listed, from all to none: those go first that no link leads to."""
         rest = sorted((stem for stem in self.parts if not stem.startswith("rhs_")), key=lambda s: len(self.parts[s]))
-        found = [frozenset(("model", *self.parts))]
+        choices = [frozenset(("model", *self.parts))]
         for stem in reversed(rest):
-            found.append(found[-1] - {stem})
-        return [*found, frozenset(("model",)), frozenset()]
+            choices.append(choices[-1] - {stem})
+        return [*choices, frozenset(("model",)), frozenset()]
 
     def rates(self) -> tuple[list[str], str]:
         """Return the right-hand side as scripts, the best first, or why there is none."""
@@ -196,7 +196,7 @@ class _Page:
             section("operations", "Operations", self._operations()),
             section("left-out", "Left out", self._left_out()),
             section("file", "File", file_listing(s.text, self.places, {joint.name for joint in s.mechanism.joints})),
-            section("code", "Emitted code", [_TOLD, *self._code(listed)]),
+            section("code", "Emitted code", [_SENTENCE, *self._code(listed)]),
         ]
         data: dict[str, Any] = {
             "t": 0.0,
@@ -219,8 +219,8 @@ class _Page:
     # -- sections --------------------------------------------------------------------------------------------------
 
     def _navigation(self) -> str:
-        known = "sketch topology coordinates rows patterns motion law operations left-out file code".split()
-        return "<nav>" + " ".join(f'<a href="#{k}">{k.replace("-", " ")}</a>' for k in known) + "</nav>"
+        names = "sketch topology coordinates rows patterns motion law operations left-out file code".split()
+        return "<nav>" + " ".join(f'<a href="#{k}">{k.replace("-", " ")}</a>' for k in names) + "</nav>"
 
     def _sketch(self) -> str:
         return sketch(self.subject.whole, self.subject.q, self.subject.values)
@@ -232,7 +232,7 @@ class _Page:
             between = " and ".join(dict.fromkeys(joint.bodies))
             link = f'<a href="#rows-{attribute(joint.name)}">{escape(joint.name)}</a>'
             lines.append([link, escape(joint.kind), escape(between), str(len(self.sheet.of(joint.name)))])
-        found = [fold(f"{len(s.mechanism.joints)} joints", table(lines), len(lines) <= 13)]
+        parts = [fold(f"{len(s.mechanism.joints)} joints", table(lines), len(lines) <= 13)]
         if s.mechanism.topology is not None:
             tree = [["body", "carried by", "on"]]
             tree += [
@@ -240,11 +240,11 @@ class _Page:
                 for x in s.mechanism.topology.links
             ]
             cut = ", ".join(s.mechanism.topology.cut) or "no joint"
-            found.append(fold(f"the tree; loops are closed by {cut}", table(tree)))
-        return found
+            parts.append(fold(f"the tree; loops are closed by {cut}", table(tree)))
+        return parts
 
     def _coordinates(self) -> list[str]:
-        found = []
+        parts = []
         for title, quantities in self.sheet.quantities():
             if quantities:
                 numbers = title in ("Parameters", "Inputs")
@@ -253,8 +253,8 @@ class _Page:
                     letter = math(self.sheet.writer.symbol(quantity.name))
                     value = [f"{self.subject.values[quantity.name]:.6g}"] if numbers else []
                     lines.append([letter, escape(quantity.name), escape(quantity.unit), *value])
-                found.append(fold(f"{len(quantities)} {title.lower()}", table(lines)))
-        return found
+                parts.append(fold(f"{len(quantities)} {title.lower()}", table(lines)))
+        return parts
 
     def _joint(self, joint: Joint, code: bool) -> str:
         rows, g = self.sheet.of(joint.name), self.e.graph
@@ -265,8 +265,8 @@ class _Page:
         parts = [f"<p>{' · '.join(links)}</p>"]
         if not rows:
             prescribed = self.sheet.prescribed().get(joint.name)
-            told = "It carries a body in the tree" if prescribed is None else f"It prescribes {prescribed}"
-            parts.append(f"<p>{escape(told)}: it has no rows.</p>")
+            sentence = "It carries a body in the tree" if prescribed is None else f"It prescribes {prescribed}"
+            parts.append(f"<p>{escape(sentence)}: it has no rows.</p>")
         phi = {line.key: line for line in self.sheet.phi(rows)}
         nu = {line.key: line for line in self.sheet.nu(rows)}
         gamma = {line.key: line for line in self.sheet.gamma(rows)}
@@ -285,11 +285,11 @@ class _Page:
         return fold(head, "\n".join(parts), ident=f"rows-{joint.name}", marked=True)
 
     def _lines_of(self, name: str) -> str:
-        found = [
+        links = [
             f'<a class="code" href="#line-{c.line}">{escape(c.what)}: <code>{escape(short(c.text))}</code></a>'
             for c in self.computed.get(name, ())
         ]
-        return f'<p class="small">computed by {" · ".join(found)}</p>' if found else ""
+        return f'<p class="small">computed by {" · ".join(links)}</p>' if links else ""
 
     def _patterns(self) -> list[str]:
         e = self.e
@@ -307,31 +307,31 @@ class _Page:
 
     def _motion(self) -> list[str]:
         sheet = self.sheet
-        found = [f'<div class="equation">{math(_MOTION)}</div>', small("Numbers are rounded to six digits.")]
+        folds = [f'<div class="equation">{math(_MOTION)}</div>', small("Numbers are rounded to six digits.")]
         if self.e.nv <= _WHOLE:
-            found.append(fold("M and D as matrices", equations(sheet.whole())))
+            folds.append(fold("M and D as matrices", equations(sheet.whole())))
         parts = [
             ("rates of the coordinates", equations(sheet.rates()) or "q' = v"),
             ("mass matrix M; what is not written is zero or symmetric", equations(sheet.mass())),
             ("forces f; those not written are zero", equations(sheet.forces()) or "f = 0"),
             (_POWER if self.e.driving else _POWER.partition(";")[0], equations(sheet.energies())),
         ]
-        found += [fold(title, text) for title, text in parts]
+        folds += [fold(title, text) for title, text in parts]
         shared = sheet.shared(sheet.nodes(("Phi", "D", "nu", "gamma", "N", "M", "f", "energies")))
         for first in range(0, len(shared), _TOGETHER):
             some = shared[first : first + _TOGETHER]
             names = f"{math(some[0].left)} to {math(some[-1].left)}"
-            found.append(fold(f"shared terms {names}", equations(some)))
-        return found
+            folds.append(fold(f"shared terms {names}", equations(some)))
+        return folds
 
     def _law(self) -> list[str]:
-        found = [f"<p>{escape(self.subject.law.summary)}</p>"]
+        lines = [f"<p>{escape(self.subject.law.summary)}</p>"]
         for function, purpose, steps in self.subject.law.parts:
-            found.append(f"<h3>{escape(function)}: {escape(purpose)}</h3>")
+            lines.append(f"<h3>{escape(function)}: {escape(purpose)}</h3>")
             for step in steps:
                 note = ' <span class="small">solved</span>' if step.solved else ""
-                found.append(f'<div class="equation">{math(step.box)}{note}</div>')
-        return [fold("steps", "\n".join(found), True)]
+                lines.append(f'<div class="equation">{math(step.box)}{note}</div>')
+        return [fold("steps", "\n".join(lines), True)]
 
     def _operations(self) -> list[str]:
         g, lines = self.e.graph, [["joint", "Phi", "D", "gamma", "together"]]
@@ -355,16 +355,16 @@ class _Page:
 
     def _code(self, listed: frozenset[str]) -> list[str]:
         if "model" in listed:
-            back = {c.line: c for found in self.computed.values() for c in found}
+            back = {c.line: c for lines in self.computed.values() for c in lines}
             return code_listing(self.source, self.parts, listed, back)
         size = len(self.source) + sum(map(len, self.parts.values()))
         return [f"<p>It has {size} characters and is left out, as the page would be larger than {LARGEST} bytes.</p>"]
 
     def _left_out(self) -> list[str]:
-        found = [f"<li>{escape(o.what)}: {escape(o.why)}</li>" for o in self.e.omissions]
+        items = [f"<li>{escape(o.what)}: {escape(o.why)}</li>" for o in self.e.omissions]
         return (
-            [fold(f"{len(found)} things", f"<ul>{''.join(found)}</ul>", len(found) <= 8)]
-            if found
+            [fold(f"{len(items)} things", f"<ul>{''.join(items)}</ul>", len(items) <= 8)]
+            if items
             else ["<p>Nothing.</p>"]
         )
 

@@ -45,8 +45,8 @@ def nodes_of(e: Equations) -> Mapping[str, Entries]:
     rates = jacobian(e.graph, e.q_rates, [("v", j) for j in range(e.nv)])
     zero = e.graph.zero
 
-    def column(found: Iterable[int]) -> Entries:
-        listed = list(found)
+    def column(nodes: Iterable[int]) -> Entries:
+        listed = list(nodes)
         return (len(listed), 1), tuple((i, 0, n) for i, n in enumerate(listed))
 
     mass = ((i, j, b.entries[r][c]) for b in e.mass for r, i in enumerate(b.columns) for c, j in enumerate(b.columns))

@@ -57,9 +57,9 @@ class Sheet:
 
     def _names(self) -> dict[int, str]:
         """Return the names of the structure; cosine and sine of one coordinate read best as they are."""
-        g, found = self.equations.graph, structure(self.mechanism, self.equations)
-        simple = {n for n in found if g.nodes[n].op in ("sin", "cos") and g.nodes[g.nodes[n].args[0]].op == "input"}
-        return {n: title for n, title in found.items() if n not in simple}
+        g, names = self.equations.graph, structure(self.mechanism, self.equations)
+        simple = {n for n in names if g.nodes[n].op in ("sin", "cos") and g.nodes[g.nodes[n].args[0]].op == "input"}
+        return {n: title for n, title in names.items() if n not in simple}
 
     # -- constraints -----------------------------------------------------------------------------------------------
 
@@ -88,31 +88,31 @@ class Sheet:
     @cached_property
     def groups(self) -> dict[str, list[int]]:
         """Velocities by what they belong to: bodies, or joints of the tree."""
-        found: dict[str, list[int]] = {}
+        by_owner: dict[str, list[int]] = {}
         for i, v in enumerate(self.equations.velocities):
-            found.setdefault(v.name.rpartition(".")[0], []).append(i)
-        return found
+            by_owner.setdefault(v.name.rpartition(".")[0], []).append(i)
+        return by_owner
 
     def jacobian(self, joint: str) -> list[Line]:
         """Return the blocks of D of a joint's rows, by what the velocities belong to; those that are 0 are left out."""
-        rows, found = self.of(joint), list[Line]()
+        rows, blocks = self.of(joint), list[Line]()
         for group, indices in self.groups.items():
             entries = [[dict(r.entries).get(i, self.equations.graph.zero) for i in indices] for r in rows]
             if any(n != self.equations.graph.zero for line in entries for n in line):
                 left = Box("name", text="D", index=f"{joint},{group}", width=1.0 + 0.42 * len(joint + group))
-                found.append(self._block(left, entries, joint))
-        return found
+                blocks.append(self._block(left, entries, joint))
+        return blocks
 
     def _block(self, left: Box, nodes: list[list[int]], key: str = "") -> Line:
         """Return a matrix that is no wider than a line: its widest entries get names."""
         waiting = {n for line in nodes for n in line}
-        found = self._matrix(nodes)
-        while waiting and found.width + left.width > LINE - 3.0:
+        entries = self._matrix(nodes)
+        while waiting and entries.width + left.width > LINE - 3.0:
             widest = max(waiting, key=lambda n: (self.writer.box(n).width, n))
             waiting.remove(widest)
             self.writer.narrow(widest)
-            found = self._matrix(nodes)
-        return Line(left, atom(found), key)
+            entries = self._matrix(nodes)
+        return Line(left, atom(entries), key)
 
     def _matrix(self, nodes: Iterable[Iterable[int]]) -> Box:
         return matrix([[self.writer.box(n) for n in line] for line in nodes])
@@ -131,33 +131,33 @@ class Sheet:
 
     def mass(self) -> list[Line]:
         """Return the diagonal entries of M as equations, and its blocks as matrices."""
-        found = list[Line]()
+        lines = list[Line]()
         for block in self.equations.mass:
             names = [self.equations.velocities[i].name for i in block.columns]
             if len(names) == 1:
-                found.append(Line(row(name("M"), _of(names[0])), self.writer.sum(block.entries[0][0]), names[0]))
+                lines.append(Line(row(name("M"), _of(names[0])), self.writer.sum(block.entries[0][0]), names[0]))
             elif len(names) <= 6:
-                found.append(self._block(row(name("M"), _of(names[0])), [list(line) for line in block.entries]))
+                lines.append(self._block(row(name("M"), _of(names[0])), [list(line) for line in block.entries]))
             else:
-                found += [
+                lines += [
                     Line(row(name("M"), _of(names[i], names[j])), self.writer.sum(block.entries[i][j]))
                     for i in range(len(names))
                     for j in range(i, len(names))
                     if block.entries[i][j] != self.equations.graph.zero
                 ]
-        return found
+        return lines
 
     def forces(self) -> list[Line]:
         """Return the entries of f that are not 0."""
         g, e = self.equations.graph, self.equations
-        found = zip(e.velocities, e.forces, strict=True)
-        return [Line(row(name("f"), _of(v.name)), self.writer.sum(n), v.name) for v, n in found if n != g.zero]
+        pairs = zip(e.velocities, e.forces, strict=True)
+        return [Line(row(name("f"), _of(v.name)), self.writer.sum(n), v.name) for v, n in pairs if n != g.zero]
 
     def rates(self) -> list[Line]:
         """Return ``q' = N v`` where it is not ``q' = v``."""
         g, e = self.equations.graph, self.equations
-        found = zip(e.coordinates, e.q_rates, strict=True)
-        return [Line(dot(name(q.name)), self.writer.sum(n), q.name) for q, n in found if g.nodes[n].op != "input"]
+        pairs = zip(e.coordinates, e.q_rates, strict=True)
+        return [Line(dot(name(q.name)), self.writer.sum(n), q.name) for q, n in pairs if g.nodes[n].op != "input"]
 
     def energies(self) -> list[Line]:
         """Return T, V, the power of forces without potential, and that of drivers without rows, b v' + c."""
@@ -177,11 +177,11 @@ class Sheet:
         """Return what each driver prescribes that has no row, as a sentence, by its name."""
         topology = self.mechanism.topology
         joints = {} if topology is None else {link.body: link.joint for link in topology.links}
-        found = {}
+        sentences = {}
         for p in () if topology is None else topology.prescribed:
             value = to_text(p.value if p.sign > 0 else call("neg", p.value))
-            found[p.driver] = f"{joints[p.body] or p.body}.{p.label} = {value}"
-        return found
+            sentences[p.driver] = f"{joints[p.body] or p.body}.{p.label} = {value}"
+        return sentences
 
     def shared(self, nodes: Iterable[int]) -> list[Line]:
         """Return what the names of shared terms that `nodes` need stand for."""
@@ -190,14 +190,14 @@ class Sheet:
     def nodes(self, what: Iterable[str]) -> list[int]:
         """Return the nodes that some quantities are made of, by `QUANTITIES`' names."""
         e = self.equations
-        known = e.nodes(self.rows) | {"N": list(e.q_rates), "energies": self._energies}
+        nodes = e.nodes(self.rows) | {"N": list(e.q_rates), "energies": self._energies}
         called = {"Phi": "phi", "D": "jacobian", "M": "mass", "f": "forces"}
-        return [n for part in what for n in known.get(called.get(part, part), ())]
+        return [n for part in what for n in nodes.get(called.get(part, part), ())]
 
     def quantities(self) -> list[tuple[str, tuple[Quantity, ...]]]:
         """Return coordinates, velocities, parameters and inputs under their headings."""
         e = self.equations
-        own, inputs = (tuple(p for p in e.parameters if (p.name in e.inputs) == given) for given in (False, True))
+        own, inputs = (tuple(p for p in e.parameters if (p.name in e.inputs) == is_input) for is_input in (False, True))
         return [("Coordinates", e.coordinates), ("Velocities", e.velocities), ("Parameters", own), ("Inputs", inputs)]
 
 

@@ -39,16 +39,16 @@ def structure(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
     named = [(body.name, slot) for body in mechanism.bodies for slot in slots]
     nodes = [node for body in mechanism.bodies for node in model.frame_inputs(body.name)]
     inputs = {key: equations.graph.input(*key) for key in _inputs(model.graph, nodes)}
-    found = equations.graph.copy().inline(model.graph, nodes, inputs)
+    copies = equations.graph.copy().inline(model.graph, nodes, inputs)
     names: dict[int, str] = {}
     state = {quantity.name for quantity in (*equations.coordinates, *equations.velocities)}
-    for (body, slot), node in zip(named, found, strict=True):
-        known = (
+    for (body, slot), node in zip(named, copies, strict=True):
+        computed = (
             f"{body}.{slot}" not in state
             and node < len(equations.graph.nodes)
             and equations.graph.nodes[node].op not in _LEAVES
         )
-        if known and not _turned(equations.graph, node):
+        if computed and not _turned(equations.graph, node):
             names.setdefault(node, f"{body}.{slot}")
     return names
 
@@ -88,7 +88,7 @@ def shared_terms(
             uses[argument] = uses.get(argument, 0) + 1
     for node in ends:
         uses[node] = uses.get(node, 0) + 1
-    found: dict[int, str] = {}
+    terms: dict[int, str] = {}
     number = 0
     for node in needed:
         operation = graph.nodes[node]
@@ -97,14 +97,14 @@ def shared_terms(
             continue
         cost[node] = 1 + sum(cost[a] for a in operation.args)
         if node in names:
-            found[node] = names[node]
+            terms[node] = names[node]
         elif (
             uses[node] > 1 and cost[node] >= SHARED and operation.op not in ("neg", "lt", "le", "gt", "ge", "and", "or")
         ):
             number += 1
             while f"s{number}" in taken:
                 number += 1
-            found[node] = f"s{number}"
-        if node in found:
+            terms[node] = f"s{number}"
+        if node in terms:
             cost[node] = 0
-    return found
+    return terms

@@ -114,14 +114,14 @@ class Writer:
         if node not in self._written:
             for n in self.graph.needed([node], self._written.__contains__):
                 if n not in self._written:
-                    self._written[n] = self._made(n)
+                    self._written[n] = self._terms(n)
         return self._written[node]
 
     def box(self, node: int) -> Box:
         """Return a node in one line."""
         return as_box(self.sum(node))
 
-    def _made(self, node: int) -> Sum:
+    def _terms(self, node: int) -> Sum:
         op, args, payload = self.graph.nodes[node]
         if op == "const":
             value = float(payload)  # type: ignore[arg-type]  # a constant's payload is a float
@@ -233,17 +233,17 @@ class Typesetter(Writer):
 
     def _write(self, node: int, uses: int, title: str | None) -> None:
         operation = self.graph.nodes[node]
-        found = self._made(node)
-        while operation.args and any(term.box.width > TERM for term in found):
+        terms = self._terms(node)
+        while operation.args and any(term.box.width > TERM for term in terms):
             wide = [a for a in operation.args if self._can_be_named(a)]
             if not wide or operation.op in ("add", "sub", "neg"):
                 break
             self._give(max(wide, key=lambda a: as_box(self._written[a]).width), None)
-            found = self._made(node)
-        self._full[node] = self._written[node] = found
+            terms = self._terms(node)
+        self._full[node] = self._written[node] = terms
         if operation.op in ("const", "input", "neg", *_CONDITIONS):
             return
-        size = sum(atoms(term.box) for term in found)
+        size = sum(atoms(term.box) for term in terms)
         if (title is not None and size > 1) or (uses > 1 and size > SHORT):
             self._give(node, title)
 
