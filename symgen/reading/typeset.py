@@ -31,6 +31,7 @@ from symgen.reading.boxes import (
 )
 from symgen.reading.interpolated import called
 from symgen.reading.quantities import input_names
+from symgen.reading.structure import free_names, uses
 
 #: Widest term, in units of the type's size; a line of a document has 44 of them.
 TERM = 30.0
@@ -206,17 +207,13 @@ class Typesetter(Writer):
     ) -> None:
         self._parameters = apart(quantity.name for quantity in equations.parameters)
         super().__init__(equations.graph, {key: self.symbol(text) for key, text in input_names(equations).items()})
-        self.taken = taken
         self.definitions: dict[int, tuple[Box, Sum]] = {}
         self._full: dict[int, Sum] = {}
-        self._number = 0
+        self._numbered = free_names(taken)
         listed = list(ends)
-        uses: dict[int, int] = {}
-        needed = self.graph.needed(listed)
-        for node in (*listed, *(a for n in needed for a in self.graph.nodes[n].args)):
-            uses[node] = uses.get(node, 0) + 1
-        for node in needed:
-            self._write(node, uses[node], named.get(node))
+        used = uses(self.graph, listed)
+        for node in self.graph.needed(listed):
+            self._write(node, used[node], named.get(node))
 
     def symbol(self, text: str) -> Box:
         """Return the name of a quantity as it is typeset: no two parameters alike."""
@@ -251,11 +248,7 @@ class Typesetter(Writer):
         return node not in self.definitions and self.graph.nodes[node].op not in ("const", "input", *_CONDITIONS)
 
     def _give(self, node: int, title: str | None) -> None:
-        if title is None:
-            self._number += 1
-            while f"s{self._number}" in self.taken or f"s_{self._number}" in self.taken:
-                self._number += 1
-            title = f"s{self._number}"
+        title = title or next(self._numbered)
         self.definitions[node] = name(title), self._full[node]
         self._written[node] = atom(name(title))
 
