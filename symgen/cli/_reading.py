@@ -72,9 +72,7 @@ def write_page(name: str, settings: Settings, output: str) -> None:
     from symgen.api import load
     from symgen.errors import AssemblyError
     from symgen.files import write_whole
-    from symgen.formulate.formulate import formulate
     from symgen.player.page import check_page
-    from symgen.reading.law import law
     from symgen.reading.page import MOST_STRAIGHT, Subject, check_size, page
     from symgen.reading.source import text_of
 
@@ -96,13 +94,10 @@ def write_page(name: str, settings: Settings, output: str) -> None:
             facts.append(f"Coordinates: {run.plan.coordinates_reason}.")
     except AssemblyError as error:
         facts = [f"It does not close, and is drawn as described: {error}"]
-    equations = formulate(mechanism)
     subject = Subject(
         whole=model.mechanism,
         mechanism=mechanism,
-        equations=equations,
         choice=choice,
-        law=law(choice.method.name, choice.options, equations.driving is not None),
         values=model.parameters(settings.parameters),
         facts=facts,
         text=text_of(name),

@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Any
 from symgen.drawing import sketch
 from symgen.emit.emit import emit_law, emit_model
 from symgen.errors import InputError
+from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
 from symgen.player.live import rates_parts
 from symgen.player.page import as_json, rates_script
 from symgen.reading.boxes import dot, name, row, sign, transposed
 from symgen.reading.html import attribute, equation, equations, fold, math, section, short, small, table
-from symgen.reading.law import Law
+from symgen.reading.law import law
 from symgen.reading.listing import code_listing, file_listing
 from symgen.reading.patterns import of_factor, of_jacobian, picture
 from symgen.reading.sheet import Sheet
@@ -27,7 +28,6 @@ from symgen.reading.source import Computed, computed, sections
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Joint, Mechanism
-    from symgen.formulate.equations import Equations
     from symgen.running.prepare import Prepared
 
 #: Largest page [bytes]; emitted code is left out of a page that would be larger.
@@ -58,12 +58,8 @@ class Subject:
     ----------
     whole, mechanism : Mechanism
         As described, and as it was derived: with its tree where coordinates are those of joints.
-    equations : Equations
-        What was derived.
     choice : MethodChoice
         The method.
-    law : Law
-        Its steps.
     values : mapping
         Values of the parameters.
     facts : sequence of str
@@ -76,9 +72,7 @@ class Subject:
 
     whole: Mechanism
     mechanism: Mechanism
-    equations: Equations
     choice: MethodChoice
-    law: Law
     values: Mapping[str, float]
     facts: Sequence[str] = ()
     text: str = ""
@@ -143,11 +137,12 @@ def _with_rates(text: str, script: str, why: str) -> str:
 
 class _Page:
     def __init__(self, subject: Subject) -> None:
-        self.subject, self.e = subject, subject.equations
+        self.subject, self.e = subject, formulate(subject.mechanism)
         self.sheet = Sheet(subject.mechanism, self.e)
         self.program = lower_model(self.e, digest="")
-        method = subject.choice.method
-        self.law = lower_law(self.e, self.program, method, subject.choice.options)
+        method, options = subject.choice.method, subject.choice.options
+        self.steps = law(method.name, options, self.e.driving is not None)
+        self.law = lower_law(self.e, self.program, method, options)
         self.source = emit_model(self.program, self.e)
         self.parts = emit_law(self.law, self.program, self.e, method.summary, method.reference)
         self.places = sections(subject.text)
@@ -325,8 +320,8 @@ class _Page:
         return folds
 
     def _law(self) -> list[str]:
-        lines = [f"<p>{escape(self.subject.law.summary)}</p>"]
-        for function, purpose, steps in self.subject.law.parts:
+        lines = [f"<p>{escape(self.steps.summary)}</p>"]
+        for function, purpose, steps in self.steps.parts:
             lines.append(f"<h3>{escape(function)}: {escape(purpose)}</h3>")
             for step in steps:
                 note = ' <span class="small">solved</span>' if step.solved else ""
