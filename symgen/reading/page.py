@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from html import escape
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,8 +35,6 @@ if TYPE_CHECKING:
 LARGEST = 2_000_000
 #: Mechanisms with more rows and velocities have no page.
 MOST_ROWS = 1500
-#: Places of the right-hand side and of a sentence about it, which text of files cannot have; bytes of the sentence.
-_RATES, _SENTENCE, _SPARE = "<!--rates-->", "<!--sentence-->", 1000
 #: Up to so many velocities of bodies a page has the code of a run in straight lines, unless asked otherwise.
 MOST_STRAIGHT = 150
 #: Shared terms that stand together.
@@ -112,27 +111,18 @@ def page(subject: Subject) -> str:
     InputError
         If it is larger without the code, too.
     """
-    parts = _Page(subject)
+    parts, size = _Page(subject), 0
     scripts, why = parts.rates()
-    fits, size = "", 0
-    for listed in parts.listings():
-        text = parts.text(listed)
+    listings = parts.listings()
+    for listed, script in (*product(listings, scripts), *product(listings, [""])):
+        if scripts and not script:
+            why = f"its {min(map(len, scripts))} characters are more than this page has room for"
+        text = parts.text(listed, script, why)
         size = len(text.encode())
-        if size > LARGEST:
-            continue
-        script = next((each for each in scripts if size + len(each) + _SPARE <= LARGEST), "")
-        if script or not scripts:
-            return _with_rates(text, script, why)
-        fits = fits or text
-    if fits:
-        return _with_rates(fits, "", f"its {min(map(len, scripts))} characters are more than this page has room for")
+        if size <= LARGEST:
+            return text
     expected = f"a mechanism whose page has at most {LARGEST} bytes"
     raise InputError("inspect: -o", expected, f"one with {size} without its code", "--json has no such limit")
-
-
-def _with_rates(text: str, script: str, why: str) -> str:
-    sentence = _OFFERED if script else f"This page offers no right-hand side to scripts: {why}."
-    return text.replace(_RATES, script or "null", 1).replace(_SENTENCE, f'<p class="small">{escape(sentence)}</p>', 1)
 
 
 class _Page:
@@ -170,12 +160,13 @@ class _Page:
         parts, why = rates_parts(run.compiled, run.start)
         return [rates_script(part) for part in parts], why
 
-    def text(self, listed: frozenset[str]) -> str:
-        """Return the page, with these modules listed; what evaluates the rates is put in afterwards."""
-        s, e, code = self.subject, self.e, "model" in listed
+    def text(self, listed: frozenset[str], script: str, why: str) -> str:
+        """Return the page, with these modules listed, and a script that evaluates the rates or why there is none."""
+        s, e, is_listed = self.subject, self.e, "model" in listed
         title = s.whole.title or s.whole.name
         kind = "bodies" if s.mechanism.topology is None else "the joints of a tree"
         sizes = f"{e.nq} coordinates, {e.nv} velocities, {e.m} constraint rows, {len(e.parameters)} parameters"
+        rates = _OFFERED if script else f"This page offers no right-hand side to scripts: {why}."
         body = [
             f"<h1>{escape(title)}</h1>",
             f"<p>{escape(s.whole.name)}, in coordinates of {kind}: {sizes}. Method {escape(s.choice.method.name)}.</p>",
@@ -184,14 +175,14 @@ class _Page:
             section("sketch", "Sketch", [f'<div class="scene">{self._sketch()}</div>', small(_SKETCH)]),
             section("topology", "Topology", self._topology()),
             section("coordinates", "Coordinates", self._coordinates()),
-            section("rows", "Joints and their rows", [self._joint(j, code) for j in s.mechanism.joints]),
+            section("rows", "Joints and their rows", [self._joint(j, is_listed) for j in s.mechanism.joints]),
             section("patterns", "Patterns", self._patterns()),
             section("motion", "Equations of motion", self._motion()),
             section("law", f"The law of {s.choice.method.name}, as solved", self._law()),
             section("operations", "Operations", self._operations()),
             section("left-out", "Left out", self._left_out()),
             section("file", "File", file_listing(s.text, self.places, {joint.name for joint in s.mechanism.joints})),
-            section("code", "Emitted code", [_SENTENCE, *self._code(listed)]),
+            section("code", "Emitted code", [small(rates), *self._code(listed)]),
         ]
         data: dict[str, Any] = {
             "t": 0.0,
@@ -207,8 +198,8 @@ class _Page:
             '<meta name="viewport" content="width=device-width, initial-scale=1"><link rel="icon" href="data:,">'
             f"<title>{escape(title)}: equations</title><style>{_web('style.css')}</style></head><body>"
         )
-        script = f"const rates = {_RATES};\n{_web('script.js')}"
-        tail = f'<script type="application/json" id="data">{as_json(data)}</script><script>{script}</script>'
+        code = f"const rates = {script or 'null'};\n{_web('script.js')}"
+        tail = f'<script type="application/json" id="data">{as_json(data)}</script><script>{code}</script>'
         return "\n".join([head, *body, tail, "</body></html>\n"])
 
     # -- sections --------------------------------------------------------------------------------------------------
