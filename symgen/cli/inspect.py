@@ -26,7 +26,9 @@ WIDEST = 150
 
 @click.command(
     "inspect",
-    epilog=examples("symgen inspect pendulum", "symgen inspect slider-crank --method lagrange --format latex"),
+    epilog=examples(
+        "symgen inspect pendulum", "symgen inspect slider-crank --method lagrange --format latex --select M,f,law"
+    ),
 )
 @click.argument("model")
 @click.option("--format", "form", type=click.Choice(["text", "latex", "json"]), show_default="text")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from symgen.errors import InputError, nearest
 from symgen.reading.boxes import escaped, latex
-from symgen.reading.sheet import LINE, Line, Sheet
+from symgen.reading.sheet import LINE, Equation, Sheet
 from symgen.reading.typeset import broken
 
 if TYPE_CHECKING:
@@ -154,11 +154,11 @@ def _aligned(rows: Sequence[str]) -> list[str]:
     return texts
 
 
-def _lines(lines: Iterable[Line], tail: str = "") -> list[str]:
+def _lines(lines: Iterable[Equation], tail: str = "") -> list[str]:
     return _aligned([text for line in lines for text in _line(line, tail)])
 
 
-def _line(line: Line, tail: str = "") -> list[str]:
+def _line(line: Equation, tail: str = "") -> list[str]:
     """Return an equation as rows of an aligned environment."""
     left, wide = latex(line.left), line.left.width > LINE / 3  # a name that takes most of the line
     room = LINE - 4.0 if wide else LINE - line.left.width - (2.0 if tail else 0.0)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from html import escape
 
 from symgen.reading.boxes import Box, mathml
-from symgen.reading.sheet import Line
+from symgen.reading.sheet import Equation
 from symgen.reading.typeset import broken
 
 
@@ -53,7 +53,7 @@ def math(box: Box) -> str:
     return f"<math>{mathml(box)}</math>"
 
 
-def equation(line: Line, tail: str = "") -> str:
+def equation(line: Equation, tail: str = "") -> str:
     """Return an equation, broken where it is long."""
     lines = broken(line.right, 62.0 - line.left.width, 62.0)
     parts = []
@@ -67,6 +67,6 @@ def equation(line: Line, tail: str = "") -> str:
     return f'<div class="equation">{"".join(parts)}</div>'
 
 
-def equations(lines: Iterable[Line]) -> str:
+def equations(lines: Iterable[Equation]) -> str:
     """Return equations one below the other."""
     return "\n".join(map(equation, lines))

@@ -12,7 +12,7 @@ from symgen.ir.program import of_table
 from symgen.vocabulary.expressions import SMOOTH
 
 
-def called(payload: object) -> str:
+def python_name(payload: object) -> str:
     """Return the name of a table, or of a derivative of it, in expressions."""
     name, what = of_table(payload)
     return f"{what.replace('value', 'table')}_{name}"
@@ -25,5 +25,5 @@ def functions(tables: Iterable[Interpolation]) -> dict[str, Any]:
         for order in range(3):
             payload = f"{SMOOTH if table.pieces else ''}{table.name}" + "'" * order
             value = np.vectorize(lambda x, table=table, order=order: table.value(float(x), order), otypes=[float])
-            by_name[called(payload)] = value
+            by_name[python_name(payload)] = value
     return by_name

@@ -23,7 +23,7 @@ LINE = 43.0
 
 
 @dataclass(frozen=True)
-class Line:
+class Equation:
     """An equation: its left side, and a sum."""
 
     left: Box
@@ -72,18 +72,18 @@ class Sheet:
         """Return the rows of a joint."""
         return tuple(r for r in self.rows if r.joint == joint)
 
-    def phi(self, rows: Iterable[ConstraintRow]) -> list[Line]:
+    def phi(self, rows: Iterable[ConstraintRow]) -> list[Equation]:
         """Return ``Phi_ROW = ...`` of holonomic rows."""
-        return [Line(indexed("Phi", r.name), self.writer.sum(r.phi), r.name) for r in rows if r.phi is not None]
+        return [Equation(indexed("Phi", r.name), self.writer.sum(r.phi), r.name) for r in rows if r.phi is not None]
 
-    def nu(self, rows: Iterable[ConstraintRow]) -> list[Line]:
+    def nu(self, rows: Iterable[ConstraintRow]) -> list[Equation]:
         """Return ``nu_ROW = ...`` where it is not 0."""
         zero = self.equations.graph.zero
-        return [Line(indexed("nu", r.name), self.writer.sum(r.nu), r.name) for r in rows if r.nu != zero]
+        return [Equation(indexed("nu", r.name), self.writer.sum(r.nu), r.name) for r in rows if r.nu != zero]
 
-    def gamma(self, rows: Iterable[ConstraintRow]) -> list[Line]:
+    def gamma(self, rows: Iterable[ConstraintRow]) -> list[Equation]:
         """Return ``gamma_ROW = ...``."""
-        return [Line(indexed("gamma", r.name), self.writer.sum(r.gamma), r.name) for r in rows]
+        return [Equation(indexed("gamma", r.name), self.writer.sum(r.gamma), r.name) for r in rows]
 
     @cached_property
     def groups(self) -> dict[str, list[int]]:
@@ -93,9 +93,9 @@ class Sheet:
             by_owner.setdefault(v.name.rpartition(".")[0], []).append(i)
         return by_owner
 
-    def jacobian(self, joint: str) -> list[Line]:
+    def jacobian(self, joint: str) -> list[Equation]:
         """Return the blocks of D of a joint's rows, by what the velocities belong to; those that are 0 are left out."""
-        rows, blocks = self.of(joint), list[Line]()
+        rows, blocks = self.of(joint), list[Equation]()
         for group, indices in self.groups.items():
             entries = [[dict(r.entries).get(i, self.equations.graph.zero) for i in indices] for r in rows]
             if any(n != self.equations.graph.zero for line in entries for n in line):
@@ -103,7 +103,7 @@ class Sheet:
                 blocks.append(self._block(left, entries, joint))
         return blocks
 
-    def _block(self, left: Box, nodes: list[list[int]], key: str = "") -> Line:
+    def _block(self, left: Box, nodes: list[list[int]], key: str = "") -> Equation:
         """Return a matrix that is no wider than a line: its widest entries get names."""
         waiting = {n for line in nodes for n in line}
         entries = self._matrix(nodes)
@@ -112,12 +112,12 @@ class Sheet:
             waiting.remove(widest)
             self.writer.narrow(widest)
             entries = self._matrix(nodes)
-        return Line(left, atom(entries), key)
+        return Equation(left, atom(entries), key)
 
     def _matrix(self, nodes: Iterable[Iterable[int]]) -> Box:
         return matrix([[self.writer.box(n) for n in line] for line in nodes])
 
-    def whole(self) -> list[Line]:
+    def whole(self) -> list[Equation]:
         """Return M, and D where it has rows, as matrices; for small mechanisms."""
         e, zero = self.equations, self.equations.graph.zero
         masses = {
@@ -125,47 +125,47 @@ class Sheet:
         }
         everything = {"M": [[masses.get((i, j), zero) for j in range(e.nv)] for i in range(e.nv)]}
         everything["D"] = [[dict(r.entries).get(j, zero) for j in range(e.nv)] for r in self.rows]
-        return [Line(name(k), atom(self._matrix(nodes))) for k, nodes in everything.items() if nodes]
+        return [Equation(name(k), atom(self._matrix(nodes))) for k, nodes in everything.items() if nodes]
 
     # -- motion ----------------------------------------------------------------------------------------------------
 
-    def mass(self) -> list[Line]:
+    def mass(self) -> list[Equation]:
         """Return the diagonal entries of M as equations, and its blocks as matrices."""
-        lines = list[Line]()
+        lines = list[Equation]()
         for block in self.equations.mass:
             names = [self.equations.velocities[i].name for i in block.columns]
             if len(names) == 1:
-                lines.append(Line(row(name("M"), _of(names[0])), self.writer.sum(block.entries[0][0]), names[0]))
+                lines.append(Equation(row(name("M"), _of(names[0])), self.writer.sum(block.entries[0][0]), names[0]))
             elif len(names) <= 6:
                 lines.append(self._block(row(name("M"), _of(names[0])), [list(line) for line in block.entries]))
             else:
                 lines += [
-                    Line(row(name("M"), _of(names[i], names[j])), self.writer.sum(block.entries[i][j]))
+                    Equation(row(name("M"), _of(names[i], names[j])), self.writer.sum(block.entries[i][j]))
                     for i in range(len(names))
                     for j in range(i, len(names))
                     if block.entries[i][j] != self.equations.graph.zero
                 ]
         return lines
 
-    def forces(self) -> list[Line]:
+    def forces(self) -> list[Equation]:
         """Return the entries of f that are not 0."""
         g, e = self.equations.graph, self.equations
         pairs = zip(e.velocities, e.forces, strict=True)
-        return [Line(row(name("f"), _of(v.name)), self.writer.sum(n), v.name) for v, n in pairs if n != g.zero]
+        return [Equation(row(name("f"), _of(v.name)), self.writer.sum(n), v.name) for v, n in pairs if n != g.zero]
 
-    def rates(self) -> list[Line]:
+    def rates(self) -> list[Equation]:
         """Return ``q' = N v`` where it is not ``q' = v``."""
         g, e = self.equations.graph, self.equations
         pairs = zip(e.coordinates, e.q_rates, strict=True)
-        return [Line(dot(name(q.name)), self.writer.sum(n), q.name) for q, n in pairs if g.nodes[n].op != "input"]
+        return [Equation(dot(name(q.name)), self.writer.sum(n), q.name) for q, n in pairs if g.nodes[n].op != "input"]
 
-    def energies(self) -> list[Line]:
+    def energies(self) -> list[Equation]:
         """Return T, V, the power of forces without potential, and that of drivers without rows, b v' + c."""
         e = self.equations
         lefts = [name("T"), name("V"), name("P")]
         if e.driving is not None:
             lefts += [*(row(name("b"), _of(e.velocities[j].name)) for j, _ in e.driving.entries), name("c")]
-        return [Line(left, self.writer.sum(n)) for left, n in zip(lefts, self._energies, strict=True)]
+        return [Equation(left, self.writer.sum(n)) for left, n in zip(lefts, self._energies, strict=True)]
 
     @property
     def _energies(self) -> list[int]:
@@ -183,16 +183,16 @@ class Sheet:
             sentences[p.driver] = f"{joints[p.body] or p.body}.{p.label} = {value}"
         return sentences
 
-    def shared(self, nodes: Iterable[int]) -> list[Line]:
+    def shared(self, nodes: Iterable[int]) -> list[Equation]:
         """Return what the names of shared terms that `nodes` need stand for."""
-        return [Line(self.writer.definitions[n][0], self.writer.definitions[n][1]) for n in self.writer.used(nodes)]
+        return [Equation(self.writer.definitions[n][0], self.writer.definitions[n][1]) for n in self.writer.used(nodes)]
 
     def nodes(self, what: Iterable[str]) -> list[int]:
         """Return the nodes that some quantities are made of, by `QUANTITIES`' names."""
         e = self.equations
         nodes = e.nodes(self.rows) | {"N": list(e.q_rates), "energies": self._energies}
-        called = {"Phi": "phi", "D": "jacobian", "M": "mass", "f": "forces"}
-        return [n for part in what for n in nodes.get(called.get(part, part), ())]
+        keys = {"Phi": "phi", "D": "jacobian", "M": "mass", "f": "forces"}
+        return [n for part in what for n in nodes.get(keys.get(part, part), ())]
 
     def quantities(self) -> list[tuple[str, tuple[Quantity, ...]]]:
         """Return coordinates, velocities, parameters and inputs under their headings."""

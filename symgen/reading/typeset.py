@@ -29,7 +29,7 @@ from symgen.reading.boxes import (
     row,
     sign,
 )
-from symgen.reading.interpolated import called
+from symgen.reading.interpolated import python_name
 from symgen.reading.quantities import input_names
 from symgen.reading.structure import free_names, uses
 
@@ -149,7 +149,7 @@ class Writer:
         if op == "table":
             table, what = of_table(payload)
             marks = {"value": "", "slope": "'", "second": "''"}[what]
-            return atom(call(table + marks, [as_box(s) for s in sums], called(payload)))
+            return atom(call(table + marks, [as_box(s) for s in sums], python_name(payload)))
         return atom(call(op, [as_box(s) for s in sums], _PYTHON.get(op, "")))
 
     def _condition(self, node: int) -> Box:
