@@ -13,8 +13,8 @@ from symgen.emit.text import harmless
 
 if TYPE_CHECKING:
     from symgen.api import Model
-    from symgen.cli._reading import Started
     from symgen.compiling.pipeline import MethodChoice
+    from symgen.running.prepare import Prepared
 
 #: Sections of ``w`` that a start settles; all others are written before they are read.
 _SETTLED = ("status", "winding", "mask", "saved", "pivot", "gauge", "row_weight", "mass", "mass_entry")
@@ -221,16 +221,18 @@ def _may_change(choice: MethodChoice, free: Container[str]) -> bool:
 def _finds_light(model: Model, choice: MethodChoice, coordinates: str) -> bool:
     """Whether a run by a method would take another solver than it has."""
     return bool(
-        _begun(model, choice, coordinates, leave=("solver",)).choice.options["solver"] != choice.options["solver"]
+        _begun(model, choice, coordinates, leave=("solver",)).compiled.law.options["solver"] != choice.options["solver"]
     )
 
 
-def _begun(model: Model, choice: MethodChoice, coordinates: str, leave: Container[str] = ()) -> Started:
+def _begun(model: Model, choice: MethodChoice, coordinates: str, leave: Container[str] = ()) -> Prepared:
     """Return what a run by ``rk4`` begins with; options to `leave` are chosen by it."""
-    from symgen.cli._reading import Asked, Started
+    from symgen.cli._reading import at_start
+    from symgen.settings import Settings
 
-    options = {name: str(value) for name, value in choice.options.items() if name not in leave}
-    return Started.of(model, Asked(choice.method.name, options, {}, "straight", coordinates), "rk4")
+    options = {f"method.{name}": str(value) for name, value in choice.options.items() if name not in leave}
+    settings = Settings(choice.method.name, "rk4", options=options, shape="straight", coordinates=coordinates)
+    return at_start(model, settings)[0]
 
 
 def _settled(model: Model, choice: MethodChoice, choices: Sequence[MethodChoice], coordinates: str) -> dict[str, Any]:
