@@ -81,7 +81,7 @@ class Started:
     bodies: tuple[float, ...]
 
     @classmethod
-    def of(cls, model: Model, asked: Asked, integrator: str | None = None) -> Started:
+    def of(cls, model: Model, asked: Asked) -> Started:
         """Return a model at its start; raises as `symgen.api.Model.start` does."""
         from symgen.running.plan import Purpose
         from symgen.running.prepare import make_plan, prepare
@@ -90,7 +90,6 @@ class Started:
         choice, mechanism = asked.chosen(), model.mechanism
         settings = Settings(
             choice.method.name,
-            integrator,
             options={f"method.{k}": v for k, v in asked.options.items()},
             shape=asked.shape,
             coordinates=asked.coordinates,
