@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from symgen import arguments
 from symgen.analyses.actuators import WHERE, Actuated, Actuator
-from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import compile_side
 from symgen.describe.columns import PREFIX
 from symgen.describe.evaluate import parameter_values
@@ -24,12 +23,14 @@ from symgen.lower.windings import winding_order
 from symgen.result.recorded import Recorded, accelerations
 from symgen.running.plan import Purpose
 from symgen.running.prepare import make_plan
+from symgen.running.starts import closed_by, compiled_for
 from symgen.runtime import abi
 from symgen.runtime.assembly import assemble
 from symgen.runtime.outcome import PrescribedMotion
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
+    from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
     from symgen.settings import Settings
 
@@ -138,19 +139,18 @@ def _motions(made: Actuated, settings: Settings, found: Recorded) -> list[Prescr
     """Return the motion without efforts, with an effort of 1 of each, and of 2 of each input."""
     mechanism = made.mechanism
     plan = make_plan(mechanism, settings, Purpose.STATE)
-    compiled = compile_model(mechanism, plan.choice)
-    values = parameter_values(mechanism, settings.parameters)
-    info = compiled.info
+    values, code = parameter_values(mechanism, settings.parameters), compiled_for(mechanism, plan.choice)
+    info = code.info
     velocities = [v.name for v in info.velocities]
     q, v = found.table([c.name for c in info.coordinates]), found.table(velocities)
     a = found.table(accelerations(velocities))
-    p, instant = compiled.parameter_array(values, plan.method_parameters), (float(found.t[0]), ())
-    start = assemble(compiled, q[0].copy(), list(v[0]), p, False, None, plan.solver_is_free, None, instant)
-    if start.light:
-        choice = plan.choice.given(solver="augmented")
-        compiled = compile_model(mechanism, choice)
+    instant = (float(found.t[0]), ())
+
+    def close(compiled: CompiledModel, ask_light: bool) -> Start:
         p = compiled.parameter_array(values, plan.method_parameters)
-        start = assemble(compiled, q[0].copy(), list(v[0]), p, False, None, False, None, instant)
+        return assemble(compiled, q[0].copy(), list(v[0]), p, False, None, ask_light, None, instant)
+
+    compiled, start = closed_by(plan, code, close)
     states = np.zeros((len(found.t), info.ny))
     states[:, : info.nq], states[:, info.nq : info.work] = q, v
     still = PrescribedMotion(

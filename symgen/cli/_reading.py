@@ -155,7 +155,7 @@ def write_page(name: str, asked: Asked, output: str) -> None:
     model = load(name)
     check_size(model.mechanism)
     speeds = sum(len(body.speeds) for body in model.mechanism.bodies)
-    if asked.shape == "auto" and speeds <= MOST_STRAIGHT:  # `auto` asks the cache; a page stays what it is
+    if asked.shape == "auto" and speeds <= MOST_STRAIGHT:  # whatever a run would take
         asked = replace(asked, shape="straight")
     mechanism, choice, q = model.mechanism, asked.chosen(), None
     compiled, begins = None, None

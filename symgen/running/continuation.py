@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import in_words
 from symgen.ir.program import FORMAT
 from symgen.lower.windings import winding_order
-from symgen.running.starts import compiled_for
+from symgen.running.starts import closed_by, compiled_for
 from symgen.runtime.assembly import Start, assemble
 from symgen.runtime.new_state import is_as_kept
 from symgen.version import __version__
@@ -71,16 +72,13 @@ def continued(plan: Plan, last: LastState) -> tuple[CompiledModel, Start]:
         return compiled, start
     other = last.other_than({key: x for key, x in made_of(compiled, plan, plan.spec).items() if key != "tree"})
     other = other or ["the tree is another one" if joint else "another version of symgen kept what it knows otherwise"]
-    start = _from_coordinates(plan, compiled, last, plan.solver_is_free)
-    if start.light:
-        compiled = compiled_for(plan.mechanism, plan.choice.given(solver="augmented"))
-        start = _from_coordinates(plan, compiled, last, False)
+    compiled, start = closed_by(plan, compiled, partial(_from_coordinates, plan, last))
     note = f"{_origin(last)} with its coordinates and velocities alone: {'; '.join(other)}"
     note += "; integrals of outputs begin at 0" if compiled.info.integrals else ""
     return compiled, replace(start, notes=(note, *start.notes), work=last.work)
 
 
-def _from_coordinates(plan: Plan, compiled: CompiledModel, last: LastState, ask_light: bool) -> Start:
+def _from_coordinates(plan: Plan, last: LastState, compiled: CompiledModel, ask_light: bool) -> Start:
     """Return the consistent start with time, coordinates and velocities of another run."""
     info, values = compiled.info, parameter_values(plan.mechanism, plan.parameters)
     q = np.array([last.q[c.name] for c in info.coordinates])

@@ -22,7 +22,7 @@ from symgen.runtime.model_arrays import velocity_of
 from symgen.runtime.start_words import half_turn, opposite
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
@@ -144,17 +144,35 @@ def begun(plan: Plan, near: NDArray[np.float64] | None = None) -> tuple[Compiled
     near : array, optional
         Coordinates that the mechanism is closed from.
     """
-    free = plan.solver_is_free
-    compiled = compiled_for(plan.mechanism, plan.choice)
-    start = _start_of_plan(plan, compiled, free, near)
-    if not start.light:
+    given = plan.parameters, plan.method_parameters, plan.settings.strict
+
+    def close(compiled: CompiledModel, ask_light: bool) -> Start:
+        return start_of(plan.mechanism, compiled, *given, plan.holds, ask_light, near)
+
+    asked = compiled_for(plan.mechanism, plan.choice)
+    compiled, start = closed_by(plan, asked, close)
+    if compiled is asked:
         return compiled, start
-    compiled = compiled_for(plan.mechanism, plan.choice.given(solver="augmented"))
-    start = _start_of_plan(plan, compiled, False, near)
     note = "light bodies make D M^-1 D^T nearly singular: accelerations are solved with M + W D^T D"
     return compiled, replace(start, notes=(*start.notes, note))
 
 
-def _start_of_plan(plan: Plan, compiled: CompiledModel, ask_light: bool, near: NDArray[np.float64] | None) -> Start:
-    given = plan.parameters, plan.method_parameters, plan.settings.strict
-    return start_of(plan.mechanism, compiled, *given, plan.holds, ask_light, near)
+def closed_by(
+    plan: Plan, compiled: CompiledModel, close: Callable[[CompiledModel, bool], Start]
+) -> tuple[CompiledModel, Start]:
+    """Return a start with its code: that of the same law solved with M + W D^T D where light bodies ask for it.
+
+    Parameters
+    ----------
+    plan : Plan
+        The run; it says whether the choice is free.
+    compiled : CompiledModel
+        Its code.
+    close : callable
+        (code, whether light bodies are looked for) -> start.
+    """
+    start = close(compiled, plan.solver_is_free)
+    if not start.light:
+        return compiled, start
+    compiled = compiled_for(plan.mechanism, plan.choice.given(solver="augmented"))
+    return compiled, close(compiled, False)

@@ -26,7 +26,7 @@ from symgen.player.recording import shorts
 
 @pytest.fixture(scope="module")
 def result() -> Any:
-    return load("slider-crank").simulate(until=0.5, shape="straight")  # `auto` looks at what the cache holds
+    return load("slider-crank").simulate(until=0.5)
 
 
 def data_of(html: str) -> Any:
