@@ -15,7 +15,7 @@ import numpy as np
 
 from symgen.compiling.choose_coordinates import choose_coordinates
 from symgen.compiling.choose_tree import on_tree
-from symgen.compiling.pipeline import MethodChoice, choose_method, generate
+from symgen.compiling.pipeline import MethodChoice, choose_method, for_coordinates, generate
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import DOES
 from symgen.emit.module import render
@@ -102,8 +102,9 @@ def write_package(
     if shape == "straight" and target == "cpu":
         plans, run, reason = _started(plans)
     derived = on_tree(plans[0].mechanism) if coordinates == "joint" else plans[0].mechanism
-    generated = generate(derived, tuple(plan.choice for plan in plans), shape, target, whole=True)
-    modules, laws = _by_method(generated.modules, [plan.choice for plan in plans], SUFFIXES[target])
+    choices = tuple(for_coordinates(derived, plan.choice) for plan in plans)
+    generated = generate(derived, choices, shape, target, whole=True)
+    modules, laws = _by_method(generated.modules, choices, SUFFIXES[target])
     files: dict[str, Content] = {f"{stem}.py": source for stem, (source, _) in modules.items()}
     files["model.json"] = _metadata(modules, laws, run)
     beside = {"README.md": _readme(mechanism, modules, reason)}

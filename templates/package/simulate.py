@@ -12,8 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
-MODEL = json.loads(Path(__file__).with_name("model.json").read_text(encoding="utf-8"))
+FOLDER = Path(__file__).resolve().parent
+MODEL = json.loads((FOLDER / "model.json").read_text(encoding="utf-8"))
 RUN = MODEL["run"]
+sys.path.insert(0, str(FOLDER))  # for the modules beside this one, however it is started
 
 
 class System:

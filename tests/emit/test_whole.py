@@ -16,12 +16,12 @@ class Plain(ast.NodeTransformer):
     def __init__(self, constants):
         self.constants = constants
 
-    def visit_Name(self, node):  # noqa: N802
+    def visit_Name(self, node):
         if node.id in self.constants:
             return ast.Constant(self.constants[node.id])
         return ast.Name(plain(node.id), node.ctx)
 
-    def visit_BinOp(self, node):  # noqa: N802
+    def visit_BinOp(self, node):
         self.generic_visit(node)
         both = node.left, node.right
         if isinstance(node.op, ast.Add) and all(isinstance(x, ast.Constant) and type(x.value) is int for x in both):

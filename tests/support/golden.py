@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache, partial
+from pathlib import Path
 
 from symgen.compiling.choose_tree import on_tree
 from symgen.compiling.looped import generate_looped
@@ -94,6 +95,13 @@ def emitted_looped(model: str, whole: bool = True) -> dict[str, str]:
     """Return stem -> source of looped modules."""
     made = generate_looped(load(model), looped_choices(model), GENERATOR, whole)
     return {stem: source for stem, (source, _) in made.items()}
+
+
+def written(modules: Mapping[str, str], where: Path) -> Path:
+    """Write modules into a folder of their own and return it."""
+    for stem, source in modules.items():
+        (where / f"{stem}.py").write_text(source, encoding="utf-8")
+    return where
 
 
 def everything() -> dict[str, Callable[[], dict[str, str]]]:
