@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from symgen.emit.module import PLATFORMS, Code, function, module, render, sentence, templates_digest
@@ -53,11 +53,7 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu",
         "",
         "Functions take the time t, the state y = (q, v, work), parameters p, scratch w and integers iw.",
         "",
-        *_symbols(equations),
-        *(
-            [f"p[{layout.parameters}:{layout.parameters + program.hoisted}]  numbers that `prepare` keeps"]
-            * (program.hoisted > 0)
-        ),
+        *_symbols(equations, {"`prepare`": (layout.parameters, layout.parameters + program.hoisted)}),
         "",
         *Places(layout.sections).header,
         "",
@@ -98,13 +94,7 @@ def emit_law(
     defined = *(block.name for block in model.blocks), *table_names(model.tables)
     places, header = Places(sections, own), law_header(info, summary, reference, versions(model.digest))
     if whole:
-        header += [
-            *(_USE + _IMPLICIT * bool(info.level)).split("\n"),
-            *_symbols(equations),
-            *_kept(program, model),
-            "",
-            *places.header,
-        ]
+        header += [*_guide(program, model, equations), "", *places.header]
     return law_modules(
         program,
         layout,
@@ -134,13 +124,13 @@ and `accept` corrects and measures the state at the end of each step.
 _IMPLICIT = "Implicit integrators solve `residual` = 0 for k = (q', v', multipliers); `tangent` is its derivatives.\n"
 
 
-def _kept(program: LawProgram, model: ModelProgram) -> list[str]:
-    """Return lines on the elements of p that hold numbers made of parameters."""
+def _guide(program: LawProgram, model: ModelProgram, equations: Equations) -> list[str]:
+    """Return what the header of a law says to people: notation, use, and the meaning of elements of y and p."""
     info, first = program.info, model.layout.parameters
     own, behind = first + model.hoisted, info.parameter_offset + len(info.parameters)
-    numbers = {"the model's `prepare`": (first, own), "`prepare`": (own, info.parameter_offset)}
-    numbers["`prepare`, for corrections"] = behind, behind + info.hoisted
-    return [f"p[{i}:{j}]".ljust(8) + f" numbers that {of} keeps" for of, (i, j) in numbers.items() if i < j]
+    kept = {"the model's `prepare`": (first, own), "`prepare`": (own, info.parameter_offset)}
+    kept["`prepare` too"] = behind, behind + info.hoisted
+    return [*(_USE + _IMPLICIT * bool(info.level)).split("\n"), *_symbols(equations, kept)]
 
 
 def versions(digest: str) -> str:
@@ -248,12 +238,13 @@ def straight(
     return codes
 
 
-def _symbols(equations: Equations) -> list[str]:
-    """Return a line with element, name and unit for everything that has an index."""
+def _symbols(equations: Equations, kept: Mapping[str, tuple[int, int]]) -> list[str]:
+    """Return a line with element, name and unit for everything that has an index, and one on numbers kept in p."""
     nq = equations.nq
     table = [(f"y[{i}]", q.name, q.unit) for i, q in enumerate(equations.coordinates)]
     table += [(f"y[{nq + i}]", v.name, v.unit) for i, v in enumerate(equations.velocities)]
     table.append((f"y[{nq + equations.nv}]", "work of forces without potential and of drivers", "J"))
     table += [(f"p[{i}]", p.name, p.unit) for i, p in enumerate(equations.parameters)]
+    table += [(f"p[{i}:{j}]", f"numbers computed by {function}", "") for function, (i, j) in kept.items() if i < j]
     table += [(f"row {i}", r.name, r.unit) for i, r in enumerate(equations.rows)]
     return [f"{element:<8} {name}{f' [{unit}]' if unit else ''}" for element, name, unit in table]

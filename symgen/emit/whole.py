@@ -22,7 +22,7 @@ MEANINGS = {
     "pivot": "pivots of D G D^T over its diagonal: near 0 a row depends on others",
     "change": "correction of velocities, or of positions, that `spread` leaves",
     "mass": "diagonal of M",
-    "gauge": "diagonal of G, the metric in which rank is decided: 1 m weighs as much as 1 rad times a length",
+    "gauge": "diagonal of G, the metric in which rank is decided: 1, or 1/l^2 for a rotation of a body of length l",
     "row_weight": "factors that make rows of different units comparable",
     "jacobian": "entries of D that are not constant",
     "lower": "L of the factorisation of D G D^T, below the diagonal",
@@ -32,11 +32,20 @@ MEANINGS = {
     "auxiliary": "rates of integrals beside the state",
     "dense": "a dense matrix, row by row",
     "dependent": "1 at dependent velocities, else 0",
-    "basis": "basis of the motions that constraints allow",
+    "basis": "directions of motion that constraints allow",
     "trial": "`basis` before its columns are orthogonal",
     "force": "forces, one a velocity",
-    "weighed": "M times a section",
-    "reduced": "the mass matrix of independent velocities",
+    "weighed": "M times a direction or an acceleration",
+    "small": "M in these directions",
+    "reduced": "forces, then accelerations in these directions",
+    "row_length": "lengths of the rows of D",
+    "row_chosen": "rows in the order of the factorisation Q R",
+    "row_corner": "diagonal of R",
+    "row_factor": "factors of the reflections that make Q",
+    "mass_entry": "entries of M that depend on positions",
+    "moved": "sum of the corrections in this step",
+    "force_of_constraints": "multipliers of the corrections",
+    "kept": "what an iteration keeps from its beginning, or reaches",
 }
 _ELEMENT = re.compile(r"\b(w|iw|p)\[(\d+)\]")
 
@@ -59,10 +68,10 @@ class Places:
     @property
     def header(self) -> list[str]:
         """Lines on the sections of ``w``."""
+        places = {name: f"w[{first}:{first + size}]" for name, (first, size) in self.sections.items() if size}
         return [
-            f"w[{first}:{first + size}]".ljust(11) + f" {name}: {MEANINGS[name]}" if name in MEANINGS else name
-            for name, (first, size) in self.sections.items()
-            if size
+            f"{place:<11} {name}: {MEANINGS[name.partition('_')[0] if name not in MEANINGS else name]}"
+            for name, place in places.items()
         ]
 
     @property
