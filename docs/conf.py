@@ -43,6 +43,7 @@ NAVIGATION = {
         "docs/extending",
         "CONTRIBUTING",
         "docs/decisions/README",
+        "docs/measured/README",
         "benchmarks/README",
         "CHANGELOG",
     ),

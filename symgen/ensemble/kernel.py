@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -102,9 +102,9 @@ class Kernel:
             if self._warm:
                 return
             info = self.first.compiled.info
-            sizes = (len(info.parameters), info.nq, info.nv, len(self.recipe.held), len(self.recipe.joints))
-            parameters, q, v, targets, joints = (np.zeros((0, size)) for size in sizes)
-            self.run(Rows(parameters, q, v, targets, joints), new_control())
+            sizes = len(info.parameters), info.nq, info.nv, len(self.recipe.held) + len(self.recipe.joints)
+            parameters, q, v, targets = (np.zeros((0, size)) for size in sizes)
+            self.run(Rows(parameters, q, v, targets), new_control())
             if self.first.device is not None:
                 self.first.device.compile()
             self._warm = True
@@ -144,7 +144,8 @@ class Kernel:
     def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:
         """Close and run selected rows with one compiled model; those with light bodies only where there is no other."""
         info, recipe, now = model.compiled.info, self.recipe, self._described(model, rows)
-        if not self._close(model, rows, now, selected, out.summary, control):
+        asked = Asked(rows.v, rows.targets, out.summary)
+        if model.assembly.close_all(now, asked, selected, control) < len(selected):
             return False
         self._look_at_sides(info, now.y, selected, out.summary)
         ready = out.summary[selected, e.START] == e.ASSEMBLED
@@ -169,19 +170,6 @@ class Kernel:
             out.behind[selected] = model.measures.work_out(model.compiled, *given)
         return True
 
-    def _close(
-        self, model: _Prepared, rows: Rows, now: Instant, selected: Integers, summary: Array, control: Integers
-    ) -> bool:
-        """Make selected rows consistent; return whether all were worked on."""
-        if not self.recipe.joints:
-            asked = Asked(rows.v, rows.targets, summary)
-            return model.assembly.close_all(now, asked, selected, control) == len(selected)
-        for r in selected:  # rows of joint coordinates are those of single runs
-            if control[abi.STOP] != 0:
-                return False
-            now.w[r], summary[r] = self._closed(model, rows, r).close(now.y[r], rows.v[r], now.p[r])
-        return True
-
     def _look_at_sides(self, info: ModelInfo, ys: Array, selected: Integers, summary: Array) -> None:
         """Refuse starts in which joints hold bodies the wrong way round, as single runs do."""
         if not self.recipe.sides:
@@ -191,16 +179,6 @@ class Kernel:
         for side in reversed(self.recipe.sides):  # the first one is told
             rows = closed[side.cosine(q) < 0.0]
             summary[rows, e.START], summary[rows, e.START_WHERE] = e.HALF_TURN, joints.index(side.joint)
-
-    def _closed(self, model: _Prepared, rows: Rows, r: int) -> Assembly:
-        """Return the start of a row that holds joint coordinates."""
-        recipe, values = self.recipe, rows.joints[r]
-        at = {
-            rate: {k: float(x) for (k, r), x in zip(recipe.joints, values, strict=True) if r == rate} for rate in (0, 1)
-        }
-        coordinates = {i: float(x) for i, x in zip(recipe.held, rows.targets[r], strict=True)}
-        velocities = {j: float(rows.v[r, j]) for j in recipe.kept}
-        return replace(model.assembly, held=Held(coordinates, velocities, recipe.fixed, at[0], at[1]))
 
     def _advance(
         self, model: _Prepared, rows: Rows, now: Instant, selected: Integers, out: Results, control: Integers
@@ -272,7 +250,8 @@ class Kernel:
         defaults = {q.name: 0.0 for q in info.parameters}
         p = compiled.parameter_array(defaults, recipe.method_parameters)
         setup = self.integrator.setup(compiled, recipe.spec, compiled.scratch())
-        held = Held(dict.fromkeys(recipe.held, 0.0), dict.fromkeys(recipe.kept, 0.0), recipe.fixed)
+        joints = ({k: 0.0 for k, rate in recipe.joints if rate == of} for of in (0, 1))
+        held = Held(dict.fromkeys(recipe.held, 0.0), dict.fromkeys(recipe.kept, 0.0), recipe.fixed, *joints)
         carried = None if recipe.tree is None or code.tree is None else (recipe.tree.mechanism, code.tree.load())
         prepared = _Prepared(
             compiled=compiled,

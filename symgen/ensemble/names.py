@@ -104,7 +104,7 @@ class Held:
     coordinates, velocities : mapping of str to int
         Those that vary or have values of their own, with their index in q and v.
     joints : mapping of str to (int, int)
-        Joint coordinates that do, with their index, and 1 where it is the rate.
+        Joint coordinates that do, with their index and 0, then rates with the index and 1.
     kept, fixed : tuple of int
         Velocities that are not projected, and velocities whose coordinates stay as they are described.
     constant : mapping of str to Expr

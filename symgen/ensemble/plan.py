@@ -229,7 +229,7 @@ def make_ensemble(
     held = held_of(names, grid.names, plan.holds, compiled.info)
     if target != "cpu":
         inputs, passed = replace(driving, foreseen=None).jumps, looks or driving.jumps
-        _check_target(target, inputs, passed, bool(events), bool(held.joints))
+        _check_target(target, inputs, passed, bool(events))
     kept = choose_quantities(compiled.info, kept_names, partial(measurable, mechanism, compiled.info))
     integral = integrated(mechanism, kept)
     if integral is not None and target != "cpu":
@@ -242,7 +242,7 @@ def make_ensemble(
     late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in kept)
     # what Python does something between; and measures behind the loops know the inputs of one part
     measured = driving.changes and any(q.source >= SIDE for q in kept)
-    parts = resets or late or measured or (joint and bool(events))
+    parts = resets or late or measured
     alone = parts or joint
     watch = Watch(mechanism, events, ends, alone) if alone or events or looks else None
     # single runs add up all that outputs ask for, which their steps follow, too
@@ -312,14 +312,13 @@ def _check_settings(settings: Settings, target: str) -> None:
         raise InputError(f"target '{target}'", "absolute coordinates", "joint", "leave --target out")
 
 
-def _check_target(target: str, jumps: bool, passed: bool, events: bool, joints: bool) -> None:
+def _check_target(target: str, jumps: bool, passed: bool, events: bool) -> None:
     """Refuse what needs something to be done between two parts of a run, where nothing but loops can run."""
     constant = "leave --target out, or take constant steps: integrator.adaptive=false with --step"
     for what, there, hint in (
         ("inputs that jump", jumps, "leave --target out"),
         ("jumps and kinks of formulas, at which adaptive steps end", passed, constant),
         ("events", events, "leave --target out"),
-        ("joint coordinates that are held at the start", joints, "leave --target out"),
     ):
         if there:
             raise InputError(f"target '{target}'", f"no {what}", "some", hint)

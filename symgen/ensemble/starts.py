@@ -36,9 +36,7 @@ class Rows:
     q, v : Array, shapes (k, nq), (k, nv)
         Described coordinates, not closed; given velocities, nan where they are to be completed.
     targets : Array, shape (k, h)
-        Values of the coordinates that the runs hold.
-    joints : Array, shape (k, j)
-        Values of the joint coordinates and rates that the runs hold.
+        Values of what the runs hold: coordinates, then joint coordinates, then rates of these.
     stops : tuple of tuple of Stop
         Of each run, or of all of them, where an input jumps; none where nothing does.
     """
@@ -47,7 +45,6 @@ class Rows:
     q: Array
     v: Array
     targets: Array
-    joints: Array
     stops: tuple[tuple[Stop, ...], ...] = ()
 
     def __len__(self) -> int:
@@ -81,7 +78,7 @@ def make_rows(
     held, given : mapping of str to int
         Coordinates that vary, in the order of `Rows.targets`, and velocities that vary, each with its index.
     joints : sequence of str
-        Names of joint coordinates and rates that are held, in the order of `Rows.joints`.
+        Names of joint coordinates and rates that are held, in the same order.
     settled : iterable of str
         Parameters that have numbers in place of their formulas.
     constant : mapping of str to Expr, optional
@@ -102,6 +99,7 @@ def make_rows(
     chosen = {**varied, **{name: np.full(k, numbers.value(e)) for name, e in (constant or {}).items()}}
     for name, index in given.items():
         v[:, index] = chosen[name]
-    targets = np.column_stack([chosen[name] for name in held]) if held else np.zeros((k, 0))
-    places = np.column_stack([chosen[name] for name in joints]) if joints else np.zeros((k, 0))
-    return Rows(parameters, q, v, np.ascontiguousarray(targets), places)
+    targets = np.zeros((k, len(held) + len(joints)))
+    for i, name in enumerate((*held, *joints)):
+        targets[:, i] = chosen[name]
+    return Rows(parameters, q, v, targets)

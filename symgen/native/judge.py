@@ -48,6 +48,14 @@ def dispatcher(function: Any, inlined: bool, contracted: bool = True, *signature
     )(function)
 
 
+def given(value: Any) -> Any:
+    """Return an argument as Numba's functions take it: functions, also those in records, as Numba's own."""
+    if isinstance(value, tuple):
+        parts = tuple(map(given, value))
+        return type(value)(*parts) if hasattr(value, "_fields") else parts
+    return getattr(value, "by_numba", value)
+
+
 def address(function: Any, signature: types.Signature) -> int:
     """Return the address of an emitted function that Numba has compiled."""
     return int(_get_jit_address(function, signature_of(signature)))

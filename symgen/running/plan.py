@@ -17,7 +17,7 @@ from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import RECORD, STOP, events_of, watched
 from symgen.describe.holds import holds_of
-from symgen.describe.kinks import jumps_over_state
+from symgen.describe.kinks import discontinuities_of
 from symgen.describe.unforeseen import longest_step
 from symgen.errors import InputError, quoted
 from symgen.integrators import INTEGRATORS
@@ -204,7 +204,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         max_velocity_violation=limit_of_velocities(method, s.max_violation),
         max_energy_error=s.max_energy_error,
         max_attempts=MAX_ATTEMPTS if s.max_attempts is None else s.max_attempts,
-        compares=not adaptive and "ode" not in integrator.forms and jumps_over_state(mechanism),
+        compares=not adaptive and "ode" not in integrator.forms and any(x.jumps for x in discontinuities_of(mechanism)),
         # not the end of this run: a run that is continued needs the same duration
         duration=None if adaptive else mechanism.defaults.until,
         integrator_parameters={

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -15,13 +15,13 @@ from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.exact import compiled_form, plain_form
 from symgen.runtime.held import Held
-from symgen.runtime.joint_starts import reach
-from symgen.runtime.least_norm import dense_change, sparse_change
+from symgen.runtime.joint_starts import Joints, joints_held
+from symgen.runtime.least_norm import dense_change, iterated_change, sparse_change
 from symgen.runtime.manifold import stay
 from symgen.runtime.model_arrays import entries_of, joints_of, lengths_of, spins_of, velocity_of
 from symgen.runtime.probe import Ready
-from symgen.runtime.start_records import Asked, Instant, Layout, new_work
-from symgen.runtime.starting import check_numbers, close_row, close_rows, follow_nothing, prepare_rows
+from symgen.runtime.start_records import Asked, Instant, Layout, Work, new_work
+from symgen.runtime.starting import close_row, close_rows, follow_nothing, observe_nothing, prepare_rows
 from symgen.runtime.turning import choose_no_turns, choose_turns
 
 if TYPE_CHECKING:
@@ -97,6 +97,13 @@ class Assembly:
             branches=np.array(self.branches, dtype=np.float64) if len(self.branches) else layout.branches,
         )
 
+    def _memory(self) -> tuple[Joints, Work]:
+        """Return the joint coordinates that are held and working memory, of which each thread has its own."""
+        compiled, held, scratch = self.compiled, self.held, self.compiled.scratch()
+        joints = joints_held(compiled.info, self.layout, list(held.joints), list(held.rates), scratch)
+        largest = max(joints.values, joints.rates, key=lambda layout: layout.m)
+        return joints, new_work(largest, len(scratch))
+
     def close(self, y: Array, v: Array, p: Array) -> tuple[Array, Array]:
         """Make a state consistent, in place, with all that is held at its values; return scratch and what is told.
 
@@ -109,22 +116,12 @@ class Assembly:
         p : Array
             Parameters.
         """
-        info, held = self.compiled.info, self.held
-        given, targets = v.copy(), np.array(list(held.coordinates.values()), dtype=np.float64)
+        held, given = self.held, v.copy()
         given[list(held.velocities)] = list(held.velocities.values())
-        now, asked = Instant(y, p, self.compiled.scratch()), Asked(given, targets, np.zeros(e.N_SUMMARY))
-        if not (held.joints or held.rates):
-            self.close_one(now, asked)
-            return now.w, asked.summary
-        if self.close_joints(now, asked) != e.ASSEMBLED:
-            return now.w, asked.summary
-        found, branches = asked.summary, now.w[abi.WINDING : abi.WINDING + info.windings].tolist()
-        # from here on it is the start of a run that describes just this
-        still = {*held.fixed, *(velocity_of(i, info) for i in held.coordinates)}
-        just_this = Held(velocities=dict.fromkeys(range(info.nv), 0.0), fixed=tuple(still))
-        now, asked = Instant(y, p, self.compiled.scratch()), Asked(given, targets[:0], np.zeros(e.N_SUMMARY))
-        replace(self, held=just_this, strict=False, branches=branches).close_one(now, asked)
-        asked.summary[[e.START_MOVED, e.START_VELOCITIES]] = found[[e.START_MOVED, e.START_VELOCITIES]]
+        targets = [*held.coordinates.values(), *held.joints.values(), *held.rates.values()]
+        asked = Asked(given, np.array(targets, dtype=np.float64), np.zeros(e.N_SUMMARY))
+        now = Instant(y, p, self.compiled.scratch())
+        self.close_one(now, asked)
         return now.w, asked.summary
 
     def close_all(self, now: Instant, asked: Asked, selected: Integers, control: Integers) -> int:
@@ -145,49 +142,30 @@ class Assembly:
         (ys, ps, ws), model, law = (array.ravel() for array in now), self.compiled.model, self.compiled.law_module
         scratch = self.compiled.scratch()
         compiled_form(prepare_rows)(model.prepare, law.prepare, model.masses, scratch, ps, ws, len(now.y), selected)
-        of_model = self.layout, *(compiled_form(f) for f in self._functions)
+        *functions, observe = (compiled_form(f) for f in self._functions)
+        joints, work = self._memory()
+        of_model, start = ((self.layout, *functions), observe, joints), compiled_form(close_rows)
         flat = Asked(*(array.ravel() for array in asked))
-        work, start = new_work(self.layout, now.w.shape[1]), compiled_form(close_rows)
         done = int(start(of_model, Instant(ys, ps, ws), flat, work, selected, control))
         self._judge(now.w, asked.summary)
         return done
 
     def close_one(self, now: Instant, asked: Asked) -> int:
         """Make one start consistent, in place; return `symgen.runtime.ensemble_abi.ASSEMBLED` or why there is none."""
-        functions = self._functions
+        functions, (joints, work) = self._functions, self._memory()
         with np.errstate(all="ignore"):  # undefined numbers are nan or infinite in compiled code, without a warning
             self._prepare(now)
-            m, n, form = self.layout.m, self.layout.nv, compiled_form
+            m, n, form = len(work.right), self.layout.nv, compiled_form
             if not self.layout.sparse and m * n * min(m, n) <= decisions.LARGEST_INTERPRETED:
-                geometry, measure, move, spread, solve, turns, rhs = (plain_form(f) for f in functions)
+                geometry, measure, move, spread, solve, turns, rhs, observe = (plain_form(f) for f in functions)
                 measures = Ready(geometry, abi.MEASURE), Ready(measure, abi.MEASURE)
                 functions = (*measures, Ready(move, abi.MOVE), spread, solve, turns, Ready(rhs, abi.RHS))
-                form = plain_form
-            work = new_work(self.layout, len(now.w))
+                functions, form = (*functions, Ready(observe, abi.OBSERVE)), plain_form
+            *of_model, observe = (form(f) for f in functions)
             try:
-                form(close_row)((self.layout, *(form(f) for f in functions)), now, asked, work)
+                form(close_row)(((self.layout, *of_model), observe, joints), now, asked, work)
             except (ArithmeticError, ValueError):
                 asked.summary[e.START] = e.UNDEFINED
-        self._judge(now.w[np.newaxis], asked.summary[np.newaxis])
-        return int(asked.summary[e.START])
-
-    def close_joints(self, now: Instant, asked: Asked) -> int:
-        """Find a start in which joint coordinates are held, for `close_one` to make the start of; return how it ended.
-
-        What is found stands in `now`, its velocities in `asked` as given ones.
-        """
-        _, measure, move, _, _, turns, _ = self._functions
-        functions = {"measure": measure, "move": move, "turns": turns}
-        with np.errstate(all="ignore"):
-            self._prepare(now)
-            try:
-                code = plain_form(check_numbers)(self.layout, now, asked.summary)
-                if code == e.ASSEMBLED:
-                    code = reach(self.compiled, self.layout, functions, self.held, now, asked)
-            except (ArithmeticError, ValueError):
-                code = e.UNDEFINED
-        asked.given[:] = now.y[self.layout.nq : self.layout.nq + self.layout.nv]
-        asked.summary[e.START] = code
         self._judge(now.w[np.newaxis], asked.summary[np.newaxis])
         return int(asked.summary[e.START])
 
@@ -217,14 +195,16 @@ class Assembly:
 
     @property
     def _functions(self) -> tuple[Any, ...]:
-        """What `close_row` takes: geometry, measure, move, spread, solve, turns, rhs."""
+        """What `close_row` takes: geometry, measure, move, spread, solve, turns, rhs, observe."""
         model, law, layout = self.compiled.model, self.compiled.law_module, self.layout
+        held = bool(self.held.joints or self.held.rates)
         return (
             model.geometry,
             model.measure if layout.windings else follow_nothing,
             model.move if layout.nq != layout.nv else stay,
             model.spread if layout.sparse else stay,
-            sparse_change if layout.sparse else dense_change,
+            (iterated_change if held else sparse_change) if layout.sparse else dense_change,
             choose_turns if layout.windings else choose_no_turns,
             law.rhs,
+            model.observe if held else observe_nothing,
         )

@@ -1,6 +1,7 @@
 """Pieces of a start, for one run: positions closed, velocities completed, what is redundant or undetermined found.
 
-What they take are records of `symgen.runtime.start_records`: `closing`, `layout`, `now` and `work`.
+What they take are records of `symgen.runtime.start_records`: `closing`, `layout`, `now` and `work`; and rows of joint
+coordinates behind those of the model, none where only the model's count (`symgen.runtime.joint_starts.Further`).
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import part
 from symgen.runtime.decisions import is_dependent, is_poor
 from symgen.runtime.exact import exact
+from symgen.runtime.joint_starts import fill_further
 from symgen.runtime.least_norm import multiply
 from symgen.runtime.redundancy import choose_rows, farthest
 from symgen.runtime.scales import extent_of, free_scale, larger, row_weight, size_of_change, speed_of
@@ -21,7 +23,7 @@ from symgen.runtime.start_records import Instant
 
 
 @exact()
-def close_positions(closing: Any, layout: Any, now: Any, work: Any) -> bool:
+def close_positions(closing: Any, layout: Any, now: Any, work: Any, further: Any) -> bool:
     """Close positions by the shortest changes, of coordinates with a scale of 0 none; return whether they are closed.
 
     D, nu and the angles that count turns are then those of the closed positions; if not, Phi is that of the last ones.
@@ -29,7 +31,7 @@ def close_positions(closing: Any, layout: Any, now: Any, work: Any) -> bool:
     y, p, w, right, x = now.y, now.p, now.w, work.right, work.x
     best, stalled = math.inf, 0
     for _ in range(decisions.POSITION_STEPS):
-        closing.geometry(layout.t, y, p, w)
+        place(closing, layout, now, work, further)
         square = 0.0
         for i in range(layout.m):
             right[i] = -w[layout.residual + i]
@@ -48,8 +50,16 @@ def close_positions(closing: Any, layout: Any, now: Any, work: Any) -> bool:
         longest = size_of_change(layout, w, x)
         # far from closed, a full Newton step can turn bodies by several radians
         _shift(closing, layout, y, w, x, decisions.LONGEST_STEP / larger(longest, decisions.LONGEST_STEP))
-    closing.geometry(layout.t, y, p, w)
+    place(closing, layout, now, work, further)
     return False
+
+
+@exact()
+def place(closing: Any, layout: Any, now: Any, work: Any, further: Any) -> None:
+    """Fill Phi, D and nu at a position, those of held joint coordinates as well."""
+    closing.geometry(layout.t, now.y, now.p, now.w)
+    if further.held.shape[0] > 0:
+        fill_further(layout, now, work, further)
 
 
 @exact()
@@ -122,7 +132,7 @@ def _correct_velocities(closing: Any, layout: Any, now: Any, work: Any) -> float
 
 
 @exact()
-def mask_redundant(closing: Any, layout: Any, now: Any, work: Any) -> int:
+def mask_redundant(closing: Any, layout: Any, now: Any, work: Any, nothing: Any) -> int:
     """Mask as many rows as depend on others at the start and at closed positions near it; return how many these are.
 
     Rows that depend on others at the start alone do so at a singular position, and are kept. Which rows depend on
@@ -151,7 +161,7 @@ def mask_redundant(closing: Any, layout: Any, now: Any, work: Any) -> int:
         for i in range(m):
             other.w[layout.mask + i] = 0.0
         _shift(closing, layout, other.y, other.w, work.direction, decisions.PROBE_DISTANCE / size)
-        if close_positions(closing, layout, other, work):
+        if close_positions(closing, layout, other, work, nothing):
             near = 0
             for i in range(m):
                 dependent = is_dependent(other.w[layout.pivot + i])

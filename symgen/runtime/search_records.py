@@ -13,8 +13,9 @@ from symgen.runtime.frame import LOW, RECALL
 #: there are, 1 where rates need v', end of the bracket that is looked at, the whole step, what time resolves, ...
 DOING, COUNT, NEEDS_RATES, HIGH, WHOLE, RESOLUTION = range(LOW + 1, LOW + 7)
 #: ... attempts at extrema, rounds in a bracket, its width three rounds ago, notes, those of accepted steps, switches
-#: passed since some time, that time, the step that the error estimate proposes, and where the points of tables begin.
-PROBES, ROUNDS, WIDTH, NOTED, ACCEPTED, PASSED, SINCE, REACH, TABLES = range(LOW + 7, LOW + 16)
+#: passed since some time, that time, the step that the error estimate proposes, where the points of tables begin, and
+#: in what time rounding hides a root.
+PROBES, ROUNDS, WIDTH, NOTED, ACCEPTED, PASSED, SINCE, REACH, TABLES, BLUR = range(LOW + 7, LOW + 17)
 #: What describes each function: direction asked for (0: any), action, how many points its table has (0: it is passed at
 #: zero), where these begin, the period of the table, part of a step by which a passage may be missed; ...
 DIRECTION, ACTION, POINTS, FIRST, PERIOD, MISSED = range(6)
@@ -27,7 +28,7 @@ SIDE, FIRED, GRAZING, LOCAL, SIZE, GRAIN = range(6, 12)
 PLACE, LEVEL, WAY, ARGUMENT, SLOPE, ARGUMENT_START, SLOPE_START, CURVE = range(12, 20)
 #: ... g and g' at the beginning and at the end of the step and of the bracket.
 G_START, D_START, G_END, D_END, G_LOW, D_LOW, G_HIGH, D_HIGH = range(20, 28)
-N_HEAD, N_COLUMNS, N_VALUES = LOW + 16, 28, 3
+N_HEAD, N_COLUMNS, N_VALUES = LOW + 17, 28, 3
 #: Actions: the passage is noted; it is noted and ends the loop; the step ends there and the scheme begins anew.
 NOTE, LEAVE, ANEW = range(3)
 #: What is done beside `LOOK`, `REMEMBER` and `RECALL` with what is kept: keep and give back what emitted functions

@@ -40,6 +40,7 @@ from symgen.runtime.search_records import (
     AIM,
     ANEW,
     ARGUMENT,
+    BLUR,
     D_END,
     D_HIGH,
     D_LOW,
@@ -77,7 +78,7 @@ from symgen.runtime.search_records import (
     WHOLE,
     WIDTH,
 )
-from symgen.runtime.switching import asked, first_root, hidden, is_finite, side_of
+from symgen.runtime.switching import asked, dip, first_root, is_finite, side_of
 from symgen.store.emitted import plain
 
 A = Any
@@ -85,6 +86,8 @@ A = Any
 #: before a jump, so that its stages are on one side of it.
 _LOOKING, _WHOLE_STEP, _TO_EVENT, _BEFORE = range(4)
 _COUNTERS, _RESOLVED = abi.N_COUNTERS, abi.RESOLVED_TIME
+#: A search ends in a bracket that is so many times as wide each time that the root seems to be at an end of it.
+_WIDER = 8.0
 #: A reset changes g by rounding alone below this part of its size in the step before.
 _SAME = 1e-6
 #: Attempts at extrema and rounds in a bracket, at most.
@@ -193,7 +196,9 @@ def candidate(hunt: A, n: int) -> float:
     distance = x - low if ahead == 1 else high - x
     beyond = distance * min(0.1, math.sqrt(distance / hunt[WHOLE])) if rounds > 0 else 0.0
     x += beyond if ahead == 1 else -beyond
-    least = 0.5 * hunt[RESOLUTION]
+    least = 0.5 * hunt[BLUR]
+    if distance < least:  # at the end of the bracket: rounding of g hides it in more time than time resolves
+        hunt[BLUR] *= _WIDER
     return float(min(max(x, low + least), high - least))
 
 
@@ -209,7 +214,7 @@ def concealed(hunt: A, n: int) -> float:
             d0, d1 = (high - low) * hunt[at + D_LOW * n + k], (high - low) * hunt[at + D_HIGH * n + k]
             side, direction = hunt[at + LOCAL * n + k], hunt[at + DIRECTION * n + k]
             if is_finite(d0 + d1) == 1 and asked(direction, side, side_of(g1, side)) == 0:
-                x = min(x, hidden(g0, d0, g1, d1, side, direction, 0.0))
+                x = min(x, dip(g0, d0, g1, d1, side))
     return float(low + x * (high - low)) if x < 1.0 else float(high)
 
 
@@ -223,7 +228,7 @@ def move_on(hunt: A, n: int) -> int:
         hunt[at + D_LOW * n + k] = hunt[at + D_HIGH * n + k]
         hunt[at + G_HIGH * n + k] = hunt[at + G_END * n + k]
         hunt[at + D_HIGH * n + k] = hunt[at + D_END * n + k]
-    hunt[LOW], hunt[HIGH], hunt[ROUNDS] = hunt[HIGH], hunt[WHOLE], 0.0
+    hunt[LOW], hunt[HIGH], hunt[ROUNDS], hunt[BLUR] = hunt[HIGH], hunt[WHOLE], 0.0, hunt[RESOLUTION]
     return 0
 
 
@@ -296,6 +301,7 @@ def take_in(hunt: A, n: int, h: float, following: float, hunting: int) -> int:
         hunt[DOING], hunt[LOW], hunt[HIGH], hunt[WHOLE] = _LOOKING, 0.0, h, h
         hunt[PROBES] = hunt[ROUNDS] = 0.0
         hunt[RESOLUTION] = _RESOLVED * max(abs(following - h), abs(following))
+        hunt[BLUR] = hunt[RESOLUTION]
         for k in range(n):
             hunt[at + LOCAL * n + k] = hunt[at + SIDE * n + k]
             hunt[at + G_LOW * n + k] = hunt[at + G_START * n + k]
@@ -463,7 +469,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
             if near == 0 and is_before(hunt, n) == 1:
                 hunt[DOING], hunt[TRY] = _BEFORE, SHORT_OF * hunt[LOW]
                 return TAKE
-            if near == 0 and high - hunt[LOW] > hunt[RESOLUTION] and hunt[ROUNDS] < _MOST_ROUNDS:
+            if near == 0 and high - hunt[LOW] > hunt[BLUR] and hunt[ROUNDS] < _MOST_ROUNDS:
                 hunt[TRY] = candidate(hunt, n)
                 if there < hunt[TRY]:  # another event may come first, and be over by then
                     hunt[PROBES] += 1.0

@@ -13,15 +13,25 @@ from symgen.native import types
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import bare, part
-from symgen.runtime.closing import close_positions, complete_velocities, find_undetermined, is_light, mask_redundant
+from symgen.runtime.closing import (
+    close_positions,
+    complete_velocities,
+    find_undetermined,
+    is_light,
+    mask_redundant,
+    place,
+)
 from symgen.runtime.exact import exact
+from symgen.runtime.joint_starts import JOINTS, Further, copied_scratch, fill_further
 from symgen.runtime.scales import extent_of, free_scale, larger, measure_lengths, row_weight, speed_of, weigh_rows
 from symgen.runtime.start_records import ASKED, INSTANT, MODEL, WORK, Asked, Closing, Instant
 
 _A, _I = types.float64[::1], types.int64[::1]
+#: A model, its ``observe``, and the joint coordinates that starts hold.
+_HOLDING = types.Record((MODEL, abi.OBSERVE, JOINTS))
 
 
-@exact(types.int64(MODEL, INSTANT, ASKED, WORK), once=True)
+@exact(types.int64(_HOLDING, INSTANT, ASKED, WORK), once=True)
 def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
     """Make the start of a run consistent.
 
@@ -33,8 +43,9 @@ def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
     Parameters
     ----------
     model : tuple
-        A `Layout`, then ``geometry``, ``measure``, ``move``, ``spread``, `solve`, `turns` and ``rhs``: emitted ones
-        (`symgen.runtime.abi`), one of `symgen.runtime.least_norm` and one of `symgen.runtime.turning`.
+        First a `Layout`, then ``geometry``, ``measure``, ``move``, ``spread``, `solve`, `turns` and ``rhs``: emitted
+        ones (`symgen.runtime.abi`), one of `symgen.runtime.least_norm` and one of `symgen.runtime.turning`. Behind
+        these ``observe``, and `symgen.runtime.joint_starts.Joints`.
     now, asked, work : Instant, Asked, Work
         See `symgen.runtime.start_records`. The state holds the described coordinates and velocities of 0; parameters
         and masses are prepared, the pivots are 1.
@@ -44,8 +55,10 @@ def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
     int
         `ASSEMBLED`, or why there is no start; see `symgen.runtime.ensemble_abi`.
     """
-    layout, geometry, measure, move, spread, solve, turns, rhs = model
+    (layout, geometry, measure, move, spread, solve, turns, rhs), observe, joints = model
     closing, y, w, summary = Closing(geometry, measure, move, spread, solve), now.y, now.w, asked.summary
+    values = joints.values.m - layout.m
+    nothing = Further(observe, part(joints.held, 0, 0), joints.goals, joints.out, layout.residual, layout.nu)
     code = check_numbers(layout, now, summary)
     if code == e.ASSEMBLED:
         measure_lengths(geometry, layout, now, work)
@@ -55,13 +68,17 @@ def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
             if math.isfinite(layout.branches[i]):
                 w[abi.WINDING + i] = layout.branches[i]
     if code == e.ASSEMBLED:
-        code = _reach(closing, layout, now, asked, work)
-    if code == e.OPEN and asked.targets.shape[0] > 0 and _is_given(closing, layout, now, asked, work):
+        code = _reach(closing, layout, now, asked, work, joints, nothing)
+    h = layout.held.shape[0] // 2
+    if code == e.OPEN and h > 0 and values == 0 and _is_given(closing, layout, now, asked, work, nothing):
         if layout.windings > 0:
             turns(geometry, measure, layout, now, work)
         code = e.ASSEMBLED
     if code == e.ASSEMBLED:
-        code = complete_velocities(closing, layout, now, work, asked.given)
+        if joints.rates.m == layout.m:
+            code = complete_velocities(closing, layout, now, work, asked.given)
+        else:
+            code = _complete_with_rates(closing, layout, now, asked, work, joints, observe)
     if code == e.PROJECTED:
         summary[e.START_VELOCITIES] = 1.0
         code = e.ASSEMBLED
@@ -71,7 +88,7 @@ def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
             summary[e.START_WHERE] = undetermined
             code = e.UNDETERMINED
     if code == e.ASSEMBLED:
-        summary[e.REDUNDANT_ROWS] = mask_redundant(closing, layout, now, work)
+        summary[e.REDUNDANT_ROWS] = mask_redundant(closing, layout, now, work, nothing)
         weigh_rows(layout, now)
         w[abi.LENGTH] = larger(w[abi.LENGTH], extent_of(layout, y))
         w[abi.SPEED] = speed_of(layout, w, part(y, layout.nq, layout.nv))
@@ -97,19 +114,30 @@ def check_numbers(layout: Any, now: Any, summary: Any) -> int:
 
 
 @exact()
-def _reach(closing: Any, layout: Any, now: Any, asked: Any, work: Any) -> int:
-    """Close the described positions, then positions with held coordinates on the way to their values."""
+def _reach(closing: Any, layout: Any, now: Any, asked: Any, work: Any, joints: Any, nothing: Any) -> int:
+    """Close the described positions, then positions with what is held on the way to its values."""
     y, first, scale, held, targets = now.y, work.first, work.scale, layout.held, asked.targets
-    strides = 0
+    h, values, strides, nw = layout.held.shape[0] // 2, joints.values.m - layout.m, 0, now.w.shape[0]
+    of = part(joints.held, 0, values)
+    further = Further(nothing.observe, of, joints.goals, joints.out, layout.residual, layout.nu)
+    state = Instant(y, now.p, joints.w)
     for j in range(layout.nv):
         scale[j] = 0.0 if layout.fixed[j] != 0 else free_scale(layout, now.w, j)
     for i in range(layout.nq):
         first[i] = y[i]
     for k in range(decisions.MOST_STRIDES + 1):
-        for h in range(targets.shape[0] if k > 0 else 0):
-            i = held[2 * h]
-            y[i] = targets[h] if k == strides else first[i] + (k / strides) * (targets[h] - first[i])
-        if not close_positions(closing, layout, now, work):
+        for c in range(h if k > 0 else 0):
+            i = held[2 * c]
+            y[i] = targets[c] if k == strides else first[i] + (k / strides) * (targets[c] - first[i])
+        for c in range(values if k > 0 else 0):
+            origin, goal = joints.origins[c], targets[h + c]
+            joints.goals[c] = goal if k == strides else origin + (k / strides) * (goal - origin)
+        if k > 0 and values > 0:
+            closed = close_positions(closing, joints.values, state, work, further)
+            copied_scratch(joints.w, now.w, nw)
+        else:
+            closed = close_positions(closing, layout, now, work, nothing)
+        if not closed:
             return int(e.OPEN)
         if k == 0:
             moved = away = 0.0
@@ -119,13 +147,24 @@ def _reach(closing: Any, layout: Any, now: Any, asked: Any, work: Any) -> int:
                 if change > moved and change > decisions.MOVED * (length if layout.lengths[i] != 0.0 else 1.0):
                     moved = change
             asked.summary[e.START_MOVED] = moved
-            for h in range(targets.shape[0]):
-                i = held[2 * h]
+            for c in range(h):
+                i = held[2 * c]
                 first[i] = y[i]
-                scale[held[2 * h + 1]] = 0.0
-                distance = abs(targets[h] - y[i]) / (length if layout.lengths[i] != 0.0 else 1.0)
+                scale[held[2 * c + 1]] = 0.0
+                distance = abs(targets[c] - y[i]) / (length if layout.lengths[i] != 0.0 else 1.0)
                 away = distance if distance > away else away
-            if targets.shape[0] > 0:
+            if values > 0:
+                copied_scratch(now.w, joints.w, nw)
+                for c in range(values):
+                    joints.goals[c] = 0.0
+                fill_further(joints.values, state, work, further)
+            for c in range(values):
+                i = layout.m + c
+                joints.origins[c] = joints.w[joints.values.residual + i]
+                distance = abs(targets[h + c] - joints.origins[c])
+                distance /= length if joints.values.rows[2 * i + 1] == 1 else 1.0
+                away = distance if distance > away else away
+            if h + values > 0:
                 strides = decisions.MOST_STRIDES
                 if away < decisions.STRIDE * strides:
                     strides = math.ceil(away / decisions.STRIDE) if away > decisions.STRIDE else 1
@@ -135,7 +174,21 @@ def _reach(closing: Any, layout: Any, now: Any, asked: Any, work: Any) -> int:
 
 
 @exact()
-def _is_given(closing: Any, layout: Any, now: Any, asked: Any, work: Any) -> bool:
+def _complete_with_rates(closing: Any, layout: Any, now: Any, asked: Any, work: Any, joints: Any, observe: Any) -> int:
+    """Complete the velocities of a state in which rates of joint coordinates are held."""
+    values, rates = joints.values.m - layout.m, joints.rates.m - layout.m
+    of, goals, first = part(joints.held, values, rates), part(joints.goals, values, rates), layout.held.shape[0] // 2
+    for c in range(rates):
+        goals[c] = asked.targets[first + values + c]
+    state = Instant(now.y, now.p, joints.w)
+    copied_scratch(now.w, joints.w, now.w.shape[0])
+    further = Further(observe, of, goals, joints.out, layout.residual, layout.nu)
+    place(closing, joints.rates, state, work, further)
+    return int(complete_velocities(closing, joints.rates, state, work, asked.given))
+
+
+@exact()
+def _is_given(closing: Any, layout: Any, now: Any, asked: Any, work: Any, nothing: Any) -> bool:
     """Put held coordinates to their values at once; whether all is closed then, the others as they were described.
 
     If not, the state is what it was.
@@ -143,14 +196,14 @@ def _is_given(closing: Any, layout: Any, now: Any, asked: Any, work: Any) -> boo
     y, w, first, before = now.y, now.w, work.first, work.y
     for i in range(layout.nq):
         before[i], y[i] = y[i], first[i]
-    for h in range(asked.targets.shape[0]):
-        y[layout.held[2 * h]] = asked.targets[h]
-        work.scale[layout.held[2 * h + 1]] = 0.0
+    for c in range(layout.held.shape[0] // 2):
+        y[layout.held[2 * c]] = asked.targets[c]
+        work.scale[layout.held[2 * c + 1]] = 0.0
     closing.geometry(layout.t, y, now.p, w)
     square, length = 0.0, larger(w[abi.LENGTH], extent_of(layout, y))
     for i in range(layout.m):
         square += (row_weight(layout, w, i) * w[layout.residual + i]) ** 2
-    if math.sqrt(square) < decisions.CLOSED * length and close_positions(closing, layout, now, work):
+    if math.sqrt(square) < decisions.CLOSED * length and close_positions(closing, layout, now, work, nothing):
         return True
     for i in range(layout.nq):
         y[i] = before[i]
@@ -158,7 +211,7 @@ def _is_given(closing: Any, layout: Any, now: Any, asked: Any, work: Any) -> boo
     return False
 
 
-@exact(types.int64(MODEL, INSTANT, ASKED, WORK, _I, _I))
+@exact(types.int64(_HOLDING, INSTANT, ASKED, WORK, _I, _I))
 def close_rows(model: Any, all_of_now: Any, all_asked: Any, work: Any, selected: Any, control: Any) -> int:
     """Make the starts of many rows consistent.
 
@@ -178,10 +231,11 @@ def close_rows(model: Any, all_of_now: Any, all_asked: Any, work: Any, selected:
     int
         Rows that were worked on: all of them, unless the run was stopped.
     """
-    layout, geometry, measure, move, spread, solve, turns, rhs = model
-    layout, work, (ys, ps, ws), rest = bare(layout), bare(work), bare(all_of_now), bare(all_asked)
-    model = layout, geometry, measure, move, spread, solve, turns, rhs
-    n, ny, h = layout.nv, layout.ny, layout.held.shape[0] // 2
+    (layout, geometry, measure, move, spread, solve, turns, rhs), observe, joints = model
+    layout, joints, work = bare(layout), bare(joints), bare(work)
+    (ys, ps, ws), rest = bare(all_of_now), bare(all_asked)
+    model = (layout, geometry, measure, move, spread, solve, turns, rhs), observe, joints
+    n, ny, h = layout.nv, layout.ny, layout.held.shape[0] // 2 + joints.held.shape[0]
     runs = ys.shape[0] // ny
     n_p, nw = ps.shape[0] // runs, ws.shape[0] // runs
     for s in range(selected.shape[0]):
@@ -218,6 +272,12 @@ def prepare_rows(model: Any, law: Any, masses: Any, scratch: Any, ps: Any, ws: A
         model(p)
         law(p)
         masses(p, w)
+    return 0
+
+
+@exact(types.int64(types.float64, _A, _A, _A, _A, _A))
+def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
+    """Stand in for the emitted ``observe`` where no joint coordinate is held, so that it is not compiled."""
     return 0
 
 

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import Driven, Jump
-from symgen.describe.kinks import kinks_of, sides_of
+from symgen.describe.kinks import known_in_time
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.remembered import remembered
 from symgen.errors import InputError
@@ -126,7 +126,7 @@ class Foreseen:
     mechanism : Mechanism
         Whose tables they may read.
     kinks, sides : tuple of Jump
-        From `kinks_of` and `sides_of` of `symgen.describe.kinks`.
+        From `symgen.describe.kinks.known_in_time`.
     known : dict
         What was found last, by what it depends on.
     """
@@ -239,13 +239,13 @@ def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
         for jump in (Jump(event.when) for event in events)
         if "t" in (read := {*names(jump.argument)}) and read <= timely and line_of(jump, values) is None
     )
-    sides = *sides_of(mechanism, events), *happening
-    return Foreseen(mechanism, kinks_of(mechanism, events), sides)
+    kinks, sides = known_in_time(mechanism, events)
+    return Foreseen(mechanism, kinks, (*sides, *happening))
 
 
 @remembered
 def _passed(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], dict[Any, Any]]:
-    return kinks_of(mechanism), sides_of(mechanism), {}
+    return *known_in_time(mechanism), {}
 
 
 def times_between(

@@ -6,7 +6,9 @@ import math
 
 from symgen.store.emitted import plain
 
-#: An extremum of g below this part of its ends is rounding.
+#: Iterations for the root of a cubic, most of which halve a part at worst.
+_ITERATIONS = 60
+#: What is below this part of g at both ends is rounding.
 _ROUNDING = 1e-14
 
 
@@ -40,12 +42,6 @@ def side_of(g: float, before: float) -> float:
 
 
 @plain
-def beyond(g: float, least: float, before: float) -> float:
-    """Return the side that g is on, 1 or -1; that of before where it is nearer to 0 than rounding, or no number."""
-    return before if abs(g) <= least else side_of(g, before)
-
-
-@plain
 def asked(direction: float, before: float, after: float) -> int:
     """Return 1 where a change of sides is one that is asked for, else 0."""
     return 1 if before != after and (direction == 0.0 or direction == after) else 0
@@ -58,6 +54,24 @@ def is_finite(x: float) -> int:
 
 
 @plain
+def root_between(g0: float, d0: float, g1: float, d1: float, side: float, low: float, high: float) -> float:
+    """Return where the cubic leaves a side between two of its extrema: Newton's iteration, halves where it strays."""
+    rise, x = g1 - g0, 0.5 * (low + high)
+    for _ in range(_ITERATIONS):
+        g = cubic(g0, d0, g1, d1, x)
+        if side * g >= 0.0:
+            low = x
+        else:
+            high = x
+        slope = d0 + x * (2.0 * (3.0 * rise - 2.0 * d0 - d1) + x * 3.0 * (d0 + d1 - 2.0 * rise))
+        following = x - g / slope if slope != 0.0 else low
+        if abs(following - x) <= _ROUNDING:
+            return following
+        x = following if following > low and following < high else 0.5 * (low + high)
+    return x
+
+
+@plain
 def first_root(g0: float, d0: float, g1: float, d1: float, side: float) -> float:
     """Return where the cubic first leaves a side, g1 being on the other one; 0 where it has left it already."""
     low, below = 0.0, 1 if side * g0 >= 0.0 else 0
@@ -67,40 +81,22 @@ def first_root(g0: float, d0: float, g1: float, d1: float, side: float) -> float
             continue
         above = 0 if k < 2 and side * cubic(g0, d0, g1, d1, high) >= 0.0 else 1
         if below == 1 and above == 1:
-            for _ in range(60):
-                middle = 0.5 * (low + high)
-                if side * cubic(g0, d0, g1, d1, middle) >= 0.0:
-                    low = middle
-                else:
-                    high = middle
-            return 0.5 * (low + high)
+            return root_between(g0, d0, g1, d1, side, low, high)
         low, below = high, 1 - above
     return 0.0
 
 
 @plain
-def hidden(g0: float, d0: float, g1: float, d1: float, side: float, direction: float, nothing: float) -> float:
-    """Return where g is first on the other side for a while, where this hides a change that is asked for; else 2.
+def dip(g0: float, d0: float, g1: float, d1: float, side: float) -> float:
+    """Return where g may be on the other side for a while although both ends are on this one; 2 where it is not.
 
-    That is at an extremum of the cubic, or, as conditions of several parts have corners, where straight lines from both
-    ends meet: at the first of the two, as what is behind it is looked at again. What is below `nothing` is rounding.
+    That is at the extremum of the cubic, or, as conditions of several parts have corners, where tangents meet: at the
+    first of the two, as what is behind it is looked at again.
     """
-    first, found, before = 2.0, 0, side
-    least = max(nothing, _ROUNDING * (abs(g0) + abs(g1)))
-    for k in range(3):
-        x = 1.0 if k == 2 else extremum(g0, d0, g1, d1, k)
-        if x > 1.0:
-            continue
-        g = g1 if k == 2 else cubic(g0, d0, g1, d1, x)
-        g = d1 if k == 2 and abs(g) <= least else g  # on zero: where it goes
-        after = beyond(g, least, before)
-        if after != before:
-            found = max(found, asked(direction, before, after))
-            first = x if first > 1.0 and k < 2 else first
-        before = after
-    first = first if found == 1 else 2.0
-    if side * d0 < 0.0 and side * d1 > 0.0:
-        x = (g1 - d1 - g0) / (d0 - d1)
-        if x > 0.0 and side * (g0 + d0 * x) < -least:
-            first = min(first, x)
-    return first
+    if not (side * d0 < 0.0 and side * d1 > 0.0):
+        return 2.0
+    least, x, first = -_ROUNDING * (abs(g0) + abs(g1)), extremum(g0, d0, g1, d1, 0), 2.0
+    if x < 1.0 and side * cubic(g0, d0, g1, d1, x) < least:
+        first = x
+    x = (g1 - d1 - g0) / (d0 - d1)
+    return min(first, x) if x > 0.0 and side * (g0 + d0 * x) < least else first

@@ -69,10 +69,8 @@ class SteppedRun:
         self._clock, self._control = memoryview(state.clock), memoryview(state.control)
         self._clocks, self._calling, self._advance = list[Clock](), False, Advance(self._loop)
         inputs, self._driven = plan.inputs.words, plan.inputs.driven
-        known = foreseen(plan.mechanism, plan.events) if self._adaptive else Foreseen(mechanism)
-        self._jumps, self._known = plan.inputs.stops, known
-        if known:
-            self._loop.divide(self._divided(parameter_values(mechanism, self._changed)))
+        self._jumps = plan.inputs.stops
+        self._known = foreseen(plan.mechanism, plan.events) if self._adaptive else Foreseen(mechanism)
         self._given = {name: words for name, words in inputs.items() if isinstance(words, str)}
         self._inputs = {name: x for name, x in inputs.items() if not isinstance(x, str)}
         places = {q.name: i for i, q in enumerate(info.parameters)}

@@ -10,9 +10,10 @@ from __future__ import annotations
 import ast
 import builtins
 import functools
+from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
 
 from symgen.native import types
 from symgen.native.compiler import by_numba, compiler, interpreted
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from symgen.native.language import Function
     from symgen.native.read import Kind
 
+_Function = TypeVar("_Function", bound=Callable[..., Any])
 #: Functions of up to so many statements are copied into those that call them, if LLVM thinks that good.
 _SHORT = 60
 
@@ -78,7 +80,7 @@ class EmittedFunction(MachineFunction):
         return Entry(function.returned, called, code)
 
 
-def plain(function: Any) -> Any:
+def plain(function: _Function) -> _Function:
     """Compile a function of symgen's own like emitted ones: on numbers and flat arrays whose types are plain to see.
 
     Parameters
@@ -97,11 +99,12 @@ def plain(function: Any) -> Any:
     if by_numba():
         from numba import njit
 
-        return njit(error_model="numpy", fastmath={"contract"})(function)
-    made = EmittedFunction(function)
+        numbas: _Function = njit(error_model="numpy", fastmath={"contract"})(function)
+        return numbas
+    compiled: Any = EmittedFunction(function)
     path = Path(function.__code__.co_filename)
-    made.origin = Origin(source_stamp(function), path.read_bytes())
-    return made
+    compiled.origin = Origin(source_stamp(function), path.read_bytes())
+    return cast("_Function", compiled)
 
 
 def imported(name: str, *arguments: Any) -> Any:

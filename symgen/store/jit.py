@@ -208,7 +208,9 @@ class RuntimeFunction(MachineFunction):
     def __call__(self, *arguments: Any) -> Any:
         """Call the machine code."""
         if by_numba():
-            return self.by_numba(*arguments)
+            from symgen.native.judge import given
+
+            return self.by_numba(*map(given, arguments))
         if self.signature is None:
             return super().__call__(*arguments)
         return self.entry(*arguments)

@@ -221,6 +221,8 @@ def test_joint_coordinates_vary_and_are_held():
     constant = symgen.sweep(model, {"rod_mass": [0.5, 1.5]}, start={name: -0.6}, quantities=("q",), **asked)
     assert_same_motion(constant["crank.theta"][:, 0], np.repeat(found["crank.theta"][1, 0], 2))
     assert found.to_xarray().sizes[f"{name}(0)"] == 2
+    lanes = symgen.sweep(model, {name: angles}, quantities=("q",), target="lanes", **asked)
+    np.testing.assert_allclose(lanes["crank.theta"], found["crank.theta"], rtol=1e-12)
 
 
 def test_one_thing_does_not_vary_twice():

@@ -77,7 +77,7 @@ def test_a_loop_whose_file_was_edited_since_it_was_loaded_is_told(tmp_path, monk
     assert area.tree() is not None
     file.write_text(text.replace("2.0", "3.0"))
     store._lines.cache_clear()
-    with pytest.raises(InputError, match=r"'edited_later\.area': .* got the function 'area'"):
+    with pytest.raises(InputError, match=r"'edited_later\.area': .* got 'area', whose definition is not at"):
         area(1.0)
     file.write_text(text)
     store._lines.cache_clear()

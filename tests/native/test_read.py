@@ -221,5 +221,5 @@ def test_functions_that_are_outside(text, why):
 def test_a_function_whose_source_is_gone_is_outside():
     gone = function("def f(y):\n    return 0\n")
     gone._tree = None
-    with pytest.raises(Foreign, match="the function 'f'"):
+    with pytest.raises(Foreign, match="'f', whose definition is not at"):
         read(gone, (A,))

@@ -98,7 +98,7 @@ def states(rng: np.random.Generator, size: int) -> Iterator[np.ndarray]:
         elif spoil == 5:
             numbers[some < 0.02] = -np.inf
         elif spoil == 6:
-            numbers = np.round(numbers)
+            numbers = np.round(rng.standard_normal(size))
         elif spoil == 7:
             numbers *= 10.0 ** rng.integers(-160, 160, size)
         yield numbers

@@ -14,7 +14,7 @@ from support.pushed import pushed_mass
 
 import symgen
 from symgen.describe.inputs import Jump
-from symgen.describe.kinks import kinks_of
+from symgen.describe.kinks import known_in_time
 from symgen.describe.parser import Names, parse
 from symgen.ensemble.sweep import sweep
 from symgen.runtime.stops import Stop, merged, times_between
@@ -159,9 +159,9 @@ def test_the_follower_of_a_cam_keeps_to_the_spline(integrator: str) -> None:
 
 def test_which_kinks_are_known() -> None:
     for name in ("cam-follower", "scissor-lift"):  # a table over an angle in time, a ramp that ends
-        assert len(kinks_of(symgen.load(name).mechanism)) == 1
+        assert len(known_in_time(symgen.load(name).mechanism)[0]) == 1
     for name in ("engine", "wiper", "four-bar"):  # over an angle, over a speed, none
-        assert kinks_of(symgen.load(name).mechanism) == ()
+        assert known_in_time(symgen.load(name).mechanism)[0] == ()
 
 
 def _jump(text: str, levels: tuple[float, ...], period: float = 0.0) -> Jump:

@@ -191,6 +191,10 @@ class TestDecorator:
         assert half(9.0) == 4.5  # compiled for what it is called with
         assert count(next_one, 40) == 42  # compiled by being given
 
+    def test_is_called_and_given_where_numba_compiles(self, cache, monkeypatch):
+        monkeypatch.setenv("SYMGEN_COMPILER", "numba")
+        assert (quarter(8.0), count(next_one, 40)) == (2.0, 42) and compiled(cache) == []
+
     def test_an_error_of_the_reader_comes_at_every_call(self, cache):
         for _ in range(2):
             with pytest.raises(InputError, match=r"\.wrong': expected the language .* SYMGEN_COMPILER=numba"):

@@ -1,5 +1,6 @@
 """Emitted modules of a mechanism, evaluated as plain Python or compiled, in numbers that tests can compare."""
 
+import builtins
 import itertools
 import re
 import sys
@@ -15,7 +16,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.validate import validate
 from symgen.ir.program import COUNTERS, SCALES, STATUS
 from symgen.runtime.compiled import ModelInfo
-from symgen.store.emitted import EmittedFunction, Origin
+from symgen.store.emitted import EmittedFunction, Origin, imported
 from symgen.store.identity import digest
 from symgen.vocabulary.infos import LawInfo
 
@@ -92,6 +93,7 @@ class Emitted:
             module = types.ModuleType(f"{package.__name__}.{stem}")
             module.__package__ = package.__name__
             sys.modules[module.__name__] = module
+            module.__dict__["__builtins__"] = {**vars(builtins), "__import__": imported}
             exec(compile(source, f"<{stem}>", "exec"), module.__dict__)
             self.modules[stem] = module
         if compiled:
@@ -99,8 +101,8 @@ class Emitted:
             for stem, module in self.modules.items():
                 origin = Origin(f"{stem} {stamp}", self.generated.modules[stem][0].encode())
                 for function in vars(module).values():
-                    if getattr(getattr(function, "py_func", None), "__module__", "") == module.__name__:
-                        EmittedFunction.of(function, origin)
+                    if isinstance(function, EmittedFunction) and function.__module__ == module.__name__:
+                        function.origin = origin
         model, law = (self.generated.modules[s][1] for s in ("model", choice.stem))
         self.info, self.law_info = msgspec.convert(model, ModelInfo), msgspec.convert(law, LawInfo)
         self.model, self.law = self.modules["model"], self.modules[choice.stem]
