@@ -113,7 +113,7 @@ w[145:175]  nu: right-hand side of D v = nu
 w[175:205]  pivot: pivots of D G D^T over its diagonal: near 0 a row depends on others
 w[205:235]  change: correction of velocities, or of positions, that `spread` leaves
 w[235:265]  mass: diagonal of M
-w[265:295]  gauge: diagonal of G, the metric in which rank is decided: 1 m weighs as much as 1 rad times a length
+w[265:295]  gauge: diagonal of G, the metric in which rank is decided: 1, or 1/l^2 for a rotation of a body of length l
 w[295:325]  row_weight: factors that make rows of different units comparable
 w[325:425]  jacobian: entries of D that are not constant
 w[425:610]  lower: L of the factorisation of D G D^T, below the diagonal

@@ -33,12 +33,12 @@ w[40:45]    nu: right-hand side of D v = nu
 w[45:50]    pivot: pivots of D G D^T over its diagonal: near 0 a row depends on others
 w[50:55]    change: correction of velocities, or of positions, that `spread` leaves
 w[55:60]    mass: diagonal of M
-w[60:65]    gauge: diagonal of G, the metric in which rank is decided: 1 m weighs as much as 1 rad times a length
+w[60:65]    gauge: diagonal of G, the metric in which rank is decided: 1, or 1/l^2 for a rotation of a body of length l
 w[65:70]    row_weight: factors that make rows of different units comparable
 w[70:93]    jacobian: entries of D that are not constant
 w[93:103]   lower: L of the factorisation of D G D^T, below the diagonal
 w[103:108]  reciprocal: reciprocals of the pivots of D G D^T, 0 for rows left out
-mass_entry
+w[108:113]  mass_entry: entries of M that depend on positions
 
 Left out:
 - columns of the ground: the ground does not move

@@ -28,6 +28,7 @@ y[18]    work of forces without potential and of drivers [J]
 p[0]     crank_mass [kg]
 p[1]     coupler_mass [kg]
 p[2]     rocker_mass [kg]
+p[3:15]  numbers computed by `prepare`
 row 0    A.x [m]
 row 1    A.y [m]
 row 2    B.x [m]
@@ -36,7 +37,6 @@ row 4    C.x [m]
 row 5    C.y [m]
 row 6    D.x [m]
 row 7    D.y [m]
-p[3:15]  numbers that `prepare` keeps
 
 w[0:19]     status: single numbers, named in this module where it uses them
 w[19:27]    multipliers: Lagrange multipliers, one a row
@@ -47,7 +47,7 @@ w[51:59]    nu: right-hand side of D v = nu
 w[59:67]    pivot: pivots of D G D^T over its diagonal: near 0 a row depends on others
 w[67:76]    change: correction of velocities, or of positions, that `spread` leaves
 w[76:85]    mass: diagonal of M
-w[85:94]    gauge: diagonal of G, the metric in which rank is decided: 1 m weighs as much as 1 rad times a length
+w[85:94]    gauge: diagonal of G, the metric in which rank is decided: 1, or 1/l^2 for a rotation of a body of length l
 w[94:102]   row_weight: factors that make rows of different units comparable
 w[102:114]  jacobian: entries of D that are not constant
 w[114:130]  lower: L of the factorisation of D G D^T, below the diagonal

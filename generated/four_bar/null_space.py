@@ -33,6 +33,8 @@ y[18]    work of forces without potential and of drivers [J]
 p[0]     crank_mass [kg]
 p[1]     coupler_mass [kg]
 p[2]     rocker_mass [kg]
+p[3:15]  numbers computed by the model's `prepare`
+p[15:24] numbers computed by `prepare`
 row 0    A.x [m]
 row 1    A.y [m]
 row 2    B.x [m]
@@ -41,8 +43,6 @@ row 4    C.x [m]
 row 5    C.y [m]
 row 6    D.x [m]
 row 7    D.y [m]
-p[3:15]  numbers that the model's `prepare` keeps
-p[15:24] numbers that `prepare` keeps
 
 w[0:19]     status: single numbers, named in this module where it uses them
 w[19:27]    multipliers: Lagrange multipliers, one a row
@@ -53,19 +53,19 @@ w[51:59]    nu: right-hand side of D v = nu
 w[59:67]    pivot: pivots of D G D^T over its diagonal: near 0 a row depends on others
 w[67:76]    change: correction of velocities, or of positions, that `spread` leaves
 w[76:85]    mass: diagonal of M
-w[85:94]    gauge: diagonal of G, the metric in which rank is decided: 1 m weighs as much as 1 rad times a length
+w[85:94]    gauge: diagonal of G, the metric in which rank is decided: 1, or 1/l^2 for a rotation of a body of length l
 w[94:102]   row_weight: factors that make rows of different units comparable
 w[102:114]  jacobian: entries of D that are not constant
 w[114:130]  lower: L of the factorisation of D G D^T, below the diagonal
 w[130:138]  reciprocal: reciprocals of the pivots of D G D^T, 0 for rows left out
 w[138:147]  dependent: 1 at dependent velocities, else 0
 w[147:219]  dense: a dense matrix, row by row
-w[219:282]  basis: basis of the motions that constraints allow
+w[219:282]  basis: directions of motion that constraints allow
 w[282:345]  trial: `basis` before its columns are orthogonal
-small
-w[394:401]  reduced: the mass matrix of independent velocities
+w[345:394]  small: M in these directions
+w[394:401]  reduced: forces, then accelerations in these directions
 w[401:410]  force: forces, one a velocity
-w[410:419]  weighed: M times a section
+w[410:419]  weighed: M times a direction or an acceleration
 """
 
 import math

@@ -43,6 +43,7 @@ MEANINGS = {
     "row_corner": "diagonal of R",
     "row_factor": "factors of the reflections that make Q",
     "mass_entry": "entries of M that depend on positions",
+    "body_entry": "entries of the metric of bodies' own velocities",
     "moved": "sum of the corrections in this step",
     "force_of_constraints": "multipliers of the corrections",
     "kept": "what an iteration keeps from its beginning, or reaches",
@@ -68,11 +69,11 @@ class Places:
     @property
     def header(self) -> list[str]:
         """Lines on the sections of ``w``."""
-        places = {name: f"w[{first}:{first + size}]" for name, (first, size) in self.sections.items() if size}
-        return [
-            f"{place:<11} {name}: {MEANINGS[name.partition('_')[0] if name not in MEANINGS else name]}"
-            for name, place in places.items()
-        ]
+        lines = []
+        for name, (first, size) in self.sections.items():
+            meaning = MEANINGS.get(name) or MEANINGS.get(name.partition("_")[0], "of the method alone")
+            lines += [f"{f'w[{first}:{first + size}]':<11} {name}: {meaning}"] if size else []
+        return lines
 
     @property
     def constants(self) -> dict[str, tuple[int, str]]:
