@@ -77,7 +77,7 @@ def write_package(
     folder : Path
         The folder to write into, which is made if need be.
     methods : sequence of str, optional
-        Names of methods; by default all that suit the mechanism, the shape and the target.
+        Names of methods; without any, all that suit the mechanism, the shape and the target.
     options, coordinates, shape, target
         As for `symgen.api.Model.generate`.
 
@@ -90,11 +90,13 @@ def write_package(
     mechanism = msgspec.structs.replace(mechanism, outputs=())
     names = tuple(dict.fromkeys(METHODS.canonical(name, "--method") for name in methods or METHODS.names))
     own = _options_of(names, options)
-    if methods is None:
-        massless = mechanism.has_massless
-        own = {name: own[name] for name in names if _suits(choose_method(name, own[name]), massless, shape, target)}
+    chosen = [choose_method(name, given) for name, given in own.items()]
+    if not methods and mechanism.has_massless:
+        chosen = [choice for choice in chosen if not choice.method.needs_regular_mass(choice.options)]
     coordinates = choose_coordinates(mechanism, coordinates, shape if target == "cpu" else "looped").name
-    plans = [_plan(mechanism, name, given, coordinates, shape) for name, given in own.items()]
+    plans = [_plan(mechanism, c.method.name, own[c.method.name], coordinates) for c in chosen]
+    if not methods:
+        plans = [p for p in plans if _suits(for_coordinates(mechanism, p.choice), shape, target)]
     check_name("-o", folder)
     if folder.exists() and not folder.is_dir():
         raise InputError("-o", "the name of a folder", f"the file '{folder}'")
@@ -111,7 +113,10 @@ def write_package(
     if run is not None:
         beside["simulate.py"] = (templates_folder() / "package" / "simulate.py").read_text(encoding="utf-8")
     files |= {name: text for name, text in beside.items() if _may_write(folder / name)}
-    return Package(folder, _write(folder, files), generated.derive_seconds, generated.emit_seconds)
+    written = _write(folder, files)
+    if run is None and _may_write(folder / "simulate.py"):  # of another package
+        (folder / "simulate.py").unlink(missing_ok=True)
+    return Package(folder, written, generated.derive_seconds, generated.emit_seconds)
 
 
 def _options_of(names: Sequence[str], options: Mapping[str, str]) -> dict[str, dict[str, str]]:
@@ -128,11 +133,10 @@ def _options_of(names: Sequence[str], options: Mapping[str, str]) -> dict[str, d
     return own
 
 
-def _plan(mechanism: Mechanism, name: str, options: Mapping[str, str], coordinates: str, shape: str) -> Plan:
+def _plan(mechanism: Mechanism, name: str, options: Mapping[str, str], coordinates: str) -> Plan:
     """Return a run by a method as it would be at its start."""
-    settings = Settings(
-        name, options={f"method.{k}": v for k, v in options.items()}, shape=shape, coordinates=coordinates
-    )
+    texts = {f"method.{key}": value for key, value in options.items()}
+    settings = Settings(name, options=texts, shape="straight", coordinates=coordinates)
     return make_plan(mechanism, settings, Purpose.STATE)
 
 
@@ -153,13 +157,11 @@ def _stem(choice: MethodChoice) -> str:
     return choice.method.name.replace("-", "_")
 
 
-def _suits(choice: MethodChoice, massless: bool, shape: str, target: str) -> bool:
-    """Whether a method can be emitted for a mechanism in a shape and for a target."""
-    if massless and choice.method.needs_regular_mass(choice.options):
-        return False
-    if target == "cuda" and choice.implicit:
-        return False
-    return shape == "straight" or is_loopable(choice.method, choice.options, choice.implicit)
+def _suits(choice: MethodChoice, shape: str, target: str) -> bool:
+    """Whether a method can be emitted in a shape and for a target."""
+    if shape == "looped":
+        return is_loopable(choice.method, choice.options, choice.implicit)
+    return target != "cuda" or not choice.implicit
 
 
 def _started(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] | None, str]:

@@ -127,16 +127,6 @@ def test_code_for_other_targets_is_a_model_and_a_method(target, tmp_path):
     assert "There is no `simulate.py`" in (tmp_path / "emitted" / "README.md").read_text()
 
 
-def test_looped_code_has_a_module_a_kernel(tmp_path):
-    found = symgen.load("four-bar").generate(tmp_path / "emitted", "lagrange", shape="looped")
-    kernels = {"body_body.py", "joint_revolute.py", "joint_revolute_2.py"}
-    names = {"machine.py", "model.py", "lagrange.py", "model.json", "README.md", *kernels}
-    assert {path.name for path in found.files} == names
-    about = json.loads((tmp_path / "emitted" / "model.json").read_text())
-    functions = {name.partition(".")[0] for name in about["methods"]["lagrange"]["tables"]["functions"]}
-    assert functions <= {Path(name).stem for name in names} and {*about["kernels"]} == {Path(k).stem for k in kernels}
-
-
 def test_a_package_says_what_runs_do_besides(tmp_path):
     path = tmp_path / "ball.toml"
     path.write_text(
@@ -265,6 +255,8 @@ def test_files_of_other_people_stay_as_they_are(tmp_path):
     assert main(["generate", "pendulum", "--method", "lagrange", "-o", str(folder)]) == 0
     assert (folder / "README.md").read_text() == "mine"
     assert (folder / "simulate.py").exists()
+    assert main(["generate", "pendulum", "--target", "cuda", "-o", str(folder)]) == 0
+    assert not (folder / "simulate.py").exists(), "it reads what is no longer in model.json"
 
 
 def test_methods_for_implicit_integrators_alone_have_nothing_to_simulate(tmp_path):
