@@ -8,9 +8,12 @@ alone are tables. SymPy and Jinja2 are imported only for kernels that no mechani
 
 from __future__ import annotations
 
+import itertools
+import json
+import re
 import time
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from types import ModuleType, SimpleNamespace
@@ -111,7 +114,7 @@ class Needs:
         """All of them."""
         return (_MACHINE, _MODEL, self.law, *self.elements, *self.forms.values())
 
-    def missing(self, known: Callable[[str], bool], generator: str) -> Modules:
+    def missing(self, known: Callable[[str], bool], generator: str, whole: bool = False) -> Modules:
         """Derive and emit kernels, the law and the generic code, with metadata, except what is `known`.
 
         Parameters
@@ -120,6 +123,8 @@ class Needs:
             Whether a module need not be emitted.
         generator : str
             Digest for the headers.
+        whole : bool
+            Whether the law is one module.
         """
         from symgen.emit.kernels import emit_form, emit_kernel
         from symgen.emit.looped import emit_looped_law, emit_machine, emit_shared_model
@@ -134,7 +139,7 @@ class Needs:
             modules[_MODEL] = emit_shared_model(generator), {}
         if not known(self.law):
             law = lower_looped(method, options)
-            sources = emit_looped_law(law, generator, method.summary, method.reference)
+            sources = emit_looped_law(law, generator, method.summary, method.reference, whole)
             *shared, _ = sources
             modules |= {name: (source, {}) for name, source in sources.items()}
             info = msgspec.structs.replace(law.info, modules=tuple(shared))
@@ -225,7 +230,9 @@ def _gathered(module: ModuleType, *names: str) -> Any:
     return SimpleNamespace(**{name: getattr(module, name) for name in names if hasattr(module, name)})
 
 
-def generate_looped(mechanism: Mechanism, choices: Sequence[MethodChoice], generator: str) -> Modules:
+def generate_looped(
+    mechanism: Mechanism, choices: Sequence[MethodChoice], generator: str, whole: bool = False
+) -> Modules:
     """Return the source of everything that a mechanism and some methods need, with metadata, by file stem.
 
     Parameters
@@ -236,6 +243,8 @@ def generate_looped(mechanism: Mechanism, choices: Sequence[MethodChoice], gener
         Methods with their structural options, and whether implicit integrators ask for them.
     generator : str
         Digest of everything that shapes emitted code.
+    whole : bool
+        Whether each law is one module, and kernels have names for people; see `numbered`.
 
     Returns
     -------
@@ -244,6 +253,7 @@ def generate_looped(mechanism: Mechanism, choices: Sequence[MethodChoice], gener
         is used, and its metadata are the tables for every law.
     """
     from symgen.emit.looped import emit_mechanism
+    from symgen.emit.whole import absolute
 
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     tables: dict[str, Any] = {}
@@ -251,7 +261,7 @@ def generate_looped(mechanism: Mechanism, choices: Sequence[MethodChoice], gener
     for choice in choices:
         refuse_dense(choice.method, choice.options, choice.implicit)
         needs = Needs(mechanism, choice, found)
-        modules |= needs.missing(modules.__contains__, generator)
+        modules |= needs.missing(modules.__contains__, generator, whole)
         _, built, _ = needs.laid_out({stem: modules[stem][1] for stem in needs.modules})
         tables[f"{needs.law}_implicit" if choice.implicit else needs.law] = {
             "numbers": list(built.numbers),
@@ -259,4 +269,33 @@ def generate_looped(mechanism: Mechanism, choices: Sequence[MethodChoice], gener
             "sections": dict(built.sections),
         }
         counts = Counter(needs.stems)
-    return modules | {"mechanism": (emit_mechanism(mechanism.name, counts), tables)}
+    modules["mechanism"] = emit_mechanism(mechanism.name, counts), tables
+    if not whole:
+        return modules
+    names = numbered(modules)
+
+    def named(text: str) -> str:
+        return _STEM.sub(lambda match: names.get(match[0], match[0]), text)
+
+    return {
+        names.get(stem, stem): (absolute(named(source)), json.loads(named(json.dumps(metadata))))
+        for stem, (source, metadata) in modules.items()
+    }
+
+
+#: Stem of a kernel, or of its part of a descriptor form, with the digest of what it holds.
+_STEM = re.compile(r"\b(?:form_[0-9a-f]{8}_)?((?:body|joint|force)_\w+?)_[0-9a-f]{16}\b", re.ASCII)
+
+
+def numbered(stems: Iterable[str]) -> dict[str, str]:
+    """Return names of kernels that are counted, not named by a digest: ``joint_revolute``, ``joint_revolute_2``."""
+    names: dict[str, str] = {}
+    for stem in stems:
+        if match := _STEM.fullmatch(stem):
+            first = name = f"{'form_' if stem.startswith('form_') else ''}{match[1]}"
+            for count in itertools.count(2):
+                if name not in names.values():
+                    break
+                name = f"{first}_{count}"
+            names[stem] = name
+    return names
