@@ -68,4 +68,4 @@ def simulate(method=RUN["method"], until=RUN["until"], step=RUN["step"]):
 
 if __name__ == "__main__":
     times, states = simulate(*sys.argv[1:2], *map(float, sys.argv[2:]))
-    print(json.dumps({"t": times[-1], **dict(zip(RUN["names"], states[-1].tolist()))}, indent=1))
+    print(json.dumps({"t": times[-1], **dict(zip(RUN["names"], states[-1].tolist(), strict=True))}, indent=1))
