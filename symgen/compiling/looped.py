@@ -12,7 +12,6 @@ import itertools
 import json
 import re
 import time
-from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -249,15 +248,14 @@ def generate_looped(
     Returns
     -------
     mapping
-        Generic code, kernels and laws, which are the same for all mechanisms; ``mechanism`` says how often each kernel
-        is used, and its metadata are the tables for every law.
+        Generic code, kernels and laws, which are the same for all mechanisms; the metadata of ``mechanism``, which has
+        no source, are the tables for every law.
     """
-    from symgen.emit.looped import emit_mechanism
     from symgen.emit.whole import absolute
 
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     tables: dict[str, Any] = {}
-    found, counts = instances(mechanism), Counter[str]()
+    found = instances(mechanism)
     for choice in choices:
         refuse_dense(choice.method, choice.options, choice.implicit)
         needs = Needs(mechanism, choice, found)
@@ -268,8 +266,7 @@ def generate_looped(
             "functions": [f"{stem}.{name}" for stem, name in built.functions],
             "sections": dict(built.sections),
         }
-        counts = Counter(needs.stems)
-    modules["mechanism"] = emit_mechanism(mechanism.name, counts), tables
+    modules["mechanism"] = "", tables
     if not whole:
         return modules
     names = numbered(modules)

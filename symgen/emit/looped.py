@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from symgen.emit.emit import law_header
 from symgen.emit.module import Code, function, render
 from symgen.emit.parts import PartsLayout, law_modules
 from symgen.emit.printer import Access, Printer
-from symgen.emit.text import harmless
 from symgen.emit.whole import Places
 from symgen.ir.graph import Graph
 from symgen.ir.numerics import SKIP, SUSPICIOUS
@@ -209,10 +208,3 @@ class LoopAccess(Access):
         if space in (data.VELOCITIES, data.RATES):
             return f"{'y' if space == data.VELOCITIES else 'ydot'}[{self.layout.at('nq')} + j]"
         return f"w[{self.layout.at(space)} + j]"
-
-
-def emit_mechanism(name: str, counts: Mapping[str, int]) -> str:
-    """Return the source of a module without code: how often a mechanism uses each kernel."""
-    lines = "\n".join(f"{stem}: {count}" for stem, count in counts.items())
-    text = f"Kernels of mechanism `{harmless(name)}`, and how many instances each has; tables stand in the metadata."
-    return f'"""{text}\n\n{lines}\n"""\n'

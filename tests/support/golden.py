@@ -94,7 +94,7 @@ def emitted(model: str, whole: bool = True) -> dict[str, str]:
 def emitted_looped(model: str, whole: bool = True) -> dict[str, str]:
     """Return stem -> source of looped modules."""
     made = generate_looped(load(model), looped_choices(model), GENERATOR, whole)
-    return {stem: source for stem, (source, _) in made.items()}
+    return {stem: source for stem, (source, _) in made.items() if source}
 
 
 def written(modules: Mapping[str, str], where: Path) -> Path:
@@ -125,4 +125,4 @@ def shown() -> dict[str, dict[str, str]]:
     """Return the modules that are checked in, by folder."""
     found = {name: {stem: everything()[name]()[stem] for stem in stems} for name, stems in SHOWN.items()}
     looped = generate_looped(load("four-bar"), [choose_method("direct-correction")], GENERATOR, True)
-    return found | {"four_bar_looped": {stem: source for stem, (source, _) in looped.items()}}
+    return found | {"four_bar_looped": {stem: source for stem, (source, _) in looped.items() if source}}
