@@ -23,12 +23,13 @@ from symgen.lower.windings import winding_order
 from symgen.running.continuation import choice_after, taken_up
 from symgen.running.starts import compiled_for
 from symgen.runtime import abi
+from symgen.runtime.assembler import Assembly
 from symgen.runtime.assembly import Start
-from symgen.runtime.joint_starts import joint_values
 from symgen.runtime.outcome import Outcome
 from symgen.runtime.probe import Ready
+from symgen.runtime.start_records import Instant
 from symgen.runtime.start_words import turned_over
-from symgen.runtime.tree_start import Carrying, settle_tree, turned_by_tree
+from symgen.runtime.tree_start import TURNED_OVER, Carried, Carrying
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
@@ -65,6 +66,8 @@ class TreeRun:
         That are looked for.
     watched : callable, optional
         Returns them as bodies have them, where many runs share that.
+    over : int
+        Which of the bodies that turn in space would start turned over, -1 where none.
     """
 
     whole: Mechanism
@@ -75,6 +78,7 @@ class TreeRun:
     body_start: Start
     events: tuple[Event, ...] = ()
     watched: Callable[[], Watched | None] | None = None
+    over: int = -1
 
     @property
     def topology(self) -> Topology:
@@ -199,12 +203,6 @@ class TreeRun:
         found[: self.bodies.info.nq] *= self._signs
         return found
 
-    @cached_property
-    def over(self) -> int:
-        """Which of the bodies that turn in space would start turned over, -1 where none."""
-        info, began = self.bodies.info, self.start
-        return turned_by_tree(info, self.body_start.y, self._raw(began.t, began.y, began.p)) if info.spins else -1
-
     def _raw(self, t: float, y: Array, p: Array) -> Array:
         own, info = self.compiled.info, self.bodies.info
         state, out = np.zeros(own.ny), np.zeros(info.nq + 2 * info.nv)
@@ -318,17 +316,19 @@ def begin_on_tree(
     """
     info, own = bodies.info, compiled.info
     at = carrying_of(mechanism, carried, bodies, compiled) if carrying is None else carrying
-    values = joint_values(bodies, start.t, start.y, start.p, start.w.copy())
     p = compiled.parameter_array(dict(zip((x.name for x in info.parameters), start.p, strict=False)), method_parameters)
-    y = np.zeros(own.ny)
-    y[: own.work] = [values[i - info.m] if joint else start.y[i] for joint, i in at.places.reshape(-1, 2)]
-    y[own.work :] = start.y[info.work :]
-    gauge = np.where(at.gauges < 0, 1.0, start.w[at.gauges])
-    scales = float(start.w[abi.LENGTH]), float(start.w[abi.SPEED]), gauge
-    w, rank, redundant = settle_tree(compiled, y, p, start.t, start.w[at.windings], scales)
+    now = Instant(np.zeros(own.ny), p, compiled.scratch())
+    alike = Carried(bodies, Assembly(compiled, t=start.t), at).settle(Instant(start.y, start.p, start.w), now)
+    now.y[own.work :] = start.y[info.work :]
+    rank, redundant = compiled.rank(now.w), compiled.redundant(now.w)
     notes = start.notes, start.changes, start.light, start.warnings
-    found = Start(y, p, w, rank, redundant, *notes, t=start.t, work=start.work)
-    return TreeRun(mechanism, carried, compiled, found, bodies, start, events, watched)
+    found = Start(*now, rank, redundant, *notes, t=start.t, work=start.work)
+    return TreeRun(mechanism, carried, compiled, found, bodies, start, events, watched, _first_over(alike))
+
+
+def _first_over(alike: Array) -> int:
+    over = np.flatnonzero(np.abs(alike) < TURNED_OVER)
+    return int(over[0]) if len(over) else -1
 
 
 def tree_taken_up(plan: Plan, last: LastState) -> TreeRun | None:
