@@ -114,27 +114,6 @@ class Code:
 
 
 @dataclass(frozen=True)
-class Tree:
-    """What is run where the state is that of the joints of a tree.
-
-    Attributes
-    ----------
-    mechanism : Mechanism
-        With its tree.
-    plain : bool
-        Whether a loop over rows leaves all that is kept.
-    """
-
-    mechanism: Mechanism
-    plain: bool
-
-    @property
-    def described(self) -> list[Any]:
-        """What it is, as JSON can express it."""
-        return [identity(self.mechanism), self.plain]
-
-
-@dataclass(frozen=True)
 class Watch:
     """What rows look for beside their motion.
 
@@ -185,8 +164,8 @@ class Recipe:
         Values of the method's parameters that differ from the defaults.
     quantities : tuple of Quantity
         What is kept.
-    tree : Tree or None
-        What is run in joint coordinates.
+    tree : Mechanism or None
+        The mechanism with its tree, where runs are in joint coordinates.
     watch : Watch or None
         What rows look for beside their motion.
     joints : tuple of (int, int)
@@ -219,7 +198,7 @@ class Recipe:
     strict: bool
     code: str
     target: str = "cpu"
-    tree: Tree | None = None
+    tree: Mechanism | None = None
     watch: Watch | None = None
     joints: tuple[tuple[int, int], ...] = ()
     sides: tuple[Side, ...] = ()
@@ -285,7 +264,8 @@ class Recipe:
                 *(dict(self.method_parameters), [q.name for q in self.quantities], self.held, self.kept, self.fixed),
                 *(self.strict, self.code, self.joints, *([self.sides] if self.sides else [])),
                 *(["stops"] if self.stops else []),
-                *(x if x is None else x.described for x in (self.first, self.spare, self.tree, self.watch)),
+                *(x if x is None else x.described for x in (self.first, self.spare, self.watch)),
+                None if self.tree is None else identity(self.tree),
             ],
             sort_keys=True,
         )

@@ -322,7 +322,7 @@ def begin_on_tree(
     now.y[own.work :] = start.y[info.work :]
     rank, redundant = compiled.rank(now.w), compiled.redundant(now.w)
     notes = start.notes, start.changes, start.light, start.warnings
-    found = Start(*now, rank, redundant, *notes, t=start.t, work=start.work)
+    found = Start(now.y, p, now.w, rank, redundant, *notes, t=start.t, work=start.work)
     return TreeRun(mechanism, carried, compiled, found, bodies, start, events, watched, _first_over(alike))
 
 
