@@ -175,7 +175,8 @@ class Kernel:
         joints = ({k: 0.0 for k, rate in recipe.joints if rate == of} for of in (0, 1))
         held = Held(dict.fromkeys(recipe.held, 0.0), dict.fromkeys(recipe.kept, 0.0), recipe.fixed, *joints)
         assembly = Assembly(compiled, held, recipe.strict, recipe.spare is not None)
-        return _Prepared(compiled, assembly, p, self._runs(code, compiled), code.measures)
+        alone = recipe.watch is not None and recipe.watch.alone  # single runs work out all of it
+        return _Prepared(compiled, assembly, p, self._runs(code, compiled), None if alone else code.measures)
 
     def _parameters(self, compiled: CompiledModel) -> Array:
         return compiled.parameter_array({q.name: 0.0 for q in compiled.info.parameters}, self.recipe.method_parameters)
@@ -188,7 +189,7 @@ class Kernel:
         if watch is not None and watch.alone:
             from symgen.ensemble.singly import SingleRuns
 
-            return SingleRuns(recipe, watch, compiled, integrator, carried)
+            return SingleRuns(recipe, watch, compiled, integrator, code.measures, carried)
         own = tree or compiled
         setup = integrator.setup(own, recipe.spec, own.scratch())
         if other is not None and recipe.target == "cuda":

@@ -255,13 +255,13 @@ def make_ensemble(
     def with_sums(found: CompiledModel) -> CompiledModel:
         return with_integrals(mechanism, found) if adds else found
 
-    compiled, behind, spare = with_sums(compiled), () if alone else kept, None
+    compiled, spare = with_sums(compiled), None
     if plan.solver_is_free:  # the few runs with light bodies are not worth lanes of their own
         choice = plan.choice.given(solver="augmented")
         other, where = with_sums(compile_model(mechanism, choice)), "cpu" if target == "lanes" else target
-        spare = _code(mechanism, choice, other, where, joint, behind)
+        spare = _code(mechanism, choice, other, where, joint, kept)
     recipe = Recipe(
-        first=_code(mechanism, plan.choice, compiled, target, joint, behind),
+        first=_code(mechanism, plan.choice, compiled, target, joint, kept),
         spare=spare,
         integrator=plan.integrator.name,
         spec=spec,
@@ -304,14 +304,14 @@ def _code(
     compiled: CompiledModel,
     target: str,
     joint: bool,
-    behind: Sequence[Quantity],
+    kept: Sequence[Quantity],
 ) -> Code:
     """Return what runs take of code for one solver, with how quantities behind the loops are worked out."""
     return Code(
         Module.of(compiled),
         Module.of(compile_model(mechanism, choice, target=target)) if target != "cpu" else None,
         Module.of(tree_code(mechanism, choice, compiled)[1]) if joint else None,
-        make_measures(mechanism, compiled, behind),
+        make_measures(mechanism, compiled, kept),
     )
 
 
