@@ -22,7 +22,6 @@ from symgen.integrators import INTEGRATORS
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembler import Assembly
 from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.held import Held
 from symgen.runtime.integrator import Integrator
 from symgen.runtime.model_arrays import joints_of
 from symgen.runtime.new_state import span_of
@@ -98,10 +97,11 @@ class Kernel:
         with self._lock:
             if self._warm:
                 return
-            info = self.first.compiled.info
-            sizes = len(info.parameters), info.nq, info.nv, len(self.recipe.held) + len(self.recipe.joints)
-            parameters, q, v, targets = (np.zeros((0, size)) for size in sizes)
-            self.run(Rows(parameters, q, v, targets), new_control())
+            info, held = self.first.compiled.info, self.recipe.held
+            targets = sum(map(len, (held.coordinates, held.joints, held.rates)))
+            sizes = len(info.parameters), info.nq, info.nv, targets
+            parameters, q, v, values = (np.zeros((0, size)) for size in sizes)
+            self.run(Rows(parameters, q, v, values), new_control())
             if isinstance(self.first.runs, DeviceRuns):
                 self.first.runs.compile()
             self._warm = True
@@ -172,9 +172,7 @@ class Kernel:
     def _prepare(self, code: Code) -> _Prepared:
         compiled, recipe = code.module.load(), self.recipe
         p = self._parameters(compiled)
-        joints = ({k: 0.0 for k, rate in recipe.joints if rate == of} for of in (0, 1))
-        held = Held(dict.fromkeys(recipe.held, 0.0), dict.fromkeys(recipe.kept, 0.0), recipe.fixed, *joints)
-        assembly = Assembly(compiled, held, recipe.strict, recipe.spare is not None)
+        assembly = Assembly(compiled, recipe.held, recipe.strict, recipe.spare is not None)
         alone = recipe.watch is not None and recipe.watch.alone  # single runs work out all of it
         return _Prepared(compiled, assembly, p, self._runs(code, compiled), None if alone else code.measures)
 

@@ -26,7 +26,7 @@ from symgen.ensemble.driving import Driving, read_by_motions
 from symgen.ensemble.kernel import integrator_of_rows, kernel_of
 from symgen.ensemble.lanes import check_lanes
 from symgen.ensemble.measures import integrated, make_measures, measurable
-from symgen.ensemble.names import Held, Names, held_of
+from symgen.ensemble.names import Names, Targets, targets_of
 from symgen.ensemble.quantities import choose_quantities
 from symgen.ensemble.recipe import Code, Module, Recipe, Watch, code_identity
 from symgen.ensemble.starts import Rows, make_rows
@@ -71,7 +71,7 @@ class Ensemble:
         Its law; compiled when it is first run.
     grid : Grid
         What varies.
-    held : Held
+    targets : Targets
         What the starts of all runs hold.
     recipe : Recipe
         What a run is apart from its row.
@@ -88,7 +88,7 @@ class Ensemble:
     plan: Plan
     compiled: CompiledModel
     grid: Grid
-    held: Held
+    targets: Targets
     recipe: Recipe
     driving: Driving
     warnings: tuple[str, ...] = ()
@@ -144,10 +144,9 @@ class Ensemble:
 
     def settled(self, first: int, last: int) -> Rows:
         """Return the same without the stops of runs."""
-        varied, held = self.grid.values(first, last), self.held
-        settled = self.settings.parameters
-        places = held.coordinates, held.velocities, tuple(held.joints)
-        return make_rows(self.model.mechanism, self.parameters, varied, *places, settled, held.constant)
+        varied, targets, settled = self.grid.values(first, last), self.targets, self.settings.parameters
+        held = targets.names, targets.velocities, settled, targets.constant
+        return make_rows(self.model.mechanism, self.parameters, varied, *held)
 
     @cached_property
     def description(self) -> dict[str, Any]:
@@ -163,7 +162,7 @@ class Ensemble:
             "mechanism": identity(self.model.mechanism),
             "varied": found.hexdigest(),
             "parameters": self.parameters,
-            "start": {name: repr(value) for name, value in self.held.constant.items()},
+            "start": {name: repr(value) for name, value in self.targets.constant.items()},
             **({"inputs": driven} if (driven := self.driving.described) else {}),
             "recipe": self.recipe.digest,
             "code": self.recipe.code,
@@ -228,7 +227,7 @@ def make_ensemble(
     driving = Driving(plan.inputs, grid.names, spec.until, known if spec.adaptive else None, moving)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)
-    held = held_of(names, grid.names, plan.holds, compiled.info)
+    targets = targets_of(names, grid.names, plan.holds, compiled.info)
     if target != "cpu":
         inputs, passed = replace(driving, foreseen=None).jumps, looks or driving.jumps
         _check_target(target, inputs, passed, bool(events))
@@ -267,15 +266,12 @@ def make_ensemble(
         spec=spec,
         method_parameters=dict(plan.method_parameters),
         quantities=kept,
-        held=tuple(held.coordinates.values()),
-        kept=held.kept,
-        fixed=held.fixed,
+        held=targets.held,
         strict=plan.settings.strict,
         code=code_identity(),
         target=target,
         tree=on_tree(mechanism) if joint else None,
         watch=watch,
-        joints=tuple(held.joints.values()),
         sides=tuple(side for side in sides_of(mechanism) if side.held),
         stops=driving.jumps,
     )
@@ -290,7 +286,7 @@ def make_ensemble(
         plan,
         compiled,
         grid,
-        held,
+        targets,
         recipe,
         driving,
         warnings,

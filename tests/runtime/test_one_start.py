@@ -34,7 +34,7 @@ TURNING = np.array([1.0, 0.0, -2.0, 0.5])
 def rows_of(model, compiled, held=()):
     """Described starts, and what is asked of them."""
     varied = {"shake": SHAKE, "turning": TURNING}
-    rows = make_rows(model.mechanism, model.parameters(), varied, {}, {})
+    rows = make_rows(model.mechanism, model.parameters(), varied, (), {})
     values = [model.parameters({"shake": a, "turning": b}) for a, b in zip(SHAKE, TURNING, strict=True)]
     p = np.stack([compiled.parameter_array(each, {}) for each in values])
     targets = rows.q[:, list(held)] + np.array([0.0, 0.07, -0.23, 0.11])[:, None] if held else np.zeros((len(p), 0))
