@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compiling.carrying import carrying_of
 from symgen.compiling.events import compile_events
 from symgen.ensemble.chunks import Chunk, Results
 from symgen.ensemble.device import DeviceRuns, need_of
@@ -19,6 +18,7 @@ from symgen.ensemble.recipe import Code, Recipe
 from symgen.ensemble.tree_rows import TreeRuns, picks_on_tree
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
+from symgen.running.tree import carried_of
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembler import Assembly
 from symgen.runtime.compiled import CompiledModel
@@ -27,7 +27,6 @@ from symgen.runtime.model_arrays import joints_of
 from symgen.runtime.new_state import span_of
 from symgen.runtime.run import RunSpec
 from symgen.runtime.start_records import Asked, Instant
-from symgen.runtime.tree_start import Carried
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -183,23 +182,23 @@ class Kernel:
         """Return what runs rows from starts of bodies."""
         recipe, watch, integrator = self.recipe, self.recipe.watch, self.integrator
         other, tree = (None if module is None else module.load() for module in (code.other, code.tree))
-        carried = None if recipe.tree is None or tree is None else (recipe.tree, tree)
+        own, on_tree = tree or compiled, None
+        if watch is not None and recipe.tree is not None:
+            on_tree = recipe.tree, carried_of(watch.mechanism, recipe.tree, compiled, own)
         if watch is not None and watch.alone:
             from symgen.ensemble.singly import SingleRuns
 
-            return SingleRuns(recipe, watch, compiled, integrator, code.measures, carried)
-        own = tree or compiled
+            return SingleRuns(recipe, watch, compiled, integrator, code.measures, on_tree)
         setup = integrator.setup(own, recipe.spec, own.scratch())
         if other is not None and recipe.target == "cuda":
             need, span = need_of(other, setup, recipe.spec.adaptive, recipe.sources), span_of(recipe.spec, setup)
             return DeviceRuns(other, need, setup.scheme, span, recipe.limits, recipe.times, recipe.picks)
-        if carried is None or watch is None:
-            watched = None if watch is None else self._watched(watch.mechanism, compiled)
+        watched = None if watch is None else self._watched(recipe.tree or watch.mechanism, own)
+        if on_tree is None:
             return LoopRuns(recipe, compiled, integrator, setup, recipe.picks, watched, other)
         info, picks = compiled.info, picks_on_tree(recipe.quantities, compiled.info, own.info)
-        carrying = carrying_of(watch.mechanism, carried[0], compiled, own)
-        loop = LoopRuns(recipe, own, integrator, setup, picks, self._watched(*carried), width=info.nq + 2 * info.nv)
-        return TreeRuns(Carried(compiled, Assembly(own), carrying), self._parameters(own), loop)
+        loop = LoopRuns(recipe, own, integrator, setup, picks, watched, width=info.nq + 2 * info.nv)
+        return TreeRuns(on_tree[1], self._parameters(own), loop)
 
     def _watched(self, mechanism: Mechanism, compiled: CompiledModel) -> Watched | None:
         """Return the switching functions of rows, None where there are none."""

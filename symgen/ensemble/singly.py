@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compiling.carrying import carrying_of
 from symgen.compiling.events import compile_events, masses_of
 from symgen.describe.events import RESET
 from symgen.errors import InputError
@@ -41,7 +40,7 @@ if TYPE_CHECKING:
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.outcome import Outcome
     from symgen.runtime.start_records import Instant
-    from symgen.runtime.tree_start import Carrying
+    from symgen.runtime.tree_start import Carried
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -62,8 +61,8 @@ class SingleRuns:
         In the bodies' own coordinates, which starts are closed in.
     measures : Measures or None
         How what no loop leaves is worked out.
-    tree : (Mechanism, CompiledModel) or None
-        What is run where it is the tree of joints.
+    tree : (Mechanism, Carried) or None
+        The mechanism with its tree, and starts of bodies as those of the tree, where runs are in joint coordinates.
     """
 
     recipe: Recipe
@@ -71,13 +70,15 @@ class SingleRuns:
     compiled: CompiledModel
     integrator: Integrator
     measures: Measures | None
-    tree: tuple[Mechanism, CompiledModel] | None = None
+    tree: tuple[Mechanism, Carried] | None = None
     _lock: threading.Lock = field(default_factory=threading.Lock)
     _warm: bool = False
 
     @property
     def _run_of(self) -> tuple[Mechanism, CompiledModel]:
-        return (self.watch.mechanism, self.compiled) if self.tree is None else self.tree
+        if self.tree is None:
+            return self.watch.mechanism, self.compiled
+        return self.tree[0], self.tree[1].assembly.compiled
 
     def _events_of(self, mechanism: Mechanism, compiled: CompiledModel) -> Watched | None:
         values = {q.name: q.value for q in self.watch.mechanism.parameters}
@@ -92,11 +93,6 @@ class SingleRuns:
     def _of_bodies(self) -> Watched | None:
         """The events as bodies have them, where the tree of joints is run."""
         return self._events_of(self.watch.mechanism, self.compiled)
-
-    @cached_property
-    def _carrying(self) -> Carrying:
-        assert self.tree is not None, "the tree of joints is run"
-        return carrying_of(self.watch.mechanism, self.tree[0], self.compiled, self.tree[1])
 
     def run(self, rows: Rows, starts: Instant, selected: Integers, out: Results, control: Integers) -> bool:
         """Run selected rows from consistent starts; return whether all are done.
@@ -130,10 +126,7 @@ class SingleRuns:
         if self.tree is None:
             return start
         return begin_on_tree(
-            *(self.watch.mechanism, *self.tree, self.compiled, start),
-            method_parameters=self.recipe.method_parameters,
-            events=self.watch.events,
-            carrying=self._carrying,
+            *(self.watch.mechanism, *self.tree, start, self.recipe.method_parameters, self.watch.events),
             watched=lambda: self._of_bodies,
         )
 

@@ -121,7 +121,7 @@ def test_rows_with_resets_share_what_is_the_same_for_all(monkeypatch):
     calls = []
     for module, name in (
         *((module, "compile_events") for module in (singly, events)),
-        *((module, "carrying_of") for module in (singly, tree)),
+        (tree, "carrying_of"),
     ):
         original = getattr(module, name)
 

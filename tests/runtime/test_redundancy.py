@@ -13,14 +13,12 @@ import symgen
 from benchmarks.plain.motion import integrate
 from benchmarks.plain.system import read
 from symgen.api import Model
-from symgen.compiling.carrying import carrying_of
 from symgen.describe import MechanismBuilder
 from symgen.running.prepare import prepare
-from symgen.runtime.assembler import Assembly
+from symgen.running.tree import carried_of
 from symgen.runtime.exact import plain_form
 from symgen.runtime.redundancy import choose_rows
 from symgen.runtime.start_records import Instant
-from symgen.runtime.tree_start import Carried
 from symgen.settings import Settings
 from tests.verification.running import DEFECTS, off, raw, reference
 
@@ -97,8 +95,7 @@ def test_rows_of_which_rounding_is_left_stand_for_none() -> None:
     model = symgen.load(DEFECTS / "flat_loop.toml")
     run = prepare(model.mechanism, settings).tree
     compiled, start = run.compiled, run.start
-    carrying = carrying_of(run.whole, run.mechanism, run.bodies, compiled)
-    carried, bodies = Carried(run.bodies, Assembly(compiled), carrying), run.body_start
+    carried, bodies = carried_of(run.whole, run.mechanism, run.bodies, compiled), run.body_start
     rng = np.random.default_rng(5)
     for _ in range(100):  # as other processors may round
         y, nq, w = bodies.y.copy(), run.bodies.info.nq, compiled.scratch()
