@@ -63,7 +63,7 @@ def device_of(model: str, name: str, settings: Settings) -> DeviceRuns:
     """Return the kernel that would run a model, not compiled."""
     loaded = symgen.load(model)
     value = loaded.parameters({}).get(name, 1.0)
-    found = kernel_of(make_ensemble(loaded, settings, {name: [value]}, {}, None, "cuda").recipe).first.device
+    found = kernel_of(make_ensemble(loaded, settings, {name: [value]}, {}, None, "cuda").recipe).first.runs
     assert found is not None, "the target is cuda"
     return found
 

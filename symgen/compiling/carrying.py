@@ -31,13 +31,11 @@ def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel,
         return np.array(list(found), dtype=np.int64)
 
     return Carrying(
-        *(0, own.work, max(info.observed, info.nq + 2 * info.nv)),
+        *(own.work, max(info.observed, info.nq + 2 * info.nv)),
         places=integers(x for name, _ in (*names, *speeds) for x in known[name]),
         windings=integers(turned[m] for m in winding_order(carried, "straight")),
         gauges=integers(-1 if j is None else gauge + j for j in _levers(carried, info)),
         spins=integers(first for first, _ in info.spins),
-        dependent=integers(()),
-        alike=np.zeros(0),
     )
 
 

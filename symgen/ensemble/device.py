@@ -22,10 +22,13 @@ from symgen.runtime.blocks import padded
 from symgen.runtime.new_state import metric_of, share_of, sizes_of
 
 if TYPE_CHECKING:
+    from symgen.ensemble.chunks import Results
+    from symgen.ensemble.starts import Rows
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.device import Need
     from symgen.runtime.integrator import Setup
     from symgen.runtime.records import Span, Tableau
+    from symgen.runtime.start_records import Instant
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -231,41 +234,29 @@ class DeviceRuns:
             raise SimulationError(f"the CUDA device has too little free memory: runs need {needed / 1e9:.3g} GB")
         return most
 
-    def run(
-        self, ys: Array, ps: Array, ws: Array, selected: Integers, values: Array, summary: Array, control: Integers
-    ) -> int:
-        """Run the selected rows from their starts.
+    def run(self, rows: Rows, starts: Instant, selected: Integers, out: Results, control: Integers) -> bool:
+        """Run selected rows; return whether all are done. Between launches the flag that stops is looked at.
 
         Parameters
         ----------
-        ys, ps, ws : Array, shapes (k, ny), (k, np), (k, nw)
-            Starts, parameters and scratch, as `symgen.runtime.starting.close_runs` left them.
-        selected : Array of int
-            Rows to run.
-        values, summary : Array, shapes (k, quantities, times), (k, N_SUMMARY)
-            Results; rows of `summary` are completed.
-        control : Array of int
-            As for `symgen.ensemble.kernel.Kernel.run`: between launches its flag is looked at, and runs are counted.
-
-        Returns
-        -------
-        int
-            How many of the selected rows are done: all of them, unless it was stopped.
+        rows, starts, selected, out, control
+            As for `symgen.ensemble.loops.LoopRuns.run`.
 
         Raises
         ------
         SimulationError
             If the device reports an error, or has too little memory.
         """
+        (ys, ps, ws), values, summary = starts, out.values, out.summary
         with _lock, _reported():
             most = self._most()
             for first in range(0, len(selected), most):
                 if control[abi.STOP] != 0:
-                    return first
-                rows = selected[first : first + most]
-                values[rows], summary[rows] = self._launch(ys[rows], ps[rows], ws[rows], summary[rows])
-                control[e.RUNS_DONE] += len(rows)
-        return len(selected)
+                    return False
+                part = selected[first : first + most]
+                values[part], summary[part] = self._launch(ys[part], ps[part], ws[part], summary[part])
+                control[e.RUNS_DONE] += len(part)
+        return True
 
     def compile(self) -> None:
         """Compile the kernel, and bring what all runs share to the device.
@@ -282,7 +273,8 @@ class DeviceRuns:
         """Run rows that fit into the device's memory; return their quantities and numbers."""
         from numba import cuda
 
-        from symgen.runtime.device import Results, Starts, simulated
+        from symgen.runtime.device import Results as DeviceResults
+        from symgen.runtime.device import Starts, simulated
 
         k = len(ys)
         inputs = [cuda.to_device(np.ascontiguousarray(array.T)) for array in (ys, ps, ws)]
@@ -296,7 +288,7 @@ class DeviceRuns:
             else:  # few runs leave the device idle, which is no fault
                 warnings.filterwarnings("ignore", message=".*Grid size.*")
             scheme, *shared = self._on_device
-            arguments = scheme, self.sizes, self.span, Starts(*inputs, *shared), Results(*outputs)
+            arguments = scheme, self.sizes, self.span, Starts(*inputs, *shared), DeviceResults(*outputs)
             self._kernel[-(-k // block), block](*arguments)
             values, numbers = outputs[-2].copy_to_host(), outputs[-1].copy_to_host()
         asked = self.quantities * self.times

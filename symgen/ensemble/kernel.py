@@ -5,61 +5,56 @@ from __future__ import annotations
 import threading
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.events import compile_events
 from symgen.ensemble.chunks import Chunk, Results
-from symgen.ensemble.lanes import run_in_lanes
+from symgen.ensemble.device import DeviceRuns, need_of
+from symgen.ensemble.loops import LoopRuns
 from symgen.ensemble.recipe import Code, Recipe
+from symgen.ensemble.tree_rows import TreeRuns, picks_on_tree
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
-from symgen.runtime import abi
+from symgen.running.tree import carried_of
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembler import Assembly
 from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.held import Held
-from symgen.runtime.integrator import Integrator, Setup
+from symgen.runtime.integrator import Integrator
 from symgen.runtime.model_arrays import joints_of
-from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
-from symgen.runtime.probe import rates_of
+from symgen.runtime.new_state import span_of
 from symgen.runtime.run import RunSpec
 from symgen.runtime.start_records import Asked, Instant
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.ensemble.device import DeviceRuns
     from symgen.ensemble.measures import Measures
-    from symgen.ensemble.singly import SingleRuns
     from symgen.ensemble.starts import Rows
-    from symgen.ensemble.tree_rows import TreeRows
     from symgen.runtime.compiled import ModelInfo
     from symgen.runtime.events import Watched
-    from symgen.runtime.records import Kept
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
-@dataclass
+class Runs(Protocol):
+    """What runs rows from consistent starts: a loop, a loop over rows of a tree, a device, or one run after another."""
+
+    def run(self, rows: Rows, starts: Instant, selected: Integers, out: Results, control: Integers) -> bool:
+        """Run selected rows; return whether all are done."""
+
+
+@dataclass(frozen=True)
 class _Prepared:
-    """A compiled model with the arrays that describe it to the loops, and what else there is of its law."""
+    """A compiled model of bodies with its start, its parameters but for those of rows, and what runs it."""
 
     compiled: CompiledModel
     assembly: Assembly
     p: Array
-    setup: Setup
-    measures: Measures | None = None
-    device: DeviceRuns | None = None
-    lanes: CompiledModel | None = None
-    single: SingleRuns | None = None
-    tree: TreeRows | None = None
-    on_tree: _Prepared | None = None
-    picks: Integers | None = None
-    width: int | None = None
-    watched: Watched | None = None
+    runs: Runs
+    measures: Measures | None
 
 
 @dataclass
@@ -101,12 +96,13 @@ class Kernel:
         with self._lock:
             if self._warm:
                 return
-            info = self.first.compiled.info
-            sizes = len(info.parameters), info.nq, info.nv, len(self.recipe.held) + len(self.recipe.joints)
-            parameters, q, v, targets = (np.zeros((0, size)) for size in sizes)
-            self.run(Rows(parameters, q, v, targets), new_control())
-            if self.first.device is not None:
-                self.first.device.compile()
+            info, held = self.first.compiled.info, self.recipe.held
+            targets = sum(map(len, (held.coordinates, held.joints, held.rates)))
+            sizes = len(info.parameters), info.nq, info.nv, targets
+            parameters, q, v, values = (np.zeros((0, size)) for size in sizes)
+            self.run(Rows(parameters, q, v, values), new_control())
+            if isinstance(self.first.runs, DeviceRuns):
+                self.first.runs.compile()
             self._warm = True
 
     def run(self, rows: Rows, control: Integers) -> Chunk:
@@ -152,15 +148,7 @@ class Kernel:
         if model is self.first and recipe.spare is not None:
             ready &= out.summary[selected, e.LIGHT] == 0.0
         selected = selected[ready]
-        if model.tree is not None and model.on_tree is not None:
-            starts, apart, alike = model.tree.settle(now, selected, control)
-            plain, selected = model.tree.upright(selected[apart], alike, out.summary), selected[~apart]
-            if not self._advance(model.on_tree, rows, starts, plain, out, control):
-                return False
-            model.tree.turn(recipe.quantities, plain, alike, out.values)
-        if model.single is not None:
-            return model.single.run(rows, now, selected, out, control)
-        if not self._advance(model, rows, now, selected, out, control):
+        if not model.runs.run(rows, now, selected, out, control):
             return False
         redundant = selected[out.summary[selected, e.REDUNDANT_ROWS] > 0.0]
         for i in (i for i, q in enumerate(recipe.columns) if q.source == e.MULTIPLIER):  # they are not unique then
@@ -180,125 +168,43 @@ class Kernel:
             rows = closed[side.cosine(q) < 0.0]
             summary[rows, e.START], summary[rows, e.START_WHERE] = e.HALF_TURN, joints.index(side.joint)
 
-    def _advance(
-        self, model: _Prepared, rows: Rows, now: Instant, selected: Integers, out: Results, control: Integers
-    ) -> bool:
-        """Run selected rows from their starts, parameters and scratch; return whether all are done."""
-        from symgen.runtime.records import Chunk as ChunkRecord
-        from symgen.runtime.redundancy import room_of_choice
-        from symgen.runtime.rows import observe_nothing
-
-        info, law, recipe, summary = model.compiled.info, model.compiled.law_module, self.recipe, out.summary
-        if model.device is not None:
-            return model.device.run(*now, selected, out.values, summary, control) == len(selected)
-        picked = recipe.picks if model.picks is None else model.picks
-        sources = {*picked[::2].tolist()}
-        observes = e.JOINT in sources
-        observe = model.compiled.model.observe if model.width is None else model.compiled.model.bodies
-        rates, seen = rates_of(law), observe if observes else observe_nothing
-        sizes, span, kept = sizes_of(model.compiled), span_of(recipe.spec, model.setup), self._kept(info, model.width)
-        needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if model.width is None else set())
-        ends = int(recipe.watch is not None and recipe.watch.ends)
-        wants = ends, int(bool(sources & needs)), int(observes)
-        picks = picked, out.values.reshape(-1), summary.reshape(-1), out.events.reshape(-1)
-        redundant = np.any(summary[selected, e.REDUNDANT_ROWS] > 0.0)
-        dense = np.zeros(room_of_choice(info.m, info.nv) if redundant else 0)
-        flat, places = (x.ravel() for x in now), (model.compiled.layout, dense)
-        chunk = ChunkRecord._make((selected, *flat, recipe.limits, *picks, *wants, *places))
-        room = max(model.setup.room, 2 * info.ny + kept.observed.rows.shape[1])
-        state = new_state(model.compiled, sizes, model.setup.memory, room)._replace(control=control)
-        if model.lanes is not None:
-            observed = sizes, *rates, law.accept, seen
-            if run_in_lanes(model.lanes, observed, model.setup.scheme, span, chunk, state, kept) < len(selected):
-                return False
-            chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
-        loop, system = self.integrator.rows(recipe.spec.adaptive), (sizes, *model.setup.functions)
-        if model.watched is not None:
-            from symgen.runtime.searching import decide
-
-            system = *system, model.watched.function, decide, rates[0]
-            state = model.watched.hunting_state(sizes, state)
-            if out.events.shape[1]:
-                out.events[selected] = np.nan
-                out.events[selected, e.HEAD_OF_EVENTS :: e.OF_EVENT] = 0.0
-        if model.watched is not None or recipe.stops:
-            from symgen.runtime.rows import variant
-
-            inner = self.integrator.loop(recipe.spec.adaptive)
-            loop = variant(loop, model.watched is not None, recipe.stops)
-        if recipe.stops:
-            from symgen.runtime.hunting import with_events
-            from symgen.runtime.stopping import with_table
-
-            inner = inner if model.watched is None else with_events(inner)
-            system = with_table(model.compiled, system, inner, recipe.spec.adaptive, rows.stops or ((),))
-        done = loop((system, (sizes, *rates, law.accept, seen)), model.setup.scheme, span, chunk, state, kept)
-        return bool(done == len(chunk.selected))
-
-    def _kept(self, info: ModelInfo, width: int | None) -> Kept:
-        """Return room for the outputs of one run, and for what is observed at them."""
-        from symgen.runtime.records import Kept, Observed
-
-        times = self.recipe.times
-        k, rows = len(times), info.observed if width is None else width
-        observed = Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), np.zeros((k, rows)))
-        return Kept(new_outputs(info, times), observed)
-
     def _prepare(self, code: Code) -> _Prepared:
         compiled, recipe = code.module.load(), self.recipe
-        other, info = None if code.other is None else code.other.load(), compiled.info
-        defaults = {q.name: 0.0 for q in info.parameters}
-        p = compiled.parameter_array(defaults, recipe.method_parameters)
-        setup = self.integrator.setup(compiled, recipe.spec, compiled.scratch())
-        joints = ({k: 0.0 for k, rate in recipe.joints if rate == of} for of in (0, 1))
-        held = Held(dict.fromkeys(recipe.held, 0.0), dict.fromkeys(recipe.kept, 0.0), recipe.fixed, *joints)
-        carried = None if recipe.tree is None or code.tree is None else (recipe.tree.mechanism, code.tree.load())
-        prepared = _Prepared(
-            compiled=compiled,
-            assembly=Assembly(compiled, held, recipe.strict, recipe.spare is not None),
-            p=p,
-            setup=setup,
-            measures=code.measures,
-            device=self._device_runs(other, setup) if other is not None and recipe.target == "cuda" else None,
-            lanes=other if recipe.target == "lanes" else None,
-        )
-        watch = recipe.watch
+        p = self._parameters(compiled)
+        assembly = Assembly(compiled, recipe.held, recipe.strict, recipe.spare is not None)
+        alone = recipe.watch is not None and recipe.watch.alone  # single runs work out all of it
+        return _Prepared(compiled, assembly, p, self._runs(code, compiled), None if alone else code.measures)
+
+    def _parameters(self, compiled: CompiledModel) -> Array:
+        return compiled.parameter_array({q.name: 0.0 for q in compiled.info.parameters}, self.recipe.method_parameters)
+
+    def _runs(self, code: Code, compiled: CompiledModel) -> Runs:
+        """Return what runs rows from starts of bodies."""
+        recipe, watch, integrator = self.recipe, self.recipe.watch, self.integrator
+        other, tree = (None if module is None else module.load() for module in (code.other, code.tree))
+        own, on_tree = tree or compiled, None
+        if watch is not None and recipe.tree is not None:
+            on_tree = recipe.tree, carried_of(watch.mechanism, recipe.tree, compiled, own)
         if watch is not None and watch.alone:
             from symgen.ensemble.singly import SingleRuns
 
-            prepared.single = SingleRuns(recipe, watch, compiled, self.integrator, carried)
-        elif watch is not None:
-            prepared.watched = self._watched(watch.mechanism, compiled)
-        if watch is not None and recipe.tree is not None and carried is not None and recipe.tree.plain:
-            from symgen.ensemble.tree_rows import TreeRows
-
-            values = carried[1].parameter_array(defaults, recipe.method_parameters)
-            prepared.tree = TreeRows.of(watch.mechanism, carried[0], compiled, carried[1], values)
-            prepared.on_tree = _Prepared(
-                compiled=carried[1],
-                assembly=Assembly(carried[1]),
-                p=values,
-                setup=self.integrator.setup(carried[1], recipe.spec, carried[1].scratch()),
-                picks=prepared.tree.picks(recipe.quantities),
-                width=prepared.tree.width,
-                watched=self._watched(*carried),
-            )
-        return prepared
+            return SingleRuns(recipe, watch, compiled, integrator, code.measures, on_tree)
+        setup = integrator.setup(own, recipe.spec, own.scratch())
+        if other is not None and recipe.target == "cuda":
+            need, span = need_of(other, setup, recipe.spec.adaptive, recipe.sources), span_of(recipe.spec, setup)
+            return DeviceRuns(other, need, setup.scheme, span, recipe.limits, recipe.times, recipe.picks)
+        watched = None if watch is None else self._watched(recipe.tree or watch.mechanism, own)
+        if on_tree is None:
+            return LoopRuns(recipe, compiled, integrator, setup, recipe.picks, watched, other)
+        info, picks = compiled.info, picks_on_tree(recipe.quantities, compiled.info, own.info)
+        loop = LoopRuns(recipe, own, integrator, setup, picks, watched, width=info.nq + 2 * info.nv)
+        return TreeRuns(on_tree[1], self._parameters(own), loop)
 
     def _watched(self, mechanism: Mechanism, compiled: CompiledModel) -> Watched | None:
         """Return the switching functions of rows, None where there are none."""
         watch, spec = self.recipe.watch, self.recipe.spec
         assert watch is not None, "rows look for something"
         return compile_events(mechanism, compiled, watch.events, {}, spec.rtol if spec.adaptive else None)
-
-    def _device_runs(self, compiled: CompiledModel, setup: Setup) -> DeviceRuns:
-        from symgen.ensemble.device import DeviceRuns, need_of
-
-        recipe = self.recipe
-        need = need_of(compiled, setup, recipe.spec.adaptive, recipe.sources)
-        return DeviceRuns(
-            compiled, need, setup.scheme, span_of(recipe.spec, setup), recipe.limits, recipe.times, recipe.picks
-        )
 
 
 def integrator_of_rows(name: str, spec: RunSpec) -> Integrator:

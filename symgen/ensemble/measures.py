@@ -220,20 +220,6 @@ class Measures:
         return {_REACTIONS[name]: table.values for name, table in tables.items()}
 
 
-def formulas_of(mechanism: Mechanism, chosen: Sequence[Quantity]) -> list[tuple[str, Expr]]:
-    """Return the quantities that are formulas of a run, and these.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        What is run.
-    chosen : sequence of Quantity
-        All that is kept.
-    """
-    known = {PREFIX[table] + c.name: c.formula for table, columns in TABLES.items() for c in columns(mechanism)}
-    return [(q.name, known[q.name]) for q in chosen if q.source == e.SIDE]
-
-
 def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequence[Quantity]) -> Measures | None:
     """Return how the quantities that no loop leaves are worked out beside a compiled model, None where there are none.
 
@@ -254,7 +240,8 @@ def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequenc
     if all(q.source < e.SIDE for q in chosen):
         return None
     info = compiled.info
-    formulas = formulas_of(mechanism, chosen)
+    known = {PREFIX[table] + c.name: c.formula for table, columns in TABLES.items() for c in columns(mechanism)}
+    formulas = [(q.name, known[q.name]) for q in chosen if q.source == e.SIDE]
     joints = _places(mechanism, formulas) if any(q.source > e.SIDE for q in chosen) else {}
     side = compile_side(mechanism, compiled, NAME, PURPOSE, formulas)
     reads = [(Quantity(f"y{i}", "", e.STATE, i), e.OF_Y, i) for i in range(info.ny)]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from symgen.describe.holds import ORIENTATION, joint_names
 from symgen.errors import InputError, nearest
+from symgen.runtime.held import Held
 from symgen.runtime.model_arrays import velocity_of
 
 if TYPE_CHECKING:
@@ -96,30 +97,28 @@ class Names:
 
 
 @dataclass(frozen=True)
-class Held:
-    """What the starts of all runs hold, by index.
+class Targets:
+    """What the starts of all runs hold.
 
     Attributes
     ----------
-    coordinates, velocities : mapping of str to int
-        Those that vary or have values of their own, with their index in q and v.
-    joints : mapping of str to (int, int)
-        Joint coordinates that do, with their index and 0, then rates with the index and 1.
-    kept, fixed : tuple of int
-        Velocities that are not projected, and velocities whose coordinates stay as they are described.
+    held : Held
+        By index, with values of 0: those of rows stand in `Rows.targets`.
+    names : tuple of str
+        Names of those values, in the order of `Rows.targets`: coordinates, then joint coordinates, then their rates.
+    velocities : mapping of str to int
+        Velocities that vary or have values of their own, with their index.
     constant : mapping of str to Expr
         Values of those that do not vary.
     """
 
-    coordinates: Mapping[str, int]
+    held: Held
+    names: tuple[str, ...]
     velocities: Mapping[str, int]
-    joints: Mapping[str, tuple[int, int]]
-    kept: tuple[int, ...]
-    fixed: tuple[int, ...]
     constant: Mapping[str, Expr]
 
 
-def held_of(names: Names, varied: Sequence[str], holds: Sequence[Hold], info: ModelInfo) -> Held:
+def targets_of(names: Names, varied: Sequence[str], holds: Sequence[Hold], info: ModelInfo) -> Targets:
     """Return what starts hold.
 
     Parameters
@@ -138,18 +137,21 @@ def held_of(names: Names, varied: Sequence[str], holds: Sequence[Hold], info: Mo
     constant = {hold.name: hold.value for hold in others if hold.value is not None}
     places = [hold.name for hold in others if hold.value is None and hold.name not in names.velocities]
     asked = {name: names.one(name) for name in (*varied, *constant)}
-    joints = {quantity.name: k for k, quantity in enumerate(info.joint_coordinates)}
-    rates = {f"{name}.rate": k for name, k in joints.items()}
-    at = {name: (joints[one], 0) for name, one in asked.items() if one in joints}
-    at |= {name: (rates[one], 1) for name, one in asked.items() if one in rates}
-    return Held(
-        coordinates={name: names.coordinates.index(one) for name, one in asked.items() if one in names.coordinates},
-        velocities={name: names.velocities.index(one) for name, one in asked.items() if one in names.velocities},
-        joints=at,
-        kept=tuple(names.velocities.index(hold.name) for hold in others if hold.name in names.velocities),
+
+    def among(known: Sequence[str]) -> dict[str, int]:
+        return {name: known.index(one) for name, one in asked.items() if one in known}
+
+    joints = [quantity.name for quantity in info.joint_coordinates]
+    coordinates, turned, rates = map(among, (names.coordinates, joints, [f"{name}.rate" for name in joints]))
+    kept = [names.velocities.index(hold.name) for hold in others if hold.name in names.velocities]
+    held = Held(
+        coordinates=dict.fromkeys(coordinates.values(), 0.0),
+        velocities=dict.fromkeys(kept, 0.0),
         fixed=tuple(sorted({j for name in places for j in _columns(name, info)})),
-        constant=constant,
+        joints=dict.fromkeys(turned.values(), 0.0),
+        rates=dict.fromkeys(rates.values(), 0.0),
     )
+    return Targets(held, (*coordinates, *turned, *rates), among(names.velocities), constant)
 
 
 def _columns(name: str, info: ModelInfo) -> tuple[int, ...]:

@@ -13,7 +13,8 @@ from msgspec import structs
 from numpy.typing import ArrayLike
 
 from symgen.compiling.choose_shape import LARGEST_STRAIGHT
-from symgen.compiling.integrals import can_integrate
+from symgen.compiling.choose_tree import on_tree
+from symgen.compiling.integrals import can_integrate, with_integrals
 from symgen.compiling.pipeline import compile_model
 from symgen.describe.derived import derived
 from symgen.describe.digest import identity
@@ -24,17 +25,17 @@ from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.driving import Driving, read_by_motions
 from symgen.ensemble.kernel import integrator_of_rows, kernel_of
 from symgen.ensemble.lanes import check_lanes
-from symgen.ensemble.made import Made
-from symgen.ensemble.measures import integrated, measurable
-from symgen.ensemble.names import Held, Names, held_of
+from symgen.ensemble.measures import integrated, make_measures, measurable
+from symgen.ensemble.names import Names, Targets, targets_of
 from symgen.ensemble.quantities import choose_quantities
-from symgen.ensemble.recipe import Recipe, Watch, code_identity
+from symgen.ensemble.recipe import Code, Module, Recipe, Watch, code_identity
 from symgen.ensemble.starts import Rows, make_rows
 from symgen.ensemble.tree_rows import are_plain
 from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import make_plan
+from symgen.running.tree import tree_code
 from symgen.runtime.ensemble_abi import SIDE
 from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.stops import Foreseen, foreseen
@@ -42,7 +43,9 @@ from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.api import Model
+    from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Event, Mechanism
+    from symgen.ensemble.quantities import Quantity
     from symgen.runtime.compiled import CompiledModel
 
 #: A chunk should take about so many seconds, and its arrays no more than so many bytes.
@@ -68,7 +71,7 @@ class Ensemble:
         Its law; compiled when it is first run.
     grid : Grid
         What varies.
-    held : Held
+    targets : Targets
         What the starts of all runs hold.
     recipe : Recipe
         What a run is apart from its row.
@@ -85,7 +88,7 @@ class Ensemble:
     plan: Plan
     compiled: CompiledModel
     grid: Grid
-    held: Held
+    targets: Targets
     recipe: Recipe
     driving: Driving
     warnings: tuple[str, ...] = ()
@@ -126,8 +129,7 @@ class Ensemble:
         evaluations = spec.until * _EVALUATIONS
         if not spec.adaptive and spec.step is not None:
             evaluations = stages * spec.until / spec.step
-        tree, watch = self.recipe.tree, self.recipe.watch
-        overhead = 5e-4 if watch is not None and watch.alone and not (tree is not None and tree.plain) else 2e-5
+        overhead = 5e-4 if self.recipe.watch is not None and self.recipe.watch.alone else 2e-5
         seconds = overhead + _OPERATION * evaluations * sum(law.operations.get(name, 0) for name in ("rhs", "accept"))
         numbers = law.nw + 4 * info.ny + 100 + len(self.recipe.columns) * len(spec.times)
         if self.target == "cuda":  # a device wants tens of thousands of runs at once, whatever they take
@@ -142,10 +144,9 @@ class Ensemble:
 
     def settled(self, first: int, last: int) -> Rows:
         """Return the same without the stops of runs."""
-        varied, held = self.grid.values(first, last), self.held
-        settled = self.settings.parameters
-        places = held.coordinates, held.velocities, tuple(held.joints)
-        return make_rows(self.model.mechanism, self.parameters, varied, *places, settled, held.constant)
+        varied, targets, settled = self.grid.values(first, last), self.targets, self.settings.parameters
+        held = targets.names, targets.velocities, settled, targets.constant
+        return make_rows(self.model.mechanism, self.parameters, varied, *held)
 
     @cached_property
     def description(self) -> dict[str, Any]:
@@ -161,7 +162,7 @@ class Ensemble:
             "mechanism": identity(self.model.mechanism),
             "varied": found.hexdigest(),
             "parameters": self.parameters,
-            "start": {name: repr(value) for name, value in self.held.constant.items()},
+            "start": {name: repr(value) for name, value in self.targets.constant.items()},
             **({"inputs": driven} if (driven := self.driving.described) else {}),
             "recipe": self.recipe.digest,
             "code": self.recipe.code,
@@ -226,7 +227,7 @@ def make_ensemble(
     driving = Driving(plan.inputs, grid.names, spec.until, known if spec.adaptive else None, moving)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)
-    held = held_of(names, grid.names, plan.holds, compiled.info)
+    targets = targets_of(names, grid.names, plan.holds, compiled.info)
     if target != "cpu":
         inputs, passed = replace(driving, foreseen=None).jumps, looks or driving.jumps
         _check_target(target, inputs, passed, bool(events))
@@ -243,27 +244,34 @@ def make_ensemble(
     # what Python does something between; and measures behind the loops know the inputs of one part
     measured = driving.changes and any(q.source >= SIDE for q in kept)
     parts = resets or late or measured
-    alone = parts or joint
-    watch = Watch(mechanism, events, ends, alone) if alone or events or looks else None
+    alone = parts or (joint and not are_plain(kept))
+    watch = Watch(mechanism, events, ends, alone) if parts or joint or events or looks else None
     # single runs add up all that outputs ask for, which their steps follow, too
     adds = integral is not None or (
         (watch is not None or (driving.jumps and spec.adaptive)) and can_integrate(compiled)
     )
-    made = Made(mechanism, compiled, plan, adds, () if alone else kept)
+
+    def with_sums(found: CompiledModel) -> CompiledModel:
+        return with_integrals(mechanism, found) if adds else found
+
+    compiled, spare = with_sums(compiled), None
+    if plan.solver_is_free:  # the few runs with light bodies are not worth lanes of their own
+        choice = plan.choice.given(solver="augmented")
+        other, where = with_sums(compile_model(mechanism, choice)), "cpu" if target == "lanes" else target
+        spare = _code(mechanism, choice, other, where, joint, kept)
     recipe = Recipe(
-        **made.codes(target, joint, not parts and are_plain(kept)),
+        first=_code(mechanism, plan.choice, compiled, target, joint, kept),
+        spare=spare,
         integrator=plan.integrator.name,
         spec=spec,
         method_parameters=dict(plan.method_parameters),
         quantities=kept,
-        held=tuple(held.coordinates.values()),
-        kept=held.kept,
-        fixed=held.fixed,
+        held=targets.held,
         strict=plan.settings.strict,
         code=code_identity(),
         target=target,
+        tree=on_tree(mechanism) if joint else None,
         watch=watch,
-        joints=tuple(held.joints.values()),
         sides=tuple(side for side in sides_of(mechanism) if side.held),
         stops=driving.jumps,
     )
@@ -276,13 +284,30 @@ def make_ensemble(
         model,
         plan.settings,
         plan,
-        made.first,
+        compiled,
         grid,
-        held,
+        targets,
         recipe,
         driving,
         warnings,
         (*plan.notes, *plan.bound, *notes),
+    )
+
+
+def _code(
+    mechanism: Mechanism,
+    choice: MethodChoice,
+    compiled: CompiledModel,
+    target: str,
+    joint: bool,
+    kept: Sequence[Quantity],
+) -> Code:
+    """Return what runs take of code for one solver, with how quantities behind the loops are worked out."""
+    return Code(
+        Module.of(compiled),
+        Module.of(compile_model(mechanism, choice, target=target)) if target != "cpu" else None,
+        Module.of(tree_code(mechanism, choice, compiled)[1]) if joint else None,
+        make_measures(mechanism, compiled, kept),
     )
 
 

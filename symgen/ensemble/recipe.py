@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
@@ -27,6 +27,7 @@ from symgen.ir.numerics import WARN
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.ensemble_abi import SIDE
+from symgen.runtime.held import Held
 from symgen.runtime.run import RunSpec
 from symgen.version import __version__
 
@@ -114,27 +115,6 @@ class Code:
 
 
 @dataclass(frozen=True)
-class Tree:
-    """What is run where the state is that of the joints of a tree.
-
-    Attributes
-    ----------
-    mechanism : Mechanism
-        With its tree.
-    plain : bool
-        Whether a loop over rows leaves all that is kept.
-    """
-
-    mechanism: Mechanism
-    plain: bool
-
-    @property
-    def described(self) -> list[Any]:
-        """What it is, as JSON can express it."""
-        return [identity(self.mechanism), self.plain]
-
-
-@dataclass(frozen=True)
 class Watch:
     """What rows look for beside their motion.
 
@@ -185,20 +165,16 @@ class Recipe:
         Values of the method's parameters that differ from the defaults.
     quantities : tuple of Quantity
         What is kept.
-    tree : Tree or None
-        What is run in joint coordinates.
+    tree : Mechanism or None
+        The mechanism with its tree, where runs are in joint coordinates.
     watch : Watch or None
         What rows look for beside their motion.
-    joints : tuple of (int, int)
-        Joint coordinates that rows hold, each with 1 where it is the rate that they hold.
     sides : tuple of Side
         Joints that may hold bodies the wrong way round.
     stops : bool
         Whether runs stop at times that rows bring along.
-    held : tuple of int
-        Coordinates that rows hold.
-    kept, fixed : tuple of int
-        Velocities that are not projected, and velocities whose coordinates stay as they are described.
+    held : Held
+        What rows hold; their values are their own.
     strict : bool
         Whether a start that has to be changed is refused.
     code : str
@@ -213,15 +189,12 @@ class Recipe:
     spec: RunSpec
     method_parameters: Mapping[str, float]
     quantities: tuple[Quantity, ...]
-    held: tuple[int, ...]
-    kept: tuple[int, ...]
-    fixed: tuple[int, ...]
+    held: Held
     strict: bool
     code: str
     target: str = "cpu"
-    tree: Tree | None = None
+    tree: Mechanism | None = None
     watch: Watch | None = None
-    joints: tuple[tuple[int, int], ...] = ()
     sides: tuple[Side, ...] = ()
     stops: bool = False
 
@@ -282,10 +255,11 @@ class Recipe:
         text = json.dumps(
             [
                 *(self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),
-                *(dict(self.method_parameters), [q.name for q in self.quantities], self.held, self.kept, self.fixed),
-                *(self.strict, self.code, self.joints, *([self.sides] if self.sides else [])),
+                *(dict(self.method_parameters), [q.name for q in self.quantities], asdict(self.held)),
+                *(self.strict, self.code, *([self.sides] if self.sides else [])),
                 *(["stops"] if self.stops else []),
-                *(x if x is None else x.described for x in (self.first, self.spare, self.tree, self.watch)),
+                *(x if x is None else x.described for x in (self.first, self.spare, self.watch)),
+                None if self.tree is None else identity(self.tree),
             ],
             sort_keys=True,
         )

@@ -9,21 +9,17 @@ of this module.
 from __future__ import annotations
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compiling.carrying import carrying_of
 from symgen.compiling.events import compile_events, masses_of
-from symgen.compiling.side import compile_side
 from symgen.describe.events import RESET
-from symgen.ensemble.measures import NAME, PURPOSE, formulas_of
 from symgen.errors import InputError
-from symgen.result.reactions import Forces, seats
 from symgen.running.tree import TreeRun, begin_on_tree
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
@@ -36,6 +32,7 @@ from symgen.runtime.simulation import Simulation
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.chunks import Results
+    from symgen.ensemble.measures import Measures
     from symgen.ensemble.recipe import Recipe, Watch
     from symgen.ensemble.starts import Rows
     from symgen.runtime.compiled import CompiledModel
@@ -43,7 +40,7 @@ if TYPE_CHECKING:
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.outcome import Outcome
     from symgen.runtime.start_records import Instant
-    from symgen.runtime.tree_start import Carrying
+    from symgen.runtime.tree_start import Carried
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -62,21 +59,26 @@ class SingleRuns:
         What the runs share.
     compiled : CompiledModel
         In the bodies' own coordinates, which starts are closed in.
-    tree : (Mechanism, CompiledModel) or None
-        What is run where it is the tree of joints.
+    measures : Measures or None
+        How what no loop leaves is worked out.
+    tree : (Mechanism, Carried) or None
+        The mechanism with its tree, and starts of bodies as those of the tree, where runs are in joint coordinates.
     """
 
     recipe: Recipe
     watch: Watch
     compiled: CompiledModel
     integrator: Integrator
-    tree: tuple[Mechanism, CompiledModel] | None = None
+    measures: Measures | None
+    tree: tuple[Mechanism, Carried] | None = None
     _lock: threading.Lock = field(default_factory=threading.Lock)
     _warm: bool = False
 
     @property
     def _run_of(self) -> tuple[Mechanism, CompiledModel]:
-        return (self.watch.mechanism, self.compiled) if self.tree is None else self.tree
+        if self.tree is None:
+            return self.watch.mechanism, self.compiled
+        return self.tree[0], self.tree[1].assembly.compiled
 
     def _events_of(self, mechanism: Mechanism, compiled: CompiledModel) -> Watched | None:
         values = {q.name: q.value for q in self.watch.mechanism.parameters}
@@ -91,18 +93,6 @@ class SingleRuns:
     def _of_bodies(self) -> Watched | None:
         """The events as bodies have them, where the tree of joints is run."""
         return self._events_of(self.watch.mechanism, self.compiled)
-
-    @cached_property
-    def _carrying(self) -> Carrying:
-        assert self.tree is not None, "the tree of joints is run"
-        return carrying_of(self.watch.mechanism, self.tree[0], self.compiled, self.tree[1])
-
-    @cached_property
-    def _formulas(self) -> tuple[list[str], Any]:
-        """Quantities that are formulas of a run, and the compiled function of them."""
-        mechanism = self.watch.mechanism
-        formulas = formulas_of(mechanism, self.recipe.quantities)
-        return [name for name, _ in formulas], compile_side(mechanism, self.compiled, NAME, PURPOSE, formulas)
 
     def run(self, rows: Rows, starts: Instant, selected: Integers, out: Results, control: Integers) -> bool:
         """Run selected rows from consistent starts; return whether all are done.
@@ -136,10 +126,7 @@ class SingleRuns:
         if self.tree is None:
             return start
         return begin_on_tree(
-            *(self.watch.mechanism, *self.tree, self.compiled, start),
-            method_parameters=self.recipe.method_parameters,
-            events=self.watch.events,
-            carrying=self._carrying,
+            *(self.watch.mechanism, *self.tree, start, self.recipe.method_parameters, self.watch.events),
             watched=lambda: self._of_bodies,
         )
 
@@ -167,10 +154,13 @@ class SingleRuns:
         note_events(out.events[r], outcome, code)
         count = int(simulation.state.control[abi.OUTPUTS])
         shown = outcome if tree is None else tree.carried(outcome)
-        if self.watch.ends and len(shown.times) > count:
-            out.values[r, :, 0] = self._quantities(r, rows, shown, out)[-1]
-        elif count:
-            out.values[r, :, :count] = self._quantities(r, rows, shown, out)[:count].T
+        late = self.watch.ends and len(shown.times) > count  # an event has ended it
+        kept = slice(-1, None) if late else slice(count)
+        seen = self._columns(shown, out.summary[r, e.REDUNDANT_ROWS] == 0.0)
+        size = seen[:, kept].shape[1]
+        out.values[r, :, :size] = seen[:, kept]
+        if self.measures is not None and size:
+            out.behind[r, :, :size] = self._behind(self.measures, shown, seen)[:, kept]
         return True
 
     def _events(self, rows: Rows, r: int) -> Watched | None:
@@ -183,40 +173,39 @@ class SingleRuns:
         names = (q.name for q in self.compiled.info.parameters)
         return {name: float(x) for name, x in zip(names, rows.parameters[r], strict=True)}
 
-    def _quantities(self, r: int, rows: Rows, outcome: Outcome, out: Results) -> Array:
-        """Return what is kept of a run at its outputs, shape (outputs, quantities)."""
-        info, found = self.compiled.info, np.full((len(outcome.times), len(self.recipe.quantities)), np.nan)
-        sources = {q.source for q in self.recipe.quantities}
-        unique = out.summary[r, e.REDUNDANT_ROWS] == 0.0
+    def _columns(self, outcome: Outcome, unique: bool) -> Array:
+        """Return what loops would leave of a run at its outputs, shape (columns, outputs).
+
+        Parameters
+        ----------
+        outcome : Outcome
+            The run.
+        unique : bool
+            Whether no rows depend on others, whose multipliers would be any.
+        """
         kinetic, potential = outcome.status_columns[:, abi.KINETIC], outcome.status_columns[:, abi.POTENTIAL]
-        columns: dict[int, Any] = {
+        work = outcome.states[:, self.compiled.info.work]
+        columns: dict[int, Callable[[], Array]] = {
             e.STATE: lambda: outcome.states,
             e.STATUS: lambda: outcome.status_columns,
             e.ENERGY: lambda: (kinetic + potential)[:, np.newaxis],
-            e.ENERGY_ERROR: lambda: (kinetic + potential - outcome.energy_start - outcome.states[:, info.work])[
-                :, np.newaxis
-            ],
+            e.ENERGY_ERROR: lambda: (kinetic + potential - outcome.energy_start - work)[:, np.newaxis],
             e.ACCELERATION: lambda: outcome.accelerations,
+            e.MULTIPLIER: lambda: outcome.multipliers if unique else np.full_like(outcome.multipliers, np.nan),
             e.JOINT: lambda: outcome.joint_coordinates,
         }
+        tables = {source: columns[source]() for source in self.recipe.sources}
+        found = [tables[q.source][:, q.column] for q in self.recipe.columns]
+        return np.array(found).reshape(len(found), len(outcome.times))
 
-        def multipliers() -> Array:  # those of dependent rows are not unique
-            return outcome.multipliers if unique else np.full((len(outcome.times), info.m), np.nan)
-
-        columns[e.MULTIPLIER] = multipliers
-        names, side = self._formulas if e.SIDE in sources else ([], None)
-        if side is not None:
-            columns[e.SIDE] = lambda: outcome.observed(side.function, len(names), multipliers())
-        forces = Forces(outcome, {})
-        if any(source > e.SIDE for source in sources):
-            forces = Forces(outcome, seats(self.watch.mechanism, self._values(rows, r)))
-            acting = forces.reactions(replace(forces.multipliers(), values=multipliers()))
-            columns[e.REACTION] = lambda: acting.values
-            columns[e.BODY_REACTION] = lambda: forces.in_body_axes(acting).values
-            columns[e.MAGNITUDE] = lambda: forces.magnitudes(acting).values
-        known = {source: columns[source]() for source in sources}
-        for i, q in enumerate(self.recipe.quantities):
-            found[:, i] = known[q.source][:, names.index(q.name) if q.source == e.SIDE else q.column]
+    def _behind(self, measures: Measures, outcome: Outcome, seen: Array) -> Array:
+        """Return what is worked out behind loops, shape (quantities, outputs), with the parameters of each part."""
+        asked, one = self.recipe.behind, np.zeros(1, dtype=np.int64)
+        found = np.empty((len(asked), len(outcome.times)))
+        for first, last, p in outcome.parameters:
+            part = np.ascontiguousarray(seen[np.newaxis, :, first:last])
+            given = outcome.times[first:last], one, part, p[np.newaxis], outcome.w[np.newaxis].copy()
+            found[:, first:last] = measures.work_out(self.compiled, asked, *given)[0]
         return found
 
 

@@ -59,9 +59,8 @@ def make_rows(
     mechanism: Mechanism,
     base: Mapping[str, float],
     varied: Mapping[str, Array],
-    held: Mapping[str, int],
+    held: Sequence[str],
     given: Mapping[str, int],
-    joints: Sequence[str] = (),
     settled: Iterable[str] = (),
     constant: Mapping[str, Expr] | None = None,
 ) -> Rows:
@@ -75,10 +74,10 @@ def make_rows(
         Values of all parameters, before any varies.
     varied : mapping of str to Array, shape (k,)
         Values of all names that vary.
-    held, given : mapping of str to int
-        Coordinates that vary, in the order of `Rows.targets`, and velocities that vary, each with its index.
-    joints : sequence of str
-        Names of joint coordinates and rates that are held, in the same order.
+    held : sequence of str
+        Coordinates, joint coordinates and rates of these that are held, in the order of `Rows.targets`.
+    given : mapping of str to int
+        Velocities that vary, each with its index.
     settled : iterable of str
         Parameters that have numbers in place of their formulas.
     constant : mapping of str to Expr, optional
@@ -99,7 +98,7 @@ def make_rows(
     chosen = {**varied, **{name: np.full(k, numbers.value(e)) for name, e in (constant or {}).items()}}
     for name, index in given.items():
         v[:, index] = chosen[name]
-    targets = np.zeros((k, len(held) + len(joints)))
-    for i, name in enumerate((*held, *joints)):
+    targets = np.zeros((k, len(held)))
+    for i, name in enumerate(held):
         targets[:, i] = chosen[name]
     return Rows(parameters, q, v, targets)

@@ -1,7 +1,7 @@
 """Rows of an ensemble in joint coordinates: starts of bodies carried to the tree, and its motion back, in loops.
 
-What single runs do in `symgen.running.tree`. Rows whose start has dependent rows of loops, and
-quantities beside coordinates, velocities and energies, are left to `symgen.ensemble.singly`.
+What single runs do in `symgen.running.tree`. Quantities beside coordinates, velocities and energies are left to
+`symgen.ensemble.singly`.
 """
 
 from __future__ import annotations
@@ -13,17 +13,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compiling.carrying import carrying_of
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.exact import compiled_form
 from symgen.runtime.start_records import Instant
-from symgen.runtime.starting import prepare_rows
-from symgen.runtime.tree_start import TURNED_OVER, Carrying, settle_rows
+from symgen.runtime.tree_start import TURNED_OVER, Carried
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Mechanism
+    from symgen.ensemble.chunks import Results
+    from symgen.ensemble.loops import LoopRuns
     from symgen.ensemble.quantities import Quantity
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.ensemble.starts import Rows
+    from symgen.runtime.compiled import ModelInfo
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -37,121 +36,64 @@ def are_plain(quantities: Sequence[Quantity]) -> bool:
     return {q.source for q in quantities} <= _PLAIN
 
 
+def picks_on_tree(quantities: Sequence[Quantity], info: ModelInfo, own: ModelInfo) -> Integers:
+    """Return (source, column) of each quantity in what the loop of the tree leaves, flat.
+
+    Parameters
+    ----------
+    quantities : sequence of Quantity
+        What is kept.
+    info, own : ModelInfo
+        Of bodies, and of the tree.
+    """
+    found = list[tuple[int, int]]()
+    for q in quantities:
+        if q.source != e.STATE:
+            found.append((q.source, q.column))
+        elif q.column < info.work:  # behind multipliers, where loops look for joint coordinates
+            found.append((e.JOINT, q.column - own.m))
+        else:
+            found.append((e.STATE, q.column - info.work + own.work))
+    return np.array(found, dtype=np.int64).ravel()
+
+
 @dataclass(frozen=True)
-class TreeRows:
-    """Rows as those of a tree.
+class TreeRuns:
+    """Runs rows in joint coordinates from starts of bodies.
 
     Attributes
     ----------
-    bodies, compiled : CompiledModel
-        In the bodies' own coordinates, and in those of joints.
+    carried : Carried
+        Starts of bodies as those of the tree.
     p : Array
-        Parameters of the second, those of a row left out.
-    carrying : Carrying
-        Where what stands.
+        Parameters of the tree, those of a row left out.
+    loop : LoopRuns
+        Of the tree.
     """
 
-    bodies: CompiledModel
-    compiled: CompiledModel
+    carried: Carried
     p: Array
-    carrying: Carrying
+    loop: LoopRuns
 
-    @classmethod
-    def of(
-        cls, whole: Mechanism, carried: Mechanism, bodies: CompiledModel, compiled: CompiledModel, p: Array
-    ) -> TreeRows:
-        """Return the rows of a mechanism.
-
-        Parameters
-        ----------
-        whole, carried : Mechanism
-            As described, and with its tree.
-        bodies, compiled, p
-            See the class.
-        """
-        return cls(bodies, compiled, p, carrying_of(whole, carried, bodies, compiled))
-
-    @property
-    def width(self) -> int:
-        """Numbers that tell the motion of bodies."""
-        return self.bodies.info.nq + 2 * self.bodies.info.nv
-
-    def picks(self, quantities: Sequence[Quantity]) -> Integers:
-        """Return (source, column) of each quantity in what the loop of the tree leaves, flat."""
-        info, own = self.bodies.info, self.compiled.info
-        found = list[tuple[int, int]]()
-        for q in quantities:
-            if q.source != e.STATE:
-                found.append((q.source, q.column))
-            elif q.column < info.work:  # behind multipliers, where loops look for joint coordinates
-                found.append((e.JOINT, q.column - own.m))
-            else:
-                found.append((e.STATE, q.column - info.work + own.work))
-        return np.array(found, dtype=np.int64).ravel()
-
-    def settle(
-        self, starts: Instant, selected: Integers, control: Integers
-    ) -> tuple[Instant, NDArray[np.bool_], Array]:
-        """Return states, parameters and scratch of the tree, and which of the selected rows have no dependent rows.
-
-        Last come the products of Euler parameters of bodies with those that the tree carries, shape (runs, spins).
-
-        Parameters
-        ----------
-        starts : Instant
-            Consistent states of bodies, with parameters and scratch.
-        selected, control : Array of int
-            Rows to work on; what the watching thread shares.
-        """
-        info, own, model = self.bodies.info, self.compiled.info, self.compiled.model
-        runs, law, scratch = len(starts[0]), self.compiled.law_module, self.compiled.scratch()
-        ys, ps, ws = np.zeros((runs, own.ny)), np.tile(self.p, (runs, 1)), np.zeros((runs, len(scratch)))
-        count = len(info.parameters)
-        ps[:, :count] = starts[1][:, :count]
-        flat = Instant(ys.reshape(-1), ps.reshape(-1), ws.reshape(-1))
-        compiled_form(prepare_rows)(model.prepare, law.prepare, model.masses, scratch, *flat[1:], runs, selected)
-        of_bodies = Instant(*(array.reshape(-1) for array in starts))
-        alike = np.zeros((runs, len(info.spins)))
-        dependent = np.zeros(runs, dtype=np.int64)
-        places = self.carrying._replace(runs=runs, dependent=dependent, alike=alike.reshape(-1))
-        room = np.zeros(info.ny + places.outs + starts[2].shape[1])
-        functions = self.bodies.model.observe, model.geometry, model.bodies
-        compiled_form(settle_rows)(*functions, self.compiled.layout, of_bodies, flat, places, room, selected, control)
-        return Instant(ys, ps, ws), dependent[selected] == 0, alike
-
-    @staticmethod
-    def upright(selected: Integers, alike: Array, summary: Array) -> Integers:
-        """Return those of selected rows in which the tree turns no body over; the others are told why they end.
-
-        Parameters
-        ----------
-        selected : Array of int
-            Rows to look at.
-        alike : Array
-            From `TreeRows.settle`.
-        summary : Array
-            See `symgen.runtime.ensemble_abi`; written.
-        """
+    def run(self, rows: Rows, starts: Instant, selected: Integers, out: Results, control: Integers) -> bool:
+        """Run selected rows from consistent starts; parameters as for `symgen.ensemble.loops.LoopRuns.run`."""
+        info, own, runs = self.carried.bodies.info, self.loop.compiled.info, len(starts.y)
+        scratch = np.zeros((runs, len(self.loop.compiled.scratch())))
+        now, count = Instant(np.zeros((runs, own.ny)), np.tile(self.p, (runs, 1)), scratch), len(info.parameters)
+        now.p[:, :count] = starts.p[:, :count]
+        alike = self.carried.settle_all(starts, now, selected, control)
         over = np.abs(alike[selected]) < TURNED_OVER
         for k in reversed(range(over.shape[1])):  # the first one is told
-            summary[selected[over[:, k]], [[e.START], [e.START_WHERE]]] = [[e.TURNED_OVER], [k]]
-        return np.asarray(selected[~over.any(axis=1)])
+            out.summary[selected[over[:, k]], [[e.START], [e.START_WHERE]]] = [[e.TURNED_OVER], [k]]
+        selected = selected[~over.any(axis=1)]
+        if not self.loop.run(rows, now, selected, out, control):
+            return False
+        self._turn(selected, alike, out.values)
+        return True
 
-    def turn(self, quantities: Sequence[Quantity], selected: Integers, alike: Array, values: Array) -> None:
-        """Have Euler parameters, of two signs, go on from those of the start.
-
-        Parameters
-        ----------
-        quantities : sequence of Quantity
-            What is kept.
-        selected : Array of int
-            Rows that were run.
-        alike : Array
-            From `settle`.
-        values : Array, shape (runs, quantities, times)
-            Changed.
-        """
-        at = {q.column: i for i, q in enumerate(quantities) if q.source == e.STATE}
-        for (first, _), products in zip(self.bodies.info.spins, alike.T, strict=True):
+    def _turn(self, selected: Integers, alike: Array, values: Array) -> None:
+        """Have Euler parameters, of two signs, go on from those of the start."""
+        at = {q.column: i for i, q in enumerate(self.loop.recipe.quantities) if q.source == e.STATE}
+        for (first, _), products in zip(self.carried.bodies.info.spins, alike.T, strict=True):
             columns = [at[k] for k in range(first, first + 4) if k in at]
             values[np.ix_(selected[products[selected] < 0.0], columns)] *= -1.0

@@ -190,7 +190,7 @@ def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None
     """Return the live part in joint coordinates, which cannot close bodies: without sliders that move their start."""
     from symgen.running.plan import Purpose
     from symgen.running.prepare import prepare
-    from symgen.running.tree import begin_on_tree
+    from symgen.running.tree import begin_on_tree, carried_of
 
     mechanism, settings, start = run.plan.mechanism, run.plan.settings, run.start
     values, moving = parameter_values(mechanism, run.plan.parameters), list[str]()
@@ -208,8 +208,8 @@ def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None
     if begun is not None:
         y = np.concatenate([begun, tree.body_start.y[len(begun) :]])
         of_bodies = replace(tree.body_start, y=y)
-        own = run.plan.method_parameters
-        start = begin_on_tree(mechanism, tree.mechanism, tree.compiled, tree.bodies, of_bodies, own).start
+        carried = carried_of(mechanism, tree.mechanism, tree.bodies, tree.compiled)
+        start = begin_on_tree(mechanism, tree.mechanism, carried, of_bodies, run.plan.method_parameters).start
     live, note = live_part(mechanism, run.compiled, start, step, still=moving)
     if live is not None and moving:
         note = f"no sliders for {', '.join(moving)}: they move the start, which pages close in coordinates of bodies"

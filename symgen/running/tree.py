@@ -23,12 +23,13 @@ from symgen.lower.windings import winding_order
 from symgen.running.continuation import choice_after, taken_up
 from symgen.running.starts import compiled_for
 from symgen.runtime import abi
+from symgen.runtime.assembler import Assembly
 from symgen.runtime.assembly import Start
-from symgen.runtime.joint_starts import joint_values
 from symgen.runtime.outcome import Outcome
 from symgen.runtime.probe import Ready
+from symgen.runtime.start_records import Instant
 from symgen.runtime.start_words import turned_over
-from symgen.runtime.tree_start import Carrying, settle_tree, turned_by_tree
+from symgen.runtime.tree_start import TURNED_OVER, Carried
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
@@ -65,6 +66,8 @@ class TreeRun:
         That are looked for.
     watched : callable, optional
         Returns them as bodies have them, where many runs share that.
+    over : int
+        Which of the bodies that turn in space would start turned over, -1 where none.
     """
 
     whole: Mechanism
@@ -75,6 +78,7 @@ class TreeRun:
     body_start: Start
     events: tuple[Event, ...] = ()
     watched: Callable[[], Watched | None] | None = None
+    over: int = -1
 
     @property
     def topology(self) -> Topology:
@@ -199,12 +203,6 @@ class TreeRun:
         found[: self.bodies.info.nq] *= self._signs
         return found
 
-    @cached_property
-    def over(self) -> int:
-        """Which of the bodies that turn in space would start turned over, -1 where none."""
-        info, began = self.bodies.info, self.start
-        return turned_by_tree(info, self.body_start.y, self._raw(began.t, began.y, began.p)) if info.spins else -1
-
     def _raw(self, t: float, y: Array, p: Array) -> Array:
         own, info = self.compiled.info, self.bodies.info
         state, out = np.zeros(own.ny), np.zeros(info.nq + 2 * info.nv)
@@ -264,8 +262,9 @@ def on_tree_of(plan: Plan, bodies: CompiledModel, start: Start) -> TreeRun:
     AssemblyError
         If a body of the tree would start turned over.
     """
-    carried = tree_code(plan.mechanism, plan.choice, bodies)
-    run = begin_on_tree(plan.mechanism, *carried, bodies, start, plan.method_parameters, plan.events)
+    mechanism, compiled = tree_code(plan.mechanism, plan.choice, bodies)
+    carried = carried_of(plan.mechanism, mechanism, bodies, compiled, start.t)
+    run = begin_on_tree(plan.mechanism, mechanism, carried, start, plan.method_parameters, plan.events)
     if run.over >= 0:
         raise turned_over(bodies.info, run.over)
     return run
@@ -288,47 +287,60 @@ def tree_code(mechanism: Mechanism, choice: MethodChoice, bodies: CompiledModel)
     return carried, compiled_for(carried, replace(choice, options={**bodies.law.options, **weight}, shape="straight"))
 
 
+def carried_of(
+    whole: Mechanism, mechanism: Mechanism, bodies: CompiledModel, compiled: CompiledModel, t: float = 0.0
+) -> Carried:
+    """Return how starts of bodies at a time are those of a tree.
+
+    Parameters
+    ----------
+    whole, mechanism : Mechanism
+        As described, and with its tree.
+    bodies, compiled : CompiledModel
+        In the bodies' own coordinates, and in those of joints.
+    t : float
+        Time [s].
+    """
+    return Carried(bodies, Assembly(compiled, t=t), carrying_of(whole, mechanism, bodies, compiled))
+
+
 def begin_on_tree(
+    whole: Mechanism,
     mechanism: Mechanism,
-    carried: Mechanism,
-    compiled: CompiledModel,
-    bodies: CompiledModel,
+    carried: Carried,
     start: Start,
     method_parameters: Mapping[str, float],
     events: tuple[Event, ...] = (),
-    carrying: Carrying | None = None,
     watched: Callable[[], Watched | None] | None = None,
 ) -> TreeRun:
     """Return what a run in joint coordinates begins with, from a start of bodies.
 
     Parameters
     ----------
-    mechanism : Mechanism
-        The description.
-    carried, compiled : Mechanism, CompiledModel
-        From `tree_code`.
-    bodies, start : CompiledModel, Start
+    whole, mechanism : Mechanism
+        As described, and with its tree.
+    carried : Carried
+        From `carried_of`.
+    start : Start
         In the bodies' own coordinates.
     method_parameters : mapping
         Values of the method's parameters that differ from the defaults.
     events : tuple of Event
         That are looked for.
-    carrying, watched : Carrying and callable, optional
-        From `carrying_of`, and as in `TreeRun`, where many runs share them.
+    watched : callable, optional
+        As in `TreeRun`, where many runs share it.
     """
-    info, own = bodies.info, compiled.info
-    at = carrying_of(mechanism, carried, bodies, compiled) if carrying is None else carrying
-    values = joint_values(bodies, start.t, start.y, start.p, start.w.copy())
-    p = compiled.parameter_array(dict(zip((x.name for x in info.parameters), start.p, strict=False)), method_parameters)
-    y = np.zeros(own.ny)
-    y[: own.work] = [values[i - info.m] if joint else start.y[i] for joint, i in at.places.reshape(-1, 2)]
-    y[own.work :] = start.y[info.work :]
-    gauge = np.where(at.gauges < 0, 1.0, start.w[at.gauges])
-    scales = float(start.w[abi.LENGTH]), float(start.w[abi.SPEED]), gauge
-    w, rank, redundant = settle_tree(compiled, y, p, start.t, start.w[at.windings], scales)
+    bodies, compiled = carried.bodies, carried.assembly.compiled
+    names = (x.name for x in bodies.info.parameters)
+    p = compiled.parameter_array(dict(zip(names, start.p, strict=False)), method_parameters)
+    now = Instant(np.zeros(compiled.info.ny), p, compiled.scratch())
+    over = np.flatnonzero(np.abs(carried.settle(Instant(start.y, start.p, start.w), now)) < TURNED_OVER)
+    now.y[compiled.info.work :] = start.y[bodies.info.work :]
     notes = start.notes, start.changes, start.light, start.warnings
-    found = Start(y, p, w, rank, redundant, *notes, t=start.t, work=start.work)
-    return TreeRun(mechanism, carried, compiled, found, bodies, start, events, watched)
+    rank, redundant = compiled.rank(now.w), compiled.redundant(now.w)
+    found = Start(now.y, p, now.w, rank, redundant, *notes, t=start.t, work=start.work)
+    first = int(over[0]) if len(over) else -1
+    return TreeRun(whole, mechanism, compiled, found, bodies, start, events, watched, first)
 
 
 def tree_taken_up(plan: Plan, last: LastState) -> TreeRun | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -97,7 +97,7 @@ class Assembly:
             branches=np.array(self.branches, dtype=np.float64) if len(self.branches) else layout.branches,
         )
 
-    def _memory(self) -> tuple[Joints, Work]:
+    def memory(self) -> tuple[Joints, Work]:
         """Return the joint coordinates that are held and working memory, of which each thread has its own."""
         compiled, held, scratch = self.compiled, self.held, self.compiled.scratch()
         joints = joints_held(compiled.info, self.layout, list(held.joints), list(held.rates), scratch)
@@ -139,29 +139,27 @@ class Assembly:
         int
             Rows that were worked on.
         """
-        (ys, ps, ws), model, law = (array.ravel() for array in now), self.compiled.model, self.compiled.law_module
-        scratch = self.compiled.scratch()
-        compiled_form(prepare_rows)(model.prepare, law.prepare, model.masses, scratch, ps, ws, len(now.y), selected)
-        *functions, observe = (compiled_form(f) for f in self._functions)
-        joints, work = self._memory()
+        flat = Instant(*(array.ravel() for array in now))
+        self.prepare_all(flat, len(now.y), selected)
+        *functions, observe = (compiled_form(f) for f in self.own)
+        joints, work = self.memory()
         of_model, start = ((self.layout, *functions), observe, joints), compiled_form(close_rows)
-        flat = Asked(*(array.ravel() for array in asked))
-        done = int(start(of_model, Instant(ys, ps, ws), flat, work, selected, control))
+        done = int(start(of_model, flat, Asked(*(array.ravel() for array in asked)), work, selected, control))
         self._judge(now.w, asked.summary)
         return done
 
+    def prepare_all(self, flat: Instant, runs: int, selected: Integers) -> None:
+        """Fill parameters, masses and the rest of the scratch of the selected ones of many rows, in compiled code."""
+        model, law = self.compiled.model, self.compiled.law_module
+        functions = model.prepare, law.prepare, model.masses
+        compiled_form(prepare_rows)(*functions, self.compiled.scratch(), flat.p, flat.w, runs, selected)
+
     def close_one(self, now: Instant, asked: Asked) -> int:
         """Make one start consistent, in place; return `symgen.runtime.ensemble_abi.ASSEMBLED` or why there is none."""
-        functions, (joints, work) = self._functions, self._memory()
+        joints, work = self.memory()
         with np.errstate(all="ignore"):  # undefined numbers are nan or infinite in compiled code, without a warning
-            self._prepare(now)
-            m, n, form = len(work.right), self.layout.nv, compiled_form
-            if not self.layout.sparse and m * n * min(m, n) <= decisions.LARGEST_INTERPRETED:
-                geometry, measure, move, spread, solve, turns, rhs, observe = (plain_form(f) for f in functions)
-                measures = Ready(geometry, abi.MEASURE), Ready(measure, abi.MEASURE)
-                functions = (*measures, Ready(move, abi.MOVE), spread, solve, turns, Ready(rhs, abi.RHS))
-                functions, form = (*functions, Ready(observe, abi.OBSERVE)), plain_form
-            *of_model, observe = (form(f) for f in functions)
+            self.prepare(now)
+            (*of_model, observe), form = self.functions(len(work.right))
             try:
                 form(close_row)(((self.layout, *of_model), observe, joints), now, asked, work)
             except (ArithmeticError, ValueError):
@@ -169,7 +167,15 @@ class Assembly:
         self._judge(now.w[np.newaxis], asked.summary[np.newaxis])
         return int(asked.summary[e.START])
 
-    def _prepare(self, now: Instant) -> None:
+    def functions(self, m: int) -> tuple[tuple[Any, ...], Callable[[Any], Any]]:
+        """Return `own` for one start, and the form of functions then: plain Python for up to so many rows, or not."""
+        n, kinds = self.layout.nv, (abi.MEASURE, abi.MEASURE, abi.MOVE, None, None, None, abi.RHS, abi.OBSERVE)
+        if self.layout.sparse or m * n * min(m, n) > decisions.LARGEST_INTERPRETED:
+            return tuple(compiled_form(f) for f in self.own), compiled_form
+        plain = zip(map(plain_form, self.own), kinds, strict=True)
+        return tuple(f if kind is None else Ready(f, kind) for f, kind in plain), plain_form
+
+    def prepare(self, now: Instant) -> None:
         """Fill parameters and masses of one start; nan where they are not defined."""
         try:
             self.compiled.prepare(now.p)
@@ -194,7 +200,7 @@ class Assembly:
             summaries[moved, e.START] = e.MOVED
 
     @property
-    def _functions(self) -> tuple[Any, ...]:
+    def own(self) -> tuple[Any, ...]:
         """What `close_row` takes: geometry, measure, move, spread, solve, turns, rhs, observe."""
         model, law, layout = self.compiled.model, self.compiled.law_module, self.layout
         held = bool(self.held.joints or self.held.rates)

@@ -1,14 +1,13 @@
 """The consistent start of a single run: positions closed by shortest changes, velocities completed by least squares.
 
-`symgen.runtime.assembler` calls the one start that sweeps have too; here stands what single runs make of it, and what
-is said where things that are held contradict each other.
+`symgen.runtime.assembler` calls the one start that sweeps have too; here stands what single runs make of it.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,9 +17,9 @@ from symgen.errors import AssemblyError
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembler import Assembly
-from symgen.runtime.held import Attempt, Held, contradiction
+from symgen.runtime.held import Held
 from symgen.runtime.joint_starts import joint_values
-from symgen.runtime.model_arrays import lengths_of, velocity_of
+from symgen.runtime.model_arrays import lengths_of
 from symgen.runtime.start_words import Change, changes_of, notes_of, refusal, warnings_of, without_derivative
 
 if TYPE_CHECKING:
@@ -100,13 +99,6 @@ def state_scales(compiled: CompiledModel, w: Array, until: float) -> Array:
     return np.concatenate([positions, speed * np.sqrt(compiled.section(w, "gauge"))])
 
 
-#: What helps where nothing is free, so that a coordinate has one of a few values.
-OTHER_WAYS = (
-    "drivers leave nothing free here: 'symgen kinematics --start' finds other ways to close it, and all coordinates "
-    "of one of them can be held"
-)
-
-
 def assemble(
     compiled: CompiledModel,
     q: Array,
@@ -159,9 +151,7 @@ def assemble(
     given = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
     w, summary = start.close(y, given, p)
     if summary[e.START] != e.ASSEMBLED:
-        error = (
-            without_derivative(compiled, q, p) or _contradiction(start, q, given, p, summary) or refusal(summary, info)
-        )
+        error = without_derivative(compiled, q, p) or refusal(summary, info, fixed)
         reached = y[: info.nq] if np.all(np.isfinite(y[: info.nq])) else q
         raise error.stopped_at(reached.tolist()) if isinstance(error, AssemblyError) else error
     given[list(fixed.velocities)] = list(fixed.velocities.values())
@@ -198,43 +188,6 @@ def moved_far(
     if not changes or _asked_far(start, q, p, w):
         return ()
     return warnings_of(changes, info, float(w[abi.LENGTH]), moved(q, y[: info.nq]) if moved else ())
-
-
-def _contradiction(start: Assembly, q: Array, v: Array, p: Array, summary: Array) -> AssemblyError | None:
-    """Return which of the things held cannot be, None where that is not why there is no start."""
-    code, info, held = int(summary[e.START]), start.compiled.info, start.held
-    if code not in (e.OPEN, e.CONTRADICTION):
-        return None
-
-    def tried(less: Held, y: Array, given: Array) -> tuple[Array, Array]:
-        return replace(start, held=less, strict=False, ask_light=False).close(y, given, p.copy())
-
-    def attempt(less: Held) -> Attempt:
-        y, given = _described(info, q), v.copy()
-        if code == e.OPEN:
-            given[:] = np.nan
-        given[list(held.velocities)] = np.nan
-        w, found = tried(less, y, given)
-        with np.errstate(all="ignore"):
-            return Attempt(int(found[e.START]), y, joint_values(start.compiled, start.t, y, p, w.copy()))
-
-    def open_rows(all_of_it: Held) -> list[tuple[str, str, float]]:
-        if all_of_it.joints:
-            return []
-        y = _described(info, q)
-        y[list(all_of_it.coordinates)] = list(all_of_it.coordinates.values())
-        still = (*all_of_it.fixed, *(velocity_of(i, info) for i in all_of_it.coordinates))
-        w, _ = tried(Held(fixed=still), y, np.full(info.nv, np.nan))
-        residual = np.abs(start.compiled.section(w, "residual"))
-        order = [i for i in np.argsort(-residual) if residual[i] > decisions.MOVED * float(w[abi.LENGTH])]
-        return [(info.rows[i].name, info.rows[i].unit, float(residual[i])) for i in order]
-
-    error = contradiction(info, held, q, attempt, open_rows, code)
-    if error is None or code != e.OPEN or info.m < info.nv:
-        return error
-    w, found = tried(Held(), _described(info, q), np.full(info.nv, np.nan))
-    driven = int(found[e.START]) == e.ASSEMBLED and start.compiled.rank(w) == info.nv
-    return AssemblyError(f"{error}; {OTHER_WAYS}") if driven else error
 
 
 def _asked_far(start: Assembly, q: Array, p: Array, w: Array) -> bool:

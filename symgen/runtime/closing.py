@@ -18,7 +18,17 @@ from symgen.runtime.exact import exact
 from symgen.runtime.joint_starts import fill_further
 from symgen.runtime.least_norm import multiply
 from symgen.runtime.redundancy import choose_rows, farthest
-from symgen.runtime.scales import extent_of, free_scale, larger, row_weight, size_of_change, speed_of
+from symgen.runtime.scales import (
+    VANISHED,
+    extent_of,
+    free_scale,
+    larger,
+    row_weight,
+    size_of_change,
+    speed_of,
+    square_rows,
+    weigh_rows,
+)
 from symgen.runtime.start_records import Instant
 
 
@@ -133,17 +143,15 @@ def _correct_velocities(closing: Any, layout: Any, now: Any, work: Any) -> float
 
 @exact()
 def mask_redundant(closing: Any, layout: Any, now: Any, work: Any, nothing: Any) -> int:
-    """Mask as many rows as depend on others at the start and at closed positions near it; return how many these are.
+    """Weigh rows; mask as many as depend on others at the start and at closed positions near it, and return how many.
 
     Rows that depend on others at the start alone do so at a singular position, and are kept. Which rows depend on
     others may differ from position to position, and those that come last in the order of elimination may leave rows
     that hardly differ: then those are kept that are farthest from each other.
     """
-    m, count, other = layout.m, 0, Instant(work.y, now.p, work.w)
-    for i in range(m):
-        if is_dependent(now.w[layout.pivot + i]):
-            now.w[layout.mask + i] = math.inf
-            count += 1
+    m, other = layout.m, Instant(work.y, now.p, work.w)
+    weigh_rows(layout, now)
+    count = _mark(closing, layout, now, work)
     poor = m > 0 and layout.sparse == 0 and is_poor(_kept_pivot(layout, now.w))
     count = m - _rank(layout, now.w, work) if poor else count
     alone, same = count, not poor
@@ -161,12 +169,11 @@ def mask_redundant(closing: Any, layout: Any, now: Any, work: Any, nothing: Any)
         for i in range(m):
             other.w[layout.mask + i] = 0.0
         _shift(closing, layout, other.y, other.w, work.direction, decisions.PROBE_DISTANCE / size)
-        if close_positions(closing, layout, other, work, nothing):
-            near = 0
+        closed = close_positions(closing, layout, other, work, nothing)
+        near = _mark(closing, layout, other, work)
+        if closed:
             for i in range(m):
-                dependent = is_dependent(other.w[layout.pivot + i])
-                near += 1 if dependent else 0
-                same = same and (now.w[layout.mask + i] != 0.0 or not dependent)
+                same = same and (now.w[layout.mask + i] != 0.0 or other.w[layout.mask + i] == 0.0)
             if layout.sparse == 0 and is_poor(_kept_pivot(layout, other.w)):
                 near, same = m - _rank(layout, other.w, work), False
             count = near if near < count else count
@@ -174,9 +181,33 @@ def mask_redundant(closing: Any, layout: Any, now: Any, work: Any, nothing: Any)
 
 
 @exact()
+def _mark(closing: Any, layout: Any, now: Any, work: Any) -> int:
+    """Mask the rows that depend on others at a position, or have vanished there; return how many these are.
+
+    Rows that have vanished take no part in the elimination, where rounding divided by rounding would decide.
+    """
+    w, squares, count = now.w, work.right, 0
+    square_rows(layout, w, squares)
+    for i in range(layout.m):
+        usual = row_weight(layout, w, i)
+        if squares[i] * usual * usual < VANISHED:
+            w[layout.mask + i] = math.inf
+            count += 1
+    if count > 0:
+        closing.geometry(layout.t, now.y, now.p, w)
+    for i in range(layout.m):
+        if w[layout.mask + i] != 0.0:
+            w[layout.pivot + i] = 0.0
+        elif is_dependent(w[layout.pivot + i]):
+            w[layout.mask + i] = math.inf
+            count += 1
+    return count
+
+
+@exact()
 def _rank(layout: Any, w: Any, work: Any) -> int:
     """Return how many rows do not depend on others, where small pivots have made large what is rounding."""
-    return int(farthest(layout, layout.nv, layout.m, SKIP, 0, w, work.numbers))
+    return int(farthest(layout, layout.nv, layout.m, SKIP, 1, w, work.numbers))
 
 
 @exact()
@@ -189,7 +220,7 @@ def _masked(closing: Any, layout: Any, now: Any, other: Any, work: Any, count: i
         return 0
     here = now.w if count == alone else other.w  # at a singular position rounding would choose
     if layout.sparse == 0 and (not same or _kept_pivot(layout, here) < decisions.STAND_BADLY):
-        choose_rows(layout, m - count, 0, here, work.numbers)
+        choose_rows(layout, m - count, 1, here, work.numbers)
         for i in range(m):
             now.w[mask + i] = here[mask + i]
         closing.geometry(layout.t, now.y, now.p, now.w)
@@ -201,7 +232,7 @@ def _masked(closing: Any, layout: Any, now: Any, other: Any, work: Any, count: i
         return count  # the same ones everywhere
     left = 0
     for i in range(m):
-        if now.w[mask + i] != 0.0 and not is_dependent(other.w[layout.pivot + i]):
+        if other.w[mask + i] == 0.0:
             now.w[mask + i] = 0.0
         left += 1 if now.w[mask + i] != 0.0 else 0
     return left

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from symgen.ir.numerics import SKIP
 from symgen.ir.program import SCALES, STATUS
-from symgen.store.modules import interpreted
 from symgen.vocabulary.infos import Info, LawInfo
 from symgen.vocabulary.quantities import Counted, Quantity
 
@@ -128,15 +127,6 @@ class CompiledModel(ABC):
     @abstractmethod
     def scratch(self) -> Array:
         """Return a new scratch array ``w``; scales are 1 until a start finds them."""
-
-    def move(self, y: Array, change: NDArray[Any], w: Array) -> None:
-        """Move the coordinates in `y` by a change of the velocities, shape (nv,), through the kinematic map."""
-        if not self.info.spins:
-            y[: self.info.nq] += change
-            return
-        self.section(w, "change")[:] = change
-        # looped code calls kernels by their addresses, which plain Python cannot
-        (self.model.move if self.shape == "looped" else interpreted(self.model.move))(y, w)
 
     def parameter_array(self, parameters: Mapping[str, float], method_parameters: Mapping[str, float]) -> Array:
         """Return ``p``: model parameters, method parameters, and room for what ``prepare`` computes."""

@@ -11,6 +11,7 @@ import math
 from typing import Any
 
 from symgen.runtime import abi
+from symgen.runtime.bare import part
 from symgen.runtime.exact import exact
 from symgen.runtime.instances import viewing
 
@@ -92,21 +93,13 @@ def mean_mass(layout: Any, w: Any) -> float:
 
 
 @exact()
-def square_rows(layout: Any, w: Any) -> None:
-    """Set the section ``row_weight`` to the square of each row of D G^1/2 at the present position."""
-    weights = layout.row_weight
+def square_rows(layout: Any, w: Any, squares: Any) -> None:
+    """Set `squares` to the square of each row of D G^1/2 at the present position."""
     for i in range(layout.m):
-        w[weights + i] = 0.0
+        squares[i] = 0.0
     for k in range(layout.constants.shape[0]):
         value = entry_of(layout, w, k)
-        w[weights + layout.entries[3 * k]] += value * value * w[layout.gauge + layout.entries[3 * k + 1]]
-
-
-@exact()
-def has_vanished(layout: Any, w: Any, i: int) -> bool:
-    """Whether nothing but rounding is left of row `i`, whose square `square_rows` has found."""
-    usual = row_weight(layout, w, i)
-    return bool(w[layout.row_weight + i] * usual * usual < VANISHED)
+        squares[layout.entries[3 * k]] += value * value * w[layout.gauge + layout.entries[3 * k + 1]]
 
 
 @exact()
@@ -116,7 +109,7 @@ def weigh_rows(layout: Any, now: Any) -> None:
     Rows that are short there already count as a tenth of a usual one.
     """
     w, weights = now.w, layout.row_weight
-    square_rows(layout, w)
+    square_rows(layout, w, part(w, weights, layout.m))
     for i in range(layout.m):
         usual = LEAST_ROW / (row_weight(layout, w, i) * row_weight(layout, w, i))
         w[weights + i] = 1.0 / larger(w[weights + i], usual)

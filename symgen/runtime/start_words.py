@@ -12,18 +12,23 @@ from numpy.typing import NDArray
 from symgen.errors import AssemblyError, InputError
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
+from symgen.runtime.held import Held
 from symgen.runtime.model_arrays import joints_of
 from symgen.runtime.probe import Ready
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo
-    from symgen.runtime.held import Held
 
 Array = NDArray[np.float64]
 
 
 #: Changed coordinates that a note tells one by one.
-_TOLD = 6
+_LISTED = 6
+#: What helps where nothing is free.
+OTHER_WAYS = (
+    "where drivers leave nothing free, 'symgen kinematics --start' finds other ways to close it, and all coordinates "
+    "of one of them can be held"
+)
 
 
 @dataclass(frozen=True)
@@ -64,7 +69,7 @@ def warnings_of(
     names = {quantity.name for quantity in info.coordinates}
     limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED, "1": 0.5 * decisions.FAR_TURNED}
     far = [c for c in changes if c.name in names and abs(c.after - c.before) > limits[c.unit]]
-    told, bodies = ([_told(far)] if far else []), {c.name.partition(".")[0] for c in far}
+    told, bodies = ([_listed(far)] if far else []), {c.name.partition(".")[0] for c in far}
     for name, size, unit in moved:  # of each body the coordinates, or else the first of its points
         if size > limits[unit] and name.partition(".")[0] not in bodies:
             bodies.add(name.partition(".")[0])
@@ -81,10 +86,10 @@ def notes_of(held: Held, summary: Array, changes: Sequence[Change], info: ModelI
     positions = [change for change in changes if change.name in names]
     if held.coordinates or held.joints:
         own = {info.coordinates[i].name for i in held.coordinates}
-        follow = _told([change for change in positions if change.name not in own])
-        notes.append(f"the start holds {held.told(info)}" + (f"; {follow}" if follow else ""))
+        follow = _listed([change for change in positions if change.name not in own])
+        notes.append(f"the start holds {held.positions(info)}" + (f"; {follow}" if follow else ""))
     elif positions:
-        notes.append(f"initial positions were closed by the shortest changes: {_told(positions)}")
+        notes.append(f"initial positions were closed by the shortest changes: {_listed(positions)}")
     if summary[e.START_VELOCITIES]:
         speeds = (change for change in changes if change.name not in names)
         largest = max(speeds, key=lambda change: abs(change.after - change.before), default=None)
@@ -100,10 +105,10 @@ def opposite(joint: str) -> str:
     return f"the axes of joint '{joint}' point opposite ways at the start: they are taken for one line"
 
 
-def _told(changes: Sequence[Change]) -> str:
+def _listed(changes: Sequence[Change]) -> str:
     """Return the first changes one by one, and how many more there are."""
-    told = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:_TOLD])
-    return told + (f"; and {len(changes) - _TOLD} more" if len(changes) > _TOLD else "")
+    told = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:_LISTED])
+    return told + (f"; and {len(changes) - _LISTED} more" if len(changes) > _LISTED else "")
 
 
 def _from_to(change: Change) -> str:
@@ -115,7 +120,7 @@ def _from_to(change: Change) -> str:
     return f"{before} to {after} {change.unit}"
 
 
-def refusal(summary: Array, info: ModelInfo) -> AssemblyError | InputError:
+def refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> AssemblyError | InputError:
     """Return why a run has no start.
 
     Parameters
@@ -124,6 +129,8 @@ def refusal(summary: Array, info: ModelInfo) -> AssemblyError | InputError:
         What the start left; see `symgen.runtime.ensemble_abi`.
     info : ModelInfo
         The model.
+    held : Held, optional
+        What the start holds.
     """
     code, where, size = int(summary[e.START]), int(summary[e.START_WHERE]), float(summary[e.START_SIZE])
     if code == e.UNDEFINED:
@@ -139,15 +146,12 @@ def refusal(summary: Array, info: ModelInfo) -> AssemblyError | InputError:
             f"a massless body that is free to move in {name}: nothing determines its acceleration",
         )
     if code == e.OPEN:
-        joint = joints_of(info)[where]
-        return AssemblyError(
-            f"{info.name}: the mechanism cannot be assembled from this start: joint '{joint}' stays open by "
-            f"{size:.3g} m or rad; check its points and the positions of the bodies it joins",
-            (joint,),
-        )
+        return _stays_open(info, held or Held(), joints_of(info)[where], size)
     if code == e.CONTRADICTION:
+        speeds = held.speeds(info) if held else ""
+        beside = f" beside {speeds}, which the start holds" if speeds else ""
         return AssemblyError(
-            f"{info.name}: no velocities satisfy the constraints; drivers or conditions contradict each other"
+            f"{info.name}: no velocities satisfy the constraints{beside}; drivers or conditions contradict each other"
         )
     if code == e.HALF_TURN:
         return half_turn(info, joints_of(info)[where])
@@ -157,6 +161,20 @@ def refusal(summary: Array, info: ModelInfo) -> AssemblyError | InputError:
     if code == e.MOVED:
         found = f"positions that closing moves by up to {float(summary[e.START_MOVED]):.3g}"
     return InputError("initial state", "a consistent start (--strict)", found)
+
+
+def _stays_open(info: ModelInfo, held: Held, joint: str, size: float) -> AssemblyError:
+    """Return why there is no start where a joint stays open by a size [m or rad]."""
+    described = held.described(info)
+    kept = [words for words in (held.positions(info), f"{described} as described" if described else "") if words]
+    what = f" with {' and '.join(kept)} held" if kept else ""
+    # joints and drivers may leave nothing free, so that a coordinate has one of a few values
+    ways = f"; {OTHER_WAYS}" if kept and info.m >= info.nv else ""
+    return AssemblyError(
+        f"{info.name}: the mechanism cannot be assembled from this start{what}: joint '{joint}' stays open by "
+        f"{size:.3g} m or rad; check its points and the positions of the bodies it joins{ways}",
+        (joint,),
+    )
 
 
 def half_turn(info: ModelInfo, joint: str) -> AssemblyError:

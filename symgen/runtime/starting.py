@@ -23,7 +23,7 @@ from symgen.runtime.closing import (
 )
 from symgen.runtime.exact import exact
 from symgen.runtime.joint_starts import JOINTS, Further, copied_scratch, fill_further
-from symgen.runtime.scales import extent_of, free_scale, larger, measure_lengths, row_weight, speed_of, weigh_rows
+from symgen.runtime.scales import extent_of, free_scale, larger, measure_lengths, row_weight, speed_of
 from symgen.runtime.start_records import ASKED, INSTANT, MODEL, WORK, Asked, Closing, Instant
 
 _A, _I = types.float64[::1], types.int64[::1]
@@ -89,7 +89,6 @@ def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
             code = e.UNDETERMINED
     if code == e.ASSEMBLED:
         summary[e.REDUNDANT_ROWS] = mask_redundant(closing, layout, now, work, nothing)
-        weigh_rows(layout, now)
         w[abi.LENGTH] = larger(w[abi.LENGTH], extent_of(layout, y))
         w[abi.SPEED] = speed_of(layout, w, part(y, layout.nq, layout.nv))
         if layout.ask_light != 0 and is_light(rhs, closing, layout, now, work):

@@ -95,7 +95,7 @@ def test_events_are_found_in_both_and_auto_takes_what_is_smaller():
     np.testing.assert_allclose(joints["crank.theta"][:, 0], 0.0, atol=1e-12)
     np.testing.assert_allclose(joints["end"], bodies["end"], atol=1e-6)
     np.testing.assert_array_equal(joints["event.crank.theta < 0.first"], joints["end"])
-    assert joints.ensemble.recipe.tree.plain, "the loop over rows finds them"
+    assert not joints.ensemble.recipe.watch.alone, "the loop over rows finds them"
 
 
 def test_light_bodies_get_the_other_solver_in_joint_coordinates_too():
@@ -121,7 +121,7 @@ def test_rows_with_resets_share_what_is_the_same_for_all(monkeypatch):
     calls = []
     for module, name in (
         *((module, "compile_events") for module in (singly, events)),
-        *((module, "carrying_of") for module in (singly, tree)),
+        (tree, "carrying_of"),
     ):
         original = getattr(module, name)
 

@@ -112,7 +112,7 @@ PLANE = {
 def test_rows_are_the_described_starts_of_single_runs(description):
     model = symgen.load(mechanism_of(description))
     values = np.array([0.2, 1.0, 1.7, 2.9])
-    rows = make_rows(model.mechanism, model.parameters(), {"k": values}, {}, {})
+    rows = make_rows(model.mechanism, model.parameters(), {"k": values}, (), {})
     for i, k in enumerate(values):
         q, v = model.initial_state(model.parameters({"k": k}))
         assert_same_motion(rows.q[i], q)
@@ -122,5 +122,5 @@ def test_rows_are_the_described_starts_of_single_runs(description):
 
 def test_undefined_rows_are_nan_and_alone():
     model = symgen.load(mechanism_of(PLANE))
-    rows = make_rows(model.mechanism, model.parameters(), {"k": np.array([1.0, -1.0])}, {}, {})
+    rows = make_rows(model.mechanism, model.parameters(), {"k": np.array([1.0, -1.0])}, (), {})
     assert np.all(np.isfinite(rows.q[0])) and not np.all(np.isfinite(rows.q[1]))

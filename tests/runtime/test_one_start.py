@@ -34,7 +34,7 @@ TURNING = np.array([1.0, 0.0, -2.0, 0.5])
 def rows_of(model, compiled, held=()):
     """Described starts, and what is asked of them."""
     varied = {"shake": SHAKE, "turning": TURNING}
-    rows = make_rows(model.mechanism, model.parameters(), varied, {}, {})
+    rows = make_rows(model.mechanism, model.parameters(), varied, (), {})
     values = [model.parameters({"shake": a, "turning": b}) for a, b in zip(SHAKE, TURNING, strict=True)]
     p = np.stack([compiled.parameter_array(each, {}) for each in values])
     targets = rows.q[:, list(held)] + np.array([0.0, 0.07, -0.23, 0.11])[:, None] if held else np.zeros((len(p), 0))
@@ -133,7 +133,7 @@ def test_a_held_position_and_what_it_cannot_reach():
     q = dict(zip(names, start.y, strict=False))
     # r^2 + x^2 - 2 r x cos(phi) = l^2 between crank and line of the slider
     assert np.cos(q["crank.theta"]) == pytest.approx((0.15**2 + 0.5**2 - 0.45**2) / (2 * 0.15 * 0.5), abs=1e-12)
-    with pytest.raises(AssemblyError, match=r"it can be brought to (0\.6|0\.599999) m"):
+    with pytest.raises(AssemblyError, match=r"with slider.x = 0.7 m held"):
         model.assemble(compiled, held=Held({names.index("slider.x"): 0.7}))  # crank and rod reach 0.6 m
 
 
@@ -156,10 +156,7 @@ def test_held_velocities_that_contradict_are_an_error():
     compiled = model.compile("lagrange")
     _, names = coordinates_of(compiled)
     held = Held(velocities={names.index("crank.omega"): 1.0, names.index("rocker.omega"): 5.0})
-    with pytest.raises(
-        AssemblyError,
-        match=r"rocker.omega = 5 rad/s cannot be held beside crank.omega = 1 rad/s: it is 0.24622 rad/s, 4.75",
-    ):
+    with pytest.raises(AssemblyError, match=r"beside crank.omega = 1 rad/s, rocker.omega = 5 rad/s, which the start"):
         model.assemble(compiled, held=held)
 
 

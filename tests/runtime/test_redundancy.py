@@ -15,10 +15,10 @@ from benchmarks.plain.system import read
 from symgen.api import Model
 from symgen.describe import MechanismBuilder
 from symgen.running.prepare import prepare
-from symgen.runtime import abi
+from symgen.running.tree import carried_of
 from symgen.runtime.exact import plain_form
 from symgen.runtime.redundancy import choose_rows
-from symgen.runtime.tree_start import settle_tree
+from symgen.runtime.start_records import Instant
 from symgen.settings import Settings
 from tests.verification.running import DEFECTS, off, raw, reference
 
@@ -95,15 +95,14 @@ def test_rows_of_which_rounding_is_left_stand_for_none() -> None:
     model = symgen.load(DEFECTS / "flat_loop.toml")
     run = prepare(model.mechanism, settings).tree
     compiled, start = run.compiled, run.start
-    turned = start.w[abi.WINDING : abi.WINDING + compiled.info.windings]
-    scales = start.w[abi.LENGTH], start.w[abi.SPEED], compiled.section(start.w, "gauge").copy()
+    carried, bodies = carried_of(run.whole, run.mechanism, run.bodies, compiled), run.body_start
     rng = np.random.default_rng(5)
     for _ in range(100):  # as other processors may round
-        y = start.y.copy()
-        y[: compiled.info.nq] += rng.uniform(-2e-16, 2e-16, compiled.info.nq)
-        w, rank, masked = settle_tree(compiled, y, start.p.copy(), 0.0, turned, scales)
+        y, nq, w = bodies.y.copy(), run.bodies.info.nq, compiled.scratch()
+        y[:nq] += rng.uniform(-2e-16, 2e-16, nq)
+        carried.settle(Instant(y, bodies.p, bodies.w), Instant(start.y.copy(), start.p.copy(), w))
         kept = compiled.section(w, "mask") == 0.0
-        assert (rank, len(masked), kept.sum()) == (2, 3, 2)
+        assert (compiled.rank(w), len(compiled.redundant(w)), kept.sum()) == (2, 3, 2)
         assert np.linalg.svd(compiled.jacobian(w)[kept], compute_uv=False)[-1] > 0.05
 
 
