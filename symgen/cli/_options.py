@@ -173,15 +173,12 @@ def output_file(option: str, text: str | None, kind: str = "") -> Path | None:
     if text is None:
         return None
     from symgen.files import check_writable
-    from symgen.result.export import PLOTTED, SAVED, check_path
+    from symgen.result.export import COLUMNS, PLOTTED, SAVED, check_path
 
     path = Path(text)
-    if kind == "tables":
-        from symgen.result.tables import SAVED as TABLES
-
-        check_path(option, path, TABLES, "data")
-    elif kind:
-        check_path(option, path, SAVED if kind == "data" else PLOTTED, kind)
+    if kind:
+        endings = {"data": SAVED, "tables": COLUMNS, "plot": PLOTTED}[kind]
+        check_path(option, path, endings, "plot" if kind == "plot" else "data")
     else:
         check_writable(option, path)
     return path

@@ -115,7 +115,8 @@ def _prepare(model: Model, settings: Settings, quantities: tuple[str, ...]) -> N
     """Refuse quantities that no result will have."""
     if not quantities:
         return
-    from symgen.result.select import choose, columns_of
+    from symgen.result.select import columns_of
+    from symgen.result.tables import choose
     from symgen.running.plan import Purpose
     from symgen.running.prepare import make_plan
     from symgen.running.starts import compiled_for

@@ -13,7 +13,6 @@ from symgen.vocabulary.measures import GROUND
 from symgen.vocabulary.rotations import matrix
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Mechanism
     from symgen.runtime.compiled import ModelInfo
 
 
@@ -41,16 +40,23 @@ def _labels(spatial: bool, velocities: int) -> list[str]:
     return [*(f"F{axis}" for axis in axes), *(f"M{axis}" for axis in ("xyz" if spatial else ("",)) if turns)]
 
 
-def reaction_names(mechanism: Mechanism, info: ModelInfo) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the names of the components of all reactions, and those of their magnitudes, of any run of a model."""
+def reaction_names(joints: Mapping[str, str], info: ModelInfo) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the names of the components of all reactions, and those of their magnitudes, of any run of a model.
+
+    Parameters
+    ----------
+    joints : mapping of str to str
+        Joint -> its first body.
+    info : ModelInfo
+        The model.
+    """
     bodies = [velocity.name.rpartition(".")[0] for velocity in info.velocities]
     parts, lengths = list[str](), list[str]()
-    for joint in mechanism.joints:
-        body = joint.bodies[0]
+    for joint, body in joints.items():
         labels = _labels(_is_spatial(info), 0 if body == GROUND else bodies.count(body))
-        parts += [f"{joint.name}.{label}" for label in labels]
+        parts += [f"{joint}.{label}" for label in labels]
         several = (name for letter, name in (("F", "F"), ("M", "T")) if sum(x[0] == letter for x in labels) > 1)
-        lengths += [f"{joint.name}.{name}" for name in several]
+        lengths += [f"{joint}.{name}" for name in several]
     return tuple(parts), tuple(lengths)
 
 
