@@ -41,7 +41,7 @@ demo: $(INSTALLED)  ## derive, generate, compile and run a mechanism with every 
 	@echo; echo "== describe and assemble"
 	@"$(BIN)/symgen" check $(DEMO_MODEL)
 	@echo; echo "== derive and generate: the code of every method"
-	@"$(BIN)/symgen" generate $(DEMO_MODEL) --output out/$(DEMO_MODEL)
+	@"$(BIN)/symgen" generate $(DEMO_MODEL) --all --output out/$(DEMO_MODEL)
 	@echo; echo "== compile and simulate one run"
 	@"$(BIN)/symgen" run $(DEMO_MODEL) --save out/$(DEMO_MODEL).nc --plot out/$(DEMO_MODEL).png
 	@echo; echo "== compile and simulate every method: error against run time"

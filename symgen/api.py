@@ -24,13 +24,14 @@ from symgen.running.prepare import prepare
 from symgen.running.starts import start_of
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.run import Array
-from symgen.settings import SHAPES, Settings, changed, is_given
+from symgen.settings import COORDINATES, SHAPES, Settings, changed, is_given
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.drawing import Drawing, View
     from symgen.reading.equations import SymbolicEquations
     from symgen.result.result import Result
+    from symgen.running.package import Package
     from symgen.runtime.assembly import Start
     from symgen.runtime.held import Held
     from symgen.stepping.run import SteppedRun
@@ -260,6 +261,60 @@ class Model(Analysed):
 
     def __repr__(self) -> str:
         return repr(self.mechanism).replace("<Mechanism", "<Model", 1)
+
+    def generate(
+        self,
+        path: str | Path | None = None,
+        methods: str | Sequence[str] | None = "direct-correction",
+        options: Mapping[str, str] | None = None,
+        *,
+        coordinates: str = "absolute",
+        shape: str = "straight",
+        target: str = "cpu",
+    ) -> Package:
+        """Write the emitted code into a folder: modules that people read, and a script that simulates the mechanism.
+
+        Parameters
+        ----------
+        path : path, optional
+            The folder, which is made if need be; by default that of the mechanism's name.
+        methods : str or sequence of str, optional
+            Methods, each a module; None: all that suit the mechanism, the shape and the target.
+        options : mapping, optional
+            Their structural options, e.g. ``{"direct-correction.weight": "mass"}``.
+        coordinates : {"absolute", "joint", "auto"}
+            Coordinates of the state.
+        shape : {"straight", "looped"}
+            Code for this mechanism alone, or loops over tables that all mechanisms share.
+        target : {"cpu", "lanes", "cuda"}
+            What the code is for. Straight code for processors runs by itself, see its README.md.
+
+        Returns
+        -------
+        Package
+            The folder and its files.
+
+        Raises
+        ------
+        InputError
+            If an argument is wrong, or the folder cannot be written.
+        """
+        from symgen.ir.program import TARGETS
+        from symgen.running.package import write_package
+
+        texts = {
+            name: arguments.text(f"option '{name}'", value)
+            for name, value in arguments.mapping("options", options, "texts by the names of options").items()
+        }
+        return write_package(
+            self.mechanism,
+            arguments.path("path", self.name if path is None else path),
+            None if methods is None else arguments.words("methods", methods),
+            texts,
+            arguments.one_of("coordinates", coordinates, COORDINATES),
+            arguments.one_of("shape", shape, SHAPES[1:]),
+            arguments.one_of("target", target, TARGETS),
+        )
 
     def simulate(
         self, settings: Settings | None = None, progress: Callable[[float], None] | None = None, **changes: object

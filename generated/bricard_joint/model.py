@@ -1,6 +1,6 @@
 """Model `bricard`: what every method of it shares. Emitted by symgen; do not edit.
 
-digest dc50b4bafc3843d522248ecf36306546216a47158252a42fd3a8f555947a7488, format 3, templates 774f5f3a0a6c3684
+digest dc50b4bafc3843d522248ecf36306546216a47158252a42fd3a8f555947a7488, format 3, templates bb23d5a16442c950
 5 coordinates, 5 velocities, 5 constraint rows, 0 parameters,
 0 fill-ins in the factor of D D^T
 
@@ -23,22 +23,22 @@ row 2    P3.z [m]
 row 3    P3.first [rad]
 row 4    P3.second [rad]
 
-w[0:19]  status
-w[19:20]  winding
-w[20:25]  multipliers
-w[25:30]  mask
-w[30:35]  saved
-w[35:40]  residual
-w[40:45]  nu
-w[45:50]  pivot
-w[50:55]  change
-w[55:60]  mass
-w[60:65]  gauge
-w[65:70]  row_weight
-w[70:93]  jacobian
-w[93:103]  lower
-w[103:108]  reciprocal
-w[108:113]  mass_entry
+w[0:19]     status: single numbers, named in this module where it uses them
+w[19:20]    winding: turns of angles that are counted
+w[20:25]    multipliers: Lagrange multipliers, one a row
+w[25:30]    mask: inf at rows that depend on others, else 0
+w[30:35]    saved: `mask` while `confirm` leaves out further rows
+w[35:40]    residual: Phi after `geometry`, D v - nu after `measure`
+w[40:45]    nu: right-hand side of D v = nu
+w[45:50]    pivot: pivots of D G D^T over its diagonal: near 0 a row depends on others
+w[50:55]    change: correction of velocities, or of positions, that `spread` leaves
+w[55:60]    mass: diagonal of M
+w[60:65]    gauge: diagonal of G, the metric in which rank is decided: 1, or 1/l^2 for a rotation of a body of length l
+w[65:70]    row_weight: factors that make rows of different units comparable
+w[70:93]    jacobian: entries of D that are not constant
+w[93:103]   lower: L of the factorisation of D G D^T, below the diagonal
+w[103:108]  reciprocal: reciprocals of the pivots of D G D^T, 0 for rows left out
+w[108:113]  mass_entry: entries of M that depend on positions
 
 Left out:
 - columns of the ground: the ground does not move
@@ -53,10 +53,32 @@ import math
 
 from numba import njit
 
+WINDING = 19  # sections of w
+MASK = 25
+RESIDUAL = 35
+PIVOT = 45
+CHANGE = 50
+MASS = 55
+GAUGE = 60
+JACOBIAN = 70
+LOWER = 93
+RECIPROCAL = 103
+MASS_ENTRY = 108
+POSITION_VIOLATION = 0  # numbers in w
+VELOCITY_VIOLATION = 1
+KINETIC = 2
+POTENTIAL = 3
+SMALLEST_PIVOT = 4
+RANK = 5
+LENGTH_SCALE = 6
+POSITION_MEASURE = 8
+VELOCITY_MEASURE = 9
+SHORTEST_ROW = 10
+
 
 @njit(error_model="numpy", fastmath={"contract"})
 def prepare(p):
-    """numbers that depend on parameters alone: 0 operations, 0 before sharing."""
+    """Numbers that depend on parameters alone: 0 operations, 0 before sharing."""
     return 0
 
 
@@ -69,17 +91,17 @@ def geometry(t, y, p, w):
     q2 = y[2]  # P1.angle [rad]
     q3 = y[3]  # P4.angle [rad]
     q4 = y[4]  # P2.angle [rad]
-    mask_0 = w[25]  # P3.x
-    mask_1 = w[26]  # P3.y
-    mask_2 = w[27]  # P3.z
-    mask_3 = w[28]  # P3.first
-    mask_4 = w[29]  # P3.second
-    gauge_0 = w[60]  # P0.angle.rate
-    gauge_1 = w[61]  # P5.angle.rate
-    gauge_2 = w[62]  # P1.angle.rate
-    gauge_3 = w[63]  # P4.angle.rate
-    gauge_4 = w[64]  # P2.angle.rate
-    status_6 = w[6]  # length_scale
+    mask_0 = w[MASK]  # P3.x
+    mask_1 = w[MASK + 1]  # P3.y
+    mask_2 = w[MASK + 2]  # P3.z
+    mask_3 = w[MASK + 3]  # P3.first
+    mask_4 = w[MASK + 4]  # P3.second
+    gauge_0 = w[GAUGE]  # P0.angle.rate
+    gauge_1 = w[GAUGE + 1]  # P5.angle.rate
+    gauge_2 = w[GAUGE + 2]  # P1.angle.rate
+    gauge_3 = w[GAUGE + 3]  # P4.angle.rate
+    gauge_4 = w[GAUGE + 4]  # P2.angle.rate
+    status_6 = w[LENGTH_SCALE]  # length_scale
     # intermediate terms
     s0 = math.cos(q0)
     s1 = math.sin(q0)
@@ -226,119 +248,119 @@ def geometry(t, y, p, w):
     s142 = s132/s133
     s143 = min(min(min(min(min(1.0, mask_0 + s138), mask_1 + s139), mask_2 + s140), mask_3 + s141), mask_4 + s142)
     # outputs
-    w[35] = s32  # P3.x
-    w[36] = s33  # P3.y
-    w[37] = s34  # P3.z
-    w[38] = -s43  # P3.first
-    w[39] = s56  # P3.second
-    w[0] = math.sqrt(s63 + s137 + s56*s56)  # position_violation
-    w[8] = math.sqrt(s137 + s135*s135 + s136*s136)  # position_measure
-    w[70] = s35  # D P3.x, P0.angle.rate
-    w[71] = -s36  # D P3.x, P1.angle.rate
-    w[72] = -s11  # D P3.x, P4.angle.rate
-    w[73] = s20  # D P3.x, P2.angle.rate
-    w[74] = s38  # D P3.y, P0.angle.rate
-    w[75] = s40  # D P3.y, P5.angle.rate
-    w[76] = -s39  # D P3.y, P1.angle.rate
-    w[77] = -s14  # D P3.y, P4.angle.rate
-    w[78] = s21  # D P3.y, P2.angle.rate
-    w[79] = s41  # D P3.z, P0.angle.rate
-    w[80] = s31  # D P3.z, P5.angle.rate
-    w[81] = s42  # D P3.z, P1.angle.rate
-    w[82] = s15  # D P3.z, P4.angle.rate
-    w[83] = s22  # D P3.z, P2.angle.rate
-    w[84] = s52  # D P3.first, P0.angle.rate
-    w[85] = -s54  # D P3.first, P5.angle.rate
-    w[86] = s53  # D P3.first, P1.angle.rate
-    w[87] = s48  # D P3.first, P4.angle.rate
-    w[88] = s60  # D P3.second, P0.angle.rate
-    w[89] = -s62  # D P3.second, P5.angle.rate
-    w[90] = s61  # D P3.second, P1.angle.rate
-    w[91] = s59  # D P3.second, P4.angle.rate
-    w[92] = s57  # D P3.second, P2.angle.rate
-    w[45] = s138  # P3.x
-    w[46] = s139  # P3.y
-    w[47] = s140  # P3.z
-    w[48] = s141  # P3.first
-    w[49] = s142  # P3.second
-    w[5] = s134 + s129 + s121 + s101 + s112  # rank
-    w[4] = s143  # smallest_pivot
-    w[10] = min(min(1.0, s55), s64)  # shortest_row
-    w[93] = s103
-    w[94] = s104
-    w[95] = s105
-    w[96] = s106
-    w[97] = s114
-    w[98] = s115
-    w[99] = s116
-    w[100] = s123
-    w[101] = s124
-    w[102] = s131
-    w[103] = s102
-    w[104] = s113
-    w[105] = s122
-    w[106] = s130
-    w[107] = s134/max(s132, 1e-300)
-    w[108] = 2.335 + s70 + s5*(s5*(1.3333333333333335 + 0.33416666666666667 + s67 - s70)) - (s72 + s72)
-    w[109] = s4*(s16*s68 + 0.5*(s66 + s66))
-    w[110] = s65 + s5*(0.33416666666666667 + s65)
-    w[111] = 1.335 + s67 + 0.000833333333333342 + s69
-    w[112] = 1.335 + s71 + s71 + 0.000833333333333342 + s11*(0.3325*s11)
+    w[RESIDUAL] = s32  # P3.x
+    w[RESIDUAL + 1] = s33  # P3.y
+    w[RESIDUAL + 2] = s34  # P3.z
+    w[RESIDUAL + 3] = -s43  # P3.first
+    w[RESIDUAL + 4] = s56  # P3.second
+    w[POSITION_VIOLATION] = math.sqrt(s63 + s137 + s56*s56)  # position_violation
+    w[POSITION_MEASURE] = math.sqrt(s137 + s135*s135 + s136*s136)  # position_measure
+    w[JACOBIAN] = s35  # D P3.x, P0.angle.rate
+    w[JACOBIAN + 1] = -s36  # D P3.x, P1.angle.rate
+    w[JACOBIAN + 2] = -s11  # D P3.x, P4.angle.rate
+    w[JACOBIAN + 3] = s20  # D P3.x, P2.angle.rate
+    w[JACOBIAN + 4] = s38  # D P3.y, P0.angle.rate
+    w[JACOBIAN + 5] = s40  # D P3.y, P5.angle.rate
+    w[JACOBIAN + 6] = -s39  # D P3.y, P1.angle.rate
+    w[JACOBIAN + 7] = -s14  # D P3.y, P4.angle.rate
+    w[JACOBIAN + 8] = s21  # D P3.y, P2.angle.rate
+    w[JACOBIAN + 9] = s41  # D P3.z, P0.angle.rate
+    w[JACOBIAN + 10] = s31  # D P3.z, P5.angle.rate
+    w[JACOBIAN + 11] = s42  # D P3.z, P1.angle.rate
+    w[JACOBIAN + 12] = s15  # D P3.z, P4.angle.rate
+    w[JACOBIAN + 13] = s22  # D P3.z, P2.angle.rate
+    w[JACOBIAN + 14] = s52  # D P3.first, P0.angle.rate
+    w[JACOBIAN + 15] = -s54  # D P3.first, P5.angle.rate
+    w[JACOBIAN + 16] = s53  # D P3.first, P1.angle.rate
+    w[JACOBIAN + 17] = s48  # D P3.first, P4.angle.rate
+    w[JACOBIAN + 18] = s60  # D P3.second, P0.angle.rate
+    w[JACOBIAN + 19] = -s62  # D P3.second, P5.angle.rate
+    w[JACOBIAN + 20] = s61  # D P3.second, P1.angle.rate
+    w[JACOBIAN + 21] = s59  # D P3.second, P4.angle.rate
+    w[JACOBIAN + 22] = s57  # D P3.second, P2.angle.rate
+    w[PIVOT] = s138  # P3.x
+    w[PIVOT + 1] = s139  # P3.y
+    w[PIVOT + 2] = s140  # P3.z
+    w[PIVOT + 3] = s141  # P3.first
+    w[PIVOT + 4] = s142  # P3.second
+    w[RANK] = s134 + s129 + s121 + s101 + s112  # rank
+    w[SMALLEST_PIVOT] = s143  # smallest_pivot
+    w[SHORTEST_ROW] = min(min(1.0, s55), s64)  # shortest_row
+    w[LOWER] = s103
+    w[LOWER + 1] = s104
+    w[LOWER + 2] = s105
+    w[LOWER + 3] = s106
+    w[LOWER + 4] = s114
+    w[LOWER + 5] = s115
+    w[LOWER + 6] = s116
+    w[LOWER + 7] = s123
+    w[LOWER + 8] = s124
+    w[LOWER + 9] = s131
+    w[RECIPROCAL] = s102
+    w[RECIPROCAL + 1] = s113
+    w[RECIPROCAL + 2] = s122
+    w[RECIPROCAL + 3] = s130
+    w[RECIPROCAL + 4] = s134/max(s132, 1e-300)
+    w[MASS_ENTRY] = 2.335 + s70 + s5*(s5*(1.3333333333333335 + 0.33416666666666667 + s67 - s70)) - (s72 + s72)
+    w[MASS_ENTRY + 1] = s4*(s16*s68 + 0.5*(s66 + s66))
+    w[MASS_ENTRY + 2] = s65 + s5*(0.33416666666666667 + s65)
+    w[MASS_ENTRY + 3] = 1.335 + s67 + 0.000833333333333342 + s69
+    w[MASS_ENTRY + 4] = 1.335 + s71 + s71 + 0.000833333333333342 + s11*(0.3325*s11)
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
-    """the correction -D^+ times the section `residual`, of v, or of q by N: 91 operations, 3157 before sharing."""
+    """The correction -D^+ times the section `residual`, of v, or of q by N: 91 operations, 3157 before sharing."""
     # inputs
-    gauge_0 = w[60]  # P0.angle.rate
-    gauge_1 = w[61]  # P5.angle.rate
-    gauge_2 = w[62]  # P1.angle.rate
-    gauge_3 = w[63]  # P4.angle.rate
-    gauge_4 = w[64]  # P2.angle.rate
-    lower_0 = w[93]
-    lower_1 = w[94]
-    lower_2 = w[95]
-    lower_3 = w[96]
-    lower_4 = w[97]
-    lower_5 = w[98]
-    lower_6 = w[99]
-    lower_7 = w[100]
-    lower_8 = w[101]
-    lower_9 = w[102]
-    reciprocal_0 = w[103]
-    reciprocal_1 = w[104]
-    reciprocal_2 = w[105]
-    reciprocal_3 = w[106]
-    reciprocal_4 = w[107]
-    residual_0 = w[35]  # P3.x
-    residual_1 = w[36]  # P3.y
-    residual_2 = w[37]  # P3.z
-    residual_3 = w[38]  # P3.first
-    residual_4 = w[39]  # P3.second
-    jacobian_0 = w[70]  # D P3.x, P0.angle.rate
-    jacobian_1 = w[71]  # D P3.x, P1.angle.rate
-    jacobian_2 = w[72]  # D P3.x, P4.angle.rate
-    jacobian_3 = w[73]  # D P3.x, P2.angle.rate
-    jacobian_4 = w[74]  # D P3.y, P0.angle.rate
-    jacobian_5 = w[75]  # D P3.y, P5.angle.rate
-    jacobian_6 = w[76]  # D P3.y, P1.angle.rate
-    jacobian_7 = w[77]  # D P3.y, P4.angle.rate
-    jacobian_8 = w[78]  # D P3.y, P2.angle.rate
-    jacobian_9 = w[79]  # D P3.z, P0.angle.rate
-    jacobian_10 = w[80]  # D P3.z, P5.angle.rate
-    jacobian_11 = w[81]  # D P3.z, P1.angle.rate
-    jacobian_12 = w[82]  # D P3.z, P4.angle.rate
-    jacobian_13 = w[83]  # D P3.z, P2.angle.rate
-    jacobian_14 = w[84]  # D P3.first, P0.angle.rate
-    jacobian_15 = w[85]  # D P3.first, P5.angle.rate
-    jacobian_16 = w[86]  # D P3.first, P1.angle.rate
-    jacobian_17 = w[87]  # D P3.first, P4.angle.rate
-    jacobian_18 = w[88]  # D P3.second, P0.angle.rate
-    jacobian_19 = w[89]  # D P3.second, P5.angle.rate
-    jacobian_20 = w[90]  # D P3.second, P1.angle.rate
-    jacobian_21 = w[91]  # D P3.second, P4.angle.rate
-    jacobian_22 = w[92]  # D P3.second, P2.angle.rate
+    gauge_0 = w[GAUGE]  # P0.angle.rate
+    gauge_1 = w[GAUGE + 1]  # P5.angle.rate
+    gauge_2 = w[GAUGE + 2]  # P1.angle.rate
+    gauge_3 = w[GAUGE + 3]  # P4.angle.rate
+    gauge_4 = w[GAUGE + 4]  # P2.angle.rate
+    lower_0 = w[LOWER]
+    lower_1 = w[LOWER + 1]
+    lower_2 = w[LOWER + 2]
+    lower_3 = w[LOWER + 3]
+    lower_4 = w[LOWER + 4]
+    lower_5 = w[LOWER + 5]
+    lower_6 = w[LOWER + 6]
+    lower_7 = w[LOWER + 7]
+    lower_8 = w[LOWER + 8]
+    lower_9 = w[LOWER + 9]
+    reciprocal_0 = w[RECIPROCAL]
+    reciprocal_1 = w[RECIPROCAL + 1]
+    reciprocal_2 = w[RECIPROCAL + 2]
+    reciprocal_3 = w[RECIPROCAL + 3]
+    reciprocal_4 = w[RECIPROCAL + 4]
+    residual_0 = w[RESIDUAL]  # P3.x
+    residual_1 = w[RESIDUAL + 1]  # P3.y
+    residual_2 = w[RESIDUAL + 2]  # P3.z
+    residual_3 = w[RESIDUAL + 3]  # P3.first
+    residual_4 = w[RESIDUAL + 4]  # P3.second
+    jacobian_0 = w[JACOBIAN]  # D P3.x, P0.angle.rate
+    jacobian_1 = w[JACOBIAN + 1]  # D P3.x, P1.angle.rate
+    jacobian_2 = w[JACOBIAN + 2]  # D P3.x, P4.angle.rate
+    jacobian_3 = w[JACOBIAN + 3]  # D P3.x, P2.angle.rate
+    jacobian_4 = w[JACOBIAN + 4]  # D P3.y, P0.angle.rate
+    jacobian_5 = w[JACOBIAN + 5]  # D P3.y, P5.angle.rate
+    jacobian_6 = w[JACOBIAN + 6]  # D P3.y, P1.angle.rate
+    jacobian_7 = w[JACOBIAN + 7]  # D P3.y, P4.angle.rate
+    jacobian_8 = w[JACOBIAN + 8]  # D P3.y, P2.angle.rate
+    jacobian_9 = w[JACOBIAN + 9]  # D P3.z, P0.angle.rate
+    jacobian_10 = w[JACOBIAN + 10]  # D P3.z, P5.angle.rate
+    jacobian_11 = w[JACOBIAN + 11]  # D P3.z, P1.angle.rate
+    jacobian_12 = w[JACOBIAN + 12]  # D P3.z, P4.angle.rate
+    jacobian_13 = w[JACOBIAN + 13]  # D P3.z, P2.angle.rate
+    jacobian_14 = w[JACOBIAN + 14]  # D P3.first, P0.angle.rate
+    jacobian_15 = w[JACOBIAN + 15]  # D P3.first, P5.angle.rate
+    jacobian_16 = w[JACOBIAN + 16]  # D P3.first, P1.angle.rate
+    jacobian_17 = w[JACOBIAN + 17]  # D P3.first, P4.angle.rate
+    jacobian_18 = w[JACOBIAN + 18]  # D P3.second, P0.angle.rate
+    jacobian_19 = w[JACOBIAN + 19]  # D P3.second, P5.angle.rate
+    jacobian_20 = w[JACOBIAN + 20]  # D P3.second, P1.angle.rate
+    jacobian_21 = w[JACOBIAN + 21]  # D P3.second, P4.angle.rate
+    jacobian_22 = w[JACOBIAN + 22]  # D P3.second, P2.angle.rate
     # intermediate terms
     s0 = lower_0*residual_0 - residual_1
     s1 = lower_1*residual_0 - residual_2 - lower_4*s0
@@ -349,11 +371,11 @@ def spread(p, w):
     s6 = reciprocal_1*s0 - lower_4*s5 - lower_5*s4 - lower_6*s3
     s7 = reciprocal_0*residual_0 + lower_0*s6 + lower_1*s5 + lower_2*s4 + lower_3*s3
     # outputs
-    w[50] = gauge_0*(s6*jacobian_4 - s7*jacobian_0 + s5*jacobian_9 + s4*jacobian_14 + s3*jacobian_18)  # P0.angle.rate
-    w[51] = gauge_1*(s6*jacobian_5 + s5*jacobian_10 + s4*jacobian_15 + s3*jacobian_19)  # P5.angle.rate
-    w[52] = gauge_2*(s6*jacobian_6 - s7*jacobian_1 + s5*jacobian_11 + s4*jacobian_16 + s3*jacobian_20)  # P1.angle.rate
-    w[53] = gauge_3*(s6*jacobian_7 - s7*jacobian_2 + s5*jacobian_12 + s4*jacobian_17 + s3*jacobian_21)  # P4.angle.rate
-    w[54] = gauge_4*(s6*jacobian_8 - s7*jacobian_3 + s5*jacobian_13 + s3*jacobian_22)  # P2.angle.rate
+    w[CHANGE] = gauge_0*(s6*jacobian_4 - s7*jacobian_0 + s5*jacobian_9 + s4*jacobian_14 + s3*jacobian_18)  # P0.angle.rate
+    w[CHANGE + 1] = gauge_1*(s6*jacobian_5 + s5*jacobian_10 + s4*jacobian_15 + s3*jacobian_19)  # P5.angle.rate
+    w[CHANGE + 2] = gauge_2*(s6*jacobian_6 - s7*jacobian_1 + s5*jacobian_11 + s4*jacobian_16 + s3*jacobian_20)  # P1.angle.rate
+    w[CHANGE + 3] = gauge_3*(s6*jacobian_7 - s7*jacobian_2 + s5*jacobian_12 + s4*jacobian_17 + s3*jacobian_21)  # P4.angle.rate
+    w[CHANGE + 4] = gauge_4*(s6*jacobian_8 - s7*jacobian_3 + s5*jacobian_13 + s3*jacobian_22)  # P2.angle.rate
     return 0
 
 
@@ -371,31 +393,31 @@ def measure(t, y, p, w):
     v2 = y[7]  # P1.angle.rate [rad/s]
     v3 = y[8]  # P4.angle.rate [rad/s]
     v4 = y[9]  # P2.angle.rate [rad/s]
-    winding_0 = w[19]
-    status_6 = w[6]  # length_scale
-    jacobian_0 = w[70]  # D P3.x, P0.angle.rate
-    jacobian_1 = w[71]  # D P3.x, P1.angle.rate
-    jacobian_2 = w[72]  # D P3.x, P4.angle.rate
-    jacobian_3 = w[73]  # D P3.x, P2.angle.rate
-    jacobian_4 = w[74]  # D P3.y, P0.angle.rate
-    jacobian_5 = w[75]  # D P3.y, P5.angle.rate
-    jacobian_6 = w[76]  # D P3.y, P1.angle.rate
-    jacobian_7 = w[77]  # D P3.y, P4.angle.rate
-    jacobian_8 = w[78]  # D P3.y, P2.angle.rate
-    jacobian_9 = w[79]  # D P3.z, P0.angle.rate
-    jacobian_10 = w[80]  # D P3.z, P5.angle.rate
-    jacobian_11 = w[81]  # D P3.z, P1.angle.rate
-    jacobian_12 = w[82]  # D P3.z, P4.angle.rate
-    jacobian_13 = w[83]  # D P3.z, P2.angle.rate
-    jacobian_14 = w[84]  # D P3.first, P0.angle.rate
-    jacobian_15 = w[85]  # D P3.first, P5.angle.rate
-    jacobian_16 = w[86]  # D P3.first, P1.angle.rate
-    jacobian_17 = w[87]  # D P3.first, P4.angle.rate
-    jacobian_18 = w[88]  # D P3.second, P0.angle.rate
-    jacobian_19 = w[89]  # D P3.second, P5.angle.rate
-    jacobian_20 = w[90]  # D P3.second, P1.angle.rate
-    jacobian_21 = w[91]  # D P3.second, P4.angle.rate
-    jacobian_22 = w[92]  # D P3.second, P2.angle.rate
+    winding_0 = w[WINDING]
+    status_6 = w[LENGTH_SCALE]  # length_scale
+    jacobian_0 = w[JACOBIAN]  # D P3.x, P0.angle.rate
+    jacobian_1 = w[JACOBIAN + 1]  # D P3.x, P1.angle.rate
+    jacobian_2 = w[JACOBIAN + 2]  # D P3.x, P4.angle.rate
+    jacobian_3 = w[JACOBIAN + 3]  # D P3.x, P2.angle.rate
+    jacobian_4 = w[JACOBIAN + 4]  # D P3.y, P0.angle.rate
+    jacobian_5 = w[JACOBIAN + 5]  # D P3.y, P5.angle.rate
+    jacobian_6 = w[JACOBIAN + 6]  # D P3.y, P1.angle.rate
+    jacobian_7 = w[JACOBIAN + 7]  # D P3.y, P4.angle.rate
+    jacobian_8 = w[JACOBIAN + 8]  # D P3.y, P2.angle.rate
+    jacobian_9 = w[JACOBIAN + 9]  # D P3.z, P0.angle.rate
+    jacobian_10 = w[JACOBIAN + 10]  # D P3.z, P5.angle.rate
+    jacobian_11 = w[JACOBIAN + 11]  # D P3.z, P1.angle.rate
+    jacobian_12 = w[JACOBIAN + 12]  # D P3.z, P4.angle.rate
+    jacobian_13 = w[JACOBIAN + 13]  # D P3.z, P2.angle.rate
+    jacobian_14 = w[JACOBIAN + 14]  # D P3.first, P0.angle.rate
+    jacobian_15 = w[JACOBIAN + 15]  # D P3.first, P5.angle.rate
+    jacobian_16 = w[JACOBIAN + 16]  # D P3.first, P1.angle.rate
+    jacobian_17 = w[JACOBIAN + 17]  # D P3.first, P4.angle.rate
+    jacobian_18 = w[JACOBIAN + 18]  # D P3.second, P0.angle.rate
+    jacobian_19 = w[JACOBIAN + 19]  # D P3.second, P5.angle.rate
+    jacobian_20 = w[JACOBIAN + 20]  # D P3.second, P1.angle.rate
+    jacobian_21 = w[JACOBIAN + 21]  # D P3.second, P4.angle.rate
+    jacobian_22 = w[JACOBIAN + 22]  # D P3.second, P2.angle.rate
     # intermediate terms
     s0 = math.sin(q0)
     s1 = math.cos(q1)
@@ -438,16 +460,16 @@ def measure(t, y, p, w):
     s38 = status_6*s36
     s39 = s32*s32 + s33*s33 + s34*s34
     # outputs
-    w[35] = s32  # P3.x
-    w[36] = s33  # P3.y
-    w[37] = s34  # P3.z
-    w[38] = s35  # P3.first
-    w[39] = s36  # P3.second
-    w[1] = math.sqrt(s39 + s35*s35 + s36*s36)  # velocity_violation
-    w[9] = math.sqrt(s39 + s37*s37 + s38*s38)  # velocity_measure
-    w[2] = s30  # kinetic
-    w[3] = -(4.905*s3 + 9.81*(s3 + 0.5*s12) + 9.81*(s1 + 0.5*(s1*s7)) + 4.905*s1)  # potential
-    w[19] = s31 + 6.283185307179586*math.floor(0.5 + 0.15915494309189535*(winding_0 - s31))
+    w[RESIDUAL] = s32  # P3.x
+    w[RESIDUAL + 1] = s33  # P3.y
+    w[RESIDUAL + 2] = s34  # P3.z
+    w[RESIDUAL + 3] = s35  # P3.first
+    w[RESIDUAL + 4] = s36  # P3.second
+    w[VELOCITY_VIOLATION] = math.sqrt(s39 + s35*s35 + s36*s36)  # velocity_violation
+    w[VELOCITY_MEASURE] = math.sqrt(s39 + s37*s37 + s38*s38)  # velocity_measure
+    w[KINETIC] = s30  # kinetic
+    w[POTENTIAL] = -(4.905*s3 + 9.81*(s3 + 0.5*s12) + 9.81*(s1 + 0.5*(s1*s7)) + 4.905*s1)  # potential
+    w[WINDING] = s31 + 6.283185307179586*math.floor(0.5 + 0.15915494309189535*(winding_0 - s31))
     return 0
 
 
@@ -465,7 +487,7 @@ def observe(t, y, p, w, ydot, out):
     v2 = y[7]  # P1.angle.rate [rad/s]
     v3 = y[8]  # P4.angle.rate [rad/s]
     v4 = y[9]  # P2.angle.rate [rad/s]
-    winding_0 = w[19]
+    winding_0 = w[WINDING]
     ydot_5 = ydot[5]  # rate of P0.angle.rate
     ydot_6 = ydot[6]  # rate of P5.angle.rate
     ydot_7 = ydot[7]  # rate of P1.angle.rate
@@ -607,19 +629,19 @@ def observe(t, y, p, w, ydot, out):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def masses(p, w):
-    """diagonal of M: 0 operations, 0 before sharing."""
+    """Diagonal of M: 0 operations, 0 before sharing."""
     # outputs
-    w[55] = 2.67  # P0.angle.rate
-    w[57] = 1.3358333333333332  # P1.angle.rate
-    w[59] = 0.33416666666666667  # P2.angle.rate
-    w[56] = 1.3358333333333332  # P5.angle.rate
-    w[58] = 0.33416666666666667  # P4.angle.rate
+    w[MASS] = 2.67  # P0.angle.rate
+    w[MASS + 2] = 1.3358333333333332  # P1.angle.rate
+    w[MASS + 4] = 0.33416666666666667  # P2.angle.rate
+    w[MASS + 1] = 1.3358333333333332  # P5.angle.rate
+    w[MASS + 3] = 0.33416666666666667  # P4.angle.rate
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def bodies(t, y, p, w, ydot, out):
-    """coordinates, velocities and accelerations of bodies: 379 operations, 2816 before sharing."""
+    """Coordinates, velocities and accelerations of bodies: 379 operations, 2816 before sharing."""
     # inputs
     q0 = y[0]  # P0.angle [rad]
     q1 = y[1]  # P5.angle [rad]

@@ -1,8 +1,8 @@
 """Method `direct-correction` for model `four-bar` in lanes, for 8 runs at once. Emitted by symgen; do not edit.
 
-positions and velocities are projected after each step with the pseudoinverse of D
+Positions and velocities are projected after each step with the pseudoinverse of D.
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 774f5f3a0a6c3684
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates bb23d5a16442c950
 option solver = elimination
 option weight = identity
 p[28] tolerance (default 1e-13)
@@ -203,7 +203,7 @@ def geometry_of_model(t, z, lanes):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def refactor(t, z, lanes):
-    """the factorisation of D D^T from D, without the rows that depend on others: 146 operations a lane."""
+    """The factorisation of D D^T from D, without the rows that depend on others: 146 operations a lane."""
     for lane in range(lanes):
         reciprocal_1 = z[1600 + lane]
         reciprocal_3 = z[1616 + lane]
@@ -294,7 +294,7 @@ def refactor(t, z, lanes):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(t, z, lanes):
-    """the correction -D^+ times the section `residual`, of v, or of q by N: 102 operations a lane."""
+    """The correction -D^+ times the section `residual`, of v, or of q by N: 102 operations a lane."""
     for lane in range(lanes):
         jacobian_0 = z[1368 + lane]
         jacobian_1 = z[1376 + lane]

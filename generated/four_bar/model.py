@@ -1,6 +1,6 @@
 """Model `four-bar`: what every method of it shares. Emitted by symgen; do not edit.
 
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 774f5f3a0a6c3684
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates bb23d5a16442c950
 9 coordinates, 9 velocities, 8 constraint rows, 3 parameters,
 0 fill-ins in the factor of D D^T
 
@@ -28,6 +28,7 @@ y[18]    work of forces without potential and of drivers [J]
 p[0]     crank_mass [kg]
 p[1]     coupler_mass [kg]
 p[2]     rocker_mass [kg]
+p[3:15]  numbers computed by `prepare`
 row 0    A.x [m]
 row 1    A.y [m]
 row 2    B.x [m]
@@ -37,20 +38,20 @@ row 5    C.y [m]
 row 6    D.x [m]
 row 7    D.y [m]
 
-w[0:19]  status
-w[19:27]  multipliers
-w[27:35]  mask
-w[35:43]  saved
-w[43:51]  residual
-w[51:59]  nu
-w[59:67]  pivot
-w[67:76]  change
-w[76:85]  mass
-w[85:94]  gauge
-w[94:102]  row_weight
-w[102:114]  jacobian
-w[114:130]  lower
-w[130:138]  reciprocal
+w[0:19]     status: single numbers, named in this module where it uses them
+w[19:27]    multipliers: Lagrange multipliers, one a row
+w[27:35]    mask: inf at rows that depend on others, else 0
+w[35:43]    saved: `mask` while `confirm` leaves out further rows
+w[43:51]    residual: Phi after `geometry`, D v - nu after `measure`
+w[51:59]    nu: right-hand side of D v = nu
+w[59:67]    pivot: pivots of D G D^T over its diagonal: near 0 a row depends on others
+w[67:76]    change: correction of velocities, or of positions, that `spread` leaves
+w[76:85]    mass: diagonal of M
+w[85:94]    gauge: diagonal of G, the metric in which rank is decided: 1, or 1/l^2 for a rotation of a body of length l
+w[94:102]   row_weight: factors that make rows of different units comparable
+w[102:114]  jacobian: entries of D that are not constant
+w[114:130]  lower: L of the factorisation of D G D^T, below the diagonal
+w[130:138]  reciprocal: reciprocals of the pivots of D G D^T, 0 for rows left out
 
 Left out:
 - z coordinates, Euler parameters and 3x3 inertia tensors: the mechanism is planar
@@ -66,10 +67,29 @@ import math
 
 from numba import njit
 
+MASK = 27  # sections of w
+RESIDUAL = 43
+PIVOT = 59
+CHANGE = 67
+MASS = 76
+GAUGE = 85
+JACOBIAN = 102
+LOWER = 114
+RECIPROCAL = 130
+POSITION_VIOLATION = 0  # numbers in w
+VELOCITY_VIOLATION = 1
+KINETIC = 2
+POTENTIAL = 3
+SMALLEST_PIVOT = 4
+RANK = 5
+POSITION_MEASURE = 8
+VELOCITY_MEASURE = 9
+SHORTEST_ROW = 10
+
 
 @njit(error_model="numpy", fastmath={"contract"})
 def prepare(p):
-    """numbers that depend on parameters alone: 12 operations, 12 before sharing."""
+    """Numbers that depend on parameters alone: 12 operations, 12 before sharing."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -103,15 +123,15 @@ def geometry(t, y, p, w):
     q6 = y[6]  # rocker.x [m]
     q7 = y[7]  # rocker.y [m]
     q8 = y[8]  # rocker.theta [rad]
-    mask_1 = w[28]  # A.y
-    mask_2 = w[29]  # B.x
-    mask_3 = w[30]  # B.y
-    mask_4 = w[31]  # C.x
-    mask_5 = w[32]  # C.y
-    mask_7 = w[34]  # D.y
-    gauge_2 = w[87]  # crank.omega
-    gauge_5 = w[90]  # coupler.omega
-    gauge_8 = w[93]  # rocker.omega
+    mask_1 = w[MASK + 1]  # A.y
+    mask_2 = w[MASK + 2]  # B.x
+    mask_3 = w[MASK + 3]  # B.y
+    mask_4 = w[MASK + 4]  # C.x
+    mask_5 = w[MASK + 5]  # C.y
+    mask_7 = w[MASK + 7]  # D.y
+    gauge_2 = w[GAUGE + 2]  # crank.omega
+    gauge_5 = w[GAUGE + 5]  # coupler.omega
+    gauge_8 = w[GAUGE + 8]  # rocker.omega
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -208,115 +228,115 @@ def geometry(t, y, p, w):
     s92 = min(min(min(min(min(1.0, mask_1 + s87), mask_2 + s88), mask_3 + s89), mask_4 + s90), mask_5 + s91)
     s93 = s60/s41
     # outputs
-    w[43] = s3  # A.x
-    w[44] = s4  # A.y
-    w[45] = s7  # B.x
-    w[46] = s9  # B.y
-    w[47] = s11  # C.x
-    w[48] = s13  # C.y
-    w[49] = s14  # D.x
-    w[50] = s15  # D.y
-    w[0] = s86  # position_violation
-    w[8] = s86  # position_measure
-    w[102] = s1  # D A.x, crank.omega
-    w[103] = s2  # D A.y, crank.omega
-    w[104] = s1  # D B.x, crank.omega
-    w[105] = s8  # D B.x, coupler.omega
-    w[106] = s2  # D B.y, crank.omega
-    w[107] = s6  # D B.y, coupler.omega
-    w[108] = s8  # D C.x, coupler.omega
-    w[109] = -s12  # D C.x, rocker.omega
-    w[110] = s6  # D C.y, coupler.omega
-    w[111] = s10  # D C.y, rocker.omega
-    w[112] = s12  # D D.x, rocker.omega
-    w[113] = -s10  # D D.y, rocker.omega
-    w[60] = s87  # A.y
-    w[61] = s88  # B.x
-    w[62] = s89  # B.y
-    w[63] = s90  # C.x
-    w[64] = s91  # C.y
-    w[66] = s93  # D.y
-    w[5] = s63 + 1.0 + s85 + s81 + s75 + s67 + 1.0 + s50  # rank
-    w[4] = min(s92, mask_7 + s93)  # smallest_pivot
-    w[10] = 1.0  # shortest_row
-    w[114] = s44
-    w[115] = s45
-    w[116] = s44
-    w[117] = s52
-    w[118] = s53
-    w[119] = -s57
-    w[120] = s58
-    w[121] = s59
-    w[122] = s65
-    w[123] = s66
-    w[124] = s69
-    w[125] = s70
-    w[126] = -s71
-    w[127] = -s77
-    w[128] = s78
-    w[129] = s83
-    w[130] = s42
-    w[131] = s51
-    w[132] = s56
-    w[133] = s64
-    w[134] = s68
-    w[135] = s76
-    w[136] = s82
-    w[137] = s85/max(s84, 1e-300)
+    w[RESIDUAL] = s3  # A.x
+    w[RESIDUAL + 1] = s4  # A.y
+    w[RESIDUAL + 2] = s7  # B.x
+    w[RESIDUAL + 3] = s9  # B.y
+    w[RESIDUAL + 4] = s11  # C.x
+    w[RESIDUAL + 5] = s13  # C.y
+    w[RESIDUAL + 6] = s14  # D.x
+    w[RESIDUAL + 7] = s15  # D.y
+    w[POSITION_VIOLATION] = s86  # position_violation
+    w[POSITION_MEASURE] = s86  # position_measure
+    w[JACOBIAN] = s1  # D A.x, crank.omega
+    w[JACOBIAN + 1] = s2  # D A.y, crank.omega
+    w[JACOBIAN + 2] = s1  # D B.x, crank.omega
+    w[JACOBIAN + 3] = s8  # D B.x, coupler.omega
+    w[JACOBIAN + 4] = s2  # D B.y, crank.omega
+    w[JACOBIAN + 5] = s6  # D B.y, coupler.omega
+    w[JACOBIAN + 6] = s8  # D C.x, coupler.omega
+    w[JACOBIAN + 7] = -s12  # D C.x, rocker.omega
+    w[JACOBIAN + 8] = s6  # D C.y, coupler.omega
+    w[JACOBIAN + 9] = s10  # D C.y, rocker.omega
+    w[JACOBIAN + 10] = s12  # D D.x, rocker.omega
+    w[JACOBIAN + 11] = -s10  # D D.y, rocker.omega
+    w[PIVOT + 1] = s87  # A.y
+    w[PIVOT + 2] = s88  # B.x
+    w[PIVOT + 3] = s89  # B.y
+    w[PIVOT + 4] = s90  # C.x
+    w[PIVOT + 5] = s91  # C.y
+    w[PIVOT + 7] = s93  # D.y
+    w[RANK] = s63 + 1.0 + s85 + s81 + s75 + s67 + 1.0 + s50  # rank
+    w[SMALLEST_PIVOT] = min(s92, mask_7 + s93)  # smallest_pivot
+    w[SHORTEST_ROW] = 1.0  # shortest_row
+    w[LOWER] = s44
+    w[LOWER + 1] = s45
+    w[LOWER + 2] = s44
+    w[LOWER + 3] = s52
+    w[LOWER + 4] = s53
+    w[LOWER + 5] = -s57
+    w[LOWER + 6] = s58
+    w[LOWER + 7] = s59
+    w[LOWER + 8] = s65
+    w[LOWER + 9] = s66
+    w[LOWER + 10] = s69
+    w[LOWER + 11] = s70
+    w[LOWER + 12] = -s71
+    w[LOWER + 13] = -s77
+    w[LOWER + 14] = s78
+    w[LOWER + 15] = s83
+    w[RECIPROCAL] = s42
+    w[RECIPROCAL + 1] = s51
+    w[RECIPROCAL + 2] = s56
+    w[RECIPROCAL + 3] = s64
+    w[RECIPROCAL + 4] = s68
+    w[RECIPROCAL + 5] = s76
+    w[RECIPROCAL + 6] = s82
+    w[RECIPROCAL + 7] = s85/max(s84, 1e-300)
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
-    """the correction -D^+ times the section `residual`, of v, or of q by N: 105 operations, 6984 before sharing."""
+    """The correction -D^+ times the section `residual`, of v, or of q by N: 105 operations, 6984 before sharing."""
     # inputs
-    gauge_2 = w[87]  # crank.omega
-    gauge_5 = w[90]  # coupler.omega
-    gauge_8 = w[93]  # rocker.omega
-    lower_0 = w[114]
-    lower_1 = w[115]
-    lower_2 = w[116]
-    lower_3 = w[117]
-    lower_4 = w[118]
-    lower_5 = w[119]
-    lower_6 = w[120]
-    lower_7 = w[121]
-    lower_8 = w[122]
-    lower_9 = w[123]
-    lower_10 = w[124]
-    lower_11 = w[125]
-    lower_12 = w[126]
-    lower_13 = w[127]
-    lower_14 = w[128]
-    lower_15 = w[129]
-    reciprocal_0 = w[130]
-    reciprocal_1 = w[131]
-    reciprocal_2 = w[132]
-    reciprocal_3 = w[133]
-    reciprocal_4 = w[134]
-    reciprocal_5 = w[135]
-    reciprocal_6 = w[136]
-    reciprocal_7 = w[137]
-    residual_0 = w[43]  # A.x
-    residual_1 = w[44]  # A.y
-    residual_2 = w[45]  # B.x
-    residual_3 = w[46]  # B.y
-    residual_4 = w[47]  # C.x
-    residual_5 = w[48]  # C.y
-    residual_6 = w[49]  # D.x
-    residual_7 = w[50]  # D.y
-    jacobian_0 = w[102]  # D A.x, crank.omega
-    jacobian_1 = w[103]  # D A.y, crank.omega
-    jacobian_2 = w[104]  # D B.x, crank.omega
-    jacobian_3 = w[105]  # D B.x, coupler.omega
-    jacobian_4 = w[106]  # D B.y, crank.omega
-    jacobian_5 = w[107]  # D B.y, coupler.omega
-    jacobian_6 = w[108]  # D C.x, coupler.omega
-    jacobian_7 = w[109]  # D C.x, rocker.omega
-    jacobian_8 = w[110]  # D C.y, coupler.omega
-    jacobian_9 = w[111]  # D C.y, rocker.omega
-    jacobian_10 = w[112]  # D D.x, rocker.omega
-    jacobian_11 = w[113]  # D D.y, rocker.omega
+    gauge_2 = w[GAUGE + 2]  # crank.omega
+    gauge_5 = w[GAUGE + 5]  # coupler.omega
+    gauge_8 = w[GAUGE + 8]  # rocker.omega
+    lower_0 = w[LOWER]
+    lower_1 = w[LOWER + 1]
+    lower_2 = w[LOWER + 2]
+    lower_3 = w[LOWER + 3]
+    lower_4 = w[LOWER + 4]
+    lower_5 = w[LOWER + 5]
+    lower_6 = w[LOWER + 6]
+    lower_7 = w[LOWER + 7]
+    lower_8 = w[LOWER + 8]
+    lower_9 = w[LOWER + 9]
+    lower_10 = w[LOWER + 10]
+    lower_11 = w[LOWER + 11]
+    lower_12 = w[LOWER + 12]
+    lower_13 = w[LOWER + 13]
+    lower_14 = w[LOWER + 14]
+    lower_15 = w[LOWER + 15]
+    reciprocal_0 = w[RECIPROCAL]
+    reciprocal_1 = w[RECIPROCAL + 1]
+    reciprocal_2 = w[RECIPROCAL + 2]
+    reciprocal_3 = w[RECIPROCAL + 3]
+    reciprocal_4 = w[RECIPROCAL + 4]
+    reciprocal_5 = w[RECIPROCAL + 5]
+    reciprocal_6 = w[RECIPROCAL + 6]
+    reciprocal_7 = w[RECIPROCAL + 7]
+    residual_0 = w[RESIDUAL]  # A.x
+    residual_1 = w[RESIDUAL + 1]  # A.y
+    residual_2 = w[RESIDUAL + 2]  # B.x
+    residual_3 = w[RESIDUAL + 3]  # B.y
+    residual_4 = w[RESIDUAL + 4]  # C.x
+    residual_5 = w[RESIDUAL + 5]  # C.y
+    residual_6 = w[RESIDUAL + 6]  # D.x
+    residual_7 = w[RESIDUAL + 7]  # D.y
+    jacobian_0 = w[JACOBIAN]  # D A.x, crank.omega
+    jacobian_1 = w[JACOBIAN + 1]  # D A.y, crank.omega
+    jacobian_2 = w[JACOBIAN + 2]  # D B.x, crank.omega
+    jacobian_3 = w[JACOBIAN + 3]  # D B.x, coupler.omega
+    jacobian_4 = w[JACOBIAN + 4]  # D B.y, crank.omega
+    jacobian_5 = w[JACOBIAN + 5]  # D B.y, coupler.omega
+    jacobian_6 = w[JACOBIAN + 6]  # D C.x, coupler.omega
+    jacobian_7 = w[JACOBIAN + 7]  # D C.x, rocker.omega
+    jacobian_8 = w[JACOBIAN + 8]  # D C.y, coupler.omega
+    jacobian_9 = w[JACOBIAN + 9]  # D C.y, rocker.omega
+    jacobian_10 = w[JACOBIAN + 10]  # D D.x, rocker.omega
+    jacobian_11 = w[JACOBIAN + 11]  # D D.y, rocker.omega
     # intermediate terms
     s0 = lower_0*residual_0 - residual_1
     s1 = lower_1*residual_0 - residual_2 - lower_3*s0
@@ -338,15 +358,15 @@ def spread(p, w):
     s17 = reciprocal_1*s0 - lower_3*s14 - lower_4*s11
     s18 = reciprocal_0*residual_0 + lower_0*s17 + lower_1*s14 + lower_2*s11
     # outputs
-    w[67] = s13 - s12 - s18  # crank.vx
-    w[68] = s17 + s10 - s9  # crank.vy
-    w[69] = gauge_2*(s17*jacobian_1 - s18*jacobian_0 + s14*jacobian_2 + s11*jacobian_4)  # crank.omega
-    w[70] = s14 + s7 - s6  # coupler.vx
-    w[71] = s11 - s5  # coupler.vy
-    w[72] = gauge_5*(s14*jacobian_3 + s11*jacobian_5 + s8*jacobian_6 + s5*jacobian_8)  # coupler.omega
-    w[73] = s8 - s16  # rocker.vx
-    w[74] = s5 + s15  # rocker.vy
-    w[75] = gauge_8*(s8*jacobian_7 + s5*jacobian_9 - s16*jacobian_10 + s15*jacobian_11)  # rocker.omega
+    w[CHANGE] = s13 - s12 - s18  # crank.vx
+    w[CHANGE + 1] = s17 + s10 - s9  # crank.vy
+    w[CHANGE + 2] = gauge_2*(s17*jacobian_1 - s18*jacobian_0 + s14*jacobian_2 + s11*jacobian_4)  # crank.omega
+    w[CHANGE + 3] = s14 + s7 - s6  # coupler.vx
+    w[CHANGE + 4] = s11 - s5  # coupler.vy
+    w[CHANGE + 5] = gauge_5*(s14*jacobian_3 + s11*jacobian_5 + s8*jacobian_6 + s5*jacobian_8)  # coupler.omega
+    w[CHANGE + 6] = s8 - s16  # rocker.vx
+    w[CHANGE + 7] = s5 + s15  # rocker.vy
+    w[CHANGE + 8] = gauge_8*(s8*jacobian_7 + s5*jacobian_9 - s16*jacobian_10 + s15*jacobian_11)  # rocker.omega
     return 0
 
 
@@ -375,18 +395,18 @@ def measure(t, y, p, w):
     p9 = p[9]  # 0.5*rocker_mass
     p10 = p[10]  # 9.81*rocker_mass
     p11 = p[11]  # 1.0416666666666665*rocker_mass
-    jacobian_0 = w[102]  # D A.x, crank.omega
-    jacobian_1 = w[103]  # D A.y, crank.omega
-    jacobian_2 = w[104]  # D B.x, crank.omega
-    jacobian_3 = w[105]  # D B.x, coupler.omega
-    jacobian_4 = w[106]  # D B.y, crank.omega
-    jacobian_5 = w[107]  # D B.y, coupler.omega
-    jacobian_6 = w[108]  # D C.x, coupler.omega
-    jacobian_7 = w[109]  # D C.x, rocker.omega
-    jacobian_8 = w[110]  # D C.y, coupler.omega
-    jacobian_9 = w[111]  # D C.y, rocker.omega
-    jacobian_10 = w[112]  # D D.x, rocker.omega
-    jacobian_11 = w[113]  # D D.y, rocker.omega
+    jacobian_0 = w[JACOBIAN]  # D A.x, crank.omega
+    jacobian_1 = w[JACOBIAN + 1]  # D A.y, crank.omega
+    jacobian_2 = w[JACOBIAN + 2]  # D B.x, crank.omega
+    jacobian_3 = w[JACOBIAN + 3]  # D B.x, coupler.omega
+    jacobian_4 = w[JACOBIAN + 4]  # D B.y, crank.omega
+    jacobian_5 = w[JACOBIAN + 5]  # D B.y, coupler.omega
+    jacobian_6 = w[JACOBIAN + 6]  # D C.x, coupler.omega
+    jacobian_7 = w[JACOBIAN + 7]  # D C.x, rocker.omega
+    jacobian_8 = w[JACOBIAN + 8]  # D C.y, coupler.omega
+    jacobian_9 = w[JACOBIAN + 9]  # D C.y, rocker.omega
+    jacobian_10 = w[JACOBIAN + 10]  # D D.x, rocker.omega
+    jacobian_11 = w[JACOBIAN + 11]  # D D.y, rocker.omega
     # intermediate terms
     s0 = p3*(v0*v0) + p3*(v1*v1) + v2*v2*p5 + p6*(v3*v3) + p6*(v4*v4) + v5*v5*p8 + p9*(v6*v6) + p9*(v7*v7)
     s1 = v0 + v2*jacobian_0
@@ -399,18 +419,18 @@ def measure(t, y, p, w):
     s8 = v7 + v8*jacobian_11
     s9 = math.sqrt(s1*s1 + s2*s2 + s3*s3 + s4*s4 + s5*s5 + s6*s6 + s7*s7 + s8*s8)
     # outputs
-    w[43] = s1  # A.x
-    w[44] = s2  # A.y
-    w[45] = s3  # B.x
-    w[46] = s4  # B.y
-    w[47] = s5  # C.x
-    w[48] = s6  # C.y
-    w[49] = s7  # D.x
-    w[50] = s8  # D.y
-    w[1] = s9  # velocity_violation
-    w[9] = s9  # velocity_measure
-    w[2] = s0 + v8*v8*p11  # kinetic
-    w[3] = q1*p4 + q4*p7 + q7*p10  # potential
+    w[RESIDUAL] = s1  # A.x
+    w[RESIDUAL + 1] = s2  # A.y
+    w[RESIDUAL + 2] = s3  # B.x
+    w[RESIDUAL + 3] = s4  # B.y
+    w[RESIDUAL + 4] = s5  # C.x
+    w[RESIDUAL + 5] = s6  # C.y
+    w[RESIDUAL + 6] = s7  # D.x
+    w[RESIDUAL + 7] = s8  # D.y
+    w[VELOCITY_VIOLATION] = s9  # velocity_violation
+    w[VELOCITY_MEASURE] = s9  # velocity_measure
+    w[KINETIC] = s0 + v8*v8*p11  # kinetic
+    w[POTENTIAL] = q1*p4 + q4*p7 + q7*p10  # potential
     return 0
 
 
@@ -477,7 +497,7 @@ def observe(t, y, p, w, ydot, out):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def masses(p, w):
-    """diagonal of M: 0 operations, 0 before sharing."""
+    """Diagonal of M: 0 operations, 0 before sharing."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -486,13 +506,13 @@ def masses(p, w):
     p13 = p[13]  # 5.333333333333333*coupler_mass
     p14 = p[14]  # 2.083333333333333*rocker_mass
     # outputs
-    w[76] = p0  # crank.vx
-    w[77] = p0  # crank.vy
-    w[78] = p12  # crank.omega
-    w[79] = p1  # coupler.vx
-    w[80] = p1  # coupler.vy
-    w[81] = p13  # coupler.omega
-    w[82] = p2  # rocker.vx
-    w[83] = p2  # rocker.vy
-    w[84] = p14  # rocker.omega
+    w[MASS] = p0  # crank.vx
+    w[MASS + 1] = p0  # crank.vy
+    w[MASS + 2] = p12  # crank.omega
+    w[MASS + 3] = p1  # coupler.vx
+    w[MASS + 4] = p1  # coupler.vy
+    w[MASS + 5] = p13  # coupler.omega
+    w[MASS + 6] = p2  # rocker.vx
+    w[MASS + 7] = p2  # rocker.vy
+    w[MASS + 8] = p14  # rocker.omega
     return 0

@@ -8,9 +8,11 @@ alone are tables. SymPy and Jinja2 are imported only for kernels that no mechani
 
 from __future__ import annotations
 
+import itertools
+import json
+import re
 import time
-from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from types import ModuleType, SimpleNamespace
@@ -111,7 +113,7 @@ class Needs:
         """All of them."""
         return (_MACHINE, _MODEL, self.law, *self.elements, *self.forms.values())
 
-    def missing(self, known: Callable[[str], bool], generator: str) -> Modules:
+    def missing(self, known: Callable[[str], bool], generator: str, whole: bool = False) -> Modules:
         """Derive and emit kernels, the law and the generic code, with metadata, except what is `known`.
 
         Parameters
@@ -120,6 +122,8 @@ class Needs:
             Whether a module need not be emitted.
         generator : str
             Digest for the headers.
+        whole : bool
+            Whether the law is one module.
         """
         from symgen.emit.kernels import emit_form, emit_kernel
         from symgen.emit.looped import emit_looped_law, emit_machine, emit_shared_model
@@ -134,7 +138,7 @@ class Needs:
             modules[_MODEL] = emit_shared_model(generator), {}
         if not known(self.law):
             law = lower_looped(method, options)
-            sources = emit_looped_law(law, generator, method.summary, method.reference)
+            sources = emit_looped_law(law, generator, method.summary, method.reference, whole)
             *shared, _ = sources
             modules |= {name: (source, {}) for name, source in sources.items()}
             info = msgspec.structs.replace(law.info, modules=tuple(shared))
@@ -225,7 +229,9 @@ def _gathered(module: ModuleType, *names: str) -> Any:
     return SimpleNamespace(**{name: getattr(module, name) for name in names if hasattr(module, name)})
 
 
-def generate_looped(mechanism: Mechanism, choices: Sequence[MethodChoice], generator: str) -> Modules:
+def generate_looped(
+    mechanism: Mechanism, choices: Sequence[MethodChoice], generator: str, whole: bool = False
+) -> Modules:
     """Return the source of everything that a mechanism and some methods need, with metadata, by file stem.
 
     Parameters
@@ -236,27 +242,57 @@ def generate_looped(mechanism: Mechanism, choices: Sequence[MethodChoice], gener
         Methods with their structural options, and whether implicit integrators ask for them.
     generator : str
         Digest of everything that shapes emitted code.
+    whole : bool
+        Whether each law is one module, and kernels have names for people; see `numbered`.
 
     Returns
     -------
     mapping
-        Generic code, kernels and laws, which are the same for all mechanisms; ``mechanism`` says how often each kernel
-        is used, and its metadata are the tables for every law.
+        Generic code, kernels and laws, which are the same for all mechanisms; the metadata of ``mechanism``, which has
+        no source, are the tables for every law.
     """
-    from symgen.emit.looped import emit_mechanism
+    from symgen.emit.whole import absolute
 
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     tables: dict[str, Any] = {}
-    found, counts = instances(mechanism), Counter[str]()
+    found = instances(mechanism)
     for choice in choices:
         refuse_dense(choice.method, choice.options, choice.implicit)
         needs = Needs(mechanism, choice, found)
-        modules |= needs.missing(modules.__contains__, generator)
+        modules |= needs.missing(modules.__contains__, generator, whole)
         _, built, _ = needs.laid_out({stem: modules[stem][1] for stem in needs.modules})
         tables[f"{needs.law}_implicit" if choice.implicit else needs.law] = {
             "numbers": list(built.numbers),
             "functions": [f"{stem}.{name}" for stem, name in built.functions],
             "sections": dict(built.sections),
         }
-        counts = Counter(needs.stems)
-    return modules | {"mechanism": (emit_mechanism(mechanism.name, counts), tables)}
+    modules["mechanism"] = "", tables
+    if not whole:
+        return modules
+    names = numbered(modules)
+
+    def named(text: str) -> str:
+        return _STEM.sub(lambda match: names.get(match[0], match[0]), text)
+
+    return {
+        names.get(stem, stem): (absolute(named(source)), json.loads(named(json.dumps(metadata))))
+        for stem, (source, metadata) in modules.items()
+    }
+
+
+#: Stem of a kernel, or of its part of a descriptor form, with the digest of what it holds.
+_STEM = re.compile(r"\b(?:form_[0-9a-f]{8}_)?((?:body|joint|force)_\w+?)_[0-9a-f]{16}\b", re.ASCII)
+
+
+def numbered(stems: Iterable[str]) -> dict[str, str]:
+    """Return names of kernels that are counted, not named by a digest: ``joint_revolute``, ``joint_revolute_2``."""
+    names: dict[str, str] = {}
+    for stem in stems:
+        if match := _STEM.fullmatch(stem):
+            first = name = f"{'form_' if stem.startswith('form_') else ''}{match[1]}"
+            for count in itertools.count(2):
+                if name not in names.values():
+                    break
+                name = f"{first}_{count}"
+            names[stem] = name
+    return names

@@ -119,7 +119,11 @@ def _sympy_version() -> str:
 
 
 def generate(
-    mechanism: Mechanism, choices: tuple[MethodChoice, ...], shape: str = "straight", target: str = "cpu"
+    mechanism: Mechanism,
+    choices: tuple[MethodChoice, ...],
+    shape: str = "straight",
+    target: str = "cpu",
+    whole: bool = False,
 ) -> Generated:
     """Derive, lower and emit `mechanism` with every method of `choices`.
 
@@ -133,6 +137,8 @@ def generate(
         Code for this mechanism alone, or loops over tables.
     target : {"cpu", "lanes", "cuda"}
         What the code is for; stems of modules end in ``_lanes`` or ``_cuda`` then.
+    whole : bool
+        Whether each law is one module, as people read it, and not modules that laws share, as the cache keeps them.
 
     Returns
     -------
@@ -152,15 +158,15 @@ def generate(
         from symgen.compiling.looped import generate_looped, shared_folder
 
         began = time.perf_counter()
-        found = generate_looped(mechanism, choices, generator_digest())
+        found = generate_looped(mechanism, choices, generator_digest(), whole)
         return Generated(shared_folder(generator_digest()), found, 0.0, time.perf_counter() - began)
     # numbers that only meet where equations are solved; others have names
     with finite_numbers(f"mechanism '{mechanism.name}'"):
-        return _generate_straight(mechanism, choices, target)
+        return _generate_straight(mechanism, choices, target, whole)
 
 
-def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], target: str) -> Generated:
-    from symgen.emit.emit import emit_law
+def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], target: str, whole: bool) -> Generated:
+    from symgen.emit.emit import emit_law, emit_model
     from symgen.emit.lanes import emit_lanes_law
     from symgen.lower.law import lower_law
 
@@ -175,14 +181,15 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
     equations, program, source, info = before
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     suffix = SUFFIXES[target]
-    modules[f"model{suffix}"] = source, info
+    named = whole and target != "lanes"  # elements of lanes have places of their own
+    modules[f"model{suffix}"] = emit_model(program, equations, target, whole) if named else source, info
     for choice in choices:
         law = lower_law(equations, program, choice.method, choice.options, choice.implicit)
         words = (choice.method.summary, choice.method.reference)
         if target == "lanes":
             sources = {f"{choice.stem}{suffix}": emit_lanes_law(law, program, equations, *words)}
         else:
-            sources = emit_law(law, program, equations, *words, target)
+            sources = emit_law(law, program, equations, *words, target, whole)
         *shared, own = sources
         modules |= {stem: (sources[stem], {}) for stem in shared}
         law_info = msgspec.structs.replace(law.info, modules=tuple(shared))

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from symgen.emit.module import PLATFORMS, Code, function, module, render, templates_digest
+from symgen.emit.module import PLATFORMS, Code, function, module, render, sentence, templates_digest
 from symgen.emit.names import Names, of_hoisted, of_model, of_observed
 from symgen.emit.parts import PartsLayout, law_modules
 from symgen.emit.printer import ElementAccess, Printer
 from symgen.emit.text import table_name
+from symgen.emit.whole import Places, model_name
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.interpolation import Interpolation
@@ -25,8 +26,15 @@ MOST_CONSTANTS = 8000
 _MANY_NUMBERS = 4096
 
 
-def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu") -> str:
+def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu", whole: bool = False) -> str:
     """Return the source of the module that all methods of a model share, for a target of `TARGETS`.
+
+    Parameters
+    ----------
+    program, equations, target
+        What is emitted, and what for.
+    whole : bool
+        Whether it is for people, with names of the places in arrays.
 
     Raises
     ------
@@ -45,9 +53,9 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu")
         "",
         "Functions take the time t, the state y = (q, v, work), parameters p, scratch w and integers iw.",
         "",
-        *(f"{element:<8} {name}{f' [{unit}]' if unit else ''}" for element, name, unit in _symbols(equations)),
+        *_symbols(equations, {"`prepare`": (layout.parameters, layout.parameters + program.hoisted)}),
         "",
-        *(f"w[{first}:{first + size}]  {name}" for name, (first, size) in layout.sections.items() if size),
+        *Places(layout.sections).header,
         "",
         "Left out:",
         *(f"- {omission.what}: {omission.why}" for omission in equations.omissions),
@@ -57,23 +65,36 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu")
         *table_codes(program.tables, target),
         *straight(program.blocks, layout, equations, target, of_model(equations, program.jacobian)),
     ]
-    title = f"Model `{program.name}`: what every method of it shares{PLATFORMS[target].words}."
-    return module(title, header, codes, {}, {}, PLATFORMS[target].numba)
+    platform = PLATFORMS[target]
+    title = f"Model `{program.name}`: what every method of it shares{platform.words}."
+    if whole:
+        return Places(layout.sections).module(title, header, [codes], {}, numba=platform.numba)
+    return module(title, header, codes, {}, {}, platform.numba)
 
 
 def emit_law(
-    program: LawProgram, model: ModelProgram, equations: Equations, summary: str, reference: str, target: str = "cpu"
+    program: LawProgram,
+    model: ModelProgram,
+    equations: Equations,
+    summary: str,
+    reference: str,
+    target: str = "cpu",
+    whole: bool = False,
 ) -> dict[str, str]:
     """Return the source of the modules that one method adds beside the shared one, for a target of `TARGETS`.
 
-    The last one is the method's own, see `law_modules`.
+    The last one is the method's own, see `law_modules`; a `whole` one is for people, and complete but for the model.
     """
     blocks, info, platform = program.blocks, program.info, PLATFORMS[target]
-    own = {("p", info.parameter_offset + i): name for i, (name, _) in enumerate(info.parameters)}
-    printed = straight(blocks, program.layout, equations, target, of_model(equations, model.jacobian) | own)
+    own = {name: info.parameter_offset + i for i, (name, _) in enumerate(info.parameters)}
+    names = of_model(equations, model.jacobian) | {("p", at): name for name, at in own.items()}
+    printed = straight(blocks, program.layout, equations, target, names)
     layout = LiteralLayout(program, "y" if equations.spins else "", platform.decorator)
-    model_stem = f"model{SUFFIXES[target]}"
+    model_stem, sections = f"model{SUFFIXES[target]}", program.layout.sections
     defined = *(block.name for block in model.blocks), *table_names(model.tables)
+    places, header = Places(sections, own), law_header(info, summary, reference, versions(model.digest))
+    if whole:
+        header += [*_guide(program, model, equations), "", *places.header]
     return law_modules(
         program,
         layout,
@@ -81,14 +102,35 @@ def emit_law(
         any(b.flag is not None for b in blocks),
         f"for model `{model.name}`{platform.words}",
         versions(model.digest),
-        {name: (model_stem, name) for name in defined} | {"geometry_of_model": (model_stem, "geometry")},
+        {name: (model_stem, name) for name in defined} | {model_name("geometry"): (model_stem, "geometry")},
         f"Method `{info.method}` for model `{model.name}`{platform.words}.",
-        law_header(info, summary, reference, versions(model.digest)),
+        header,
         info.key,
-        offsets={name: offset for name, (offset, _) in program.layout.sections.items()},
+        offsets={name: (first, "sections of w") for name, (first, _) in sections.items()},
         numba=platform.numba,
         suffix=SUFFIXES[target],
+        places=places if whole else None,
     )
+
+
+#: Notation and use of the functions of a law, for headers of modules for people.
+_USE = """
+Constraints Phi(q, t) = 0, their rates D v = nu and D v' = gamma; M v' = f - D^T lambda; S = D M^-1 D^T.
+
+Functions take the time t, the state y = (q, v, work), parameters p, scratch w and counters iw. Once: `prepare` of the
+model, `prepare`, and `accept` with the start. Then `rhs` gives the rate of a state, `confirm` where `rhs` returns 1,
+and `accept` corrects and measures the state at the end of each step.
+"""
+_IMPLICIT = "Implicit integrators solve `residual` = 0 for k = (q', v', multipliers); `tangent` is its derivatives.\n"
+
+
+def _guide(program: LawProgram, model: ModelProgram, equations: Equations) -> list[str]:
+    """Return what the header of a law says to people: notation, use, and the meaning of elements of y and p."""
+    info, first = program.info, model.layout.parameters
+    own, behind = first + model.hoisted, info.parameter_offset + len(info.parameters)
+    kept = {"the model's `prepare`": (first, own), "`prepare`": (own, info.parameter_offset)}
+    kept["`prepare` too"] = behind, behind + info.hoisted
+    return [*(_USE + _IMPLICIT * bool(info.level)).split("\n"), *_symbols(equations, kept)]
 
 
 def versions(digest: str) -> str:
@@ -100,7 +142,7 @@ def law_header(info: LawInfo, summary: str, reference: str, made: str, place: st
     """Return the lines of a law's docstring; `made` says what of, `place` is where parameters of the method stand."""
     parameters = enumerate(info.parameters, info.parameter_offset)
     return [
-        *(summary, reference, made),
+        *(f"{sentence(summary)}.", reference, made),
         *(f"option {option} = {value}" for option, value in sorted(info.options.items())),
         *(f"{place.format(i)} {name} (default {default})" for i, (name, default) in parameters),
     ]
@@ -196,12 +238,13 @@ def straight(
     return codes
 
 
-def _symbols(equations: Equations) -> list[tuple[str, str, str]]:
-    """Return (element, name, unit) of everything that has an index."""
+def _symbols(equations: Equations, kept: Mapping[str, tuple[int, int]]) -> list[str]:
+    """Return a line with element, name and unit for everything that has an index, and one on numbers kept in p."""
     nq = equations.nq
     table = [(f"y[{i}]", q.name, q.unit) for i, q in enumerate(equations.coordinates)]
     table += [(f"y[{nq + i}]", v.name, v.unit) for i, v in enumerate(equations.velocities)]
     table.append((f"y[{nq + equations.nv}]", "work of forces without potential and of drivers", "J"))
     table += [(f"p[{i}]", p.name, p.unit) for i, p in enumerate(equations.parameters)]
+    table += [(f"p[{i}:{j}]", f"numbers computed by {function}", "") for function, (i, j) in kept.items() if i < j]
     table += [(f"row {i}", r.name, r.unit) for i, r in enumerate(equations.rows)]
-    return table
+    return [f"{element:<8} {name}{f' [{unit}]' if unit else ''}" for element, name, unit in table]

@@ -94,7 +94,8 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     header = [*law_header(info, summary, reference, made), *_ABOUT.format(lanes=LANES, **bases).split("\n")]
     shared = ("sine", "cosine", *table_names(model.tables, slopes=False))
     known = {name: (f"model{SUFFIXES['lanes']}", name) for name in shared}
-    return module(title, header, codes, known, {"numbers": bases["numbers"], **constants}, note="places in z")
+    offsets = {name: (at, "places in z") for name, at in {"numbers": bases["numbers"], **constants}.items()}
+    return module(title, header, codes, known, offsets)
 
 
 def _over_lanes(block: Block, access: LaneAccess, turning: Container[int]) -> Code:

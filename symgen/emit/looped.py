@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from symgen.emit.emit import law_header
 from symgen.emit.module import Code, function, render
 from symgen.emit.parts import PartsLayout, law_modules
 from symgen.emit.printer import Access, Printer
-from symgen.emit.text import harmless
+from symgen.emit.whole import Places
 from symgen.ir.graph import Graph
 from symgen.ir.numerics import SKIP, SUSPICIOUS
 from symgen.ir.program import FORMAT, STATUS, Block, Target
@@ -66,7 +66,9 @@ def emit_shared_model(generator: str) -> str:
     return render("looped/model.py.j2", {"format": FORMAT, "generator": generator, "status": _STATUS})
 
 
-def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str) -> dict[str, str]:
+def emit_looped_law(
+    law: LoopedLaw, generator: str, summary: str, reference: str, whole: bool = False
+) -> dict[str, str]:
     """Return the source of the modules of a law; the last one is its own, as for `symgen.emit.emit.emit_law`."""
     info = law.info
     nothing = function("prepare", "p", "Nothing depends on parameters of the method alone.", ["return 0"])
@@ -84,8 +86,8 @@ def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str
         f"Method `{info.method}`, for any mechanism, in the looped shape.",
         law_header(info, summary, reference, made, "parameter {}:"),
         f"law_{info.key}",
-        offsets={**_STATUS, **places},
-        note="places in w and T",
+        offsets={name: (at, "places in w and T") for name, at in {**_STATUS, **places}.items()},
+        places=Places() if whole else None,
     )
 
 
@@ -206,10 +208,3 @@ class LoopAccess(Access):
         if space in (data.VELOCITIES, data.RATES):
             return f"{'y' if space == data.VELOCITIES else 'ydot'}[{self.layout.at('nq')} + j]"
         return f"w[{self.layout.at(space)} + j]"
-
-
-def emit_mechanism(name: str, counts: Mapping[str, int]) -> str:
-    """Return the source of a module without code: how often a mechanism uses each kernel."""
-    lines = "\n".join(f"{stem}: {count}" for stem, count in counts.items())
-    text = f"Kernels of mechanism `{harmless(name)}`, and how many instances each has; tables stand in the metadata."
-    return f'"""{text}\n\n{lines}\n"""\n'

@@ -129,13 +129,18 @@ def function(
     sections: Iterable[str] = (),
 ) -> Code:
     """Return a function; its purpose may come from anywhere, and `calls` may name libraries and their functions."""
-    first, *more = [harmless(line) for line in purpose.split("\n")]
+    first, *more = [harmless(line) for line in sentence(purpose).split("\n")]
     document = [f'"""{first}', *more, '"""'] if more else [f'"""{first}"""']
     lines = [f"    {line}" if line else "" for line in (*document, *body)]
     text = "\n".join([decorator, f"def {name}({arguments}):", *lines])
     libraries = frozenset(call.partition(".")[0] for call in calls) & LIBRARIES
     emitted = frozenset(call for call in calls if call.partition(".")[0] not in LIBRARIES)
     return Code(name, text, emitted, frozenset(sections), libraries)
+
+
+def sentence(text: str) -> str:
+    """Return a text with a capital at its beginning, unless it begins with a symbol such as v'."""
+    return text[0].upper() + text[1:] if text[:2].isalpha() else text
 
 
 def _listed(names: Sequence[str]) -> str:
@@ -153,9 +158,8 @@ def module(
     header: Sequence[str],
     codes: Sequence[Code],
     known: Known,
-    offsets: Mapping[str, int],
+    offsets: Mapping[str, tuple[int, str]],
     numba: str = "njit",
-    note: str = "sections of w",
     exports: Collection[str] = (),
 ) -> str:
     """Return the source of a module.
@@ -170,12 +174,10 @@ def module(
         What it defines, in this order.
     known : mapping of str to (str, str)
         Names that other modules of the folder define; those that are called are imported.
-    offsets : mapping of str to int
-        Numbers of constants that pieces name: where sections of ``w`` begin, as a rule.
+    offsets : mapping of str to (int, str)
+        Number and meaning of constants that pieces name: where sections of ``w`` begin, as a rule.
     numba : {"njit", "cuda"}
         What is imported from Numba.
-    note : str
-        What the constants are.
     exports : collection of str
         Names that are imported for others.
     """
@@ -193,8 +195,7 @@ def module(
         "libraries": libraries,
         "numba": numba if codes else "",
         "imports": {stem: _listed(names) for stem, names in sorted(imports.items())},
-        "constants": [(name.upper(), offset) for name, offset in offsets.items() if name in sections],
-        "note": note,
+        "constants": [(name.upper(), *offset) for name, offset in offsets.items() if name in sections],
         "codes": codes,
         "exports": sorted(exports),
     }

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from symgen.emit.module import PLATFORMS, Code, Known, function, literal, module, render
+from symgen.emit.whole import Places
 from symgen.ir.numerics import NUMBERS
 from symgen.ir.program import COUNTERS, STATUS, Correction, LawCode
 
@@ -143,11 +144,13 @@ def law_modules(
     header: Sequence[str],
     stem: str,
     suffix: str = "",
+    places: Places | None = None,
     **keys: Any,
 ) -> dict[str, str]:
     """Return the modules of a law: one for each of its parts, and last the law's own, which gathers their functions.
 
-    A part is named by a digest of what it holds, so that equal parts are one module, whoever asks for them.
+    A part is named by a digest of what it holds, so that equal parts are one module, whoever asks for them. With
+    `places` there is one module, the law's own, which holds the same functions.
 
     Parameters
     ----------
@@ -167,10 +170,15 @@ def law_modules(
         Of the law's own module.
     suffix : str
         How all stems end.
+    places : Places, optional
+        Names of the elements of arrays, for people.
     **keys
         As for `module`.
     """
     pieces = [*printed, *_loops(law, layout, {code.name for _, code in printed}, flagged)]
+    if places is not None:
+        groups = [[code for each, code in pieces if each == role] for role in ROLES]
+        return {stem + suffix: places.module(title, header, groups, known, **keys)}
     metric = law.correction.metric if law.correction.any else "measured"
     kinds = {"acceleration": law.form, "metric": metric, "correction": metric, "form": law.info.level}
     modules: dict[str, str] = {}

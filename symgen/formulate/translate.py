@@ -15,7 +15,7 @@ from symgen.ir.program import of_table
 from symgen.vocabulary.expressions import SMOOTH, Call, Expr, Name, Number, Reading
 from symgen.vocabulary.functions import ELEMENTARY
 
-_UNARY = {**{getattr(sp, name): name for name in ELEMENTARY}, sp.Abs: "abs", sp.sign: "sign"}
+_UNARY = {**{getattr(sp, name): name for name in ELEMENTARY}, sp.Abs: "abs", sp.sign: "sign", sp.floor: "floor"}
 _RELATIONS = {
     sp.StrictLessThan: "lt",
     sp.LessThan: "le",
@@ -137,7 +137,8 @@ def table_function(payload: str) -> Any:
     return type(f"{what.replace('value', 'table')}_{name}", (_Table,), {"payload": payload, "fdiff": fdiff})
 
 
-_TO_SYMPY: dict[str, Any] = {
+#: Functions of formulas, and operations of the graph with these names, in SymPy's own normal form.
+TO_SYMPY: dict[str, Any] = {
     "add": lambda a, b: a + b,
     "sub": lambda a, b: a - b,
     "mul": lambda a, b: a * b,
@@ -182,7 +183,7 @@ def to_sympy(expression: Expr, symbols: Mapping[str, Any]) -> Any:
     if expression.function.startswith("table:"):
         return table_function(expression.function.removeprefix("table:"))(*arguments)
     try:
-        return _TO_SYMPY[expression.function](*arguments)
+        return TO_SYMPY[expression.function](*arguments)
     except (TypeError, ValueError) as error:  # of relations, and of minima and maxima
         raise NotReal(str(error)) from None
 

@@ -6,7 +6,6 @@ section of the scratch array ``w``) is said by symbolic targets; the emitter's l
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -25,8 +24,6 @@ FORMAT = 3
 #: What code is emitted for, and what the names of its modules end in.
 SUFFIXES = {"cpu": "", "lanes": "_lanes", "cuda": "_cuda"}
 TARGETS = tuple(SUFFIXES)
-#: Stems of modules that hold parts of laws: what they are, and the digest of what they hold.
-PART = re.compile(r"[a-z]\w*_[0-9a-f]{16}(_cuda)?", re.ASCII)
 #: Runs that code for ``lanes`` works on at once: a vector of the widest registers, or two of the next.
 LANES = 8
 #: What code for ``lanes`` counts behind ``w``, in this order: evaluations with suspicious pivots, corrections that

@@ -9,10 +9,13 @@ from symgen.errors import SymgenError
 from symgen.vocabulary.expressions import Expr, Name, Number, Reading
 from symgen.vocabulary.functions import ELEMENTARY
 
-_SIGNS = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
-_TESTS = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "and": "&&", "or": "||"}
-#: Functions that are called alike in scripts.
-_PLAIN = frozenset((*ELEMENTARY, *"atan2 abs sign min max pow".split()))
+_FORMS = {
+    **{"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}", "neg": "-{}", "not": "{} ? 0 : 1"},
+    **{"lt": "{} < {} ? 1 : 0", "le": "{} <= {} ? 1 : 0", "gt": "{} > {} ? 1 : 0", "ge": "{} >= {} ? 1 : 0"},
+    **{"and": "{} && {} ? 1 : 0", "or": "{} || {} ? 1 : 0", "where": "{} ? {} : {}"},
+    **{name: f"Math.{name}({{}})" for name in (*ELEMENTARY, "abs", "sign")},
+    **{name: f"Math.{name}({{}}, {{}})" for name in ("atan2", "min", "max", "pow")},
+}
 
 
 class NotInPages(SymgenError):
@@ -26,32 +29,32 @@ class Script:
     lines: list[str] = field(repr=False)
     text: str
 
-    def _with(self, sign: str, left: object, right: object) -> Script:
-        return let(self.lines, f"{_text(left)} {sign} {_text(right)}")
+    def _with(self, function: str, *operands: object) -> Script:
+        return let(self.lines, _FORMS[function].format(*map(_text, operands)))
 
     def __add__(self, other: object) -> Script:
-        return self if _text(other) == "0" else self._with("+", self, other)
+        return self if _text(other) == "0" else self._with("add", self, other)
 
     def __radd__(self, other: object) -> Script:
-        return self if _text(other) == "0" else self._with("+", other, self)
+        return self if _text(other) == "0" else self._with("add", other, self)
 
     def __sub__(self, other: object) -> Script:
-        return self._with("-", self, other)
+        return self._with("sub", self, other)
 
     def __rsub__(self, other: object) -> Script:
-        return self._with("-", other, self)
+        return self._with("sub", other, self)
 
     def __mul__(self, other: object) -> Script:
-        return self._with("*", self, other)
+        return self._with("mul", self, other)
 
     def __rmul__(self, other: object) -> Script:
-        return self._with("*", other, self)
+        return self._with("mul", other, self)
 
     def __truediv__(self, other: object) -> Script:
-        return self._with("/", self, other)
+        return self._with("div", self, other)
 
     def __rtruediv__(self, other: object) -> Script:
-        return self._with("/", other, self)
+        return self._with("div", other, self)
 
 
 def _text(value: object) -> str:
@@ -92,20 +95,9 @@ class Lines:
 
     def apply(self, function: str, *arguments: Any) -> Any:
         """Return a function of formulas."""
-        words = [_text(a) for a in arguments]
-        if function in _SIGNS:
-            return let(self.lines, f"{words[0]} {_SIGNS[function]} {words[1]}")
-        if function in _TESTS:
-            return let(self.lines, f"{words[0]} {_TESTS[function]} {words[1]} ? 1 : 0")
-        if function == "neg":
-            return let(self.lines, f"-{words[0]}")
-        if function == "not":
-            return let(self.lines, f"{words[0]} ? 0 : 1")
-        if function == "where":
-            return let(self.lines, f"{words[0]} ? {words[1]} : {words[2]}")
-        if function in _PLAIN:
-            return let(self.lines, f"Math.{function}({', '.join(words)})")
-        raise NotInPages(f"the function {function}")
+        if function not in _FORMS:
+            raise NotInPages(f"the function {function}")
+        return let(self.lines, _FORMS[function].format(*map(_text, arguments)))
 
     def above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
         """Return `x`; what is not above the limit shows in the page as a start that is not finite."""

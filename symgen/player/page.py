@@ -72,7 +72,7 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
         "note": note,
     }
     script = _script(live, spatial)
-    held = len(_web("page.html")) + len(_web("style.css")) + len(script) + len(_json(data))
+    held = len(_web("page.html")) + len(_web("style.css")) + len(script) + len(as_json(data))
     room = min(MOST_DATA[spatial], LARGEST[spatial] - held)
     motions = [recording] if second is None else [recording, second]
     share = room // len(motions)
@@ -85,7 +85,7 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
         keep = frames_within(kept, share, coarse, len(pins))
         data["motions"].append(packed(kept, keep, coarse) | _gaps(scene, pins, kept.q[keep]))
     text = _web("page.html")
-    parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": _json(data), "SCRIPT": script}
+    parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": as_json(data), "SCRIPT": script}
     for name, part in parts.items():
         text = text.replace(f"<!--{name}-->", part, 1) if name != "TITLE" else text.replace("<!--TITLE-->", part)
     return text
@@ -106,7 +106,7 @@ def _gaps(scene: Scene, held: list[Item], q: Array) -> dict[str, Any]:
     return {"gaps": {"names": [item.name for item in held], **shorts(np.log10(np.maximum(apart, 1e-17)))}}
 
 
-def _json(data: Any) -> str:
+def as_json(data: Any) -> str:
     """Return JSON that cannot end the element it stands in."""
     text = json.dumps(data, separators=(",", ":"), allow_nan=False, ensure_ascii=False)
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
@@ -127,10 +127,8 @@ def rates_script(live: Live) -> str:
     wanted = [
         name for name in ("confirm", "rhs", "masses", "prepareModel", "prepareLaw") if f"function {name}(" in live.code
     ]
-    code = f"{live.code}const emitted = {{ {', '.join([*wanted, 'derive: () => {}'])} }};\n"
-    return (
-        f"(() => {{\n'use strict';\n{code}{_web('rates.js')}return makeRates({_json(live.spec)}, emitted).rates;\n}})()"
-    )
+    code = f"{live.code}const emitted = {{ {', '.join([*wanted, 'derive: () => {}'])} }};\n{_web('rates.js')}"
+    return f"(() => {{\n'use strict';\n{code}return makeRates({as_json(live.spec)}, emitted).rates;\n}})()"
 
 
 def scene_data(scene: Scene) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Formulas as small trees of boxes with widths, written as LaTeX, as MathML or as plain text."""
+"""Formulas as small trees of boxes with widths, written as LaTeX, as MathML or as text."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from html import escape
+from itertools import pairwise
+from typing import ClassVar
 
 #: Letters that names of quantities stand for: LaTeX, and the character.
 GREEK = {
@@ -31,9 +33,13 @@ class Box:
     Parameters
     ----------
     kind : str
-        ``name``, ``number``, ``sign``, ``row``, ``bracket``, ``over``, ``power``, ``call``, ``cases`` or ``dot``.
-    parts : tuple
-        Smaller boxes, or texts.
+        ``name``, ``number``, ``sign``, ``row``, ``bracket``, ``over``, ``power``, ``call``, ``cases``, ``matrix`` or
+        ``dot``.
+    parts : tuple of Box
+        Smaller boxes.
+    text, index : str
+        Letter and index of a name, digits of a number, function of a call, number of columns of a matrix. The index of
+        a call is the name of its function for Python, where that is another one.
     width : float
         In units of the type's size.
     """
@@ -54,40 +60,42 @@ def name(text: str, whole: bool = False) -> Box:
 
 def apart(names: Iterable[str]) -> dict[str, Box]:
     """Return names of one kind as they are typeset; where both ``l1`` and ``l_1`` are names, the first is whole."""
-    known = set(names)
-    return {text: name(text, whole=re.sub(r"^([A-Za-z])(\d+)$", r"\1_\2", text) in known - {text}) for text in known}
+    every = set(names)
+    return {text: name(text, whole=re.sub(r"^([A-Za-z])(\d+)$", r"\1_\2", text) in every - {text}) for text in every}
 
 
 def letter_of(text: str) -> tuple[str, str]:
     """Return the letter that a name is typeset with, and its index."""
     body, _, quantity = text.rpartition(".")
     if not body:
-        found = re.fullmatch(r"([A-Za-z])_?(\d+)", text)
-        return (found[1], found[2]) if found else (text, "")
+        match = re.fullmatch(r"([A-Za-z])_?(\d+)", text)
+        return (match[1], match[2]) if match else (text, "")
     if quantity in ("c", "s"):
         return quantity, body
-    if found := re.fullmatch(r"([vweα])([xyz0-3])", quantity):
-        return ("omega" if found[1] == "w" else found[1]), f"{found[2]},{body}"
-    if found := re.fullmatch(r"a([0-2])([0-2])", quantity):
-        return "A", f"{int(found[1]) + 1}{int(found[2]) + 1},{body}"
+    if match := re.fullmatch(r"([vweα])([xyz0-3])", quantity):
+        return ("omega" if match[1] == "w" else match[1]), f"{match[2]},{body}"
+    if match := re.fullmatch(r"a([0-2])([0-2])", quantity):
+        return "A", f"{int(match[1]) + 1}{int(match[2]) + 1},{body}"
     return quantity, body
 
 
-def number(value: float) -> Box:
-    """Return a literal: whole, a small fraction, or rounded to six digits."""
-    if value == int(value) and abs(value) < 1e9:
-        return _plain("number", str(int(value)))
+def number(value: float, exact: bool = False) -> Box:
+    """Return a literal: whole, a small fraction, or rounded to six digits; with all digits where `exact`."""
+    if value == int(value) and abs(value) < (1e15 if exact else 1e9):
+        return _digits(str(int(value)))
+    if exact:
+        return _digits(repr(value))
     near = Fraction(value).limit_denominator(99)
     exact = abs(float(near) - value) <= 4e-16 * abs(value)
     if exact and abs(near.numerator) < 1000 and near.denominator not in _DECIMAL:
         return over(number(float(near.numerator)), number(float(near.denominator)))
-    return _plain("number", f"{value:.6g}")
+    return _digits(f"{value:.6g}")
 
 
-def _plain(kind: str, text: str) -> Box:
+def _digits(text: str) -> Box:
     mantissa, exponent, power = text.partition("e")
     wide = _DIGIT * len(mantissa) + (2.0 + _SMALL * len(power) if exponent else 0.0)
-    return Box(kind, text=text, width=wide)
+    return Box("number", text=text, width=wide)
 
 
 def is_number(box: Box) -> bool:
@@ -130,10 +138,17 @@ def transposed(base: Box) -> Box:
     return power(base, name("T"))
 
 
-def call(function: str, arguments: Sequence[Box]) -> Box:
-    """Return a function of arguments."""
+def call(function: str, arguments: Sequence[Box], python: str = "") -> Box:
+    """Return a function of arguments; `python`: its name for Python, where that is another one."""
     wide = 0.55 * len(function) + sum(a.width for a in arguments) + 1.0 * len(arguments) + 0.8
-    return Box("call", tuple(arguments), text=function, width=wide)
+    return Box("call", tuple(arguments), text=function, index=python, width=wide)
+
+
+def matrix(entries: Sequence[Sequence[Box]]) -> Box:
+    """Return a matrix."""
+    widths = [max([box.width for box in column]) for column in zip(*entries, strict=True)]
+    flat = tuple(box for line in entries for box in line)
+    return Box("matrix", flat, text=str(len(widths)), width=sum(widths, 1.5) + len(widths))
 
 
 def cases(pieces: Sequence[tuple[Box, Box | None]]) -> Box:
@@ -151,27 +166,28 @@ def dot(base: Box) -> Box:
 # -- notations -------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
 class _Notation:
-    """How boxes are written.
+    """How boxes are written: a kind with a fixed form has a place there for each part, any other kind has a method."""
 
-    Parameters
-    ----------
-    forms : mapping
-        Kinds of boxes with a fixed form, which has a place for each part.
-    part : callable
-        Writes a part that stands in such a form.
-    others : mapping
-        Kinds of boxes that are written by a function.
-    """
-
-    forms: Mapping[str, str]
-    part: Callable[[Box], str]
-    others: Mapping[str, Callable[[Box], str]]
+    forms: ClassVar[Mapping[str, str]] = {}
 
     def write(self, box: Box) -> str:
+        """Return the text of a box."""
         form = self.forms.get(box.kind)
-        return self.others[box.kind](box) if form is None else form % tuple(map(self.part, box.parts))
+        return str(getattr(self, box.kind)(box)) if form is None else form % tuple(map(self.part, box.parts))
+
+    def part(self, box: Box) -> str:
+        """Return the text of a part that stands in a fixed form."""
+        return self.write(box)
+
+    def listed(self, box: Box, between: str = ", ") -> str:
+        """Return the text of all parts."""
+        return between.join(map(self.write, box.parts))
+
+    def lines(self, box: Box, form: str, between: str) -> list[str]:
+        """Return the lines of a matrix in a form that has one place, its entries with something between them."""
+        entries, wide = [*map(self.write, box.parts)], int(box.text)
+        return [form % between.join(entries[i : i + wide]) for i in range(0, len(entries), wide or 1)]
 
 
 def bare(box: Box) -> bool:
@@ -195,40 +211,49 @@ _TEX_FUNCTIONS = frozenset("sin cos tan sinh cosh tanh exp log min max".split())
 _TEX_AROUND = {"sqrt": r"\sqrt{%s}", "abs": r"\left| %s \right|"}
 
 
-def latex(box: Box) -> str:
-    """Return a box as LaTeX."""
-    return _LATEX.write(box)
-
-
 def escaped(text: str) -> str:
     """Return a text as LaTeX prints it."""
     return "".join(_SPECIAL.get(c, c if c.isprintable() and ord(c) < 128 else f"[U+{ord(c):04X}]") for c in text)
 
 
-def _tex_name(box: Box) -> str:
-    base = GREEK[box.text][0] if box.text in GREEK else box.text if len(box.text) == 1 else _upright(box.text)
-    return base + (rf"_{{{_index(box.index)}}}" if box.index else "")
+class _Latex(_Notation):
+    forms: ClassVar = {
+        **{"over": r"\frac{%s}{%s}", "power": "{%s}^{%s}", "bracket": r"\left( %s \right)", "dot": r"\dot {%s}"}
+    }
 
+    def name(self, box: Box) -> str:
+        base = GREEK[box.text][0] if box.text in GREEK else box.text if len(box.text) == 1 else _upright(box.text)
+        return base + (rf"_{{{_index(box.index)}}}" if box.index else "")
 
-def _tex_number(box: Box) -> str:
-    mantissa, exponent, ten = box.text.partition("e")
-    return rf"{mantissa} \cdot 10^{{{int(ten)}}}" if exponent else mantissa
+    def number(self, box: Box) -> str:
+        mantissa, exponent, ten = box.text.partition("e")
+        return rf"{mantissa} \cdot 10^{{{int(ten)}}}" if exponent else mantissa
 
+    def sign(self, box: Box) -> str:
+        return _TEX_SIGNS.get(box.text, box.text)
 
-def _tex_call(box: Box) -> str:
-    inside = ", ".join(map(latex, box.parts))
-    if box.text in _TEX_AROUND:
-        return _TEX_AROUND[box.text] % inside
-    head = f"\\{box.text}" if box.text in _TEX_FUNCTIONS else rf"\operatorname{{{escaped(box.text)}}}"
-    return rf"{head} {inside}" if bare(box) else rf"{head}\left( {inside} \right)"
+    def row(self, box: Box) -> str:
+        return self.listed(box, " ")
 
+    def call(self, box: Box) -> str:
+        inside = self.listed(box)
+        if box.text in _TEX_AROUND:
+            return _TEX_AROUND[box.text] % inside
+        head = f"\\{box.text}" if box.text in _TEX_FUNCTIONS else rf"\operatorname{{{escaped(box.text)}}}"
+        return rf"{head} {inside}" if bare(box) else rf"{head}\left( {inside} \right)"
 
-def _tex_cases(box: Box) -> str:
-    lines = []
-    for value, when in _pairs(box):
-        condition = r"\text{otherwise}" if when is None else rf"\text{{if }} {latex(when)}"
-        lines.append(f"{latex(value)} & {condition}")
-    return r"\begin{cases} " + r" \\ ".join(lines) + r" \end{cases}"
+    def cases(self, box: Box) -> str:
+        lines = []
+        for value, when in _pairs(box):
+            condition = r"\text{otherwise}" if when is None else rf"\text{{if }} {self.write(when)}"
+            lines.append(f"{self.write(value)} & {condition}")
+        return r"\begin{cases} " + r" \\ ".join(lines) + r" \end{cases}"
+
+    def matrix(self, box: Box) -> str:
+        lines, columns = r" \\ ".join(self.lines(box, "%s", " & ")), int(box.text)
+        if columns <= 10:  # as many as the environment has
+            return rf"\begin{{pmatrix}} {lines} \end{{pmatrix}}"
+        return rf"\left( \begin{{array}}{{@{{}}{'c' * columns}@{{}}}} {lines} \end{{array}} \right)"
 
 
 def _upright(text: str) -> str:
@@ -240,19 +265,6 @@ def _index(text: str) -> str:
     return f"{first},{_upright(body)}" if comma else first if first.isdigit() else _upright(first)
 
 
-_LATEX = _Notation(
-    forms={"over": r"\frac{%s}{%s}", "power": "{%s}^{%s}", "bracket": r"\left( %s \right)", "dot": r"\dot {%s}"},
-    part=latex,
-    others={
-        "name": _tex_name,
-        "number": _tex_number,
-        "sign": lambda box: _TEX_SIGNS.get(box.text, box.text),
-        "row": lambda box: " ".join(map(latex, box.parts)),
-        "call": _tex_call,
-        "cases": _tex_cases,
-    },
-)
-
 # -- MathML ----------------------------------------------------------------------------------------------------
 
 _SIGNS = {"-": "−", "<=": "≤", ">=": "≥", "!=": "≠", "and": "∧", "or": "∨", "not": "¬", "*": "·"}
@@ -260,101 +272,130 @@ _AROUND = {"sqrt": "<msqrt>%s</msqrt>", "abs": "<mrow><mo>|</mo>%s<mo>|</mo></mr
 _BRACKET = "<mrow><mo>(</mo>%s<mo>)</mo></mrow>"
 
 
-def mathml(box: Box) -> str:
-    """Return a box as MathML, for presentation, without the element ``math`` around it."""
-    return _MATHML.write(box)
-
-
-def _mathml_name(box: Box) -> str:
-    base = f"<mi>{escape(GREEK[box.text][1] if box.text in GREEK else box.text)}</mi>"
-    return f"<msub>{base}<mtext>{escape(box.index)}</mtext></msub>" if box.index else base
-
-
-def _mathml_row(box: Box) -> str:
-    """Write parts with thin space between factors, which browsers do not add."""
-    found: list[str] = []
-    for before, part in zip((None, *box.parts), box.parts, strict=False):
-        if before is not None and "sign" not in (before.kind, part.kind):
-            found.append('<mspace width="0.17em"/>')
-        found.append(mathml(part))
-    return "".join(found)
-
-
-def _mathml_call(box: Box) -> str:
-    inside = "<mo>,</mo>".join(map(mathml, box.parts))
-    if box.text in _AROUND:
-        return _AROUND[box.text] % inside
-    return f"<mi>{escape(box.text)}</mi><mo>&#8289;</mo>" + (inside if bare(box) else _BRACKET % inside)
-
-
-def _mathml_number(box: Box) -> str:
-    mantissa, exponent, ten = box.text.partition("e")
-    text = f"<mn>{mantissa}</mn>"
-    return f"{text}<mo>·</mo><msup><mn>10</mn><mn>{int(ten)}</mn></msup>" if exponent else text
-
-
-def _mathml_cases(box: Box) -> str:
-    lines = []
-    for value, when in _pairs(box):
-        condition = "<mi>otherwise</mi>" if when is None else f"<mtext>if </mtext>{mathml(when)}"
-        lines.append(f"<mtr><mtd>{mathml(value)}</mtd><mtd>{condition}</mtd></mtr>")
-    return f"<mrow><mo>{{</mo><mtable>{''.join(lines)}</mtable></mrow>"
-
-
-def _one(box: Box) -> str:
-    """Write what has to be one element."""
-    text = mathml(box)
-    return f"<mrow>{text}</mrow>" if box.kind in ("row", "call") or (box.kind == "number" and "e" in box.text) else text
-
-
-_MATHML = _Notation(
-    forms={
+class _Mathml(_Notation):
+    forms: ClassVar = {
         "over": "<mfrac>%s%s</mfrac>",
         "power": "<msup>%s%s</msup>",
         "dot": '<mover accent="true">%s<mo>˙</mo></mover>',
-    },
-    part=_one,
-    others={
-        "name": _mathml_name,
-        "number": _mathml_number,
-        "sign": lambda box: f"<mo>{escape(_SIGNS.get(box.text, box.text))}</mo>",
-        "row": _mathml_row,
-        "bracket": lambda box: _BRACKET % mathml(*box.parts),
-        "call": _mathml_call,
-        "cases": _mathml_cases,
-    },
-)
+    }
 
-# -- plain text ------------------------------------------------------------------------------------------------
+    def part(self, box: Box) -> str:
+        """Write what has to be one element."""
+        text = self.write(box)
+        several = box.kind in ("row", "call") or (box.kind == "number" and "e" in box.text)
+        return f"<mrow>{text}</mrow>" if several else text
+
+    def name(self, box: Box) -> str:
+        base = f"<mi>{escape(GREEK[box.text][1] if box.text in GREEK else box.text)}</mi>"
+        return f"<msub>{base}<mtext>{escape(box.index)}</mtext></msub>" if box.index else base
+
+    def number(self, box: Box) -> str:
+        mantissa, exponent, ten = box.text.partition("e")
+        text = f"<mn>{mantissa}</mn>"
+        return f"{text}<mo>·</mo><msup><mn>10</mn><mn>{int(ten)}</mn></msup>" if exponent else text
+
+    def sign(self, box: Box) -> str:
+        return f"<mo>{escape(_SIGNS.get(box.text, box.text))}</mo>"
+
+    def row(self, box: Box) -> str:
+        """Write parts with thin space between factors, which browsers do not add."""
+        return _beside(box, self.write, '<mspace width="0.17em"/>')
+
+    def bracket(self, box: Box) -> str:
+        return _BRACKET % self.listed(box)
+
+    def call(self, box: Box) -> str:
+        inside = self.listed(box, "<mo>,</mo>")
+        if box.text in _AROUND:
+            return _AROUND[box.text] % inside
+        return f"<mi>{escape(box.text)}</mi><mo>&#8289;</mo>" + (inside if bare(box) else _BRACKET % inside)
+
+    def cases(self, box: Box) -> str:
+        lines = []
+        for value, when in _pairs(box):
+            condition = "<mi>otherwise</mi>" if when is None else f"<mtext>if </mtext>{self.write(when)}"
+            lines.append(f"<mtr><mtd>{self.write(value)}</mtd><mtd>{condition}</mtd></mtr>")
+        return f"<mrow><mo>{{</mo><mtable>{''.join(lines)}</mtable></mrow>"
+
+    def matrix(self, box: Box) -> str:
+        lines = self.lines(box, "<mtr><mtd>%s</mtd></mtr>", "</mtd><mtd>")
+        return _BRACKET % f"<mtable>{''.join(lines)}</mtable>"
 
 
-def plain(box: Box) -> str:
-    """Return a box as plain text."""
-    return _PLAIN.write(box)
+# -- text ------------------------------------------------------------------------------------------------------
 
 
-def _plain_atom(box: Box) -> str:
-    return f"{box.text}_{box.index}" if box.index else box.text
+class _Python(_Notation):
+    """Text that Python and SymPy read, where names are whole."""
+
+    forms: ClassVar = {"power": "%s**%s"}
+
+    def part(self, box: Box) -> str:
+        """Write what stands beside a sign of division or of a power."""
+        return f"({self.write(box)})" if box.kind in ("row", "over", "power") else self.write(box)
+
+    def name(self, box: Box) -> str:
+        return box.text
+
+    number = name
+
+    def sign(self, box: Box) -> str:
+        return {"*": "*", "and": " & ", "or": " | ", "not": "~"}.get(box.text, f" {box.text} ")
+
+    def row(self, box: Box) -> str:
+        if len(box.parts) == 3 and box.parts[1].text == "!=":  # which Python decides for two expressions of SymPy
+            return f"Ne({self.write(box.parts[0])}, {self.write(box.parts[2])})"
+        text = _beside(box, self.write, "*")
+        return f"-{text[3:]}" if text.startswith(" - ") else text
+
+    def bracket(self, box: Box) -> str:
+        return f"({self.listed(box)})"
+
+    def over(self, box: Box) -> str:
+        above, below = box.parts
+        return f"{self.write(above)}/{self.part(below)}"
+
+    def call(self, box: Box) -> str:
+        if box.text == "defined":  # what is no number differs from itself
+            return f"Eq({self.listed(box)}, {self.listed(box)})"
+        return f"{box.index or box.text}({self.listed(box)})"
+
+    def cases(self, box: Box) -> str:
+        pairs = (
+            f"({self.write(value)}, {'True' if when is None else self.write(when)})" for value, when in _pairs(box)
+        )
+        return f"Piecewise({', '.join(pairs)})"
+
+    def matrix(self, box: Box) -> str:
+        return f"[{', '.join(self.lines(box, '[%s]', ', '))}]"
 
 
-def _plain_cases(box: Box) -> str:
-    return "; ".join(f"{plain(value)} if {'otherwise' if when is None else plain(when)}" for value, when in _pairs(box))
+class _Plain(_Python):
+    """Text for people, as laws have it."""
+
+    forms: ClassVar = {"over": "%s/%s", "power": "%s^%s"}
+
+    def name(self, box: Box) -> str:
+        return f"{box.text}_{box.index}" if box.index else box.text
+
+    def sign(self, box: Box) -> str:
+        return box.text
+
+    def row(self, box: Box) -> str:
+        return self.listed(box, " ")
+
+    def dot(self, box: Box) -> str:
+        return f"{self.listed(box)}'"
 
 
-def _whole(box: Box) -> str:
-    """Write what stands beside a sign of division or of a power."""
-    return plain(bracket(box) if box.kind in ("row", "over", "power") else box)
+def _beside(box: Box, write: Callable[[Box], str], between: str) -> str:
+    """Return the text of parts side by side, with something between those of which none is a sign."""
+    texts = [write(part) for part in box.parts]
+    for i, (before, part) in enumerate(pairwise(box.parts)):
+        if "sign" not in (before.kind, part.kind):
+            texts[i] += between
+    return "".join(texts)
 
 
-_PLAIN = _Notation(
-    forms={"over": "%s/%s", "power": "%s^%s"},
-    part=_whole,
-    others={
-        **dict.fromkeys(("name", "number", "sign"), _plain_atom),
-        "row": lambda box: " ".join(map(plain, box.parts)),
-        "bracket": lambda box: f"({plain(*box.parts)})",
-        "dot": lambda box: f"{plain(*box.parts)}'",
-        "call": lambda box: f"{box.text}({', '.join(map(plain, box.parts))})",
-        "cases": _plain_cases,
-    },
-)
+#: Write boxes as LaTeX; as MathML, for presentation, without the element ``math`` around it; as text.
+latex, mathml, python, plain = _Latex().write, _Mathml().write, _Python().write, _Plain().write

@@ -1,4 +1,4 @@
-"""A LaTeX document of derived equations: compiles as it is, and no line runs over the edge of the page."""
+"""Derived equations as LaTeX, in which no line runs over the edge of a page: a document, or its sections alone."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from symgen.errors import InputError, nearest
 from symgen.reading.boxes import escaped, latex
-from symgen.reading.sheet import LINE, Block, Line, Sheet
+from symgen.reading.sheet import LINE, Equation, Sheet
 from symgen.reading.typeset import broken
 
 if TYPE_CHECKING:
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 #: What a document may have.
 SECTIONS = ("nomenclature", "Phi", "D", "nu", "gamma", "N", "M", "f", "energies", "law", "left-out")
+#: Those of a part of another document, which needs amsmath alone.
+EQUATIONS = SECTIONS[1:-2]
 #: Equations of one environment: TeX keeps it in memory as a whole.
 _TOGETHER = 24
 
@@ -26,7 +28,6 @@ _HEAD = r"""\documentclass[10pt,a4paper]{article}
 \usepackage{amsmath,amssymb,longtable}
 \usepackage[margin=25mm]{geometry}
 \allowdisplaybreaks
-\setcounter{MaxMatrixCols}{60}
 \setlength{\parindent}{0pt}
 \setlength{\emergencystretch}{6em}
 """
@@ -38,8 +39,9 @@ def document(
     law: Law,
     values: Mapping[str, float],
     select: Sequence[str] = (),
+    whole: bool = True,
 ) -> str:
-    r"""Return a document with everything that was derived.
+    r"""Return everything that was derived as a document, or its sections alone as paragraphs of another one.
 
     Parameters
     ----------
@@ -51,6 +53,8 @@ def document(
         Values of parameters.
     select : sequence of str
         Sections of `SECTIONS`, and joints, that it is restricted to.
+    whole : bool
+        Whether it is a document; otherwise it has `EQUATIONS` unless sections are selected.
 
     Raises
     ------
@@ -58,12 +62,47 @@ def document(
         If a name in `select` is neither.
     """
     wanted, joints = selected(equations, select)
-    sheet = Sheet(mechanism, equations, joints)
-    e = equations
-    prescribed = sheet.prescribed()
+    wanted = wanted or (SECTIONS if whole else EQUATIONS)
+    e, sheet = equations, Sheet(mechanism, equations, joints)
+    sections: dict[str, list[str]] = {
+        "nomenclature": _nomenclature(sheet, values),
+        "Phi": _section(r"Constraints $\Phi = 0$", _lines(sheet.phi(sheet.rows), " = 0")),
+        "D": _section(
+            r"Jacobian $D$, by joint; blocks that are not written are zero",
+            _lines(line for joint in sheet.joints for line in sheet.jacobian(joint)),
+        ),
+        "nu": _section(r"Velocity constraints $D v = \nu$", _lines(sheet.nu(sheet.rows)) or [r"$\nu = 0$"]),
+        "gamma": _section(r"Acceleration constraints $D \dot v = \gamma$", _lines(sheet.gamma(sheet.rows))),
+        "N": _section(r"Rates of the coordinates $\dot q = N v$", _lines(sheet.rates()) or [r"$\dot q = v$"]),
+        "M": _section(r"Mass matrix $M$; what is not written is zero or symmetric", _lines(sheet.mass())),
+        "f": _section(r"Forces $f$", _lines(sheet.forces()) or [r"$f = 0$"]),
+        "energies": _section(_POWER if e.driving else "Energies and power", _lines(sheet.energies())),
+    }
+    if not e.m:
+        for part in ("Phi", "D", "nu", "gamma"):
+            del sections[part]
+    kept = [part for part in sections if part in wanted]
+    parts = [text for part in kept for text in sections[part]]
+    parts += _section("Shared terms", _lines(sheet.shared(sheet.nodes(kept))))
+    if "law" in wanted:
+        parts += _law(law)
+    if "left-out" in wanted and e.omissions:
+        items = [rf"\item {_words(o.what)}: {_words(o.why)}" for o in e.omissions]
+        parts += _section("Left out", [r"\begin{itemize}", *items, r"\end{itemize}"])
+    if whole:
+        return "\n".join([*_head(mechanism, sheet), *parts, r"\end{document}"]) + "\n"
+    notes = [f"{mechanism.name}: {e.nq} coordinates, {e.nv} velocities, {e.m} rows; numbers have six digits"]
+    notes += [f"left out: {o.what}: {o.why}" for o in e.omissions]
+    texts = [*(f"% {note}" for note in notes), *(text.replace(r"\section*", r"\paragraph") for text in parts)]
+    return "\n".join(texts) + "\n"
+
+
+def _head(mechanism: Mechanism, sheet: Sheet) -> list[str]:
+    """Return the document up to its first section."""
+    e = sheet.equations
     free = ", ".join(_words(r.name) for r in e.rows if r.phi is None)
     kind = "bodies" if mechanism.topology is None else "the joints of a tree"
-    parts = [
+    return [
         _HEAD,
         rf"\title{{{escaped(mechanism.title or mechanism.name)}}}",
         r"\author{}\date{}",
@@ -72,52 +111,26 @@ def document(
         rf"Mechanism \texttt{{{_breakable(mechanism.name)}}} in coordinates of {kind}: {e.nq} coordinates, {e.nv} "
         rf"velocities, {e.m} constraint rows. Its motion follows from",
         r"\[ M \dot v + D^T \lambda = f, \qquad D v = \nu, \qquad D \dot v = \gamma, \qquad \dot q = N v. \]",
-        *(rf"\par {_words(driver)} has no row: it prescribes {_words(what)}." for driver, what in prescribed.items()),
+        *(rf"\par {_words(k)} has no row: it prescribes {_words(what)}." for k, what in sheet.prescribed().items()),
         *([rf"\par Nonholonomic, conditions on velocities without $\Phi$: {free}."] if free else []),
         r"\par Numbers are rounded to six digits.",
     ]
-    sections: dict[str, list[str]] = {
-        "nomenclature": _nomenclature(sheet, values),
-        "Phi": _section(r"Constraints $\Phi = 0$", _lines(sheet.phi(sheet.rows), " = 0")),
-        "D": _section(r"Jacobian $D$, by joint; blocks that are not written are zero", _jacobian(sheet)),
-        "nu": _section(r"Velocity constraints $D v = \nu$", _lines(sheet.nu(sheet.rows)) or [r"$\nu = 0$"]),
-        "gamma": _section(r"Acceleration constraints $D \dot v = \gamma$", _lines(sheet.gamma(sheet.rows))),
-        "N": _section(r"Rates of the coordinates $\dot q = N v$", _lines(sheet.rates()) or [r"$\dot q = v$"]),
-        "M": _section(r"Mass matrix $M$; what is not written is zero or symmetric", _mixed(sheet.mass())),
-        "f": _section(r"Forces $f$", _lines(sheet.forces()) or [r"$f = 0$"]),
-        "energies": _section(_POWER if e.driving else "Energies and power", _lines(sheet.energies())),
-    }
-    if not e.m:
-        for part in ("Phi", "D", "nu", "gamma"):
-            del sections[part]
-    kept = [part for part in sections if part in wanted]
-    parts += [text for part in kept for text in sections[part]]
-    shared = _lines(sheet.shared(sheet.nodes(kept)))
-    if shared:
-        parts += _section("Shared terms", shared)
-    if "law" in wanted:
-        parts += _law(law)
-    if "left-out" in wanted and e.omissions:
-        parts += [r"\section*{Left out}", r"\begin{itemize}"]
-        parts += [rf"\item {_words(o.what)}: {_words(o.why)}" for o in e.omissions]
-        parts += [r"\end{itemize}"]
-    return "\n".join([*parts, r"\end{document}"]) + "\n"
 
 
 def selected(equations: Equations, select: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the sections and the joints that are asked for; ``joints.D`` is a joint, ``D`` the Jacobian."""
-    known = tuple(dict.fromkeys(row.joint for row in equations.rows))
+    with_rows = tuple(dict.fromkeys(row.joint for row in equations.rows))
     sections, joints = list[str](), list[str]()
     for item in select:
         joint = item.removeprefix("joints.")
         if item in SECTIONS:
             sections.append(item)
-        elif joint in known:
+        elif joint in with_rows:
             joints.append(joint)
         else:
             expected = f"a joint with rows, or one of {', '.join(SECTIONS)}"
-            raise InputError("--select", expected, f"'{item}'", nearest(item, (*SECTIONS, *known)))
-    return tuple(sections) or SECTIONS, tuple(joints)
+            raise InputError("--select", expected, f"'{item}'", nearest(item, (*SECTIONS, *with_rows)))
+    return tuple(sections), tuple(joints)
 
 
 def _section(title: str, body: Iterable[str]) -> list[str]:
@@ -135,77 +148,49 @@ def _words(text: str) -> str:
 
 
 def _aligned(rows: Sequence[str]) -> list[str]:
-    found = []
+    texts = []
     for first in range(0, len(rows), _TOGETHER):
-        found.append("\\begin{align*}\n" + " \\\\\n".join(rows[first : first + _TOGETHER]) + "\n\\end{align*}")
-    return found
+        texts.append("\\begin{align*}\n" + " \\\\\n".join(rows[first : first + _TOGETHER]) + "\n\\end{align*}")
+    return texts
 
 
-def _lines(lines: Iterable[Line], tail: str = "") -> list[str]:
+def _lines(lines: Iterable[Equation], tail: str = "") -> list[str]:
     return _aligned([text for line in lines for text in _line(line, tail)])
 
 
-def _line(line: Line, tail: str = "") -> list[str]:
+def _line(line: Equation, tail: str = "") -> list[str]:
     """Return an equation as rows of an aligned environment."""
-    left = latex(line.left)
-    room = LINE - line.left.width - (2.0 if tail else 0.0)
-    if line.left.width > LINE / 3:  # a name that takes most of the line
-        rows, room, first = [rf"{left} &"], LINE - 4.0, r"\quad ="
-        rows = [rf"\rlap{{${left}$}} &"]
-    else:
-        rows, first = [], f"{left} &="
-    for i, boxes in enumerate(broken(line.right, room - 1.5, room - 3.0)):
-        text = " ".join(map(latex, boxes))
-        rows.append(f"{first} {text}" if i == 0 else rf"&\quad {{}} {text}")
-    if line.left.width > LINE / 3:
-        rows = [rows[0], *(r"&" + r if not r.startswith("&") else r for r in rows[1:])]
+    left, wide = latex(line.left), line.left.width > LINE / 3  # a name that takes most of the line
+    room = LINE - 4.0 if wide else LINE - line.left.width - (2.0 if tail else 0.0)
+    rows, start = ([rf"\rlap{{${left}$}} &"], r"&\quad =") if wide else ([], f"{left} &=")
+    for boxes in broken(line.right, room - 1.5, room - 3.0):
+        rows.append(f"{start} {' '.join(map(latex, boxes))}")
+        start = r"&\quad {}"
     rows[-1] += tail
     return rows
 
 
-def _matrix(block: Block) -> str:
-    body = r" \\ ".join(" & ".join(map(latex, line)) for line in block.entries)
-    return rf"{latex(block.left)} &= \begin{{pmatrix}} {body} \end{{pmatrix}}"
-
-
-def _jacobian(sheet: Sheet) -> list[str]:
-    return _aligned([_matrix(block) for joint in sheet.joints for block in sheet.jacobian(joint)])
-
-
-def _mixed(items: Iterable[Line | Block]) -> list[str]:
-    rows: list[str] = []
-    for item in items:
-        rows += [_matrix(item)] if isinstance(item, Block) else _line(item)
-    return _aligned(rows)
-
-
 def _nomenclature(sheet: Sheet, values: Mapping[str, float]) -> list[str]:
-    found = [r"\section*{Nomenclature}"]
+    lines = [r"\section*{Nomenclature}"]
     notes = {p.name: f", {p.note}" for p in sheet.mechanism.parameters if p.note}
     for title, quantities in sheet.quantities():
         if not quantities:
             continue
-        found += [
+        lines += [
             rf"\subsection*{{{title}}}",
             r"\begin{longtable}{@{}p{0.3\textwidth}p{0.36\textwidth}p{0.12\textwidth}r@{}}",
         ]
         for quantity in quantities:
             value = f"{values[quantity.name]:.6g}" if title in ("Parameters", "Inputs") else ""
             symbol = latex(sheet.writer.symbol(quantity.name))
-            told = _words(quantity.name + notes.get(quantity.name, ""))
-            found.append(rf"${symbol}$ & \raggedright {told} & {_words(quantity.unit)} & {value} \\")
-        found.append(r"\end{longtable}")
-    return found
+            meaning = _words(quantity.name + notes.get(quantity.name, ""))
+            lines.append(rf"${symbol}$ & \raggedright {meaning} & {_words(quantity.unit)} & {value} \\")
+        lines.append(r"\end{longtable}")
+    return lines
 
 
 def _law(law: Law) -> list[str]:
-    found = [rf"\section*{{The law of \texttt{{{_breakable(law.method)}}}}}", f"{_words(law.summary)}."]
-    purposes = dict.fromkeys((step.function, step.purpose) for step in law.steps)
-    for function, purpose in purposes:
-        steps = [step for step in law.steps if step.function == function]
-        rows = []
-        for step in steps:
-            note = r" && \text{(solved)}" if step.solved else ""
-            rows.append(rf"{latex(step.left)} &= {latex(step.right)}{note}")
-        found += [rf"\paragraph{{{_words(function)}}} {_words(purpose)}", *_aligned(rows)]
-    return found
+    lines = [rf"\section*{{The law of \texttt{{{_breakable(law.method)}}}}}", f"{_words(law.summary)}."]
+    for function, purpose, steps in law.parts:
+        lines += [rf"\paragraph{{{_words(function)}}} {_words(purpose)}", *_aligned([step.latex for step in steps])]
+    return lines

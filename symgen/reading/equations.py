@@ -14,11 +14,12 @@ import sympy as sp
 from symgen import arguments
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, nearest
-from symgen.formulate.display import Display, latex_name
 from symgen.formulate.formulate import formulate
+from symgen.reading import boxes
 from symgen.reading.interpolated import functions
 from symgen.reading.quantities import OF_DRIVERS, QUANTITIES, Entries, nodes_of
 from symgen.reading.structure import shared_terms, structure
+from symgen.reading.symbolic import Boxed, Symbolic
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -189,8 +190,7 @@ class SymbolicEquations:
     @cached_property
     def definitions(self) -> Mapping[Any, Any]:
         """What the names of shared terms stand for, by symbol, each written with earlier ones; empty without any."""
-        used = self._quantities if self.sharing else [name for name in self._quantities if self._is_large(name)]
-        return MappingProxyType(self._definitions([n for name in used for *_, n in self.nodes[name][1]]))
+        return MappingProxyType(self._of(()))
 
     @cached_property
     def notes(self) -> tuple[str, ...]:
@@ -218,17 +218,17 @@ class SymbolicEquations:
         InputError
             If a name is not one of the equations.
         """
-        known = {s.name: s for s in (*self._plain.symbols.values(), *self._named.named.values())}
+        symbols = {s.name: s for s in (*self._plain.symbols.values(), *self._named.named.values())}
         new = dict[Any, Any]()
         for key, value in values.items():
             name = key.name if isinstance(key, sp.Symbol) else str(key)
-            if name not in known:
-                raise InputError("subs", "a name of the equations", f"'{name}'", nearest(name, known))
-            new[known[name]] = sp.sympify(value)
+            if name not in symbols:
+                raise InputError("subs", "a name of the equations", f"'{name}'", nearest(name, symbols))
+            new[symbols[name]] = sp.sympify(value)
         left = {symbol for value in self.values.values() for symbol in value.free_symbols}
-        found = {key: value.xreplace(new) for key, value in self.values.items()}
-        found |= {key: value for key, value in new.items() if key not in found or key not in left}
-        return replace(self, values=found)
+        replaced = {key: value.xreplace(new) for key, value in self.values.items()}
+        replaced |= {key: value for key, value in new.items() if key not in replaced or key not in left}
+        return replace(self, values=replaced)
 
     def lambdify(self, *names: str, modules: str | Sequence[Any] = "numpy") -> Callable[..., Any]:
         """Return a function ``(t, q, v, p=None, turned=None)`` that computes quantities, shared terms once.
@@ -248,24 +248,24 @@ class SymbolicEquations:
         """
         import numpy as np
 
-        asked = names or ("Phi",)
+        quantities = names or ("Phi",)
         shared = self if self.sharing else self.shared()
-        definitions = shared._definitions([n for name in asked for *_, n in self.nodes[name][1]])
+        definitions = shared._of(quantities)
         terms = {symbol: sp.Symbol(f"_term{i}", real=True) for i, symbol in enumerate(definitions)}
-        outputs = [shared.quantity(name).xreplace(terms) for name in asked]
+        outputs = [shared.quantity(name).xreplace(terms) for name in quantities]
         written = [(terms[symbol], value.xreplace(terms)) for symbol, value in definitions.items()]
         symbols = [self.t, *(list(group.values()) for group in (self.q, self.v, self.parameters, self.turned))]
         tables = functions(self.derived.tables)
         libraries = [tables, *([modules] if isinstance(modules, str) else modules)]
-        compute = sp.lambdify(symbols, outputs, libraries, cse=lambda given: (written, given))
-        known = list(parameter_values(self.mechanism).values())
+        compute = sp.lambdify(symbols, outputs, libraries, cse=lambda unchanged: (written, unchanged))
+        described = list(parameter_values(self.mechanism).values())
 
         def computed(t: float, q: Any, v: Any, p: Any = None, turned: Any = None) -> Any:
             """Return the quantities at a state."""
             last = [0.0] * len(self.turned) if turned is None else turned
             with np.errstate(all="ignore"):  # both branches of a condition are computed, one of which may be undefined
-                found = compute(t, q, v, known if p is None else p, last)
-            return found[0] if len(asked) == 1 else tuple(found)
+                results = compute(t, q, v, described if p is None else p, last)
+            return results[0] if len(quantities) == 1 else tuple(results)
 
         return computed
 
@@ -295,11 +295,10 @@ class SymbolicEquations:
 
         Lines are as long as they are: a document with broken lines is what ``symgen inspect --document`` writes.
         """
-        lines = []
-        for name in names or self._quantities:
-            lines.append(f"{QUANTITIES.get(name, (name,))[0]} = {self._latex(self.quantity(name))}")
-        lines += [f"{self._latex(symbol)} = {self._latex(value)}" for symbol, value in self._of(names).items()]
-        return " \\\\\n".join(lines)
+        sides = [({"power": "P"}.get(name, name), self.quantity(name)) for name in names or self._quantities]
+        sides += [(symbol.name, value) for symbol, value in self._of(names).items()]
+        box = Boxed().box
+        return " \\\\\n".join(f"{boxes.latex(boxes.name(left))} = {boxes.latex(box(right))}" for left, right in sides)
 
     def _repr_latex_(self) -> str:
         """Return what a notebook shows where it has no HTML."""
@@ -315,7 +314,7 @@ class SymbolicEquations:
         sizes = f"{e.nq} coordinates, {e.nv} velocities, {e.m} constraint rows, in {self.coordinates} coordinates"
         parts = [f"<p><b>{escape(e.name)}</b>: {escape(sizes)}</p>"]
         for name in self._quantities:
-            words, count = QUANTITIES[name][1], self._size(name)
+            words, count = QUANTITIES[name], self._size(name)
             head = f"<summary><code>{name}</code>: {escape(words)}, {count} operations</summary>"
             text = f"$$\\begin{{gathered}}{self.latex(name)}\\end{{gathered}}$$" if count <= 400 else "too long to show"
             parts.append(f"<details>{head}{escape(text)}</details>")
@@ -333,19 +332,19 @@ class SymbolicEquations:
         return nodes_of(self._written)
 
     @cached_property
-    def _plain(self) -> Display:
-        return Display(self._written, evaluated=True)
+    def _plain(self) -> Symbolic:
+        return Symbolic(self._written)
 
     @cached_property
-    def _named(self) -> Display:
+    def _named(self) -> Symbolic:
         ends = [node for _, entries in self.nodes.values() for *_, node in entries]
         taken = {symbol.name for symbol in self._plain.symbols.values()}
         names = shared_terms(self._written.graph, ends, structure(self.mechanism, self._written), taken)
-        return Display(self._written, evaluated=True, named=names)
+        return Symbolic(self._written, names)
 
     def _symbols(self, space: str) -> Mapping[str, Any]:
-        found = [s for (kind, _), s in self._plain.symbols.items() if kind == space]
-        return MappingProxyType({s.name: s for s in found})
+        symbols = [s for (kind, _), s in self._plain.symbols.items() if kind == space]
+        return MappingProxyType({s.name: s for s in symbols})
 
     def _size(self, name: str) -> int:
         return self._written.graph.tree_operations(n for *_, n in self.nodes[name][1])
@@ -356,23 +355,15 @@ class SymbolicEquations:
     def _matrix(self, name: str) -> Any:
         shape, entries = self.nodes[name]
         display = self._named if self.sharing or self._is_large(name) else self._plain
-        found = {(i, j): self._put(display.expression(node)) for i, j, node in entries}
-        return sp.ImmutableDenseMatrix(*shape, lambda i, j: found.get((int(i), int(j)), sp.S.Zero))
+        values = {(i, j): self._put(display.expression(node)) for i, j, node in entries}
+        return sp.ImmutableDenseMatrix(*shape, lambda i, j: values.get((int(i), int(j)), sp.S.Zero))
 
     def _put(self, expression: Any) -> Any:
         return expression.xreplace(self.values) if self.values else expression
 
-    def _definitions(self, ends: Iterable[int]) -> dict[Any, Any]:
-        """Return what the names in `ends` stand for, in evaluation order."""
-        display, graph = self._named, self._written.graph
-        needed = [n for n in graph.needed(ends) if n in display.named and display.named[n] not in self.values]
-        return {display.named[n]: self._put(display.definition(n)) for n in needed}
-
-    def _of(self, names: Iterable[str]) -> Mapping[Any, Any]:
-        """Return the definitions that quantities need; of all unless some are named."""
-        used = [name for name in names or self._quantities if self.sharing or self._is_large(name)]
-        return self._definitions([n for name in used for *_, n in self.nodes[name][1]])
-
-    def _latex(self, expression: Any) -> str:
-        symbols = {s: latex_name(s.name) for s in expression.free_symbols}
-        return str(sp.latex(expression, symbol_names=symbols, mat_delim="(", full_prec=False))
+    def _of(self, names: Iterable[str]) -> dict[Any, Any]:
+        """Return the definitions that quantities need, in evaluation order; of all unless some are named."""
+        display, used = self._named, [x for x in names or self._quantities if self.sharing or self._is_large(x)]
+        needed = self._written.graph.needed(n for name in used for *_, n in self.nodes[name][1])
+        named = [n for n in needed if n in display.named and display.named[n] not in self.values]
+        return {display.named[n]: self._put(display.definition(n)) for n in named}

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from html import escape
 
 from symgen.reading.boxes import Box, mathml
-from symgen.reading.sheet import Block, Line
+from symgen.reading.sheet import Equation
 from symgen.reading.typeset import broken
 
 
@@ -40,12 +40,12 @@ def fold(head: str, inside: str, is_open: bool = False, ident: str = "", marked:
 
 def table(lines: Sequence[Sequence[str]], numbers: int = 0) -> str:
     """Return a table of HTML; the last `numbers` columns are numbers."""
-    found = []
+    rows = []
     for i, line in enumerate(lines):
         tag, first = "th" if i == 0 else "td", len(line) - numbers
         cells = (f"<{tag}{' class=n' if k >= first else ''}>{text}</{tag}>" for k, text in enumerate(line))
-        found.append(f"<tr>{''.join(cells)}</tr>")
-    return f"<table>{''.join(found)}</table>"
+        rows.append(f"<tr>{''.join(cells)}</tr>")
+    return f"<table>{''.join(rows)}</table>"
 
 
 def math(box: Box) -> str:
@@ -53,27 +53,20 @@ def math(box: Box) -> str:
     return f"<math>{mathml(box)}</math>"
 
 
-def equation(line: Line, tail: str = "") -> str:
+def equation(line: Equation, tail: str = "") -> str:
     """Return an equation, broken where it is long."""
     lines = broken(line.right, 62.0 - line.left.width, 62.0)
-    found = []
+    parts = []
     for i, boxes in enumerate(lines):
         inside = "".join(map(mathml, boxes))
         if i == 0:
             inside = f"{mathml(line.left)}<mo>=</mo>{inside}"
         if tail and i == len(lines) - 1:
             inside += "<mo>=</mo><mn>0</mn>"
-        found.append(f"<div{' class=more' if i else ''}><math>{inside}</math></div>")
-    return f'<div class="equation">{"".join(found)}</div>'
+        parts.append(f"<div{' class=more' if i else ''}><math>{inside}</math></div>")
+    return f'<div class="equation">{"".join(parts)}</div>'
 
 
-def equations(items: Iterable[Line | Block]) -> str:
+def equations(lines: Iterable[Equation]) -> str:
     """Return equations one below the other."""
-    return "\n".join(matrix(item) if isinstance(item, Block) else equation(item) for item in items)
-
-
-def matrix(block: Block) -> str:
-    """Return a matrix with its name."""
-    lines = "".join(f"<mtr>{''.join(f'<mtd>{mathml(entry)}</mtd>' for entry in line)}</mtr>" for line in block.entries)
-    inside = f"{mathml(block.left)}<mo>=</mo><mrow><mo>(</mo><mtable>{lines}</mtable><mo>)</mo></mrow>"
-    return f'<div class="equation"><math>{inside}</math></div>'
+    return "\n".join(map(equation, lines))

@@ -67,6 +67,11 @@ class Step:
         """The whole equation."""
         return row(self.left, sign("="), self.right)
 
+    @property
+    def latex(self) -> str:
+        """The equation as a line of an environment such as ``aligned``."""
+        return rf"{latex(self.left)} &= {latex(self.right)}" + (r" && \text{(solved)}" if self.solved else "")
+
     def __str__(self) -> str:
         return ("solve " if self.solved else "") + plain(self.box)
 
@@ -91,27 +96,28 @@ class Law:
     options: Mapping[str, str]
     steps: tuple[Step, ...]
 
+    @property
+    def parts(self) -> list[tuple[str, str, list[Step]]]:
+        """Emitted functions with what they compute and their steps."""
+        groups: dict[tuple[str, str], list[Step]] = {}
+        for step in self.steps:
+            groups.setdefault((step.function, step.purpose), []).append(step)
+        return [(function, purpose, steps) for (function, purpose), steps in groups.items()]
+
     def latex(self) -> str:
         """Return the steps as lines of LaTeX, for an environment such as ``aligned``."""
-        lines, before = list[str](), ""
-        for step in self.steps:
-            if step.purpose != before:
-                lines.append(rf"&\text{{{escaped(step.function)}}}")
-                before = step.purpose
-            note = r" \quad \text{(solved)}" if step.solved else ""
-            lines.append(f"{latex(step.left)} &= {latex(step.right)}{note}")
+        lines = list[str]()
+        for function, _, steps in self.parts:
+            lines += [rf"&\text{{{escaped(function)}}}", *(step.latex for step in steps)]
         return " \\\\\n".join(lines)
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle \begin{{aligned}} {self.latex()} \end{{aligned}}$"
 
     def __str__(self) -> str:
-        lines, before = [f"{self.method}: {self.summary}"], ""
-        for step in self.steps:
-            if step.purpose != before:
-                lines.append(f"{step.function}: {step.purpose}")
-                before = step.purpose
-            lines.append(f"  {step}")
+        lines = [f"{self.method}: {self.summary}"]
+        for function, purpose, steps in self.parts:
+            lines += [f"{function}: {purpose}", *(f"  {step}" for step in steps)]
         return "\n".join(lines)
 
 
@@ -132,11 +138,11 @@ def law(method: str, options: Mapping[str, str] | None = None, driven: bool = Fa
     InputError
         If there is no such method or option.
     """
-    found = METHODS.get(method, "law")
-    complete = found.complete_options(options or {})
-    record = record_law(found, complete, driven)
+    chosen = METHODS.get(method, "law")
+    complete = chosen.complete_options(options or {})
+    record = record_law(chosen, complete, driven)
     steps = [step for part in record.parts for step in _Reader(record, part).steps()]
-    return Law(found.name, found.summary, record.form, complete, tuple(steps))
+    return Law(chosen.name, chosen.summary, record.form, complete, tuple(steps))
 
 
 class _Reader:
@@ -144,8 +150,8 @@ class _Reader:
 
     def __init__(self, record: Record, part: Part) -> None:
         self.operations, self.part = record.operations, part
-        self.found: list[Step] = []
-        self.known: dict[int, Box] = {}
+        self.result: list[Step] = []
+        self.boxes: dict[int, Box] = {}
 
     def steps(self) -> list[Step]:
         ends = [index for _, index in self.part.outputs]
@@ -160,28 +166,28 @@ class _Reader:
         for index in order:
             operation = self.operations[index]
             if operation.kind == "driving":  # works with the rate as it is called, not as it is computed
-                self.known |= {i: places[i] for i in operation.operands if i in places}
+                self.boxes |= {i: places[i] for i in operation.operands if i in places}
             box = self._box(operation)
             if operation.kind == "solve":
                 unknown = places.get(index) or (name("lambda") if operation.size == "m" else name(next(letters)))
-                matrix, right = (self.known[i] for i in operation.operands)
+                matrix, right = (self.boxes[i] for i in operation.operands)
                 self._add(row(_factor(matrix), unknown), right, solved=True)
                 box = unknown
             elif uses.get(index, 0) > 1 and box.kind in ("row", "over") and index not in places:
                 short = name(next(letters))
                 self._add(short, box)
                 box = short
-            self.known[index] = ends_as[index] = box
+            self.boxes[index] = ends_as[index] = box
         for place, index in self.part.outputs:
             if self.operations[index].kind != "solve":
                 self._add(_place(place), ends_as[index])
-        return self.found
+        return self.result
 
     def _add(self, left: Box, right: Box, solved: bool = False) -> None:
-        self.found.append(Step(self.part.name, self.part.purpose, left, right, solved))
+        self.result.append(Step(self.part.name, self.part.purpose, left, right, solved))
 
     def _box(self, operation: Operation) -> Box:
-        kind, parts = operation.kind, [self.known[i] for i in operation.operands]
+        kind, parts = operation.kind, [self.boxes[i] for i in operation.operands]
         if kind in _SIGNS:
             left, right = parts
             return row(left, sign(_SIGNS[kind]), _factor(right) if kind == "sub" else right)
@@ -198,8 +204,8 @@ class _Reader:
 
 
 def _named(text: str) -> Box:
-    known = _PLACES.get(text)
-    return known if known is not None else name(text)
+    box = _PLACES.get(text)
+    return box if box is not None else name(text)
 
 
 def _place(place: str) -> Box:

@@ -31,36 +31,36 @@ def with_symbols(raw: Mapping[str, Any]) -> dict[str, Any]:
     if not isinstance(parameters, Mapping):
         return dict(raw)  # what is wrong with it is said where it is read
     symbols = _Symbols(parameters)
-    found = dict(raw)
+    description = dict(raw)
     for section, keys in _KEYS.items():
         tables = raw.get(section)
         if isinstance(tables, Mapping):
-            found[section] = {
+            description[section] = {
                 name: symbols.table(table, keys, f"{section}.{name}") if isinstance(table, Mapping) else table
                 for name, table in tables.items()
             }
-    if symbols.given:
-        found["parameters"] = {**parameters, **symbols.given}
-    return found
+    if symbols.added:
+        description["parameters"] = {**parameters, **symbols.added}
+    return description
 
 
 class _Symbols:
-    """The symbols given so far: parameters as a file has them."""
+    """The symbols so far: parameters as a file has them."""
 
     def __init__(self, taken: Mapping[str, Any]) -> None:
         self.taken = taken
-        self.given: dict[str, dict[str, Any]] = {}
+        self.added: dict[str, dict[str, Any]] = {}
         self._points: dict[tuple[str, tuple[float, ...]], Any] = {}
 
     def table(self, table: Mapping[str, Any], keys: tuple[str, ...], place: str) -> dict[str, Any]:
         """Return a body, joint or force with symbols."""
-        found = dict(table)
+        changed = dict(table)
         for key in keys:
             angle = key == "offset" and "ratio" in table  # of a gear
             if key in table and not angle:
                 where = f"{place}.{key}"
-                found[key] = self._at(table, where) if key == "at" else self._value(table[key], where)
-        return found
+                changed[key] = self._at(table, where) if key == "at" else self._value(table[key], where)
+        return changed
 
     def _at(self, table: Mapping[str, Any], place: str) -> Any:
         """Return one point, or one for each of two bodies."""
@@ -85,11 +85,11 @@ class _Symbols:
             return [self._value(part, f"{place}.{name}") for part, name in zip(value, names, strict=False)] + value[3:]
         if not _is_number(value) or value == 0:
             return value
-        number = len(self.given) + 1
+        number = len(self.added) + 1
         # `l1` and `l_1` are typeset alike
-        while f"l_{number}" in self.taken or f"l{number}" in self.taken or f"l_{number}" in self.given:
+        while f"l_{number}" in self.taken or f"l{number}" in self.taken or f"l_{number}" in self.added:
             number += 1
-        self.given[f"l_{number}"] = {"value": abs(float(value)), "unit": "m", "note": place}
+        self.added[f"l_{number}"] = {"value": abs(float(value)), "unit": "m", "note": place}
         return f"l_{number}" if value > 0 else f"-l_{number}"
 
 

@@ -59,9 +59,9 @@ def code_listing(
         else:
             link = f'<a href="#row-{attribute(c.row)}"># {escape(c.row)}: {escape(c.what)}</a>'
             lines.append(f'<span id="line-{number}">{escape(line.partition("  # ")[0])}  {link}</span>')
-    found = [fold(f"module model, {len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
+    listings = [fold(f"module model, {len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
     for stem, text in parts.items():
         head = f"module {escape(stem)}, {text.count(chr(10))} lines"
         shown = f"<pre>{escape(text)}</pre>" if stem in listed else small("Left out, for the size of this page.")
-        found.append(fold(head, shown))
-    return found
+        listings.append(fold(head, shown))
+    return listings

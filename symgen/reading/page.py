@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from html import escape
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from symgen.drawing import sketch
 from symgen.emit.emit import emit_law, emit_model
 from symgen.errors import InputError
+from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
 from symgen.player.live import rates_parts
-from symgen.player.page import rates_script
-from symgen.reading.boxes import Box, row, sign
-from symgen.reading.html import attribute, equation, equations, fold, math, matrix, section, short, small, table
-from symgen.reading.law import Law
+from symgen.player.page import as_json, rates_script
+from symgen.reading.boxes import dot, name, row, sign, transposed
+from symgen.reading.html import attribute, equation, equations, fold, math, section, short, small, table
+from symgen.reading.law import law
 from symgen.reading.listing import code_listing, file_listing
 from symgen.reading.patterns import of_factor, of_jacobian, picture
 from symgen.reading.sheet import Sheet
@@ -28,16 +29,12 @@ from symgen.reading.source import Computed, computed, sections
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Joint, Mechanism
-    from symgen.formulate.equations import Equations
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.running.prepare import Prepared
 
 #: Largest page [bytes]; emitted code is left out of a page that would be larger.
 LARGEST = 2_000_000
 #: Mechanisms with more rows and velocities have no page.
 MOST_ROWS = 1500
-#: Where the right-hand side is put, and what is said of it [with so many bytes at most]: text of files is escaped.
-_RATES, _TOLD, _SPARE = "<!--rates-->", "<!--told-->", 1000
 #: Up to so many velocities of bodies a page has the code of a run in straight lines, unless asked otherwise.
 MOST_STRAIGHT = 150
 #: Shared terms that stand together.
@@ -60,37 +57,33 @@ class Subject:
     ----------
     whole, mechanism : Mechanism
         As described, and as it was derived: with its tree where coordinates are those of joints.
-    equations : Equations
-        What was derived.
     choice : MethodChoice
         The method.
-    law : Law
-        Its steps.
     values : mapping
         Values of the parameters.
-    q : sequence of float, optional
-        Coordinates of bodies that are drawn; as described by default.
     facts : sequence of str
         Sentences about the start, and what was chosen.
     text : str
         The file, where there is one.
-    compiled : CompiledModel, optional
-        The code of a run, from which the page has its right-hand side.
-    start : Start, optional
-        Where the run begins.
+    run : Prepared, optional
+        The run whose start is drawn, and from whose code the page has its right-hand side; None: it does not close.
     """
 
     whole: Mechanism
     mechanism: Mechanism
-    equations: Equations
     choice: MethodChoice
-    law: Law
     values: Mapping[str, float]
-    q: Sequence[float] | None = None
     facts: Sequence[str] = ()
     text: str = ""
-    compiled: CompiledModel | None = None
-    start: Start | None = None
+    run: Prepared | None = None
+
+    @property
+    def q(self) -> list[float] | None:
+        """Coordinates of bodies that are drawn; None: as described."""
+        if self.run is None:
+            return None
+        compiled, start = self.run.assembled.of_bodies
+        return [float(x) for x in start.y[: compiled.info.nq]]
 
 
 def check_size(mechanism: Mechanism) -> None:
@@ -118,69 +111,62 @@ def page(subject: Subject) -> str:
     InputError
         If it is larger without the code, too.
     """
-    made = _Page(subject)
-    scripts, why = made.rates()
-    fits, size = "", 0
-    for listed in made.listings():
-        text = made.text(listed)
+    parts, size = _Page(subject), 0
+    scripts, why = parts.rates()
+    listings = parts.listings()
+    for listed, script in (*product(listings, scripts), *product(listings, [""])):
+        if scripts and not script:
+            why = f"its {min(map(len, scripts))} characters are more than this page has room for"
+        text = parts.text(listed, script, why)
         size = len(text.encode())
-        if size > LARGEST:
-            continue
-        script = next((each for each in scripts if size + len(each) + _SPARE <= LARGEST), "")
-        if script or not scripts:
-            return _with_rates(text, script, why)
-        fits = fits or text
-    if fits:
-        return _with_rates(fits, "", f"its {min(map(len, scripts))} characters are more than this page has room for")
+        if size <= LARGEST:
+            return text
     expected = f"a mechanism whose page has at most {LARGEST} bytes"
     raise InputError("inspect: -o", expected, f"one with {size} without its code", "--json has no such limit")
 
 
-def _with_rates(text: str, script: str, why: str) -> str:
-    told = _OFFERED if script else f"This page offers no right-hand side to scripts: {why}."
-    return text.replace(_RATES, script or "null", 1).replace(_TOLD, f'<p class="small">{escape(told)}</p>', 1)
-
-
 class _Page:
     def __init__(self, subject: Subject) -> None:
-        self.subject, self.e = subject, subject.equations
+        self.subject, self.e = subject, formulate(subject.mechanism)
         self.sheet = Sheet(subject.mechanism, self.e)
         self.program = lower_model(self.e, digest="")
-        method = subject.choice.method
-        self.law = lower_law(self.e, self.program, method, subject.choice.options)
+        method, options = subject.choice.method, subject.choice.options
+        self.steps = law(method.name, options, self.e.driving is not None)
+        self.law = lower_law(self.e, self.program, method, options)
         self.source = emit_model(self.program, self.e)
         self.parts = emit_law(self.law, self.program, self.e, method.summary, method.reference)
         self.places = sections(subject.text)
 
     @cached_property
     def computed(self) -> dict[str, list[Computed]]:
-        found: dict[str, list[Computed]] = {}
+        by_row: dict[str, list[Computed]] = {}
         for line in computed(self.program, self.e, self.source):
-            found.setdefault(line.row, []).append(line)
-        return found
+            by_row.setdefault(line.row, []).append(line)
+        return by_row
 
     def listings(self) -> list[frozenset[str]]:
         """Return which modules are listed, from all to none: those go first that no link leads to."""
         rest = sorted((stem for stem in self.parts if not stem.startswith("rhs_")), key=lambda s: len(self.parts[s]))
-        found = [frozenset(("model", *self.parts))]
+        choices = [frozenset(("model", *self.parts))]
         for stem in reversed(rest):
-            found.append(found[-1] - {stem})
-        return [*found, frozenset(("model",)), frozenset()]
+            choices.append(choices[-1] - {stem})
+        return [*choices, frozenset(("model",)), frozenset()]
 
     def rates(self) -> tuple[list[str], str]:
         """Return the right-hand side as scripts, the best first, or why there is none."""
-        compiled, start = self.subject.compiled, self.subject.start
-        if compiled is None or start is None:
+        run = self.subject.run
+        if run is None:
             return [], "the mechanism does not close"
-        parts, why = rates_parts(compiled, start)
+        parts, why = rates_parts(run.compiled, run.start)
         return [rates_script(part) for part in parts], why
 
-    def text(self, listed: frozenset[str]) -> str:
-        """Return the page, with these modules listed; what evaluates the rates is put in afterwards."""
-        s, e, code = self.subject, self.e, "model" in listed
+    def text(self, listed: frozenset[str], script: str, why: str) -> str:
+        """Return the page, with these modules listed, and a script that evaluates the rates or why there is none."""
+        s, e, is_listed = self.subject, self.e, "model" in listed
         title = s.whole.title or s.whole.name
         kind = "bodies" if s.mechanism.topology is None else "the joints of a tree"
         sizes = f"{e.nq} coordinates, {e.nv} velocities, {e.m} constraint rows, {len(e.parameters)} parameters"
+        rates = _OFFERED if script else f"This page offers no right-hand side to scripts: {why}."
         body = [
             f"<h1>{escape(title)}</h1>",
             f"<p>{escape(s.whole.name)}, in coordinates of {kind}: {sizes}. Method {escape(s.choice.method.name)}.</p>",
@@ -189,39 +175,38 @@ class _Page:
             section("sketch", "Sketch", [f'<div class="scene">{self._sketch()}</div>', small(_SKETCH)]),
             section("topology", "Topology", self._topology()),
             section("coordinates", "Coordinates", self._coordinates()),
-            section("rows", "Joints and their rows", [self._joint(j, code) for j in s.mechanism.joints]),
+            section("rows", "Joints and their rows", [self._joint(j, is_listed) for j in s.mechanism.joints]),
             section("patterns", "Patterns", self._patterns()),
             section("motion", "Equations of motion", self._motion()),
             section("law", f"The law of {s.choice.method.name}, as solved", self._law()),
             section("operations", "Operations", self._operations()),
             section("left-out", "Left out", self._left_out()),
             section("file", "File", file_listing(s.text, self.places, {joint.name for joint in s.mechanism.joints})),
-            section("code", "Emitted code", [_TOLD, *self._code(listed)]),
+            section("code", "Emitted code", [small(rates), *self._code(listed)]),
         ]
         data: dict[str, Any] = {
             "t": 0.0,
-            "q": None if s.q is None else [float(x) for x in s.q],
+            "q": s.q,
             "names": [f"{b.name}.{c}" for b in s.whole.bodies for c in b.coordinates],
-            "y0": None if s.start is None else [float(x) for x in s.start.y],
+            "y0": None if s.run is None else [float(x) for x in s.run.start.y],
             "state": [x.name for x in (*e.coordinates, *e.velocities)],
             "rows": [r.name for r in e.rows],
         }
-        told = json.dumps(data, allow_nan=False).replace("<", "\\u003c")
         head = (
             '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
             f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'
             '<meta name="viewport" content="width=device-width, initial-scale=1"><link rel="icon" href="data:,">'
             f"<title>{escape(title)}: equations</title><style>{_web('style.css')}</style></head><body>"
         )
-        script = f"const rates = {_RATES};\n{_web('script.js')}"
-        tail = f'<script type="application/json" id="data">{told}</script><script>{script}</script>'
+        code = f"const rates = {script or 'null'};\n{_web('script.js')}"
+        tail = f'<script type="application/json" id="data">{as_json(data)}</script><script>{code}</script>'
         return "\n".join([head, *body, tail, "</body></html>\n"])
 
     # -- sections --------------------------------------------------------------------------------------------------
 
     def _navigation(self) -> str:
-        known = "sketch topology coordinates rows patterns motion law operations left-out file code".split()
-        return "<nav>" + " ".join(f'<a href="#{k}">{k.replace("-", " ")}</a>' for k in known) + "</nav>"
+        names = "sketch topology coordinates rows patterns motion law operations left-out file code".split()
+        return "<nav>" + " ".join(f'<a href="#{k}">{k.replace("-", " ")}</a>' for k in names) + "</nav>"
 
     def _sketch(self) -> str:
         return sketch(self.subject.whole, self.subject.q, self.subject.values)
@@ -233,7 +218,7 @@ class _Page:
             between = " and ".join(dict.fromkeys(joint.bodies))
             link = f'<a href="#rows-{attribute(joint.name)}">{escape(joint.name)}</a>'
             lines.append([link, escape(joint.kind), escape(between), str(len(self.sheet.of(joint.name)))])
-        found = [fold(f"{len(s.mechanism.joints)} joints", table(lines), len(lines) <= 13)]
+        parts = [fold(f"{len(s.mechanism.joints)} joints", table(lines), len(lines) <= 13)]
         if s.mechanism.topology is not None:
             tree = [["body", "carried by", "on"]]
             tree += [
@@ -241,11 +226,11 @@ class _Page:
                 for x in s.mechanism.topology.links
             ]
             cut = ", ".join(s.mechanism.topology.cut) or "no joint"
-            found.append(fold(f"the tree; loops are closed by {cut}", table(tree)))
-        return found
+            parts.append(fold(f"the tree; loops are closed by {cut}", table(tree)))
+        return parts
 
     def _coordinates(self) -> list[str]:
-        found = []
+        parts = []
         for title, quantities in self.sheet.quantities():
             if quantities:
                 numbers = title in ("Parameters", "Inputs")
@@ -254,8 +239,8 @@ class _Page:
                     letter = math(self.sheet.writer.symbol(quantity.name))
                     value = [f"{self.subject.values[quantity.name]:.6g}"] if numbers else []
                     lines.append([letter, escape(quantity.name), escape(quantity.unit), *value])
-                found.append(fold(f"{len(quantities)} {title.lower()}", table(lines)))
-        return found
+                parts.append(fold(f"{len(quantities)} {title.lower()}", table(lines)))
+        return parts
 
     def _joint(self, joint: Joint, code: bool) -> str:
         rows, g = self.sheet.of(joint.name), self.e.graph
@@ -266,8 +251,8 @@ class _Page:
         parts = [f"<p>{' · '.join(links)}</p>"]
         if not rows:
             prescribed = self.sheet.prescribed().get(joint.name)
-            told = "It carries a body in the tree" if prescribed is None else f"It prescribes {prescribed}"
-            parts.append(f"<p>{escape(told)}: it has no rows.</p>")
+            sentence = "It carries a body in the tree" if prescribed is None else f"It prescribes {prescribed}"
+            parts.append(f"<p>{escape(sentence)}: it has no rows.</p>")
         phi = {line.key: line for line in self.sheet.phi(rows)}
         nu = {line.key: line for line in self.sheet.nu(rows)}
         gamma = {line.key: line for line in self.sheet.gamma(rows)}
@@ -279,18 +264,18 @@ class _Page:
             parts.append(equation(gamma[r.name]))
             parts.append(self._lines_of(r.name) if code else "")
             parts.append("</div>")
-        parts += [matrix(block) for block in self.sheet.jacobian(joint.name)]
+        parts.append(equations(self.sheet.jacobian(joint.name)))
         nodes = [n for r in rows for n in (r.phi, r.nu, r.gamma, *(x for _, x in r.entries)) if n is not None]
         names = f"{escape(joint.kind)} between {escape(' and '.join(dict.fromkeys(joint.bodies)))}"
         head = f"<b>{escape(joint.name)}</b>: {names}, {len(rows)} rows, {g.operations(nodes)} operations"
         return fold(head, "\n".join(parts), ident=f"rows-{joint.name}", marked=True)
 
     def _lines_of(self, name: str) -> str:
-        found = [
+        links = [
             f'<a class="code" href="#line-{c.line}">{escape(c.what)}: <code>{escape(short(c.text))}</code></a>'
             for c in self.computed.get(name, ())
         ]
-        return f'<p class="small">computed by {" · ".join(found)}</p>' if found else ""
+        return f'<p class="small">computed by {" · ".join(links)}</p>' if links else ""
 
     def _patterns(self) -> list[str]:
         e = self.e
@@ -308,32 +293,31 @@ class _Page:
 
     def _motion(self) -> list[str]:
         sheet = self.sheet
-        found = [f'<div class="equation">{math(_MOTION)}</div>', small("Numbers are rounded to six digits.")]
+        folds = [f'<div class="equation">{math(_MOTION)}</div>', small("Numbers are rounded to six digits.")]
         if self.e.nv <= _WHOLE:
-            found.append(fold("M and D as matrices", "".join(map(matrix, sheet.whole()))))
+            folds.append(fold("M and D as matrices", equations(sheet.whole())))
         parts = [
             ("rates of the coordinates", equations(sheet.rates()) or "q' = v"),
             ("mass matrix M; what is not written is zero or symmetric", equations(sheet.mass())),
             ("forces f; those not written are zero", equations(sheet.forces()) or "f = 0"),
             (_POWER if self.e.driving else _POWER.partition(";")[0], equations(sheet.energies())),
         ]
-        found += [fold(title, text) for title, text in parts]
+        folds += [fold(title, text) for title, text in parts]
         shared = sheet.shared(sheet.nodes(("Phi", "D", "nu", "gamma", "N", "M", "f", "energies")))
         for first in range(0, len(shared), _TOGETHER):
             some = shared[first : first + _TOGETHER]
             names = f"{math(some[0].left)} to {math(some[-1].left)}"
-            found.append(fold(f"shared terms {names}", equations(some)))
-        return found
+            folds.append(fold(f"shared terms {names}", equations(some)))
+        return folds
 
     def _law(self) -> list[str]:
-        found, before = [f"<p>{escape(self.subject.law.summary)}</p>"], ""
-        for step in self.subject.law.steps:
-            if step.purpose != before:
-                found.append(f"<h3>{escape(step.function)}: {escape(step.purpose)}</h3>")
-                before = step.purpose
-            note = ' <span class="small">solved</span>' if step.solved else ""
-            found.append(f'<div class="equation">{math(step.box)}{note}</div>')
-        return [fold("steps", "\n".join(found), True)]
+        lines = [f"<p>{escape(self.steps.summary)}</p>"]
+        for function, purpose, steps in self.steps.parts:
+            lines.append(f"<h3>{escape(function)}: {escape(purpose)}</h3>")
+            for step in steps:
+                note = ' <span class="small">solved</span>' if step.solved else ""
+                lines.append(f'<div class="equation">{math(step.box)}{note}</div>')
+        return [fold("steps", "\n".join(lines), True)]
 
     def _operations(self) -> list[str]:
         g, lines = self.e.graph, [["joint", "Phi", "D", "gamma", "together"]]
@@ -357,16 +341,16 @@ class _Page:
 
     def _code(self, listed: frozenset[str]) -> list[str]:
         if "model" in listed:
-            back = {c.line: c for found in self.computed.values() for c in found}
+            back = {c.line: c for lines in self.computed.values() for c in lines}
             return code_listing(self.source, self.parts, listed, back)
         size = len(self.source) + sum(map(len, self.parts.values()))
         return [f"<p>It has {size} characters and is left out, as the page would be larger than {LARGEST} bytes.</p>"]
 
     def _left_out(self) -> list[str]:
-        found = [f"<li>{escape(o.what)}: {escape(o.why)}</li>" for o in self.e.omissions]
+        items = [f"<li>{escape(o.what)}: {escape(o.why)}</li>" for o in self.e.omissions]
         return (
-            [fold(f"{len(found)} things", f"<ul>{''.join(found)}</ul>", len(found) <= 8)]
-            if found
+            [fold(f"{len(items)} things", f"<ul>{''.join(items)}</ul>", len(items) <= 8)]
+            if items
             else ["<p>Nothing.</p>"]
         )
 
@@ -375,8 +359,6 @@ _OFFERED = "Scripts find it at work: window.symgen.rates(t, y, p) returns the ra
 _POWER = "energies, and the power of forces without potential; b v' + c is that of drivers without rows"
 _SKETCH = "A joint in the picture leads to its rows; these lead to the file and to the lines that compute them."
 _MOTION = row(
-    *(Box("name", text="M", width=1.0), Box("dot", (Box("name", text="v", width=1.0),), width=1.0), sign("+")),
-    Box("power", (Box("name", text="D"), Box("name", text="T")), width=1.0),
-    *(Box("name", text="lambda"), sign("="), Box("name", text="f"), sign(",")),
-    *(Box("name", text="D"), Box("dot", (Box("name", text="v"),)), sign("="), Box("name", text="gamma")),
+    *(name("M"), dot(name("v")), sign("+"), transposed(name("D")), name("lambda"), sign("="), name("f"), sign(",")),
+    *(name("D"), dot(name("v")), sign("="), name("gamma")),
 )

@@ -35,13 +35,13 @@ def of_factor(equations: Equations, order: Sequence[int]) -> dict[tuple[int, int
     near = [{j for j in range(m) if j != i and columns[i] & columns[j]} for i in range(m)]
     first = [set(n) for n in near]
     place = {row: k for k, row in enumerate(order)}
-    found: dict[tuple[int, int], str] = {(k, k): "x" for k in range(len(order))}
+    entries: dict[tuple[int, int], str] = {(k, k): "x" for k in range(len(order))}
     for row in order:
         later = {n for n in near[row] if place[n] > place[row]}
         for n in later:
-            found[place[n], place[row]] = "x" if n in first[row] else "f"
+            entries[place[n], place[row]] = "x" if n in first[row] else "f"
             near[n] |= later - {n}
-    return found
+    return entries
 
 
 def picture(
@@ -74,7 +74,7 @@ def picture(
             parts.append(f'<a href="#row-{escape(rows[i], quote=True)}">{box}</a>' if links else box)
     else:
         for kind, fill in _FILLS.items():
-            path = "".join(f"M{j} {i}h1v1h-1z" for (i, j), found in entries.items() if found == kind)
+            path = "".join(f"M{j} {i}h1v1h-1z" for (i, j), own in entries.items() if own == kind)
             if path:
                 parts.append(f'<path d="{path}" fill="{fill}"/>')
     return "".join([*parts, "</svg>"])

@@ -10,23 +10,31 @@ from symgen.ir.derivative import jacobian
 if TYPE_CHECKING:
     from symgen.formulate.equations import Equations
 
-#: What the equations consist of: attribute, LaTeX, words.
+#: What the equations consist of: attribute and words.
 QUANTITIES = {
-    "Phi": (r"\Phi", "constraints, 0 where a row has none"),
-    "D": ("D", "Jacobian, D v = nu"),
-    "nu": (r"\nu", "right-hand side of the velocity constraints"),
-    "gamma": (r"\gamma", "right-hand side of the acceleration constraints, D v' = gamma"),
-    "N": ("N", "kinematic map, q' = N v"),
-    "M": ("M", "mass matrix"),
-    "f": ("f", "forces, M v' + D^T lambda = f"),
-    "T": ("T", "kinetic energy"),
-    "V": ("V", "potential energy"),
-    "power": ("P", "power of the forces without potential"),
-    "b": ("b", "power of the drivers that prescribe coordinates, b v' + c: by acceleration"),
-    "c": ("c", "the same: what is left where v' is 0"),
+    "Phi": "constraints, 0 where a row has none",
+    "D": "Jacobian, D v = nu",
+    "nu": "right-hand side of the velocity constraints",
+    "gamma": "right-hand side of the acceleration constraints, D v' = gamma",
+    "N": "kinematic map, q' = N v",
+    "M": "mass matrix",
+    "f": "forces, M v' + D^T lambda = f",
+    "T": "kinetic energy",
+    "V": "potential energy",
+    "power": "power of the forces without potential",
+    "b": "power of the drivers that prescribe coordinates, b v' + c: by acceleration",
+    "c": "the same: what is left where v' is 0",
 }
 #: Those that exist where drivers prescribe coordinates.
 OF_DRIVERS = ("b", "c")
+
+
+def input_names(e: Equations) -> dict[tuple[str, int], str]:
+    """Return the names of time, coordinates, velocities, parameters and of angles as they were last."""
+    spaces = {"q": e.coordinates, "v": e.velocities, "p": e.parameters}
+    names = {(space, i): x.name for space, quantities in spaces.items() for i, x in enumerate(quantities)}
+    return {("t", 0): "t", **names, **{("winding", i): f"turned_{i}" for i in range(len(e.windings))}}
+
 
 #: Shape of a matrix; row, column and node of its entries.
 Entries = tuple[tuple[int, int], tuple[tuple[int, int, int], ...]]
@@ -37,8 +45,8 @@ def nodes_of(e: Equations) -> Mapping[str, Entries]:
     rates = jacobian(e.graph, e.q_rates, [("v", j) for j in range(e.nv)])
     zero = e.graph.zero
 
-    def column(found: Iterable[int]) -> Entries:
-        listed = list(found)
+    def column(nodes: Iterable[int]) -> Entries:
+        listed = list(nodes)
         return (len(listed), 1), tuple((i, 0, n) for i, n in enumerate(listed))
 
     mass = ((i, j, b.entries[r][c]) for b in e.mass for r, i in enumerate(b.columns) for c, j in enumerate(b.columns))

@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from symgen.describe.printer import to_text
-from symgen.reading.boxes import Box, bracket, dot, name, row, sign
+from symgen.reading.boxes import Box, bracket, dot, matrix, name, row, sign
 from symgen.reading.structure import structure
-from symgen.reading.typeset import Sum, Typesetter, as_box, columns
+from symgen.reading.typeset import Sum, Typesetter, atom
 from symgen.vocabulary.expressions import call
 
 if TYPE_CHECKING:
@@ -23,20 +23,11 @@ LINE = 43.0
 
 
 @dataclass(frozen=True)
-class Line:
+class Equation:
     """An equation: its left side, and a sum."""
 
     left: Box
     right: Sum
-    key: str = ""
-
-
-@dataclass(frozen=True)
-class Block:
-    """A matrix with its name, entries as boxes."""
-
-    left: Box
-    entries: tuple[tuple[Box, ...], ...]
     key: str = ""
 
 
@@ -66,9 +57,9 @@ class Sheet:
 
     def _names(self) -> dict[int, str]:
         """Return the names of the structure; cosine and sine of one coordinate read best as they are."""
-        g, found = self.equations.graph, structure(self.mechanism, self.equations)
-        simple = {n for n in found if g.nodes[n].op in ("sin", "cos") and g.nodes[g.nodes[n].args[0]].op == "input"}
-        return {n: title for n, title in found.items() if n not in simple}
+        g, names = self.equations.graph, structure(self.mechanism, self.equations)
+        simple = {n for n in names if g.nodes[n].op in ("sin", "cos") and g.nodes[g.nodes[n].args[0]].op == "input"}
+        return {n: title for n, title in names.items() if n not in simple}
 
     # -- constraints -----------------------------------------------------------------------------------------------
 
@@ -81,56 +72,52 @@ class Sheet:
         """Return the rows of a joint."""
         return tuple(r for r in self.rows if r.joint == joint)
 
-    def phi(self, rows: Iterable[ConstraintRow]) -> list[Line]:
+    def phi(self, rows: Iterable[ConstraintRow]) -> list[Equation]:
         """Return ``Phi_ROW = ...`` of holonomic rows."""
-        return [Line(indexed("Phi", r.name), self.writer.sum(r.phi), r.name) for r in rows if r.phi is not None]
+        return [Equation(indexed("Phi", r.name), self.writer.sum(r.phi), r.name) for r in rows if r.phi is not None]
 
-    def nu(self, rows: Iterable[ConstraintRow]) -> list[Line]:
+    def nu(self, rows: Iterable[ConstraintRow]) -> list[Equation]:
         """Return ``nu_ROW = ...`` where it is not 0."""
         zero = self.equations.graph.zero
-        return [Line(indexed("nu", r.name), self.writer.sum(r.nu), r.name) for r in rows if r.nu != zero]
+        return [Equation(indexed("nu", r.name), self.writer.sum(r.nu), r.name) for r in rows if r.nu != zero]
 
-    def gamma(self, rows: Iterable[ConstraintRow]) -> list[Line]:
+    def gamma(self, rows: Iterable[ConstraintRow]) -> list[Equation]:
         """Return ``gamma_ROW = ...``."""
-        return [Line(indexed("gamma", r.name), self.writer.sum(r.gamma), r.name) for r in rows]
+        return [Equation(indexed("gamma", r.name), self.writer.sum(r.gamma), r.name) for r in rows]
 
     @cached_property
     def groups(self) -> dict[str, list[int]]:
         """Velocities by what they belong to: bodies, or joints of the tree."""
-        found: dict[str, list[int]] = {}
+        by_owner: dict[str, list[int]] = {}
         for i, v in enumerate(self.equations.velocities):
-            found.setdefault(v.name.rpartition(".")[0], []).append(i)
-        return found
+            by_owner.setdefault(v.name.rpartition(".")[0], []).append(i)
+        return by_owner
 
-    def jacobian(self, joint: str) -> list[Block]:
+    def jacobian(self, joint: str) -> list[Equation]:
         """Return the blocks of D of a joint's rows, by what the velocities belong to; those that are 0 are left out."""
-        rows, found = self.of(joint), list[Block]()
+        rows, blocks = self.of(joint), list[Equation]()
         for group, indices in self.groups.items():
             entries = [[dict(r.entries).get(i, self.equations.graph.zero) for i in indices] for r in rows]
             if any(n != self.equations.graph.zero for line in entries for n in line):
                 left = Box("name", text="D", index=f"{joint},{group}", width=1.0 + 0.42 * len(joint + group))
-                found.append(self._block(left, entries, joint))
-        return found
+                blocks.append(self._block(left, entries, joint))
+        return blocks
 
-    def _block(self, left: Box, nodes: list[list[int]], key: str = "") -> Block:
+    def _block(self, left: Box, nodes: list[list[int]], key: str = "") -> Equation:
         """Return a matrix that is no wider than a line: its widest entries get names."""
-        boxes = [[as_box(self.writer.sum(n)) for n in line] for line in nodes]
-        tried: set[int] = set()
-        while columns(boxes) + left.width > LINE - 3.0:
-            flat = [(b.width, n) for pair in zip(boxes, nodes, strict=True) for b, n in zip(*pair, strict=True)]
-            waiting = [entry for entry in flat if entry[1] not in tried]
-            if not waiting:
-                break
-            widest = max(waiting)[1]
-            tried.add(widest)
-            short = as_box(self.writer.narrowed(widest))
-            boxes = [
-                [short if n == widest else b for b, n in zip(*pair, strict=True)]
-                for pair in zip(boxes, nodes, strict=True)
-            ]
-        return Block(left, tuple(map(tuple, boxes)), key)
+        waiting = {n for line in nodes for n in line}
+        entries = self._matrix(nodes)
+        while waiting and entries.width + left.width > LINE - 3.0:
+            widest = max(waiting, key=lambda n: (self.writer.box(n).width, n))
+            waiting.remove(widest)
+            self.writer.narrow(widest)
+            entries = self._matrix(nodes)
+        return Equation(left, atom(entries), key)
 
-    def whole(self) -> list[Block]:
+    def _matrix(self, nodes: Iterable[Iterable[int]]) -> Box:
+        return matrix([[self.writer.box(n) for n in line] for line in nodes])
+
+    def whole(self) -> list[Equation]:
         """Return M, and D where it has rows, as matrices; for small mechanisms."""
         e, zero = self.equations, self.equations.graph.zero
         masses = {
@@ -138,51 +125,47 @@ class Sheet:
         }
         everything = {"M": [[masses.get((i, j), zero) for j in range(e.nv)] for i in range(e.nv)]}
         everything["D"] = [[dict(r.entries).get(j, zero) for j in range(e.nv)] for r in self.rows]
-        return [
-            Block(name(k), tuple(tuple(as_box(self.writer.sum(n)) for n in line) for line in nodes))
-            for k, nodes in everything.items()
-            if nodes
-        ]
+        return [Equation(name(k), atom(self._matrix(nodes))) for k, nodes in everything.items() if nodes]
 
     # -- motion ----------------------------------------------------------------------------------------------------
 
-    def mass(self) -> list[Line | Block]:
+    def mass(self) -> list[Equation]:
         """Return the diagonal entries of M as equations, and its blocks as matrices."""
-        found: list[Line | Block] = []
+        lines = list[Equation]()
         for block in self.equations.mass:
             names = [self.equations.velocities[i].name for i in block.columns]
             if len(names) == 1:
-                found.append(Line(row(name("M"), _of(names[0])), self.writer.sum(block.entries[0][0]), names[0]))
+                lines.append(Equation(row(name("M"), _of(names[0])), self.writer.sum(block.entries[0][0]), names[0]))
             elif len(names) <= 6:
-                found.append(self._block(row(name("M"), _of(names[0])), [list(line) for line in block.entries]))
+                lines.append(self._block(row(name("M"), _of(names[0])), [list(line) for line in block.entries]))
             else:
-                found += [
-                    Line(row(name("M"), _of(names[i], names[j])), self.writer.sum(block.entries[i][j]))
+                lines += [
+                    Equation(row(name("M"), _of(names[i], names[j])), self.writer.sum(block.entries[i][j]))
                     for i in range(len(names))
                     for j in range(i, len(names))
                     if block.entries[i][j] != self.equations.graph.zero
                 ]
-        return found
+        return lines
 
-    def forces(self) -> list[Line]:
+    def forces(self) -> list[Equation]:
         """Return the entries of f that are not 0."""
         g, e = self.equations.graph, self.equations
-        found = zip(e.velocities, e.forces, strict=True)
-        return [Line(row(name("f"), _of(v.name)), self.writer.sum(n), v.name) for v, n in found if n != g.zero]
+        pairs = zip(e.velocities, e.forces, strict=True)
+        return [Equation(row(name("f"), _of(v.name)), self.writer.sum(n), v.name) for v, n in pairs if n != g.zero]
 
-    def rates(self) -> list[Line]:
+    def rates(self) -> list[Equation]:
         """Return ``q' = N v`` where it is not ``q' = v``."""
         g, e = self.equations.graph, self.equations
-        found = zip(e.coordinates, e.q_rates, strict=True)
-        return [Line(dot(name(q.name)), self.writer.sum(n), q.name) for q, n in found if g.nodes[n].op != "input"]
+        pairs = zip(e.coordinates, e.q_rates, strict=True)
+        return [Equation(dot(name(q.name)), self.writer.sum(n), q.name) for q, n in pairs if g.nodes[n].op != "input"]
 
-    def energies(self) -> list[Line]:
+    def energies(self) -> list[Equation]:
         """Return T, V, the power of forces without potential, and that of drivers without rows, b v' + c."""
         e = self.equations
         lefts = [name("T"), name("V"), name("P")]
         if e.driving is not None:
             lefts += [*(row(name("b"), _of(e.velocities[j].name)) for j, _ in e.driving.entries), name("c")]
-        return [Line(left, self.writer.sum(n)) for left, n in zip(lefts, self._energies, strict=True)]
+        return [Equation(left, self.writer.sum(n)) for left, n in zip(lefts, self._energies, strict=True)]
 
     @property
     def _energies(self) -> list[int]:
@@ -194,27 +177,27 @@ class Sheet:
         """Return what each driver prescribes that has no row, as a sentence, by its name."""
         topology = self.mechanism.topology
         joints = {} if topology is None else {link.body: link.joint for link in topology.links}
-        found = {}
+        sentences = {}
         for p in () if topology is None else topology.prescribed:
             value = to_text(p.value if p.sign > 0 else call("neg", p.value))
-            found[p.driver] = f"{joints[p.body] or p.body}.{p.label} = {value}"
-        return found
+            sentences[p.driver] = f"{joints[p.body] or p.body}.{p.label} = {value}"
+        return sentences
 
-    def shared(self, nodes: Iterable[int]) -> list[Line]:
+    def shared(self, nodes: Iterable[int]) -> list[Equation]:
         """Return what the names of shared terms that `nodes` need stand for."""
-        return [Line(self.writer.definitions[n][0], self.writer.definitions[n][1]) for n in self.writer.used(nodes)]
+        return [Equation(self.writer.definitions[n][0], self.writer.definitions[n][1]) for n in self.writer.used(nodes)]
 
     def nodes(self, what: Iterable[str]) -> list[int]:
         """Return the nodes that some quantities are made of, by `QUANTITIES`' names."""
         e = self.equations
-        known = e.nodes(self.rows) | {"N": list(e.q_rates), "energies": self._energies}
-        called = {"Phi": "phi", "D": "jacobian", "M": "mass", "f": "forces"}
-        return [n for part in what for n in known.get(called.get(part, part), ())]
+        nodes = e.nodes(self.rows) | {"N": list(e.q_rates), "energies": self._energies}
+        keys = {"Phi": "phi", "D": "jacobian", "M": "mass", "f": "forces"}
+        return [n for part in what for n in nodes.get(keys.get(part, part), ())]
 
     def quantities(self) -> list[tuple[str, tuple[Quantity, ...]]]:
         """Return coordinates, velocities, parameters and inputs under their headings."""
         e = self.equations
-        own, inputs = (tuple(p for p in e.parameters if (p.name in e.inputs) == given) for given in (False, True))
+        own, inputs = (tuple(p for p in e.parameters if (p.name in e.inputs) == is_input) for is_input in (False, True))
         return [("Coordinates", e.coordinates), ("Velocities", e.velocities), ("Parameters", own), ("Inputs", inputs)]
 
 

@@ -35,12 +35,12 @@ def text_of(model: str | PathLike[str]) -> str:
 
 def sections(text: str) -> dict[str, int]:
     """Return the first line, from 1, of each table ``[section.name]`` of a file, by that name."""
-    found: dict[str, int] = {}
+    lines: dict[str, int] = {}
     for number, line in enumerate(text.splitlines(), 1):
         header = re.match(r"\s*\[\s*([A-Za-z_]+)\s*\.\s*[\"']?([A-Za-z0-9_]+)[\"']?\s*[\].]", line)
         if header:
-            found.setdefault(f"{header[1]}.{header[2]}", number)
-    return found
+            lines.setdefault(f"{header[1]}.{header[2]}", number)
+    return lines
 
 
 @dataclass(frozen=True)
@@ -88,21 +88,21 @@ def computed(program: ModelProgram, equations: Equations, source: str) -> list[C
         if e.slot is not None
     ]
     wanted += [("observe", Target("out", i), n, "gamma") for i, n in enumerate(names)]
-    found, lines = list[Computed](), assignments(source)
+    entries, lines = list[Computed](), assignments(source)
     for function, target, row, what in wanted:
         line = lines.get((function, access.write(target)))
         if line is not None:
-            found.append(Computed(row, what, function, *line))
-    return found
+            entries.append(Computed(row, what, function, *line))
+    return entries
 
 
 def assignments(source: str) -> dict[tuple[str, str], tuple[int, str]]:
     """Return number and text, without its comment, of the line that assigns an element in each function, by both."""
-    found: dict[tuple[str, str], tuple[int, str]] = {}
+    lines: dict[tuple[str, str], tuple[int, str]] = {}
     function = ""
     for number, line in enumerate(source.splitlines(), 1):
         if header := re.match(r"def (\w+)\(", line):
             function = header[1]
         elif assigned := re.match(r"    (\w+\[\d+\]) = ", line):
-            found[function, assigned[1]] = number, line.partition("  # ")[0].strip()
-    return found
+            lines[function, assigned[1]] = number, line.partition("  # ")[0].strip()
+    return lines

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Mapping
+from collections import Counter
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from itertools import count
 
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.repeats import without_repeats
@@ -15,6 +17,7 @@ from symgen.ir.graph import Graph
 #: A term that is used more than once gets a number for a name where it has at least so many operations.
 SHARED = 2
 _LEAVES = ("const", "input")
+_UNNAMED = ("neg", "lt", "le", "gt", "ge", "and", "or")
 
 
 def structure(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
@@ -38,29 +41,16 @@ def structure(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
     slots = SPATIAL_SLOTS if model.spatial else FRAME_SLOTS
     named = [(body.name, slot) for body in mechanism.bodies for slot in slots]
     nodes = [node for body in mechanism.bodies for node in model.frame_inputs(body.name)]
-    inputs = {key: equations.graph.input(*key) for key in _inputs(model.graph, nodes)}
-    found = equations.graph.copy().inline(model.graph, nodes, inputs)
+    inputs = {key: equations.graph.input(*key) for key in model.graph.keys(nodes)}
+    copies = equations.graph.copy().inline(model.graph, nodes, inputs)
     names: dict[int, str] = {}
     state = {quantity.name for quantity in (*equations.coordinates, *equations.velocities)}
-    for (body, slot), node in zip(named, found, strict=True):
-        known = (
-            f"{body}.{slot}" not in state
-            and node < len(equations.graph.nodes)
-            and equations.graph.nodes[node].op not in _LEAVES
-        )
-        if known and not _turned(equations.graph, node):
+    computed = equations.graph.nodes
+    for (body, slot), node in zip(named, copies, strict=True):
+        # what has the other sign needs no name: that of its operand serves both
+        if f"{body}.{slot}" not in state and node < len(computed) and computed[node].op not in (*_LEAVES, "neg"):
             names.setdefault(node, f"{body}.{slot}")
     return names
-
-
-def _turned(graph: Graph, node: int) -> bool:
-    """Whether a node is another one with the other sign, whose name serves both."""
-    return graph.nodes[node].op == "neg"
-
-
-def _inputs(graph: Graph, nodes: Iterable[int]) -> list[tuple[str, int]]:
-    operations = (graph.nodes[n] for n in graph.needed(nodes))
-    return [o.payload for o in operations if o.op == "input" and isinstance(o.payload, tuple)]
 
 
 def shared_terms(
@@ -80,31 +70,25 @@ def shared_terms(
         Names that mean something else.
     """
     ends = list(nodes)
-    uses: dict[int, int] = {}
+    used, numbered, terms = uses(graph, ends), free_names(taken), dict[int, str]()
     cost: dict[int, int] = {}
-    needed = graph.needed(ends)
-    for node in needed:
-        for argument in graph.nodes[node].args:
-            uses[argument] = uses.get(argument, 0) + 1
-    for node in ends:
-        uses[node] = uses.get(node, 0) + 1
-    found: dict[int, str] = {}
-    number = 0
-    for node in needed:
-        operation = graph.nodes[node]
-        if operation.op in _LEAVES:
-            cost[node] = 0
-            continue
-        cost[node] = 1 + sum(cost[a] for a in operation.args)
+    for node in graph.needed(ends):
+        op, args, _ = graph.nodes[node]
+        cost[node] = 0 if op in _LEAVES else 1 + sum(cost[a] for a in args)
         if node in names:
-            found[node] = names[node]
-        elif (
-            uses[node] > 1 and cost[node] >= SHARED and operation.op not in ("neg", "lt", "le", "gt", "ge", "and", "or")
-        ):
-            number += 1
-            while f"s{number}" in taken:
-                number += 1
-            found[node] = f"s{number}"
-        if node in found:
+            terms[node] = names[node]
+        elif used[node] > 1 and cost[node] >= SHARED and op not in _UNNAMED:
+            terms[node] = next(numbered)
+        if node in terms:
             cost[node] = 0
-    return found
+    return terms
+
+
+def uses(graph: Graph, ends: Sequence[int]) -> Counter[int]:
+    """Count how often nodes are operands of what `ends` need, or ends themselves."""
+    return Counter([*ends, *(a for n in graph.needed(ends) for a in graph.nodes[n].args)])
+
+
+def free_names(taken: Container[str]) -> Iterator[str]:
+    """Yield names of shared terms: s1, s2, ..., without those that are taken, or typeset like one that is."""
+    return (f"s{i}" for i in count(1) if f"s{i}" not in taken and f"s_{i}" not in taken)

@@ -5,11 +5,12 @@ What is used more than once, and what would make a term too wide, gets a name an
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from symgen.formulate.equations import Equations
+from symgen.ir.graph import Graph
 from symgen.ir.program import of_table
 from symgen.reading.boxes import (
     Box,
@@ -24,15 +25,22 @@ from symgen.reading.boxes import (
     number,
     over,
     power,
+    python,
     row,
     sign,
 )
+from symgen.reading.interpolated import python_name
+from symgen.reading.quantities import input_names
+from symgen.reading.structure import free_names, uses
 
 #: Widest term, in units of the type's size; a line of a document has 44 of them.
 TERM = 30.0
 #: What is used more than once is written out where it has no more names and literals.
 SHORT = 3
+#: Expressions with more operations, written out without sharing, are named by that number in text.
+LONGEST = 1500
 _RELATIONS = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "step": ">"}
+_PYTHON = {"abs": "Abs", "min": "Min", "max": "Max"}
 _CONDITIONS = (*_RELATIONS, "and", "or", "not", "defined")
 
 
@@ -85,8 +93,97 @@ def leading(term: Term, first: bool) -> tuple[Box, ...]:
     return (sign("-" if term.negative else "+"),)
 
 
-class Typesetter:
-    """Writes nodes of derived equations.
+class Writer:
+    """Writes nodes of a graph, each operation as it is.
+
+    Parameters
+    ----------
+    graph : Graph
+        Holds the nodes.
+    inputs : mapping
+        Inputs as they are written.
+    exact : bool
+        Whether numbers have all digits.
+    """
+
+    def __init__(self, graph: Graph, inputs: Mapping[tuple[str, int], Box], exact: bool = False) -> None:
+        self.graph, self.inputs, self.exact = graph, inputs, exact
+        self._written: dict[int, Sum] = {}
+
+    def sum(self, node: int) -> Sum:
+        """Return a node as a sum."""
+        if node not in self._written:
+            for n in self.graph.needed([node], self._written.__contains__):
+                if n not in self._written:
+                    self._written[n] = self._terms(n)
+        return self._written[node]
+
+    def box(self, node: int) -> Box:
+        """Return a node in one line."""
+        return as_box(self.sum(node))
+
+    def _terms(self, node: int) -> Sum:
+        op, args, payload = self.graph.nodes[node]
+        if op == "const":
+            value = float(payload)  # type: ignore[arg-type]  # a constant's payload is a float
+            return (Term(value < 0.0, (number(abs(value), self.exact),)),)
+        if op == "input":
+            return atom(self.inputs[self.graph.key(node)])
+        sums = [self._written[a] for a in args]
+        if op in ("add", "sub"):
+            return sums[0] + (sums[1] if op == "add" else _turned(sums[1]))
+        if op == "neg":
+            return _turned(sums[0])
+        if op == "mul":
+            return (_square(sums[0]) if args[0] == args[1] else _product(_one(sums[0]), _one(sums[1])),)
+        if op == "div":
+            above, below = _one(sums[0]), _one(sums[1])
+            signs = above.negative != below.negative
+            return (Term(signs, above.factors + below.below, above.below + below.factors),)
+        if op == "pow":
+            return atom(power(_whole(sums[0]), as_box(sums[1])))
+        if op == "where":
+            return atom(cases([(as_box(sums[1]), self._condition(args[0])), (as_box(sums[2]), None)]))
+        if op in _CONDITIONS:
+            return atom(cases([(number(1.0), self._condition(node)), (number(0.0), None)]))
+        if op == "table":
+            table, what = of_table(payload)
+            marks = {"value": "", "slope": "'", "second": "''"}[what]
+            return atom(call(table + marks, [as_box(s) for s in sums], python_name(payload)))
+        return atom(call(op, [as_box(s) for s in sums], _PYTHON.get(op, "")))
+
+    def _condition(self, node: int) -> Box:
+        """Return a node, 0 or 1 in the graph, as a condition."""
+        op, args, _ = self.graph.nodes[node]
+        if op in _RELATIONS:
+            return row(as_box(self._written[args[0]]), sign(_RELATIONS[op]), as_box(self._written[args[1]]))
+        if op in ("and", "or"):
+            return row(bracket(self._condition(args[0])), sign(op), bracket(self._condition(args[1])))
+        if op == "not":
+            return row(sign("not"), bracket(self._condition(args[0])))
+        if op == "defined":
+            return call("defined", [as_box(self._written[args[0]])])
+        return row(as_box(self._written[node]), sign("!="), number(0.0))
+
+
+def texts(equations: Equations) -> Callable[[int], str]:
+    """Return a function that writes nodes as text that Python and SymPy read, with all digits.
+
+    In place of an expression with more than `LONGEST` operations stands their number.
+    """
+    graph = equations.graph
+    names = {key: name(text, whole=True) for key, text in input_names(equations).items()}
+    writer = Writer(graph, names, exact=True)
+
+    def text(node: int) -> str:
+        count = graph.tree_operations([node])
+        return f"<{count} operations>" if count > LONGEST else python(writer.box(node))
+
+    return text
+
+
+class Typesetter(Writer):
+    """Writes nodes of derived equations in terms that are no wider than a line.
 
     Parameters
     ----------
@@ -108,40 +205,24 @@ class Typesetter:
     def __init__(
         self, equations: Equations, ends: Iterable[int], named: Mapping[int, str], taken: Container[str] = ()
     ) -> None:
-        self.equations, self.graph, self.taken = equations, equations.graph, taken
-        self.inputs: dict[tuple[str, int], str] = {("t", 0): "t"}
-        for space, quantities in (
-            ("q", equations.coordinates),
-            ("v", equations.velocities),
-            ("p", equations.parameters),
-        ):
-            self.inputs.update({(space, i): quantity.name for i, quantity in enumerate(quantities)})
-        self.definitions: dict[int, tuple[Box, Sum]] = {}
         self._parameters = apart(quantity.name for quantity in equations.parameters)
-        self._written: dict[int, Sum] = {}
+        super().__init__(equations.graph, {key: self.symbol(text) for key, text in input_names(equations).items()})
+        self.definitions: dict[int, tuple[Box, Sum]] = {}
         self._full: dict[int, Sum] = {}
-        self._number = 0
+        self._numbered = free_names(taken)
         listed = list(ends)
-        uses: dict[int, int] = {}
-        needed = self.graph.needed(listed)
-        for node in (*listed, *(a for n in needed for a in self.graph.nodes[n].args)):
-            uses[node] = uses.get(node, 0) + 1
-        for node in needed:
-            self._write(node, uses[node], named.get(node))
+        used = uses(self.graph, listed)
+        for node in self.graph.needed(listed):
+            self._write(node, used[node], named.get(node))
 
     def symbol(self, text: str) -> Box:
         """Return the name of a quantity as it is typeset: no two parameters alike."""
         return self._parameters.get(text) or name(text)
 
-    def sum(self, node: int) -> Sum:
-        """Return a node as it is used: its name where it has one."""
-        return self._written[node]
-
-    def narrowed(self, node: int) -> Sum:
-        """Return a node under a name, given now unless it has one: for entries of wide matrices."""
+    def narrow(self, node: int) -> None:
+        """Give a node a name unless it has one: for entries of wide matrices."""
         if node not in self.definitions and self.graph.nodes[node].op not in ("const", "input"):
             self._give(node, None)
-        return self._written[node]
 
     def used(self, nodes: Iterable[int]) -> list[int]:
         """Return the nodes with names that `nodes` are written with, in evaluation order."""
@@ -149,17 +230,17 @@ class Typesetter:
 
     def _write(self, node: int, uses: int, title: str | None) -> None:
         operation = self.graph.nodes[node]
-        found = self._made(node)
-        while operation.args and any(term.box.width > TERM for term in found):
+        terms = self._terms(node)
+        while operation.args and any(term.box.width > TERM for term in terms):
             wide = [a for a in operation.args if self._can_be_named(a)]
             if not wide or operation.op in ("add", "sub", "neg"):
                 break
             self._give(max(wide, key=lambda a: as_box(self._written[a]).width), None)
-            found = self._made(node)
-        self._full[node] = self._written[node] = found
+            terms = self._terms(node)
+        self._full[node] = self._written[node] = terms
         if operation.op in ("const", "input", "neg", *_CONDITIONS):
             return
-        size = sum(atoms(term.box) for term in found)
+        size = sum(atoms(term.box) for term in terms)
         if (title is not None and size > 1) or (uses > 1 and size > SHORT):
             self._give(node, title)
 
@@ -167,59 +248,9 @@ class Typesetter:
         return node not in self.definitions and self.graph.nodes[node].op not in ("const", "input", *_CONDITIONS)
 
     def _give(self, node: int, title: str | None) -> None:
-        if title is None:
-            self._number += 1
-            while f"s{self._number}" in self.taken or f"s_{self._number}" in self.taken:
-                self._number += 1
-            title = f"s{self._number}"
+        title = title or next(self._numbered)
         self.definitions[node] = name(title), self._full[node]
         self._written[node] = atom(name(title))
-
-    # -- operations ------------------------------------------------------------------------------------------------
-
-    def _made(self, node: int) -> Sum:
-        op, args, payload = self.graph.nodes[node]
-        if op == "const":
-            value = float(payload)  # type: ignore[arg-type]  # a constant's payload is a float
-            return (Term(value < 0.0, (number(abs(value)),)),)
-        if op == "input":
-            assert isinstance(payload, tuple), "an input's payload is its key"
-            space, index = payload
-            return atom(self.symbol(self.inputs.get(payload, f"{space}{index}")))
-        sums = [self._written[a] for a in args]
-        if op in ("add", "sub"):
-            return sums[0] + (sums[1] if op == "add" else _turned(sums[1]))
-        if op == "neg":
-            return _turned(sums[0])
-        if op == "mul":
-            return (_square(sums[0]) if args[0] == args[1] else _product(_one(sums[0]), _one(sums[1])),)
-        if op == "div":
-            above, below = _one(sums[0]), _one(sums[1])
-            signs = above.negative != below.negative
-            return (Term(signs, above.factors + below.below, above.below + below.factors),)
-        if op == "pow":
-            return atom(power(_whole(sums[0]), as_box(sums[1])))
-        if op == "where":
-            return atom(cases([(as_box(sums[1]), self._condition(args[0])), (as_box(sums[2]), None)]))
-        if op in _CONDITIONS:
-            return atom(cases([(number(1.0), self._condition(node)), (number(0.0), None)]))
-        if op == "table":
-            table, what = of_table(payload)
-            return atom(call(table + {"value": "", "slope": "'", "second": "''"}[what], [as_box(s) for s in sums]))
-        return atom(call(op, [as_box(s) for s in sums]))
-
-    def _condition(self, node: int) -> Box:
-        """Return a node, 0 or 1 in the graph, as a condition."""
-        op, args, _ = self.graph.nodes[node]
-        if op in _RELATIONS:
-            return row(as_box(self._written[args[0]]), sign(_RELATIONS[op]), as_box(self._written[args[1]]))
-        if op in ("and", "or"):
-            return row(bracket(self._condition(args[0])), sign(op), bracket(self._condition(args[1])))
-        if op == "not":
-            return row(sign("not"), bracket(self._condition(args[0])))
-        if op == "defined":
-            return call("defined", [as_box(self._written[args[0]])])
-        return row(as_box(self._written[node]), sign("!="), number(0.0))
 
 
 def _turned(terms: Sum) -> Sum:
@@ -269,9 +300,3 @@ def broken(terms: Sum, first: float, others: float) -> list[list[Box]]:
         lines[-1] += parts
         left -= wide
     return lines
-
-
-def columns(entries: Sequence[Sequence[Box]]) -> float:
-    """Return the width of a matrix."""
-    widths = [max([box.width for box in column]) for column in zip(*entries, strict=True)]
-    return sum(widths, 1.5) + len(widths)

@@ -31,8 +31,6 @@ if TYPE_CHECKING:
 #: First line of every journal; the number changes when the form of lines does.
 FORM = 1
 HEADER = json.dumps({"symgen-journal": FORM}).encode() + b"\n"
-#: Lists and tables of a cell's parts are at most this deep.
-_DEEPEST = 20
 
 Outcome = dict[str, Any]
 
@@ -54,25 +52,13 @@ def cell_key(**parts: Any) -> str:
     TypeError
         If a part is something else, whose text might say less than the value.
     """
-    text = json.dumps(_canonical(parts, 0), sort_keys=True, separators=(",", ":"))
+    text = json.dumps(parts, sort_keys=True, separators=(",", ":"), default=_plain)
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
-def _canonical(value: Any, depth: int) -> Any:
-    if depth > _DEEPEST:
-        raise TypeError("a part of a cell's key is nested too deep")
-    if value is None or isinstance(value, str | bool):
-        return value
+def _plain(value: Any) -> dict[str, Any]:
     if isinstance(value, Mapping):
-        if not all(isinstance(name, str) for name in value):
-            raise TypeError("a mapping in a cell's key has a key that is no text")
-        return {name: _canonical(item, depth + 1) for name, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_canonical(item, depth + 1) for item in value]
-    if hasattr(value, "__index__"):
-        return int(value)
-    if hasattr(value, "__float__") and not getattr(value, "shape", ()):
-        return f"float {float(value) + 0.0!r}"  # -0.0 is 0.0; nan and infinity have a text as well
+        return dict(value)
     raise TypeError(f"a cell's key cannot hold a {type(value).__name__}")
 
 

@@ -14,7 +14,8 @@ import pytest
 from symgen import catalogue
 from symgen.api import load
 from symgen.cli import main
-from symgen.cli._reading import Asked, Started
+from symgen.cli._reading import at_start
+from symgen.settings import Settings
 from tests.browser.chromium import Chromium
 
 pytestmark = pytest.mark.browser
@@ -73,8 +74,8 @@ def plainly_python(function: Any) -> Any:
 
 def rates_are_those_of_the_compiled_code(name: str, coordinates: str, chromium: Chromium) -> None:
     """At the start and near it, to 1e-12 of the largest, or four times what fusing multiplication and addition does."""
-    started = Started.of(load(name), Asked("direct-correction", {}, {}, "straight", coordinates))
-    law, start, info = started.compiled.law_module, started.start, started.compiled.info
+    run, _, _ = at_start(load(name), Settings(shape="straight", coordinates=coordinates))
+    law, start, info = run.compiled.law_module, run.start, run.compiled.info
     plain, random = plainly_python(law.rhs), np.random.default_rng(3)
     states, expected, plainly = [], [], []
     for k in range(20):

@@ -113,34 +113,12 @@ def test_completion(cli, shell):
 # -- generate ----------------------------------------------------------------------------------------------------------
 
 
-def test_generate_writes_modules_that_stand_alone(cli, tmp_path):
+def test_generate_writes_one_method_unless_more_are_asked_for(cli, tmp_path):
     folder = tmp_path / "out"
-    code, out, err = cli("generate", "four-bar", "--method", "lagrange", "--method", "direct-correction", "-o", folder)
-    assert code == 0 and err == ""
-    laws = {name: json.loads((folder / f"{name}.json").read_text()) for name in ("lagrange", "direct_correction")}
-    names = {"model", *laws, *(part for law in laws.values() for part in law["modules"])}
-    package = {"__init__.py", "README.md", "simulate.py", "start.json"}
-    assert {p.name for p in folder.iterdir()} == {f"{n}{e}" for n in names for e in (".py", ".json")} | package
-    assert len(out.splitlines()) == 2 * len(names) + len(package)
-    first = {p.name: p.read_bytes() for p in folder.iterdir()}
-    assert cli("generate", "four-bar", "--method", "lagrange", "--method", "direct-correction", "-o", folder)[0] == 0
-    assert {p.name: p.read_bytes() for p in folder.iterdir()} == first
-
-
-def test_generate_removes_parts_that_no_law_names_any_more(cli, tmp_path):
-    folder = tmp_path / "out"
-    assert cli("generate", "pendulum", "--method", "lagrange", "--method", "baumgarte", "-o", folder)[0] == 0
-    first = {p.name for p in folder.iterdir()}
-    law = json.loads((folder / "lagrange.json").read_text())
-    for stem, part in {"rhs_direct_0123456789abcdef": True, "notes": False}.items():
-        law["modules"].append(stem)
-        for extension in (".py", ".json"):
-            (folder / f"{stem}{extension}").write_text("[]")
-        assert part or not re.search("[0-9a-f]{16}", stem)
-    (folder / "lagrange.json").write_text(json.dumps(law))
-    (folder / "broken.json").write_text("{")
-    assert cli("generate", "pendulum", "--method", "lagrange", "-o", folder)[0] == 0
-    assert {p.name for p in folder.iterdir()} == first | {"broken.json", "notes.py", "notes.json"}
+    code, out, err = cli("generate", "four-bar", "-o", folder)
+    names = {"model.py", "direct_correction.py", "model.json", "README.md", "simulate.py"}
+    assert code == 0 and err == "" and {p.name for p in folder.iterdir()} == names
+    assert len(out.splitlines()) == len(names)
 
 
 def test_generate_takes_structural_options(cli, tmp_path):
@@ -149,7 +127,9 @@ def test_generate_takes_structural_options(cli, tmp_path):
         *("-o", tmp_path / "out", "--json"),
     )
     assert code == 0
-    assert any(f["path"].endswith("direct_correction_mass.py") for f in json.loads(out)["files"])
+    assert any(f["path"].endswith("direct_correction.py") for f in json.loads(out)["files"])
+    about = json.loads((tmp_path / "out" / "model.json").read_text())
+    assert about["methods"]["direct_correction"]["options"]["weight"] == "mass"
 
 
 def test_generate_refuses_what_is_wrong_and_writes_nothing(cli, tmp_path):

@@ -117,12 +117,12 @@ def test_rows_of_an_earlier_study_are_shown_where_preparing_is_interrupted(cli, 
             raise KeyboardInterrupt
         return real(*arguments)
 
-    def never(tasks, jobs, done):
-        return [None for _ in tasks], True
+    def never(*_):
+        return {}, True
 
     monkeypatch.setattr(module, "timed", sometimes)
     first = json.loads(cli(*arguments, "--jobs", "1")[1])
-    monkeypatch.setattr(module, "work_through", never)
+    monkeypatch.setattr(module, "run_cells", never)
     code, out, err = cli(*arguments, "--jobs", "2")
     assert code == 130 and "the rows that were done are shown" in err
     assert json.loads(out)["rows"] == first["rows"] and len(first["rows"]) == 2

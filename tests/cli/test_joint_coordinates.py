@@ -74,8 +74,8 @@ def test_code_for_a_tree(cli, tmp_path):
     assert code == 0
     model = (tmp_path / "model.py").read_text(encoding="utf-8")
     assert "3 coordinates, 3 velocities, 2 constraint rows" in model and "def bodies(" in model
-    law = json.loads((tmp_path / "direct_correction_mass.json").read_text(encoding="utf-8"))
-    assert law["options"]["weight"] == "mass"
+    about = json.loads((tmp_path / "model.json").read_text(encoding="utf-8"))
+    assert about["methods"]["direct_correction"]["options"]["weight"] == "mass"
 
 
 REFUSED = {

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 from types import FunctionType
 
 import numpy as np
 import pytest
+from support import golden
 
 from symgen.ir.program import LANES
 from symgen.native.language import Assign, Return, Shape
@@ -20,8 +20,14 @@ from symgen.store.modules import load_module
 from .test_read import A, F, Source
 from .twofold import ARRAY, NUMBER, apart, own_functions
 
-EMITTED = Path(__file__).parents[2] / "generated" / "four_bar"
 LAWS = ("lagrange_lanes", "baumgarte_lanes", "direct_correction_lanes")
+
+
+@pytest.fixture(scope="module")
+def emitted(tmp_path_factory):
+    """A folder with the modules of a mechanism in lanes."""
+    modules = {stem: text for stem, text in golden.emitted("four-bar", False).items() if stem.endswith("_lanes")}
+    return golden.written(modules, tmp_path_factory.mktemp("four_bar"))
 
 
 def arguments(function) -> list[str]:
@@ -30,9 +36,9 @@ def arguments(function) -> list[str]:
 
 
 @pytest.mark.parametrize("stem", LAWS)
-def test_functions_over_lanes_do_what_python_does(stem):
+def test_functions_over_lanes_do_what_python_does(stem, emitted):
     """One by one, from numbers of one size, by the interpreter and by vectors of the processor."""
-    law, rng = load_module(EMITTED / f"{stem}.py"), np.random.default_rng(5)
+    law, rng = load_module(emitted / f"{stem}.py"), np.random.default_rng(5)
     corrected = hasattr(law, "spread")
     for name in own_functions(law) if corrected else ("rhs", "accept"):
         function = getattr(law, name)
@@ -54,8 +60,8 @@ def interpreted(function, spaces=None):
     return FunctionType(function.py_func.__code__, spaces[id(own)])
 
 
-def test_what_is_no_call_is_copied():
-    law = load_module(EMITTED / "direct_correction_lanes.py")
+def test_what_is_no_call_is_copied(emitted):
+    law = load_module(emitted / "direct_correction_lanes.py")
     f = law.accept.read((NUMBER, ARRAY))
     assert not f.inlined and not is_copied(f)
     blocks = {x.name: x for x in f.called}
@@ -64,9 +70,9 @@ def test_what_is_no_call_is_copied():
     assert {*sines} == {"sine", "cosine"} and all(x.inlined for x in sines.values())
 
 
-def test_loops_over_lanes_become_vectors():
+def test_loops_over_lanes_become_vectors(emitted):
     """Of all sums and products half at least: the others are what is left over where lanes do not fill vectors."""
-    law = load_module(EMITTED / "lagrange_lanes.py")
+    law = load_module(emitted / "lagrange_lanes.py")
     f = law.rhs.read((NUMBER, ARRAY))
     text = str(optimised(module(f, lambda x: x.name, lambda x: False)))
     found = re.findall(r"= f(?:add|sub|mul|div)\b[^<\n]*?(<\d+ x double>|double)", text)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from support.golden import LOOPED, emitted_looped, written
 
 from symgen.native import types
 from symgen.native.language import Assign, Evaluate, Invoke, Operation, Variable, View
@@ -19,7 +18,6 @@ from .test_loops import compared
 from .test_read import Source
 from .twofold import ARRAY, NUMBER, WHOLE, own_functions, process
 
-LOOPED = Path(__file__).parents[2] / "generated" / "looped"
 A, T = ("float", True), ("unsigned", True)
 #: Types of arguments by their names, where a function is handed no tables and where it is.
 PLAIN = {"t": NUMBER, "iw": WHOLE, **dict.fromkeys(("y", "p", "w", "ydot", "out", "k", "r", "j"), ARRAY)}
@@ -29,15 +27,16 @@ HANDED = {
 }
 
 
-@pytest.mark.parametrize("path", sorted(LOOPED.glob("*.py")), ids=lambda path: path.stem)
-def test_looped_code_is_in_the_language(path):
-    module = load_module(path)
-    for name in own_functions(module):
-        function = getattr(module, name)
-        assert isinstance(function, EmittedFunction)
-        names = function.py_func.__code__.co_varnames[: function.py_func.__code__.co_argcount]
-        kinds = HANDED if "T" in names else PLAIN
-        function.read(tuple(kinds.get(x, types.int64) for x in names))  # raises where a part is outside
+@pytest.mark.parametrize("model", LOOPED)
+def test_looped_code_is_in_the_language(model, tmp_path):
+    for path in written(emitted_looped(model, False), tmp_path).glob("*.py"):
+        module = load_module(path)
+        for name in own_functions(module):
+            function = getattr(module, name)
+            assert isinstance(function, EmittedFunction)
+            names = function.py_func.__code__.co_varnames[: function.py_func.__code__.co_argcount]
+            kinds = HANDED if "T" in names else PLAIN
+            function.read(tuple(kinds.get(x, types.int64) for x in names))  # raises where a part is outside
 
 
 NAMES = {

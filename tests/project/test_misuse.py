@@ -222,6 +222,17 @@ def rows():
         lambda x: x.model.compile("lagrange", {"weight": 1}),
         "option 'weight': expected a text, got 1",
     )
+    for changes, sentence in (
+        ({"path": 3}, "path: expected a path, got 3"),
+        ({"methods": 3}, "methods: expected a list of names, got 3"),
+        ({"methods": "lagrang"}, "--method: expected a method, got 'lagrang'; did you mean"),
+        ({"options": 3}, "options: expected texts by the names of options, got 3"),
+        ({"options": {"weight": "mass"}}, "--option weight: expected METHOD.NAME with one of direct-correction"),
+        ({"coordinates": "polar"}, "coordinates: expected one of absolute, joint, auto, got 'polar'"),
+        ({"shape": "auto"}, "shape: expected one of straight, looped, got 'auto'"),
+        ({"target": "c"}, "target: expected one of cpu, lanes, cuda, got 'c'"),
+    ):
+        yield f"generate {changes}", lambda x, c=changes: x.model.generate(**c), sentence
     yield "assemble what", lambda x: x.model.assemble(3), "compiled: expected what Model.compile returned, got 3"
     yield (
         "assemble other",
@@ -501,6 +512,7 @@ def test_no_function_with_arguments_is_left_out():
             "Model.parameters",
             "Model.compile",
             "Model.equations_in",
+            "Model.generate",
             "Model.draw",
             "Model.assemble",
             "Model.simulate",

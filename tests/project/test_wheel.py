@@ -66,6 +66,6 @@ def test_the_wheel_works_on_its_own(wheel: Path, tmp_path: Path) -> None:
     where = run(python, "-c", "import symgen; print(symgen.__file__)", cwd=tmp_path).strip()
     assert Path(where).is_relative_to(tmp_path)
     assert "four-bar" in run(symgen, "list", cwd=tmp_path)
-    run(symgen, "generate", "pendulum", "--output", "emitted", cwd=tmp_path)
-    expected = (ROOT / "generated" / "pendulum" / "lagrange.py").read_text(encoding="utf-8")
-    assert (tmp_path / "emitted" / "lagrange.py").read_text(encoding="utf-8") == expected
+    run(symgen, "generate", "four-bar", "--output", "emitted", cwd=tmp_path)
+    expected = (ROOT / "generated" / "four_bar" / "direct_correction.py").read_text(encoding="utf-8")
+    assert (tmp_path / "emitted" / "direct_correction.py").read_text(encoding="utf-8") == expected

@@ -6,6 +6,7 @@ import subprocess
 
 import pytest
 
+import symgen
 from symgen import catalogue
 from symgen.cli import main
 from symgen.describe.load import read_raw
@@ -171,17 +172,14 @@ def test_a_title_with_markup_is_text(tmp_path, capsys):
 # -- a real engine ----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize("name", sorted(catalogue.known()))
-def test_documents_of_the_catalogue_compile_without_overfull_boxes(name, coordinates, tmp_path, capsys):
+def set_by_an_engine(text, folder):
+    """Return what pdflatex says of a document that it sets without an error."""
     engine = shutil.which("pdflatex")
     assert engine is not None, "these tests need pdflatex; .ci/run installs it"
-    symbols = ["--symbols"] if coordinates == "joint" else []
-    (tmp_path / "x.tex").write_text(document(capsys, name, "--coordinates", coordinates, *symbols))
+    (folder / "x.tex").write_text(text)
     done = subprocess.run(
         [engine, "-interaction=nonstopmode", "-halt-on-error", "x.tex"],
-        cwd=tmp_path,
+        cwd=folder,
         capture_output=True,
         text=True,
         errors="replace",
@@ -189,7 +187,25 @@ def test_documents_of_the_catalogue_compile_without_overfull_boxes(name, coordin
         check=False,
     )
     assert done.returncode == 0, done.stdout[-1500:]
-    log = (tmp_path / "x.log").read_text(errors="replace")
+    return (folder / "x.log").read_text(errors="replace")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["cam-follower", "driven-four-bar", "spherical-double-pendulum"])
+def test_parts_of_another_document_need_amsmath_alone(name, tmp_path, capsys):
+    assert main(["inspect", name, "--format", "latex"]) == 0
+    equations = symgen.load(name).equations
+    written = f"\\begin{{gather*}}\n{equations.latex()} \\\\\n{equations.shared().latex()}\n\\end{{gather*}}"
+    head = r"\documentclass{article}\usepackage{amsmath}\begin{document}"
+    set_by_an_engine("\n".join([head, capsys.readouterr().out, written, r"\end{document}"]), tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("name", sorted(catalogue.known()))
+def test_documents_of_the_catalogue_compile_without_overfull_boxes(name, coordinates, tmp_path, capsys):
+    symbols = ["--symbols"] if coordinates == "joint" else []
+    log = set_by_an_engine(document(capsys, name, "--coordinates", coordinates, *symbols), tmp_path)
     overfull = [float(points) for points in re.findall(r"Overfull \\hbox \(([\d.]+)pt too wide\)", log)]
     assert max(overfull, default=0.0) <= 10.0, overfull
     assert "undefined" not in log

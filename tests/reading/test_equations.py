@@ -190,6 +190,10 @@ def test_what_is_too_large_is_written_with_shared_terms_and_says_so(monkeypatch)
 def test_latex_and_notebooks():
     e = symgen.load("four-bar").equations
     assert r"\theta_{\mathrm{crank}}" in e.latex("Phi")
+    moving = sp.Function("phi")(e.t)
+    assert r"\varphi" in e.subs({"crank.theta": moving}).latex("Phi")
+    assert r"\dot {\varphi}" in e.subs({"crank.omega": moving.diff(e.t)}).latex("gamma")
+    assert r"\begin{array}{@{}cccccccccccc@{}}" in symgen.load("spherical-double-pendulum").equations.latex("M")
     assert e._repr_latex_().startswith("$")
     page = e._repr_html_()
     assert "<details>" in page and "four-bar" in page

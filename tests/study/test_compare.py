@@ -309,15 +309,13 @@ def test_a_journal_tells_shapes_apart():
 )
 def test_errors_are_to_the_motion_from_the_start_that_is_asked_for(name, start):
     """Formulas know the start of the catalogue alone: distances to it were of the size of the mechanism."""
-    from symgen.study.comparison.preparation import Task
-
     asked = {"methods": ["direct-correction"], "integrators": ["dop853"], "rtols": [1e-10]}
     found = symgen.compare(name, **asked, until=0.3, repeat=1, start=start)
     assert found.rows[0].error < 1e-7
     assert "independently derived" in found.how
     times = np.linspace(0.0, 0.3, 4)
     mechanism, settings = symgen.load(name).mechanism, symgen.Settings(start=start)
-    assert Task("reference", mechanism, (settings,), times).do()["how"] == found.how
+    assert module.compute(module.ReferenceTask(mechanism, settings, times))["how"] == found.how
 
 
 def test_failed_rows_come_back_from_a_journal_as_they_were(tmp_path):
@@ -354,10 +352,8 @@ def test_several_models_are_checked_before_anything_runs(monkeypatch):
 @pytest.mark.slow
 def test_preparation_on_several_processes_changes_no_row(study, monkeypatch, tmp_path):
     """Everything goes to processes of its own, the first task too; the cache is a new one, so that they have work."""
-    from symgen.study.comparison import preparation
-
     monkeypatch.setenv("SYMGEN_CACHE_DIR", str(tmp_path / "cache"))
-    monkeypatch.setattr(preparation, "PATIENCE", -1.0)
+    monkeypatch.setattr(module, "PATIENCE", 0.0)
     seen = []
     again = symgen.compare(
         *("four-bar", ["baumgarte", "lagrange"], ["rk4"], [8e-3, 4e-3], (), 1.0, 1),
@@ -367,6 +363,6 @@ def test_preparation_on_several_processes_changes_no_row(study, monkeypatch, tmp
     wanted = [r for r in study.rows if r.integrator == "rk4" and r.method != "direct-correction"]
     assert [(r.method, r.step, r.error) for r in again.rows] == [(r.method, r.step, r.error) for r in wanted]
     assert again.how == study.how and again.estimated_error == study.estimated_error
-    assert any(what.startswith("preparing: four-bar, ") for what, _, _ in seen)
+    assert any(what == "preparing: 1 of 3" for what, _, _ in seen)
     shares = [reached / total for _, reached, total in seen]
     assert shares == sorted(shares) and shares[-1] < 1.0

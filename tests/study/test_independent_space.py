@@ -8,7 +8,6 @@ from support.random_space import make
 
 from symgen.describe.evaluate import evaluate
 from symgen.study.references.independent import IndependentEquations
-from symgen.study.references.independent_space import SpatialEquations, independent_equations
 
 GROUPS = [
     (("revolute", "spherical"), ("force",)),
@@ -57,8 +56,7 @@ def regular(joints, forces):
 def test_rows_and_accelerations_are_those_emitted(joints, forces):
     mechanism, emitted, found, rng, (t, q, v) = regular(joints, forces)
     values = {p.name: p.value for p in mechanism.parameters}
-    equations = independent_equations(mechanism, values)
-    assert isinstance(equations, SpatialEquations)
+    equations = IndependentEquations(mechanism, values)
     y = equations.state(np.array(q), np.array(v))
     n, m = equations.n, emitted.info.m
     phi, d, nu, gamma, _ = equations.evaluate(t, y[:n], y[n:])
@@ -92,7 +90,7 @@ def test_angles_begin_with_the_turns_that_drivers_ask_for():
         },
     }
     mechanism = mechanism_of(raw)
-    equations = independent_equations(mechanism, {})
+    equations = IndependentEquations(mechanism, {})
     row = next(joint for joint in mechanism.joints if joint.name == "mesh").rows[0]
     y = np.zeros(2 * equations.n)
     y[3:7] = np.cos(10.0), 0.0, 0.0, np.sin(10.0)
@@ -105,8 +103,7 @@ def test_angles_begin_with_the_turns_that_drivers_ask_for():
     close(phi, np.zeros(len(phi)), "Phi")
 
 
-def test_planar_mechanisms_keep_theirs():
+def test_states_of_planar_mechanisms_are_coordinates_and_velocities():
     raw = {"mechanism": {"name": "x"}, "bodies": {"b": {"mass": 1.0, "inertia": 1.0}}}
-    equations = independent_equations(mechanism_of(raw), {})
-    assert type(equations) is IndependentEquations
+    equations = IndependentEquations(mechanism_of(raw), {})
     assert np.all(equations.state(np.arange(3.0), np.arange(3.0)) == [0, 1, 2, 0, 1, 2])

@@ -321,6 +321,6 @@ def test_runs_through_singular_positions_differ_between_close_outputs(monkeypatc
         equations = IndependentEquations(model.mechanism, {})
         points = Points.of(model.mechanism, {})
         y = equations.state(*start_of(model))
-        passing.pass_through(equations, y, times, 0.05, points, lambda done: None)
+        passing.pass_through(equations, y, times, 0.05, points)
     assert len(steps) >= 2 and max(steps) <= 0.01 * (1.0 + 1e-12) and len(set(steps)) == len(steps)
     assert found.estimated_error < 1e-6

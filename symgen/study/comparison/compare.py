@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from msgspec import structs
@@ -13,27 +14,24 @@ from msgspec import structs
 from symgen import arguments
 from symgen.api import Model, load
 from symgen.describe.digest import digest
+from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism, bounded
-from symgen.errors import SimulationError
+from symgen.errors import SimulationError, SymgenError
 from symgen.result.points import Points
 from symgen.running.outputs import multiples, output_size
-from symgen.running.plan import Plan, refuse_events
-from symgen.running.prepare import Assembled, assemble, begin, make_plan
-from symgen.runtime import abi
+from symgen.running.plan import Plan, Purpose, refuse_events
+from symgen.running.prepare import Assembled, assemble, begin, make_plan, prepare
 from symgen.runtime.timing import timed
 from symgen.settings import Settings, default
+from symgen.store.paths import cache_location
 from symgen.study.comparison.combinations import Combinations
-from symgen.study.comparison.kept import Kept
 from symgen.study.comparison.measured import measured
-from symgen.study.comparison.preparation import Task, work_through
-from symgen.study.comparison.rows import Row, Study, Trace, save_csv, with_ratios
-from symgen.study.journal import Journal
+from symgen.study.comparison.rows import Row, Study, Trace, from_entry, save_csv, to_entry, with_ratios
+from symgen.study.journal import Journal, Outcome, cell_key, code_identity, mechanism_identity
+from symgen.study.machine import machine_class, versions
 from symgen.study.references.reference import Array, Reference, reference
 from symgen.study.references.solvers import AUTO, check_solver
-
-if TYPE_CHECKING:
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel
+from symgen.study.runner import Cell, Status, run_cells
 
 __all__ = ["Progress", "Row", "Study", "Trace", "compare", "compare_all", "save_csv"]
 
@@ -41,8 +39,9 @@ __all__ = ["Progress", "Row", "Study", "Trace", "compare", "compare_all", "save_
 OUTPUTS = 200
 #: Timed runs a row, unless told; and the seconds that they take together at least.
 REPEAT, AT_LEAST = 3, 0.05
-#: What making the code of a method ready counts for in the progress, in rows.
-PREPARATION = 10.0
+#: What making the code of a method ready counts for in the progress, in rows; no process is started for what takes less
+#: than so many seconds.
+PREPARATION, PATIENCE = 10.0, 1.0
 
 #: Called with what is being done, how far it is, and how much there is in all.
 Progress = Callable[[str, float, float], None]
@@ -129,7 +128,7 @@ def compare(
     InputError
         If a name or number is wrong; nothing has been run then.
     """
-    asked = Settings(
+    common = Settings(
         until=until,
         output_step=output_step,
         parameters=parameters or {},
@@ -143,7 +142,57 @@ def compare(
         shape=shape,
     )
     runs = Combinations(methods, integrators, steps, rtols, coordinates)
-    return compare_all([model], asked, runs, reference_by, progress, jobs, journal)[0]
+    return compare_all([model], common, runs, reference_by, progress, jobs, journal)[0]
+
+
+@dataclass(frozen=True)
+class ReferenceTask:
+    """The motion that rows are compared with; `settings` give its start."""
+
+    mechanism: Mechanism
+    settings: Settings
+    times: Array
+    reference_by: str = AUTO
+
+    def outcome(self) -> Outcome:
+        """Return the motion as what JSON can express, or why there is none."""
+        mechanism, settings = self.mechanism, self.settings
+        compiled, start = prepare(mechanism, settings, Purpose.STATE).assembled.of_bodies
+        values, state = parameter_values(mechanism, settings.parameters), compiled.info.parts(start.y)
+        try:
+            motion = reference(mechanism, values, *state, self.times, self.reference_by, not settings.start)
+        except SimulationError as error:
+            return {"unusable": str(error)}
+        return {
+            "how": motion.how,
+            "estimated_error": motion.estimated_error,
+            "note": motion.note,
+            "q": motion.q.tolist(),
+        }
+
+
+@dataclass(frozen=True)
+class CodeTask:
+    """The code of one method, with some integrators; its only trace is the cache."""
+
+    mechanism: Mechanism
+    settings: tuple[Settings, ...]
+
+    def outcome(self) -> None:
+        """Compile everything that runs with these settings call, by such that are over at once."""
+        for settings in self.settings:
+            run = prepare(self.mechanism, settings).with_spec(until=1e-9, times=np.zeros(1))
+            outcome = run.integrate()
+            if len(outcome.times):
+                _ = run.of_bodies(outcome).acceleration_violations
+
+
+def compute(task: ReferenceTask | CodeTask) -> Outcome | None:
+    """Compute a cell ahead of the runs, which meet what fails again and report it."""
+    try:
+        return task.outcome()
+    except SymgenError:
+        return None
 
 
 @dataclass
@@ -155,31 +204,87 @@ class _Work:
     times: Array
     settings: list[Settings]
     plans: list[Plan]
-    kept: Kept
     reference_by: str
-    known: Reference | None = None
-    note: str = ""  # why there is no reference
+    journal: Journal
 
     @property
     def total(self) -> float:
         return float(len(self.plans) + 1)
 
-    def recall(self) -> None:
-        """Take the reference that an earlier study has left, or why there is none."""
-        self.known = self.known or self.kept.reference(self.settings[0], self.times)
-        self.note = "" if self.known is not None else self.kept.why_none(self.settings[0])
+    @cached_property
+    def _parts(self) -> dict[str, Any]:
+        """What all cells of the model depend on; other machines and libraries have other run times."""
+        base, mechanism = self.settings[0], mechanism_identity(self.model.mechanism)
+        parts: dict[str, Any] = {"mechanism": mechanism, "code": code_identity(), "reference": self.reference_by}
+        parts |= {"machine": machine_class(), "versions": versions(), "until": base.until, "times": self.times.tolist()}
+        return parts | {"parameters": dict(base.parameters), "start": dict(base.start)}
 
-    def study(self, done: Sequence[tuple[Row, Trace]], interrupted: bool) -> Study:
-        base, known = self.settings[0], self.known
+    @cached_property
+    def reference(self) -> Cell:
+        """The cell of the reference."""
+        task = ReferenceTask(self.model.mechanism, self.settings[0], self.times, self.reference_by)
+        return Cell(cell_key(what="reference", **self._parts), self.model.name, task)
+
+    @cached_property
+    def rows(self) -> list[Cell]:
+        """The cells of the rows; their tasks are places among the settings."""
+        cells = []
+        for i, settings in enumerate(self.settings):
+            own = {f.name: getattr(settings, f.name) for f in fields(settings) if f.name not in self._parts}
+            cells.append(Cell(cell_key(what="comparison", **self._parts, **own), "", i))
+        return cells
+
+    def ahead(self) -> list[Cell]:
+        """Return the cells that can be computed before the runs and beside each other."""
+        groups: dict[Any, dict[str, Settings]] = {}
+        for cell, settings, plan in zip(self.rows, self.settings, self.plans, strict=True):
+            if cell.key not in self.journal:
+                groups.setdefault(plan.key, {}).setdefault(plan.integrator.name, settings)
+        tasks = [CodeTask(self.model.mechanism, tuple(group.values())) for group in groups.values()]
+        codes = [Cell(f"{self.model.name} {i}", self.model.name, task) for i, task in enumerate(tasks)]
+        return [self.reference, *codes] if groups else []
+
+    def run(self, show: Callable[[str, float], None]) -> Study:
+        """Run all rows, one at a time: those that the journal does not hold."""
+
+        def motion(task: ReferenceTask) -> Outcome:
+            show("reference", 0.0)
+            return task.outcome()
+
+        motions, interrupted = run_cells([self.reference], motion, self.journal)
+        if interrupted:
+            return self.study(True)
+        reference_motion, assembled = _reference(motions[self.reference.key], self.times), dict[Any, Assembled]()
+        points = Points.of(self.model.mechanism, self.model.parameters(self.settings[0].parameters))
+
+        def row(i: int) -> Outcome:
+            settings, plan = self.settings[i], self.plans[i]
+            if plan.key not in assembled:
+                assembled[plan.key] = assemble(plan)
+            run = begin(plan, assembled[plan.key])
+            show(f"{settings.method}, {settings.integrator}", 1.0 + i)
+            runs = timed(run.integrate, settings.repeat, AT_LEAST)
+            if runs.outcome.interrupted:
+                raise KeyboardInterrupt
+            return to_entry(*measured(run, runs, reference_motion, points))
+
+        return self.study(run_cells(self.rows, row, self.journal)[1])
+
+    def study(self, interrupted: bool) -> Study:
+        """Return the study of the rows that are done."""
+        motion = self.journal.get(self.reference.key) or {"unusable": ""}
+        done = [from_entry(entry) for cell in self.rows if (entry := self.journal.get(cell.key)) is not None]
+        base, why = self.settings[0], motion.get("unusable")
+        without = "there is no reference, so errors are unknown"
         return Study(
             mechanism=self.model.name,
-            how="none" if known is None else known.how,
-            estimated_error=float("nan") if known is None else known.estimated_error,
+            how=motion.get("how", "none"),
+            estimated_error=motion.get("estimated_error", float("nan")),
             until=self.end,
             rows=with_ratios([row for row, _ in done]),
             interrupted=interrupted,
             traces=tuple(trace for _, trace in done),
-            note=self.note or ("there is no reference, so errors are unknown" if known is None else known.note),
+            note=motion.get("note", f"{without}: {why}" if why else without),
             title=self.model.mechanism.title,
             digest=digest(self.model.mechanism),
             step=self.model.mechanism.defaults.step,
@@ -190,9 +295,16 @@ class _Work:
         )
 
 
+def _reference(entry: Outcome, times: Array) -> Reference | None:
+    """Return the reference of a journal's entry, None where it says why there is none."""
+    if "unusable" in entry:
+        return None
+    return Reference(entry["how"], entry["estimated_error"], times, np.array(entry["q"]), entry["note"])
+
+
 def compare_all(
     models: Sequence[str | Path | Mechanism | Model],
-    asked: Settings,
+    common: Settings,
     runs: Combinations,
     reference_by: str = AUTO,
     progress: Progress | None = None,
@@ -205,7 +317,7 @@ def compare_all(
     ----------
     models : sequence of str, path, Mechanism or Model
         What to run; all of it is checked before anything is run.
-    asked : Settings
+    common : Settings
         What all runs have in common.
     runs : Combinations
         What differs.
@@ -227,135 +339,49 @@ def compare_all(
     arguments.function("progress", progress)
     if journal is not None:
         arguments.of_kind("journal", journal, Journal, "a symgen.study.journal.Journal")
-    works = []
+    works, kept = [], Journal() if journal is None else journal
     for model in models:
-        chosen = _chosen(load(model), asked)
-        end = _end(chosen, asked.until)
-        times = _times(chosen, end, asked.output_step)
+        chosen = _chosen(load(model), common)
+        end = _end(chosen, common.until)
+        times = _times(chosen, end, common.output_step)
         small = chosen.mechanism.body_coordinates <= LARGEST_STRAIGHT
-        shape = "straight" if asked.shape == "auto" and small else asked.shape
-        base = replace(asked, output_step=None, shape=shape, until=end, times=times.tolist())
+        shape = "straight" if common.shape == "auto" and small else common.shape
+        base = replace(common, output_step=None, shape=shape, until=end, times=times.tolist())
         settings = list(runs.settings(base, chosen.mechanism.defaults.step))
         plans = [make_plan(chosen.mechanism, s) for s in settings]  # refuses what is wrong before anything is run
-        works.append(
-            _Work(chosen, end, times, settings, plans, Kept(chosen.mechanism, journal, reference_by), reference_by)
-        )
+        works.append(_Work(chosen, end, times, settings, plans, reference_by, kept))
     reached, total = 0.0, sum(w.total for w in works)
     report: Progress = progress or (lambda what, reached, of: None)
-    if jobs > 1:
-        reached, interrupted = _prepare(works, jobs, report, total)
+    if jobs > 1 and cache_location().persistent:  # else what another process compiles would be lost
+        cells = [cell for work in works for cell in work.ahead()]
+        reached = PREPARATION * len(cells)
         total += reached
-        if interrupted:
-            return [_kept(works[0])]
+
+        def prepared(status: Status) -> None:
+            report(f"preparing: {status.done} of {status.total}", PREPARATION * status.done, total)
+
+        if run_cells(cells, compute, kept, jobs, prepared, PATIENCE)[1]:
+            return [works[0].study(True)]
     studies = []
     for work in works:
         prefix = f"{work.model.name}: " if len(works) > 1 else ""
 
-        def say(what: str, done: float, prefix: str = prefix, reached: float = reached) -> None:
+        def show(what: str, done: float, prefix: str = prefix, reached: float = reached) -> None:
             report(prefix + what, reached + done, total)
 
-        studies.append(_run(work, say))
+        studies.append(work.run(show))
         reached += work.total
         if studies[-1].interrupted:
             break
     return studies
 
 
-def _prepare(works: Sequence[_Work], jobs: int, report: Progress, later: float) -> tuple[float, bool]:
-    """Fill the cache and compute references on several processes.
-
-    Returns what that counts for in the progress, and whether it was interrupted.
-    """
-    from symgen.store.paths import cache_location
-
-    if not cache_location().persistent:
-        return 0.0, False  # what another process compiles would be lost
-    tasks, owners = list[Task](), list[_Work]()
-    for work in works:
-        groups: dict[Any, dict[str, Settings]] = {}
-        for settings, plan in zip(work.settings, work.plans, strict=True):
-            if work.kept.row(settings) is None:
-                groups.setdefault(plan.key, {}).setdefault(plan.integrator.name, settings)
-        first = work.settings[0]
-        if groups and work.kept.reference(first, work.times) is None:
-            tasks.append(Task("reference", work.model.mechanism, (first,), work.times, work.reference_by))
-        tasks += [Task(next(iter(g.values())).method, work.model.mechanism, tuple(g.values())) for g in groups.values()]
-        owners += [work] * (len(tasks) - len(owners))
-    weight = PREPARATION * len(tasks)
-
-    def done(count: int) -> None:
-        what = f": {owners[count].model.name}, {tasks[count].what}" if count < len(tasks) else ""
-        report(f"preparing{what}", PREPARATION * count, weight + later)
-
-    done(0)
-    found, interrupted = work_through(tasks, jobs, done)
-    for work, known in zip(owners, found, strict=True):
-        if known is not None:
-            work.known = known
-            work.kept.add_reference(work.settings[0], known)
-    return weight, interrupted
-
-
-def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
-    """Run all rows of a model, one at a time."""
-    done = list[tuple[Row, Trace]]()  # pairs: an interruption leaves no row without its curves
-    assembled: dict[Any, Assembled] = {}
-    points = Points.of(work.model.mechanism, work.model.parameters(work.settings[0].parameters))
-    interrupted = False
-    try:
-        work.recall()
-        for i, (s, plan) in enumerate(zip(work.settings, work.plans, strict=True)):
-            found = work.kept.row(s)
-            if found is None:
-                if plan.key not in assembled:
-                    assembled[plan.key] = assemble(plan)
-                run = begin(plan, assembled[plan.key])
-                if work.known is None and not work.note:
-                    say("reference", 0.0)
-                    _find_reference(work, *run.assembled.of_bodies, lambda f: say("reference", f))
-                say(f"{s.method}, {s.integrator}", 1.0 + i)
-                runs = timed(run.integrate, s.repeat, AT_LEAST)
-                interrupted = runs.outcome.interrupted
-                if runs.outcome.code != abi.STOPPED:
-                    found = measured(run, runs, work.known, points)
-                    work.kept.add_row(s, *found)
-            if found is not None:
-                done.append(found)
-            if interrupted:
-                break
-    except KeyboardInterrupt:
-        interrupted = True
-    return work.study(done, interrupted)
-
-
-def _kept(work: _Work) -> Study:
-    """Return the rows that an earlier, interrupted study has left, as an interrupted study."""
-    work.recall()
-    found = [pair for pair in map(work.kept.row, work.settings) if pair is not None]
-    return work.study(found, True)
-
-
-def _find_reference(work: _Work, compiled: CompiledModel, start: Start, progress: Callable[[float], None]) -> None:
-    """Compute the reference; where there is none, note why."""
-    settings, mechanism = work.settings[0], work.model.mechanism
-    values = work.model.parameters(settings.parameters)
-    try:
-        state = compiled.info.parts(start.y)
-        known = reference(mechanism, values, *state, work.times, progress, work.reference_by, not settings.start)
-    except SimulationError as error:
-        work.note = f"there is no reference, so errors are unknown: {error}"
-        work.kept.add_why_none(settings, work.note)
-        return
-    work.known = known
-    work.kept.add_reference(settings, known)
-
-
-def _chosen(model: Model, asked: Settings) -> Model:
+def _chosen(model: Model, common: Settings) -> Model:
     """Return a model without events that are only recorded, others being refused, with the largest step for all."""
     mechanism = model.mechanism
-    refuse_events("compare", mechanism, asked)
+    refuse_events("compare", mechanism, common)
     plain = structs.replace(mechanism, events=()) if mechanism.events else mechanism
-    plain = bounded(plain, asked.max_step)
+    plain = bounded(plain, common.max_step)
     return model if plain is mechanism else Model(plain)
 
 
@@ -367,7 +393,7 @@ def _end(model: Model, until: float | None) -> float:
 
 
 def _times(model: Model, end: float, output_step: float | None) -> Array:
-    """Return the common output times: multiples of the asked or the mechanism's step, at most about `OUTPUTS`."""
+    """Return the common output times: multiples of the given or the mechanism's step, at most about `OUTPUTS`."""
     own = model.mechanism.defaults.output_step
     size = COPIES * output_size(model.mechanism)
     if output_step is not None:

@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 LONGEST = 400
 
 
-def measured(run: Prepared, runs: Timed, known: Reference | None, points: Points) -> tuple[Row, Trace]:
+def measured(run: Prepared, runs: Timed, reference: Reference | None, points: Points) -> tuple[Row, Trace]:
     """Judge and measure one run.
 
     Parameters
@@ -32,7 +32,7 @@ def measured(run: Prepared, runs: Timed, known: Reference | None, points: Points
         What was run.
     runs : Timed
         What it gave, and how long it took.
-    known : Reference or None
+    reference : Reference or None
         What to compare with; None where there is none.
     points : Points
         What distances are measured between.
@@ -40,7 +40,7 @@ def measured(run: Prepared, runs: Timed, known: Reference | None, points: Points
     plan, outcome = run.plan, run.of_bodies(runs.outcome)
     nq, count = outcome.compiled.info.nq, len(outcome.times)
     verdict = judge(run, outcome)
-    distances = None if known is None else points.distances(outcome.states[:, :nq], known.q[:count])
+    distances = None if reference is None else points.distances(outcome.states[:, :nq], reference.q[:count])
     error = float(distances.max(initial=0.0)) if distances is not None and outcome.code == abi.DONE else None
     accelerations = outcome.acceleration_violations if count else np.zeros(0)
     status, adaptive = outcome.status_columns, plan.spec.adaptive
@@ -54,7 +54,7 @@ def measured(run: Prepared, runs: Timed, known: Reference | None, points: Points
         status=verdict.status,
         reason=verdict.reason,
         error=error,
-        below_reference=error is not None and known is not None and error < known.estimated_error,
+        below_reference=error is not None and reference is not None and error < reference.estimated_error,
         run_seconds=outcome.run_seconds,
         run_seconds_spread=runs.spread,
         run_seconds_median=runs.median,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields, replace
 from os import PathLike
@@ -147,6 +148,36 @@ class Trace:
     kinetic: tuple[float, ...] = ()
     potential: tuple[float, ...] = ()
     energy_error: tuple[float, ...] = ()
+
+
+#: What JSON has no numbers for.
+_NOT_FINITE = ("nan", "inf", "-inf")
+
+
+def to_entry(row: Row, trace: Trace) -> dict[str, Any]:
+    """Return a row with its curves as what JSON can express; numbers that are not finite are texts."""
+
+    def expressed(value: Any) -> Any:
+        if isinstance(value, tuple):
+            return [expressed(x) for x in value]
+        return str(value) if isinstance(value, float) and not math.isfinite(value) else value
+
+    return {
+        what: {name: expressed(value) for name, value in asdict(part).items()}
+        for what, part in (("row", row), ("trace", trace))
+    }
+
+
+def from_entry(entry: Mapping[str, Any]) -> tuple[Row, Trace]:
+    """Return the row and the curves of an entry."""
+
+    def plain(value: Any) -> Any:
+        if isinstance(value, list):
+            return tuple(plain(x) for x in value)
+        return float(value) if value in _NOT_FINITE else value
+
+    values, curves = ({name: plain(value) for name, value in entry[what].items()} for what in ("row", "trace"))
+    return Row(**values), Trace(**curves)
 
 
 def with_ratios(rows: Sequence[Row]) -> tuple[Row, ...]:

@@ -1,12 +1,14 @@
-"""The equations of a planar mechanism by another route than the pipeline's, for references.
+"""The independently derived equations of a mechanism as numbers, for references.
 
-Positions of points are written out in the coordinates, and SymPy differentiates the whole constraints with respect to
-them; nothing of `formulate`, `lower` or the emitted code is used but the translation of a file's formulas. Numbers come
-from `sympy.lambdify`, accelerations from a dense least-squares solution in which dependent rows do no harm.
+The formulas are those of `symgen.study.references.formulas`, their numbers come from `sympy.lambdify`, and
+accelerations from a dense solution in which dependent rows do no harm. In space the mass matrix of the rates of Euler
+parameters, which is singular along e, is completed there; with |e| = 1 among the rows Gauss's principle gives the same
+accelerations.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -16,28 +18,8 @@ from numpy.typing import NDArray
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Body, Mechanism
-from symgen.formulate.translate import to_sympy
 from symgen.study.references.curves import curves
-from symgen.vocabulary.expressions import ZERO, Expr, Reading, names, readings
-from symgen.vocabulary.measures import (
-    GROUND,
-    Angle,
-    Component,
-    Direction,
-    Distance,
-    Driven,
-    Effort,
-    Exerted,
-    Holonomic,
-    Integral,
-    LinkStretch,
-    Marker,
-    Measure,
-    Nonholonomic,
-    PointSpeed,
-    Speed,
-    Sum,
-)
+from symgen.study.references.formulas import TENSOR, Formulas
 
 Array = NDArray[np.float64]
 
@@ -46,12 +28,12 @@ CUTOFF = 1e-9
 
 
 class IndependentEquations:
-    """Phi, D, nu, gamma, f and M of a mechanism as numbers.
+    """Phi, D, nu, gamma, f and M of a mechanism as numbers, in coordinates and their rates.
 
     Parameters
     ----------
     mechanism : Mechanism
-        A validated planar mechanism.
+        A validated mechanism.
     parameters : mapping
         Values of all its parameters; they become numbers in the formulas.
     """
@@ -59,14 +41,11 @@ class IndependentEquations:
     def __init__(self, mechanism: Mechanism, parameters: Mapping[str, float]) -> None:
         self.mechanism = mechanism
         self.parameters = parameters
-        self.t = sp.Symbol("t", real=True)
-        self.first: dict[str, int] = {}
-        self.known: dict[str, Any] = {"t": self.t} | self._parameter_symbols()
-        self.q, self.v = list[Any](), list[Any]()
-        self._declare()
-        self.n = len(self.q)
+        self.rank: int | None = None
+        formulas = Formulas(mechanism, self._parameter_symbols())
+        self.n, self.first = len(formulas.q), formulas.first
         self._weigh()
-        rows = self._rows()
+        rows = formulas.rows()
         self.m = len(rows)
         self._entries = [(i, j) for i, row in enumerate(rows) for j in row[1]]
         self._row_index = np.array([i for i, _ in self._entries], dtype=int)
@@ -76,61 +55,70 @@ class IndependentEquations:
             *(row[1][j] for i, row in enumerate(rows) for j in row[1]),
             *(row[2] for row in rows),
             *(row[3] for row in rows),
-            *self._forces(),
+            *formulas.forces(),
         ]
-        self._function = self._compile(outputs)
+        self._function = self._compile(formulas, outputs)
 
     def _weigh(self) -> None:
         """Set M, and its inverse root by which projections are shortest; massless bodies count there as usual ones."""
-        self.mass = self._masses()
+        mass, tensors, self.regular = list[float](), list[Array](), True
+        self._first_e = list[int]()  # where the Euler parameters of each body that turns in space begin
+        for body in self.mechanism.bodies:
+            own = [evaluate(body.mass, self.parameters, body.name)]
+            mass += own * len(body.position)
+            if isinstance(body, Body):
+                own += [] if body.inertia is None else [evaluate(body.inertia, self.parameters, body.name)]
+                mass += own[1:]
+            elif body.inertia is not None:
+                entries = np.array([evaluate(e, self.parameters, body.name) for e in body.inertia])
+                tensors.append(entries[np.array(TENSOR)])
+                self._first_e.append(len(mass))
+                mass += [4.0 * float(entries[:3].max())] * 4
+                principal = np.linalg.eigvalsh(tensors[-1])
+                own.append(float(principal[0] - CUTOFF * principal[-1]))
+            self.regular = self.regular and min(own) > 0.0
+        self.mass, self._tensors = np.array(mass), np.array(tensors).reshape(-1, 3, 3)
         heavy = self.mass[self.mass > 0.0]
         self.usual = float(heavy.mean()) if len(heavy) else 1.0
         self.root = 1.0 / np.sqrt(np.where(self.mass > 0.0, self.mass, self.usual))
 
-    def _declare(self) -> None:
-        """Make the symbols of coordinates and their rates, and what formulas call them."""
-        for body in self.mechanism.bodies:
-            self.first[body.name] = len(self.q)
-            for coordinate, speed in zip(body.coordinates, body.speeds, strict=True):
-                self.q.append(sp.Symbol(f"q{len(self.q)}", real=True))
-                self.v.append(sp.Symbol(f"v{len(self.v)}", real=True))
-                self.known[f"{body.name}.{coordinate}"] = self.q[-1]
-                self.known[f"{body.name}.{speed}"] = self.v[-1]
-
-    # -- numbers -------------------------------------------------------------------------------------------------------
+    # -- states --------------------------------------------------------------------------------------------------------
 
     def state(self, q: Array, v: Array) -> Array:
-        """Return what is integrated, for coordinates and velocities as results have them."""
-        return np.concatenate([q, v])
+        """Return coordinates and their rates, shape (2 n,), for velocities as results have them."""
+        rates = list[Array]()
+        for body in self.mechanism.bodies:
+            speeds, v = np.split(v, [len(body.speeds)])
+            if len(speeds) == 6:
+                e = q[self.first[body.name] + 3 :][:4]
+                speeds = np.concatenate([speeds[:3], 0.5 * _turning(e).T @ speeds[3:]])
+            rates.append(speeds)
+        return np.concatenate([q, *rates])
+
+    def velocities(self, y: Array) -> Array:
+        """Return the velocities as results have them: angular velocity in body axes."""
+        speeds = list[Array]()
+        for body in self.mechanism.bodies:
+            i, size = self.first[body.name], len(body.coordinates)
+            rates = y[self.n + i : self.n + i + size]
+            if size == 7:
+                rates = np.concatenate([rates[:3], 2.0 * _turning(y[i + 3 : i + 7]) @ rates[3:]])
+            speeds.append(rates)
+        return np.concatenate(speeds)
 
     def evaluate(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array, Array, Array]:
         """Return Phi, D, nu, gamma and f at a state; nonholonomic rows have Phi 0."""
         flat = np.array(self._function(t, q.tolist(), v.tolist()), dtype=float)
+        return self._parted(flat)
+
+    def _parted(self, flat: Array) -> tuple[Array, Array, Array, Array, Array]:
         m, k = self.m, len(self._entries)
         d = np.zeros((m, self.n))
         d[self._row_index, self._column_index] = flat[m : m + k]
         return flat[:m], d, flat[m + k : 2 * m + k], flat[2 * m + k : 3 * m + k], flat[3 * m + k :]
 
-    def rate(self, t: float, y: Array) -> Array:
-        """Return (v, v'): of all v' with ``D v' = gamma`` the one nearest to M^-1 f in the metric of M (Gauss).
-
-        With massless bodies, for which there is no M^-1 f, v' and multipliers are the solution of M v' + D^T l = f and
-        D v' = gamma, the shortest where rows depend.
-        """
-        q, v = y[: self.n], y[self.n :]
-        _, d, _, gamma, f = self.evaluate(t, q, v)
-        if not np.all(self.mass > 0.0):
-            rows = self.usual * d
-            system = np.block([[np.diag(self.mass), rows.T], [rows, np.zeros((self.m, self.m))]])
-            found = np.linalg.lstsq(system, np.concatenate([f, self.usual * gamma]), rcond=CUTOFF)[0]
-            return np.concatenate([v, found[: self.n]])
-        free = self.root * f
-        scaled = d * self.root
-        change = np.linalg.lstsq(scaled, gamma - scaled @ free, rcond=CUTOFF)[0]
-        return np.concatenate([v, self.root * (free + change)])
-
     def project(self, t: float, y: Array, mass_weighted: bool = True) -> Array:
-        """Return the nearest state that satisfies the constraints, positions first."""
+        """Return the nearest state that satisfies the constraints, positions first; counts the independent rows."""
         root = self.root if mass_weighted else np.ones(self.n)
         q, v = y[: self.n].copy(), y[self.n :].copy()
         for _ in range(4):
@@ -140,132 +128,112 @@ class IndependentEquations:
                 break
         _, d, nu, _, _ = self.evaluate(t, q, v)
         v -= root * np.linalg.lstsq(d * root, d @ v - nu, rcond=CUTOFF)[0]
+        values = np.linalg.svd(d * self.root, compute_uv=False)
+        self.rank = max(self.rank or 0, int(np.sum(values > CUTOFF * values.max(initial=0.0))))
         return np.concatenate([q, v])
 
-    def _compile(self, outputs: list[Any]) -> Callable[..., Any]:
-        tables: dict[str, Callable[[float], float]] = {}
-        for table in self.mechanism.tables:
-            tables |= curves(table)
-        function: Callable[..., Any] = sp.lambdify(
-            [self.t, self.q, self.v], outputs, modules=[tables, "math"], cse=True
-        )
-        return function
+    def rate(self, t: float, y: Array) -> Array:
+        """Return (q', q''): of all q'' with ``D q'' = gamma`` the one nearest to M^-1 f in the metric of M (Gauss).
 
-    # -- formulas ------------------------------------------------------------------------------------------------------
+        The stages of a step leave the constraints, where redundant rows are no longer dependent: so many directions
+        count as there were at the last projection, not those above some threshold. With massless bodies, for which
+        there is no M^-1 f, q'' and multipliers are the solution of M q'' + D^T l = f and D q'' = gamma.
+        """
+        n = self.n
+        q, v = y[:n], y[n:]
+        _, d, _, gamma, f = self.evaluate(t, q, v)
+        if not self.regular:
+            return np.concatenate([v, self._with_multipliers(q, d, gamma, f)])
+        root = self._root(q)
+        free = root.T @ f
+        scaled = d @ root
+        missing = gamma - scaled @ free
+        if self.rank == self.m:
+            basis, r = np.linalg.qr(scaled.T)
+            change = basis @ np.linalg.solve(r.T, missing)
+        else:
+            u, values, w = self._independent(scaled)
+            change = w.T @ ((u.T @ missing) / values)
+        return np.concatenate([v, root @ (free + change)])
+
+    def _independent(self, d: Array) -> tuple[Array, Array, Array]:
+        """Return the singular values of a matrix of rows that count, with their vectors."""
+        u, values, w = np.linalg.svd(d, full_matrices=False)
+        rank = self.rank if self.rank is not None else int(np.sum(values > CUTOFF * values.max(initial=0.0)))
+        return u[:, :rank], values[:rank], w[:rank]
+
+    def _root(self, q: Array) -> Array:
+        """Return R with M^-1 = R R^T, the mass matrix of the rates completed along e."""
+        root = np.diag(self.root)
+        for i, block in zip(self._first_e, np.linalg.inv(np.linalg.cholesky(self._inertia(q))), strict=True):
+            root[i : i + 4, i : i + 4] = block.T
+        return root
+
+    def _with_multipliers(self, q: Array, d: Array, gamma: Array, f: Array) -> Array:
+        """Return q'' of M q'' + D^T l = f and D q'' = gamma, D by its independent rows: M may have no inverse."""
+        mass = np.diag(self.mass)
+        for i, block in zip(self._first_e, self._inertia(q), strict=True):
+            mass[i : i + 4, i : i + 4] = block
+        u, values, w = self._independent(d)
+        rows = self.usual * w
+        system = np.block([[mass, rows.T], [rows, np.zeros((len(values), len(values)))]])
+        right = self.usual * (u.T @ gamma) / values
+        accelerations: Array = np.linalg.solve(system, np.concatenate([f, right]))[: self.n]
+        return accelerations
+
+    def _inertia(self, q: Array) -> Array:
+        """Return the mass matrices of the rates of Euler parameters, completed along e; shape (bodies, 4, 4)."""
+        e = q[np.array(self._first_e, dtype=int)[:, None] + np.arange(4)]
+        turning = np.array([_turning(row) for row in e]).reshape(-1, 3, 4)
+        along = np.trace(self._tensors, axis1=1, axis2=2)[:, None, None] * e[:, :, None] * e[:, None, :]
+        inertia: Array = 4.0 * np.swapaxes(turning, 1, 2) @ self._tensors @ turning + along
+        return inertia
+
+    # -- from formulas to numbers --------------------------------------------------------------------------------------
 
     def _parameter_symbols(self) -> dict[str, Any]:
         """Return what stands for each parameter in the formulas: its value."""
         return {name: sp.Float(x) for name, x in self.parameters.items()}
 
-    def _weight(self, i: int, mass: Expr, gravity: Expr) -> Any:
-        """Return the component of a body's weight that belongs to velocity `i`."""
-        return sp.Float(self.mass[i] * evaluate(gravity, self.parameters, "gravity"))
+    def _compile(self, formulas: Formulas, outputs: list[Any]) -> Callable[..., Any]:
+        tables: dict[str, Callable[[float], float]] = {}
+        for table in self.mechanism.tables:
+            tables |= curves(table)
+        inputs = [formulas.t, formulas.q, formulas.v, formulas.turns]
+        function = sp.lambdify(inputs, [*outputs, *formulas.angles], modules=[tables, "math"], cse=True)
+        count = len(formulas.angles)
+        if count == 0:
+            return lambda t, q, v: function(t, q, v, [])
+        asking = [
+            (row, k, float(sp.diff(phi, turn)))
+            for row, phi in enumerate(outputs[: self.m])
+            for k, turn in enumerate(formulas.turns)
+            if turn in phi.free_symbols
+        ]
+        before = [0.0] * count
 
-    def _expression(self, e: Expr, **placeholders: Any) -> Any:
-        seen = {r.name: self._reading(r) for r in readings(e)}
-        return to_sympy(e, {**self.known, **seen, **placeholders})
+        def begun(t: float, q: list[float], v: list[float]) -> list[float]:
+            """Return the whole turns of a start: those that rows ask for, one angle by each row, and none otherwise."""
+            turns, used = [0.0] * count, set[int]()
+            for row, k, factor in asking:
+                if row not in used and turns[k] == 0.0:
+                    turns[k] = -float(round(function(t, q, v, turns)[row] / factor))
+                    used.add(row)
+            return turns
 
-    def _reading(self, r: Reading) -> Any:
-        """Return a measure's value, or its rate."""
-        assert not isinstance(r.source, Speed | Exerted | Driven | Integral), "functions of state read measures"
-        value = self._measure(r.source)
-        return self._along(value) if r.order else value
+        def counted(t: float, q: list[float], v: list[float]) -> Any:
+            """Evaluate with each angle on the branch nearest to its last value; a run begins at t = 0."""
+            raw = function(t, q, v, [0.0] * count)[-count:]
+            turns = [math.floor((last - angle) / math.tau + 0.5) for last, angle in zip(before, raw, strict=True)]
+            if t == 0.0:
+                turns = begun(t, q, v)
+            before[:] = [angle + math.tau * turn for angle, turn in zip(raw, turns, strict=True)]
+            return function(t, q, v, turns)[:-count]
 
-    def _masses(self) -> Array:
-        values = []
-        for body in self.mechanism.bodies:
-            mass = evaluate(body.mass, self.parameters, body.name)
-            values += [mass, mass]
-            if isinstance(body, Body) and body.inertia is not None:
-                values.append(evaluate(body.inertia, self.parameters, body.name))
-        return np.array(values)
+        return counted
 
-    def _turned(self, body: str, x: Any, y: Any) -> tuple[Any, Any]:
-        """Return a vector of the body frame in the ground frame."""
-        if body == GROUND or self.mechanism.body(body).is_point:
-            return x, y
-        theta = self.q[self.first[body] + 2]
-        c, s = sp.cos(theta), sp.sin(theta)
-        return c * x - s * y, s * x + c * y
 
-    def _position(self, marker: Marker) -> tuple[Any, Any]:
-        x, y = (self._expression(e) for e in marker.point)
-        if marker.body == GROUND:
-            return x, y
-        cx, cy = (self._expression(e) for e in self.mechanism.body(marker.body).centre_of_mass)
-        dx, dy = self._turned(marker.body, x - cx, y - cy)
-        i = self.first[marker.body]
-        return self.q[i] + dx, self.q[i + 1] + dy
-
-    def _direction(self, direction: Direction) -> tuple[Any, Any]:
-        x, y = (self._expression(e) for e in direction.vector)
-        return self._turned(direction.body, x, y)
-
-    def _measure(self, m: Measure) -> Any:
-        if isinstance(m, Angle):
-            a, b = (sp.S.Zero if body == GROUND else self.q[self.first[body] + 2] for body in (m.a, m.b))
-            return b - a
-        if isinstance(m, Component | Distance | LinkStretch):
-            (ax, ay), (bx, by) = self._position(m.a), self._position(m.b)
-            dx, dy = bx - ax, by - ay
-            if isinstance(m, Component):
-                ex, ey = self._direction(m.along)
-                return ex * dx + ey * dy
-            if isinstance(m, Distance):
-                return sp.sqrt(dx**2 + dy**2)
-            length = self._expression(m.length)
-            return (dx**2 + dy**2 - length**2) / (2 * length)
-        assert isinstance(m, Sum), "measures of space are not derived here"
-        return sum((self._expression(k) * self._measure(part) for k, part in m.terms), sp.S.Zero)
-
-    def _gradient(self, s: Any) -> dict[int, Any]:
-        free = s.free_symbols
-        found = {i: sp.diff(s, symbol) for i, symbol in enumerate(self.q) if symbol in free}
-        return {i: e for i, e in found.items() if e != 0}
-
-    def _along(self, e: Any) -> Any:
-        """Return the derivative of a function of q along the motion."""
-        return sum((d * self.v[i] for i, d in self._gradient(e).items()), sp.S.Zero)
-
-    def _rows(self) -> list[tuple[Any, dict[int, Any], Any, Any]]:
-        return [self._row(row) for joint in self.mechanism.joints for row in joint.rows]
-
-    def _row(self, row: Holonomic | Nonholonomic) -> tuple[Any, dict[int, Any], Any, Any]:
-        """Return phi, the entries of D, nu and gamma."""
-        value = self._expression(row.value)
-        slope = sp.diff(value, self.t)
-        if isinstance(row, Holonomic):
-            s = self._measure(row.measure)
-            gradient = self._gradient(s)
-            bias = self._along_row(gradient)
-            return s - value, gradient, slope, sp.diff(slope, self.t) - bias
-        assert isinstance(row.speed, PointSpeed), "speeds of space are not derived here"
-        (px, py), (ex, ey) = self._position(row.speed.at), self._direction(row.speed.along)
-        gx, gy = self._gradient(px), self._gradient(py)
-        entries = {i: ex * gx.get(i, 0) + ey * gy.get(i, 0) for i in sorted({*gx, *gy})}
-        return sp.S.Zero, entries, value, slope - self._along_row(entries)
-
-    def _along_row(self, entries: Mapping[int, Any]) -> Any:
-        return sum((self._along(e) * self.v[i] for i, e in entries.items()), sp.S.Zero)
-
-    def _forces(self) -> list[Any]:
-        total = [sp.S.Zero] * self.n
-        for body in self.mechanism.bodies:
-            for i, gravity in enumerate(self.mechanism.gravity, self.first[body.name]):
-                total[i] += self._weight(i, body.mass, gravity)
-        for force in self.mechanism.forces:
-            for effort in force.efforts:
-                for i, e in self._effort(effort).items():
-                    total[i] += e
-        return total
-
-    def _effort(self, effort: Effort) -> dict[int, Any]:
-        assert not isinstance(effort.measure, PointSpeed), "forces along velocities stand in space only"
-        value = self._measure(effort.measure)
-        gradient = self._gradient(value)
-        rate = sum((e * self.v[i] for i, e in gradient.items()), sp.S.Zero)
-        total = self._expression(effort.magnitude, s=value, rate=rate)
-        if effort.potential != ZERO and "s" in set(names(effort.potential)):
-            s = sp.Symbol("s", real=True)
-            total -= sp.diff(self._expression(effort.potential, s=s), s).subs(s, value)
-        return {i: e * total for i, e in gradient.items()}
+def _turning(e: Array) -> Array:
+    """Return L(e), shape (3, 4), with omega = 2 L e' in body axes."""
+    a, b, c, d = e
+    return np.array([[-b, a, d, -c], [-c, -d, a, b], [-d, c, -b, a]])

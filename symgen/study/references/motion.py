@@ -14,7 +14,7 @@ import math
 from collections.abc import Callable, Mapping
 from functools import cache, cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numba
 import numpy as np
@@ -26,14 +26,13 @@ from symgen.describe.mechanism import Mechanism
 from symgen.errors import SimulationError
 from symgen.result.points import Points
 from symgen.study.references.curves import curves
+from symgen.study.references.formulas import Formulas
 from symgen.study.references.independent import CUTOFF, IndependentEquations
 from symgen.study.references.least_squares import compiled, shortest
-from symgen.study.references.parts import Advance, by_outputs, in_parts, longest_of
+from symgen.study.references.parts import in_parts, longest_of
 from symgen.study.references.reference import Reference
-from symgen.study.references.stiff import OverBudgetError, by_radau, is_stiff
-
-if TYPE_CHECKING:
-    from symgen.vocabulary.expressions import Expr
+from symgen.study.references.solvers import OverBudgetError, Scheme, by_steps
+from symgen.study.references.stiff import is_stiff
 
 Array = NDArray[np.float64]
 
@@ -49,6 +48,8 @@ COLUMNS = 8
 #: Evaluations after which a reference of few coordinates is given up. Costs of an evaluation grow with their square;
 #: with dependent rows it needs singular values, which cost about so many times as much.
 BUDGET, FEW, DEPENDENT = 3_000_000, 9, 20
+#: Evaluations of an integration by Radau after which it is given up, those of Jacobians included.
+STIFF_BUDGET = 400_000
 
 _F8, _A, _I8, _I = types.float64, types.float64[::1], types.int64, types.int64[::1]
 #: equations(t, q, v, p, out).
@@ -82,12 +83,9 @@ class CompiledEquations(IndependentEquations):
 
     def evaluate(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array, Array, Array]:
         """Return Phi, D, nu, gamma and f at a state."""
-        m, k = self.m, len(self._entries)
-        flat = np.zeros(3 * m + k + self.n)
+        flat = np.zeros(3 * self.m + len(self._entries) + self.n)
         self._function(float(t), np.ascontiguousarray(q), np.ascontiguousarray(v), self.values, flat)
-        d = np.zeros((m, self.n))
-        d[self._row_index, self._column_index] = flat[m : m + k]
-        return flat[:m], d, flat[m + k : 2 * m + k], flat[2 * m + k : 3 * m + k], flat[3 * m + k :]
+        return self._parted(flat)
 
     def rate(self, t: float, y: Array) -> Array:
         """Return (v, v'), as `IndependentEquations.rate` does."""
@@ -149,10 +147,7 @@ class CompiledEquations(IndependentEquations):
     def _parameter_symbols(self) -> dict[str, Any]:
         return {p.name: symbol for p, symbol in zip(self.mechanism.parameters, self.symbols, strict=True)}
 
-    def _weight(self, i: int, mass: Expr, gravity: Expr) -> Any:
-        return self._expression(mass) * self._expression(gravity)
-
-    def _compile(self, outputs: list[Any]) -> Callable[..., Any]:
+    def _compile(self, formulas: Formulas, outputs: list[Any]) -> Callable[..., Any]:
         """Return the outputs as a compiled function (t, q, v, p, out)."""
         shared, results = sp.cse(outputs, symbols=sp.numbered_symbols("x"), order="canonical")
         names = [*(f"q{i} = q[{i}]" for i in range(self.n)), *(f"v{i} = v[{i}]" for i in range(self.n))]
@@ -319,9 +314,7 @@ def _for_all(function: Any, signature: Any) -> Any:
 # -- a motion ----------------------------------------------------------------------------------------------------------
 
 
-def motion(
-    equations: CompiledEquations, q: Array, v: Array, times: Array, progress: Callable[[float], None] | None = None
-) -> Reference:
+def motion(equations: CompiledEquations, q: Array, v: Array, times: Array) -> Reference:
     """Return the reference motion from a start that is consistent within rounding.
 
     Parameters
@@ -332,26 +325,29 @@ def motion(
         The start.
     times : Array
         Where the motion is wanted [s], increasing from 0.
-    progress : callable, optional
-        Called with the fraction that is done.
 
     Raises
     ------
     SimulationError
         If the motion cannot be integrated within the budget, e.g. into a singularity.
     """
-    say = progress or (lambda done: None)
     y = equations.project(0.0, np.concatenate([q, v]))
     d = equations.evaluate(0.0, y[: equations.n], y[equations.n :])[1] * equations.root
     equations.dependent = bool(np.linalg.matrix_rank(d, CUTOFF * np.linalg.norm(d)) < equations.m) if d.size else False
     stiff = is_stiff(equations, y, float(times[-1]))
     scale = _scale(y, equations.n)
-    integrate = by_radau if stiff else _by_extrapolation
+
+    def integrate(rtol: float, every: int) -> Array:
+        if stiff:
+            scheme = Scheme("Radau", rtol, every, most=STIFF_BUDGET)
+            return by_steps(equations, y, times, scheme, scale=scale)
+        return _by_extrapolation(equations, y, times, rtol, every, scale)
+
     attempts = [(STIFF_FINE, STIFF_COARSE)] if stiff else [(FINE, COARSE), (ROUGH_FINE, ROUGH_COARSE)]
     for tolerances in attempts:
         try:
-            fine = integrate(equations, y, times, tolerances[0], 1, lambda done: say(0.6 * done), scale)
-            coarse = integrate(equations, y, times, tolerances[1], 2, lambda done: say(0.6 + 0.4 * done), scale)
+            fine = integrate(tolerances[0], 1)
+            coarse = integrate(tolerances[1], 2)
             break
         except SimulationError:
             if tolerances == attempts[-1]:
@@ -365,27 +361,26 @@ def motion(
     return Reference(how, max(estimated, 1e-14), times, fine)
 
 
-Walk = Callable[[float], None]
-
-
 def _by_extrapolation(
-    equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, progress: Walk, scale: Array
+    equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, scale: Array
 ) -> Array:
     """Return q at `times`; every `every`-th output is projected."""
     used, longest = np.zeros(1, dtype=np.int64), longest_of(equations, times)
 
-    def begin() -> Advance:
-        step = np.zeros(1)  # the one to try next
+    def part(t: float, y: Array, times: Array) -> Array:
+        found, step = np.empty((len(times), len(y))), np.zeros(1)  # the step to try next
+        for k, following in enumerate(times.tolist()):
+            if following > t:
+                count = max(1, math.ceil((following - t) / longest))
+                for first, last in pairwise(np.linspace(t, following, count + 1).tolist()):
+                    y = equations.advance(first, y, last, rtol, scale, step, used)
+                t = following
+            if k % every == 0:
+                y = equations.project(t, y)
+            found[k] = y
+        return found
 
-        def advance(t: float, y: Array, following: float) -> Array:
-            parts = max(1, math.ceil((following - t) / longest))
-            for first, last in pairwise(np.linspace(t, following, parts + 1).tolist()):
-                y = equations.advance(first, y, last, rtol, scale, step, used)
-            return y
-
-        return advance
-
-    return in_parts(equations, y, times, progress, by_outputs(equations, every, begin))[:, : equations.n]
+    return in_parts(equations, y, times, part)[:, : equations.n]
 
 
 def _scale(y: Array, n: int) -> Array:

@@ -25,10 +25,8 @@ Array = NDArray[np.float64]
 JUMP = 3e-12
 
 #: Called with the time at which a part begins, the state there, the times at which states are wanted, the last of them
-#: the part's end, and what is told how far it is; returns the states.
-Integrate = Callable[[float, Array, Array, Callable[[float], None]], Array]
-#: Called with a time, the state there and another time; returns the state at that.
-Advance = Callable[[float, Array, float], Array]
+#: the part's end; returns the states.
+Integrate = Callable[[float, Array, Array], Array]
 
 
 def longest_of(equations: IndependentEquations, times: Array) -> float:
@@ -40,7 +38,6 @@ def in_parts(
     equations: IndependentEquations,
     y: Array,
     times: Array,
-    progress: Callable[[float], None],
     integrate: Integrate,
 ) -> Array:
     """Return the states at some times, integrated part by part.
@@ -53,8 +50,6 @@ def in_parts(
         The state at the time 0.
     times : Array
         Increasing from 0 or later [s].
-    progress : callable
-        Called with the fraction that is done.
     integrate : callable
         See `Integrate`.
     """
@@ -69,39 +64,7 @@ def in_parts(
             states = np.tile(y, (len(own), 1))
         else:
             wanted = own if len(own) and own[-1] == last else np.append(own, last)
-            states = integrate(first, y, wanted, _up_to(last / end if end else 1.0, progress))
+            states = integrate(first, y, wanted)
             y = states[-1]
         motion[done:upto], done = states[: len(own)], upto
     return motion
-
-
-def _up_to(share: float, progress: Callable[[float], None]) -> Callable[[float], None]:
-    """Return what is told how far a part is that ends at a share of the whole."""
-    return lambda part: progress(share * part)
-
-
-def by_outputs(equations: IndependentEquations, every: int, begin: Callable[[], Advance]) -> Integrate:
-    """Return what integrates a part from output to output.
-
-    Parameters
-    ----------
-    equations : IndependentEquations
-        What is integrated.
-    every : int
-        Every so many-th output is projected.
-    begin : callable
-        Returns, for each part, what takes a state at a time to another time.
-    """
-
-    def integrate(t: float, y: Array, times: Array, progress: Callable[[float], None]) -> Array:
-        result, advance = np.empty((len(times), len(y))), begin()
-        for k, following in enumerate(times.tolist()):
-            if following > t:
-                y, t = advance(t, y, following), following
-            if k % every == 0:
-                y = equations.project(t, y)
-            result[k] = y
-            progress(t / (times[-1] or 1.0))
-        return result
-
-    return integrate

@@ -8,16 +8,16 @@ say nothing about the branch.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.errors import SimulationError
 from symgen.result.agreement import agreement
-from symgen.study.references.parts import in_parts, longest_of
+from symgen.study.references.parts import longest_of
+from symgen.study.references.solvers import Scheme, by_steps
 
 if TYPE_CHECKING:
     from symgen.result.points import Points
@@ -31,10 +31,14 @@ Array = NDArray[np.float64]
 NEAR = 1e-2
 #: Steps of the runs, as fractions of the first one's.
 PHASES = (1.0, 0.93, 0.81, 1.11, 0.71, 0.62)
-#: What evaluations far off the constraints end with.
-FAILURES = (ArithmeticError, ValueError, np.linalg.LinAlgError)
 #: Two runs that differ by less, as a share of the mechanism's size, are not doubted further.
 GOOD = 1e-9
+
+
+def scaled_values(d: Array) -> Array:
+    """Return the singular values of rows that are scaled to length 1."""
+    lengths = np.linalg.norm(d, axis=1)
+    return np.asarray(np.linalg.svd(d / np.where(lengths > 0.0, lengths, 1.0)[:, None], compute_uv=False))
 
 
 class Watch:
@@ -58,11 +62,7 @@ class Watch:
     def _values(self, t: float, y: Array) -> Array:
         n = self.equations.n
         d = self.equations.evaluate(t, y[:n], y[n:])[1]
-        if not np.all(np.isfinite(d)):
-            return np.zeros(len(d))
-        lengths = np.linalg.norm(d, axis=1)
-        scaled = d / np.where(lengths > 0.0, lengths, 1.0)[:, None]
-        return np.asarray(np.linalg.svd(scaled, compute_uv=False), dtype=np.float64)
+        return scaled_values(d) if np.all(np.isfinite(d)) else np.zeros(len(d))
 
     def see(self, t: float, y: Array) -> None:
         """Look at a state."""
@@ -107,7 +107,6 @@ def pass_through(
     times: Array,
     step: float,
     points: Points,
-    progress: Callable[[float], None],
     phases: tuple[float, ...] = PHASES,
 ) -> Passage:
     """Run with different steps until two runs agree well; of all pairs the one that agrees best is returned.
@@ -120,8 +119,6 @@ def pass_through(
         Step of the first run [s].
     points : Points
         What distances are measured between.
-    progress : callable
-        Called with the fraction that is done, supposing that two runs are enough.
     phases : tuple of float
         Steps as fractions of `step`.
 
@@ -137,7 +134,7 @@ def pass_through(
     best: Passage | None = None
     for i, phase in enumerate(phases):
         try:
-            motion = march(equations, y, times, phase * step, _half(progress, i))
+            motion = march(equations, y, times, phase * step)
         except SimulationError as error:
             failures.append(str(error))
             continue
@@ -155,61 +152,6 @@ def pass_through(
     return best
 
 
-def _half(progress: Callable[[float], None], run: int) -> Callable[[float], None]:
-    """Return the progress of one run as a part of that of two."""
-    first = min(0.5 * run, 0.5)
-    return lambda done: progress(first + 0.5 * done)
-
-
-def march(
-    equations: IndependentEquations, y: Array, times: Array, step: float, progress: Callable[[float], None]
-) -> Array:
-    """Return q at `times` by DOP853 at a constant step, mass-weighted projections after each.
-
-    Raises
-    ------
-    SimulationError
-        If the state is no longer finite.
-    """
-
-    def part(first: float, y: Array, times: Array, progress: Callable[[float], None]) -> Array:
-        return _marched(equations, first, y, times, step, progress)
-
-    return in_parts(equations, y, times, progress, part)[:, : equations.n]
-
-
-def _marched(
-    equations: IndependentEquations,
-    first: float,
-    y: Array,
-    times: Array,
-    step: float,
-    progress: Callable[[float], None],
-) -> Array:
-    """Return the states at `times` from that at `first` on, see `march`."""
-    from scipy.integrate import DOP853
-
-    make: Any = DOP853  # SciPy's types do not know infinite tolerances
-    motion, solver = np.empty((len(times), len(y))), None
-    for k, t in enumerate(times.tolist()):
-        if t > first and solver is None:
-            # no error exceeds an infinite tolerance, so every step is the largest allowed, or ends at an output
-            begin = min(step, t - first)
-            solver = make(equations.rate, first, y, t, first_step=begin, max_step=step, atol=np.inf)
-        elif solver is not None:
-            solver.t_bound, solver.status, solver.h_abs = t, "running", step
-        while solver is not None and solver.status == "running":
-            try:
-                solver.step()
-                if solver.status == "failed" or not np.all(np.isfinite(solver.y)):
-                    raise FloatingPointError
-                solver.y = equations.project(float(solver.t), solver.y)
-                solver.f = solver.fun(float(solver.t), solver.y)
-            except FAILURES as error:
-                raise SimulationError(
-                    f"the reference motion cannot be integrated beyond t = {solver.t:.6g} s: the state is not finite"
-                ) from error
-            y = solver.y
-        motion[k] = y
-        progress(t / (times[-1] or 1.0))
-    return motion
+def march(equations: IndependentEquations, y: Array, times: Array, step: float) -> Array:
+    """Return q at `times` by DOP853 at a constant step, mass-weighted projections after each."""
+    return by_steps(equations, y, times, Scheme("DOP853", np.inf, step=step))

@@ -11,32 +11,29 @@ asked for, for every mechanism: then schemes, too, are others than symgen's.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from msgspec import structs
 from numpy.typing import NDArray
 
-from symgen.describe.kinks import compares_state
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import InputError, SimulationError
+from symgen.errors import InputError
 from symgen.result.agreement import AGREEMENT
 from symgen.result.points import Points
 from symgen.study.references.closed_space import CLOSED_SPACE
-from symgen.study.references.parts import in_parts, longest_of
-from symgen.study.references.passing import FAILURES, Watch, pass_through
+from symgen.study.references.passing import Watch, pass_through
 from symgen.study.references.solvers import (
     AUTO,
-    LOOKED_AT,
-    SHORTEST,
+    MOST_CALLS,
     SOLVERS,
-    UNSEEN,
+    CollapsedError,
+    Scheme,
+    by_steps,
     check_solver,
     in_one_go,
-    jacobian_for,
-    unseen_in,
 )
 
 if TYPE_CHECKING:
@@ -44,8 +41,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Steps below this fraction of the mean one, so many in a row, do not get anywhere: a singular position.
-COLLAPSE, PATIENCE, MORE_PATIENCE = 1e-3, 30, 300
 #: Two runs through singular positions that agree by chance understate their error; it was up to five times the
 #: difference with `n-four-bar`, whose exact motion is known.
 DOUBT = 5.0
@@ -73,17 +68,12 @@ class Reference:
     note: str = ""
 
 
-#: Called with how far the work is, from 0 to 1.
-Progress = Callable[[float], None]
-
-
 def reference(
     mechanism: Mechanism,
     parameters: Mapping[str, float],
     q: Array,
     v: Array,
     times: Array,
-    progress: Progress | None = None,
     solver: str = AUTO,
     own_start: bool = True,
 ) -> Reference:
@@ -99,8 +89,6 @@ def reference(
         Consistent start.
     times : Array
         Where the motion is wanted [s], increasing from 0 or later.
-    progress : callable, optional
-        Called with the fraction that is done.
     solver : str
         ``auto``, or one of `SOLVERS`.
     own_start : bool
@@ -114,12 +102,12 @@ def reference(
         If the motion cannot be integrated, e.g. into a singularity.
     """
     if check_solver(solver) != AUTO:
-        return _integrated(mechanism, parameters, (q, v), times, solver, progress)
+        return _integrated(mechanism, parameters, (q, v), times, solver)
     closed = closed_form(mechanism) if own_start else None
     if closed is not None:
         how, estimated, motion = closed(mechanism, parameters, q, times)
         return Reference(how, estimated, times, motion)
-    return _integrated(mechanism, parameters, (q, v), times, "scipy-dop853", progress)
+    return _integrated(mechanism, parameters, (q, v), times, "scipy-dop853")
 
 
 def closed_form(mechanism: Mechanism) -> Callable[[Mechanism, Mapping[str, float], Array, Array], Closed] | None:
@@ -139,10 +127,10 @@ def _from_catalogue(mechanism: Mechanism) -> bool:
     family = _family(mechanism)
     size = mechanism.name.removeprefix("n-four-bar-")
     try:
-        found = load(f"{family}:{size}" if family == "n-four-bar" else family)
+        entry = load(f"{family}:{size}" if family == "n-four-bar" else family)
     except InputError:
         return False
-    return structs.replace(found, defaults=mechanism.defaults) == mechanism
+    return structs.replace(entry, defaults=mechanism.defaults) == mechanism
 
 
 # -- formulas ----------------------------------------------------------------------------------------------------------
@@ -166,10 +154,19 @@ def pendulum(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, ti
 
 
 def n_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
-    """((N + 1) / 3 + N) theta'' = g ((N + 1) / 2 + N) sin(theta), theta clockwise from the upward vertical."""
+    """All verticals turn alike, and couplers are carried: see `parallel_cranks`."""
+    return parallel_cranks([body.name for body in mechanism.bodies], times)
+
+
+def parallel_cranks(names: Sequence[str], times: Array) -> Closed:
+    """((N + 1) / 3 + N) theta'' = g ((N + 1) / 2 + N) sin(theta), theta clockwise from the upward vertical.
+
+    The bodies are ``vertical0`` to ``verticalN`` and ``coupler0`` to ``couplerN-1``, of 1 m and 1 kg; verticals begin
+    upright with 1 rad/s to the right. This is the regular branch of their motion.
+    """
     from scipy.integrate import solve_ivp
 
-    n = int(mechanism.name.removeprefix("n-four-bar-"))
+    n = sum(name.startswith("coupler") for name in names)
     factor = 9.81 * ((n + 1) / 2 + n) / ((n + 1) / 3 + n)
 
     def solve(rtol: float) -> Array:
@@ -178,19 +175,17 @@ def n_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, 
 
         end = float(times[-1])
         # short steps: interpolation to the output times must not be what limits the accuracy
-        found = solve_ivp(rate, (0.0, end), [0.0, 1.0], "DOP853", times, rtol=rtol, atol=rtol, max_step=0.01)
-        return np.asarray(found.y[0], dtype=float)
+        solution = solve_ivp(rate, (0.0, end), [0.0, 1.0], "DOP853", times, rtol=rtol, atol=rtol, max_step=0.01)
+        return np.asarray(solution.y[0], dtype=float)
 
     theta = solve(3e-14)
     s, c, zero = np.sin(theta), np.cos(theta), np.zeros(len(times))
     columns: list[Array] = []
-    for body in mechanism.bodies:
-        if body.name.startswith("vertical"):
-            i = int(body.name.removeprefix("vertical"))
-            columns += [i + 0.5 * s, 0.5 * c, math.pi / 2 - theta]
+    for name in names:
+        if name.startswith("vertical"):
+            columns += [int(name.removeprefix("vertical")) + 0.5 * s, 0.5 * c, math.pi / 2 - theta]
         else:
-            i = int(body.name.removeprefix("coupler"))
-            columns += [i + 0.5 + s, c, zero]
+            columns += [int(name.removeprefix("coupler")) + 0.5 + s, c, zero]
     estimated = 2.0 * float(np.abs(solve(1e-12) - theta).max(initial=0.0))
     return "the equation of the regular branch in one coordinate, DOP853 at 3e-14", estimated, np.column_stack(columns)
 
@@ -235,30 +230,32 @@ def _integrated(
     start: tuple[Array, Array],
     times: Array,
     solver: str,
-    progress: Progress | None,
 ) -> Reference:
     """Integrate independently derived equations twice."""
-    from symgen.study.references.independent_space import independent_equations
+    from symgen.study.references.independent import IndependentEquations
 
     name, fine_tolerance, coarse_tolerance, goes_on = SOLVERS[solver]
-    equations = independent_equations(mechanism, parameters)
+    equations = IndependentEquations(mechanism, parameters)
     y = equations.project(0.0, equations.state(*start))
 
-    def part(first: float, share: float) -> Progress:
-        return lambda done: None if progress is None else progress(first + share * done)
-
     if not goes_on:
-        fine = in_one_go(equations, y, times, name, fine_tolerance, part(0.0, 0.6))
-        coarse = in_one_go(equations, y, times, name, coarse_tolerance, part(0.6, 0.4))
+        fine = in_one_go(equations, y, times, Scheme(name, fine_tolerance, most=MOST_CALLS))
+        coarse = in_one_go(equations, y, times, Scheme(name, coarse_tolerance, most=MOST_CALLS))
     else:
         watch, sizes = Watch(equations, y), list[float]()
+
+        def see(size: float, t: float, state: Array) -> None:
+            sizes.append(size)
+            watch.see(t, state)
+
         try:
-            fine = _integrate(equations, y, times, name, fine_tolerance, 1, True, part(0.0, 0.5), watch, sizes)
-        except _CollapsedError:
-            return _through(mechanism, parameters, equations, y, times, sizes, part(0.5, 0.5))
-        if watch.passed:
-            return _through(mechanism, parameters, equations, y, times, sizes, part(0.5, 0.5))
-        coarse = _integrate(equations, y, times, name, coarse_tolerance, 3, False, part(0.5, 0.5))
+            fine = by_steps(equations, y, times, Scheme(name, fine_tolerance), see=see)
+            collapsed = False
+        except CollapsedError:
+            collapsed = True
+        if collapsed or watch.passed:
+            return _through(mechanism, parameters, equations, y, times, sizes)
+        coarse = by_steps(equations, y, times, Scheme(name, coarse_tolerance, 3, False))
     estimated = Points.of(mechanism, parameters).distance(fine, coarse)
     how = (
         f"independently derived equations, SciPy {name} at {fine_tolerance:g}, projected at every output; "
@@ -274,10 +271,6 @@ def _usual(sizes: list[float]) -> float:
     return float(ordered[int(np.searchsorted(covered, 0.5 * covered[-1]))])
 
 
-class _CollapsedError(SimulationError):
-    """Steps became too small to get anywhere, or the state is not finite: a singular position lies ahead."""
-
-
 def _through(
     mechanism: Mechanism,
     parameters: Mapping[str, float],
@@ -285,96 +278,19 @@ def _through(
     y: Array,
     times: Array,
     sizes: list[float],
-    progress: Progress,
 ) -> Reference:
     """Return the reference of a motion that comes near singular positions."""
     step = _usual(sizes) if sizes else float(times[-1]) / 1000.0
-    found = pass_through(equations, y, times, step, Points.of(mechanism, parameters), progress)
+    passage = pass_through(equations, y, times, step, Points.of(mechanism, parameters))
     how = (
         f"independently derived equations, SciPy DOP853 at constant steps near {step:.2g} s, projected after every "
-        f"step, through singular positions; estimated from {found.runs} runs whose steps fall differently"
+        f"step, through singular positions; estimated from {passage.runs} runs whose steps fall differently"
     )
     note = ""
-    if found.parted is not None:
+    if passage.parted is not None:
         note = (
             f"the two reference runs that agree best part by more than {AGREEMENT:g} of the mechanism's size at "
-            f"t = {found.parted:.4g} s, behind a singular position: from there on it is not known which branch the "
+            f"t = {passage.parted:.4g} s, behind a singular position: from there on it is not known which branch the "
             "motion takes, and errors are distances to one of them"
         )
-    return Reference(how, max(DOUBT * found.difference, 1e-14), times, found.q, note)
-
-
-def _integrate(
-    equations: IndependentEquations,
-    y: Array,
-    times: Array,
-    name: str,
-    rtol: float,
-    every: int,
-    mass_weighted: bool,
-    progress: Progress,
-    watch: Watch | None = None,
-    sizes: list[float] | None = None,
-) -> Array:
-    """Return q at `times`; steps end at the outputs, and every `every`-th output is projected and gone on from.
-
-    A `watch` sees every step; `sizes` collects their lengths [s]. Where forces compare the state, a step that has not
-    seen all of them is taken again, half as long.
-    """
-    import scipy.integrate
-
-    scale = np.maximum(np.abs(y), 1.0)
-    make: Any = getattr(scipy.integrate, name)  # SciPy's types know no arrays of tolerances
-    compares = compares_state(equations.mechanism)
-    longest = min(longest_of(equations, times), float(times[-1]) / LOOKED_AT if compares and len(times) else np.inf)
-    more = {"rtol": rtol, "atol": rtol * scale, "max_step": longest, **jacobian_for(equations, name)}
-    # each jump of a force takes some tiny steps as well
-    patience = MORE_PATIENCE if compares else PATIENCE
-
-    def part(first: float, y: Array, times: Array, progress: Progress) -> Array:
-        motion = np.empty((len(times), len(y)))
-        solver: Any = None  # nor that a step changes the status
-        usual, steps, tiny = 0.0, 0, 0
-        for k, t in enumerate(times.tolist()):
-            if t > first:
-                if solver is None:
-                    solver = make(equations.rate, first, y, t, **more)
-                else:
-                    solver.t_bound, solver.status = t, "running"
-                    # the step before an output is cut short; going on with it would waste evaluations
-                    solver.h_abs = max(solver.h_abs, usual)
-                while solver.status == "running":
-                    before, at, state = solver.h_abs, float(solver.t), solver.y
-                    try:
-                        message = solver.step()
-                        looks = compares and solver.status != "failed"
-                        unseen = unseen_in(equations, solver.dense_output(), at, solver.t, scale) if looks else 0.0
-                    except FAILURES as error:
-                        where = f"t = {solver.t:.6g} s"
-                        raise _CollapsedError(
-                            f"the reference motion cannot be integrated beyond {where}: the state is not finite"
-                        ) from error
-                    if unseen > UNSEEN * rtol and solver.step_size > SHORTEST * t:
-                        solver = make(equations.rate, at, state, t, first_step=0.5 * solver.step_size, **more)
-                        continue
-                    steps += 1
-                    # of steps that are cut short before an output there is one in a row; many tiny ones lead nowhere
-                    mean = (solver.t - first) / steps
-                    tiny = tiny + 1 if solver.step_size is not None and solver.step_size < COLLAPSE * mean else 0
-                    if solver.status == "failed" or tiny >= patience or not np.all(np.isfinite(solver.y)):
-                        reason = message or ("the step size collapses" if tiny else "the state is not finite")
-                        where = f"t = {solver.t:.6g} s"
-                        raise _CollapsedError(f"the reference motion cannot be integrated beyond {where}: {reason}")
-                    if watch is not None and sizes is not None:
-                        watch.see(float(solver.t), solver.y)
-                        sizes.append(float(solver.step_size))
-                    usual = before if solver.status == "finished" else solver.h_abs
-                if k % every == 0:
-                    solver.y = equations.project(t, solver.y, mass_weighted)
-                    solver.f = solver.fun(t, solver.y)
-                y = solver.y
-            motion[k] = y
-            progress(t / (times[-1] or 1.0))
-        return motion
-
-    return in_parts(equations, y, times, progress, part)[:, : equations.n]
+    return Reference(how, max(DOUBT * passage.difference, 1e-14), times, passage.q, note)

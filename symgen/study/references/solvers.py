@@ -1,8 +1,11 @@
-"""SciPy's solvers as the schemes behind references: which there are, and those that keep a history."""
+"""SciPy's solvers as the schemes behind references, step by step and, where they keep a history, in one go."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -18,8 +21,6 @@ if TYPE_CHECKING:
     from symgen.study.references.independent import IndependentEquations
 
 Array = NDArray[np.float64]
-#: Called with how far the work is, from 0 to 1.
-Progress = Callable[[float], None]
 
 #: Tolerances of the two integrations of the general route; the first one is the reference.
 FINE, COARSE = 3e-14, 3e-13
@@ -42,6 +43,49 @@ LOOKED_AT, SHORTEST = 200, 1e-6
 FEWEST = 1e-4
 #: Evaluations after which a multistep solver is given up.
 MOST_CALLS = 3_000_000
+#: Steps below this fraction of the mean one, so many in a row, do not get anywhere: a singular position.
+COLLAPSE, PATIENCE, MORE_PATIENCE = 1e-3, 30, 300
+#: What evaluations far off the constraints end with, and SciPy where a Jacobian is not finite.
+FAILURES = (ArithmeticError, ValueError, np.linalg.LinAlgError)
+
+
+class OverBudgetError(SimulationError):
+    """A reference takes more evaluations than it may."""
+
+
+class CollapsedError(SimulationError):
+    """Steps became too small to get anywhere, or the state is not finite: a singular position lies ahead."""
+
+    def __init__(self, t: float, reason: str = "the state is not finite") -> None:
+        super().__init__(f"the reference motion cannot be integrated beyond t = {t:.6g} s: {reason}")
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """How equations are integrated step by step.
+
+    Parameters
+    ----------
+    name : str
+        Class of `scipy.integrate`.
+    rtol : float
+        Relative tolerance.
+    every : int
+        Every so many-th output is projected and gone on from.
+    mass_weighted : bool
+        Whether projections are the shortest in the metric of M.
+    step : float or None
+        Constant step, with a projection after each [s].
+    most : float
+        Evaluations after which it is given up, those of Jacobians included.
+    """
+
+    name: str
+    rtol: float
+    every: int = 1
+    mass_weighted: bool = True
+    step: float | None = None
+    most: float = math.inf
 
 
 def check_solver(name: str) -> str:
@@ -55,48 +99,149 @@ def check_solver(name: str) -> str:
     return one_of("--reference", name, (AUTO, *SOLVERS))
 
 
-def in_one_go(
-    equations: IndependentEquations, y: Array, times: Array, name: str, rtol: float, progress: Progress
+def by_steps(
+    equations: IndependentEquations,
+    y: Array,
+    times: Array,
+    scheme: Scheme,
+    scale: Array | None = None,
+    see: Callable[[float, float, Array], None] | None = None,
 ) -> Array:
+    """Return q at `times`; steps end at the outputs.
+
+    Where forces compare the state, a step that has not seen all of them is taken again, half as long.
+
+    Parameters
+    ----------
+    equations, y, times
+        What is integrated, from which state, and where it is wanted [s].
+    scheme : Scheme
+        How.
+    scale : Array, optional
+        Sizes that errors are measured by; those of the state, 1 at least, unless given.
+    see : callable, optional
+        Called with the length of each step, and the time and the state at its end.
+
+    Raises
+    ------
+    SimulationError
+        If the motion cannot be integrated, or not within the evaluations of the scheme.
+    """
+    import scipy.integrate
+
+    scale = np.maximum(np.abs(y), 1.0) if scale is None else scale
+    make: Any = getattr(scipy.integrate, scheme.name)  # SciPy's types know neither arrays nor infinity as tolerances
+    compares = compares_state(equations.mechanism) and scheme.step is None
+    longest = min(longest_of(equations, times), float(times[-1]) / LOOKED_AT if compares and len(times) else np.inf)
+    rate = limited(equations, scheme.most)
+    more: dict[str, Any] = {"rtol": scheme.rtol, "atol": scheme.rtol * scale, "max_step": longest}
+    if scheme.step is not None:  # no error exceeds an infinite tolerance, so that every step is the largest allowed
+        more = {"atol": np.inf, "max_step": scheme.step}
+    elif scheme.name == "Radau":
+        more["jac"] = lambda t, y: jacobian(rate, t, y)
+    # each jump of a force takes some tiny steps as well
+    patience = MORE_PATIENCE if compares else PATIENCE
+
+    def part(first: float, y: Array, times: Array) -> Array:
+        motion = np.empty((len(times), len(y)))
+        solver: Any = None  # nor that a step changes the status
+        usual, steps, tiny = scheme.step or 0.0, 0, 0
+        for k, t in enumerate(times.tolist()):
+            if t > first and solver is None:
+                begin = {} if scheme.step is None else {"first_step": min(scheme.step, t - first)}
+                with finite_at(first):
+                    solver = make(rate, first, y, t, **more, **begin)
+            elif t > first:
+                solver.t_bound, solver.status = t, "running"
+                # the step before an output is cut short; going on with it would waste evaluations
+                solver.h_abs = max(solver.h_abs, usual)
+            while solver is not None and solver.status == "running":
+                before, at, state = solver.h_abs, float(solver.t), solver.y
+                with finite_at(at):
+                    message = solver.step()
+                    looks = compares and solver.status != "failed"
+                    unseen = unseen_in(equations, solver.dense_output(), at, solver.t, scale) if looks else 0.0
+                    if unseen > UNSEEN * scheme.rtol and solver.step_size > SHORTEST * t:
+                        solver = make(rate, at, state, t, first_step=0.5 * solver.step_size, **more)
+                        continue
+                    steps += 1
+                    # of steps that are cut short before an output there is one in a row; many tiny ones lead nowhere
+                    mean = (solver.t - first) / steps
+                    tiny = tiny + 1 if solver.step_size is not None and solver.step_size < COLLAPSE * mean else 0
+                    if solver.status == "failed" or tiny >= patience or not np.all(np.isfinite(solver.y)):
+                        collapsed = "the step size collapses" if tiny else "the state is not finite"
+                        raise CollapsedError(solver.t, message or collapsed)
+                    if scheme.step is not None:
+                        project(solver)
+                if see is not None:
+                    see(float(solver.step_size), float(solver.t), solver.y)
+                usual = before if solver.status == "finished" else solver.h_abs
+            if solver is not None:
+                if k % scheme.every == 0 and scheme.step is None:
+                    project(solver)
+                y = solver.y
+            motion[k] = y
+        return motion
+
+    def project(solver: Any) -> None:
+        solver.y = equations.project(float(solver.t), solver.y, scheme.mass_weighted)
+        solver.f = solver.fun(float(solver.t), solver.y)
+
+    return in_parts(equations, y, times, part)[:, : equations.n]
+
+
+def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: Scheme) -> Array:
     """Return q at `times` from a multistep solver: its history forbids changes on the way, so outputs are projected."""
     from scipy.integrate import solve_ivp
 
-    calls = 0
-
-    def rate(t: float, state: Array) -> Array:
-        nonlocal calls
-        calls += 1
-        if calls > MOST_CALLS:
-            raise SimulationError(f"the reference motion cannot be integrated beyond t = {t:.6g} s: no progress")
-        if calls % 1000 == 0:
-            progress(min(1.0, max(0.0, t / float(times[-1]))))
-        return equations.rate(t, state)
-
     solve: Any = solve_ivp  # SciPy's types do not know arrays of tolerances
     scale, compares = np.maximum(np.abs(y), 1.0), compares_state(equations.mechanism)
-    bound = longest_of(equations, times)
-    more = {"rtol": rtol, "atol": rtol * scale, "dense_output": compares, **jacobian_for(equations, name)}
+    bound, rate = longest_of(equations, times), limited(equations, scheme.most)
+    more: dict[str, Any] = {"rtol": scheme.rtol, "atol": scheme.rtol * scale, "dense_output": compares}
+    if scheme.name == "BDF":
+        more["jac"] = lambda t, y: jacobian(rate, t, y)
 
-    def part(first: float, y: Array, times: Array, _: Progress) -> Array:
+    def part(first: float, y: Array, times: Array) -> Array:
         if times[-1] <= first:
             return np.tile(y, (len(times), 1))
         span = float(times[-1]) - first
         longest = min(bound, span / LOOKED_AT if compares else np.inf)
         while True:
-            found = solve(rate, (first, float(times[-1])), y, name, times, max_step=longest, **more)
-            if not found.success or not np.all(np.isfinite(found.y)):
-                at = float(found.t[-1]) if len(found.t) else first
-                why = f"the reference motion cannot be integrated beyond t = {at:.6g} s: {found.message}"
-                raise SimulationError(why)
-            steps = pairwise(found.sol.ts.tolist()) if compares else ()
-            blind = [b - a for a, b in steps if unseen_in(equations, found.sol, a, b, scale) > UNSEEN * rtol]
+            solution = solve(rate, (first, float(times[-1])), y, scheme.name, times, max_step=longest, **more)
+            if not solution.success or not np.all(np.isfinite(solution.y)):
+                raise CollapsedError(float(solution.t[-1]) if len(solution.t) else first, solution.message)
+            steps = pairwise(solution.sol.ts.tolist()) if compares else ()
+            blind = [b - a for a, b in steps if unseen_in(equations, solution.sol, a, b, scale) > UNSEEN * scheme.rtol]
             longest = 0.5 * max(blind, default=0.0)
             if longest < FEWEST * span:
-                return np.asarray(found.y.T)
+                return np.asarray(solution.y.T)
 
-    found = in_parts(equations, y, times, progress, part)
-    states = [equations.project(float(t), state) for t, state in zip(times, found, strict=True)]
+    solution = in_parts(equations, y, times, part)
+    states = [equations.project(float(t), state) for t, state in zip(times, solution, strict=True)]
     return np.array(states).reshape(len(times), len(y))[:, : equations.n]
+
+
+@contextmanager
+def finite_at(t: float) -> Iterator[None]:
+    """Say where evaluations fail."""
+    try:
+        yield
+    except FAILURES as error:
+        raise CollapsedError(t) from error
+
+
+def limited(equations: IndependentEquations, most: float) -> Callable[[float, Array], Array]:
+    """Return the rates of equations as a function that is evaluated so many times at most."""
+    calls = 0
+
+    def rate(t: float, y: Array) -> Array:
+        nonlocal calls
+        calls += 1
+        if calls > most:
+            raise OverBudgetError(f"the reference takes more than {most:g} evaluations")
+        return equations.rate(t, y)
+
+    return rate
 
 
 def unseen_in(
@@ -114,20 +259,14 @@ def unseen_in(
     return float(np.max(np.abs(change) / scale))
 
 
-def jacobian_for(equations: IndependentEquations, name: str) -> dict[str, Callable[[float, Array], Array]]:
-    """Return the Jacobian for SciPy's implicit solvers, by central differences.
+def jacobian(rate: Callable[[float, Array], Array], t: float, y: Array) -> Array:
+    """Return the Jacobian of rates by central differences, shape (2 n, 2 n).
 
-    Their own differences enlarge the step of a coordinate that no rate depends on, at every call, until it overflows.
+    SciPy's own differences enlarge the step of a coordinate that no rate depends on, at every call, until it overflows.
     """
-    if name not in ("Radau", "BDF"):
-        return {}
-
-    def jacobian(t: float, y: Array) -> Array:
-        steps = 1e-6 * np.maximum(1.0, np.abs(y))
-        columns = [
-            (equations.rate(t, y + step * unit) - equations.rate(t, y - step * unit)) / (2.0 * step)
-            for step, unit in zip(steps, np.eye(len(y)), strict=True)
-        ]
-        return np.column_stack(columns)
-
-    return {"jac": jacobian}
+    steps = 1e-6 * np.maximum(1.0, np.abs(y))
+    columns = [
+        (rate(t, y + step * unit) - rate(t, y - step * unit)) / (2.0 * step)
+        for step, unit in zip(steps, np.eye(len(y)), strict=True)
+    ]
+    return np.column_stack(columns)

@@ -73,6 +73,8 @@ class Level:
         Whether the run watches its own violations and energy; off where stability alone is asked for.
     closed : str or None
         What has a closed form to compare with: a catalogue entry, or ``"parallelogram"``.
+    model : str
+        Name of the base model, ``-`` for a mechanism of the family's own.
     """
 
     family: str
@@ -90,6 +92,7 @@ class Level:
     spring_end: tuple[float, ...] | None = None
     watched: bool = True
     closed: str | None = None
+    model: str = "-"
 
 
 @dataclass(frozen=True)

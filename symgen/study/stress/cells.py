@@ -21,6 +21,7 @@ from symgen.errors import AssemblyError, InputError
 from symgen.integrators import INTEGRATORS
 from symgen.lower.looped.law import is_loopable
 from symgen.reruns.verification import verified
+from symgen.result.contract import finite
 from symgen.result.judge import judge
 from symgen.result.points import Points
 from symgen.result.run_data import INTERRUPTED
@@ -82,23 +83,16 @@ class RunTask:
 
 
 @dataclass(frozen=True)
-class LimitTask:
+class LimitTask(RunTask):
     """Find the largest constant step of a method and an integrator for a case."""
 
-    level: Level
-    method: str
-    integrator: str
-    reference: Fields
-    coordinates: str = "absolute"
 
-
-def compute(task: ReferenceTask | RunTask | LimitTask) -> Fields:
+def compute(task: ReferenceTask | RunTask) -> Fields:
     """Compute a cell; see the classes of tasks."""
     if isinstance(task, ReferenceTask):
         return reference_of(task.level)
-    if isinstance(task, RunTask):
-        return _run(task).to_json()
-    return _limit(task)
+    fields: Fields = finite(_limit(task) if isinstance(task, LimitTask) else asdict(_run(task)))
+    return fields
 
 
 # -- runs --------------------------------------------------------------------------------------------------------------
@@ -119,15 +113,6 @@ class RunFields:
     chosen: str
     note: str
 
-    def to_json(self) -> Fields:
-        """Return what JSON can express; numbers that are not finite are None."""
-        fields = dict(self.__dict__)
-        return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in fields.items()}
-
-
-#: Of a run whose process died.
-CRASHED = RunFields(judged.DIVERGED, None, "failed", "its process died", 0, None, None, None, "", "")
-
 
 def _nothing(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") -> RunFields:
     return RunFields(outcome, None, "not run", reason, evaluations, None, None, None, chosen, "")
@@ -135,7 +120,7 @@ def _nothing(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") 
 
 def _run(task: RunTask) -> RunFields:
     """Run a case and judge it against its reference; without one it would say nothing, and is not run."""
-    level, method, integrator, known, limits = task.level, task.method, task.integrator, task.reference, task.limits
+    level, method, integrator, motion, limits = task.level, task.method, task.integrator, task.reference, task.limits
     mechanism = level.mechanism
     watched = limits if level.watched else replace(UNWATCHED, max_attempts=limits.max_attempts)
     settings = Settings(
@@ -144,19 +129,19 @@ def _run(task: RunTask) -> RunFields:
         step=None if _is_adaptive(integrator, level.options) else level.step,
         until=level.until,
         times=times_of(level),
-        parameters={**level.parameters, **known.get("parameters", {})},
+        parameters={**level.parameters, **motion.get("parameters", {})},
         options=level.options,
         coordinates=task.coordinates,
         **asdict(watched),
     )
     try:
         plan, assembled = decided(mechanism, _shaped(mechanism, settings), Purpose.MOTION)
-        why = without_reference(known)
+        why = without_reference(motion)
         if why is not None:
             return _nothing(judged.UNJUDGED, why)
         budget = budget_of(plan, mechanism)
         chosen = f"{plan.choice.method.name}, {plan.integrator.name}" if method == AUTO else ""
-        least = predicted(plan, known["decay"])
+        least = predicted(plan, motion["decay"])
         if least > budget:
             what = "at least " if plan.spec.adaptive else ""
             return _nothing(judged.TOO_SLOW, f"{what}{least:.3g} evaluations, more than {budget:.3g}", 0, chosen)
@@ -172,11 +157,11 @@ def _run(task: RunTask) -> RunFields:
         return _nothing(judged.TOO_SLOW, f"more than {budget:.3g} evaluations", budget, chosen)
     verdict = judge(run, outcome, verification)
     assert verdict.reason != INTERRUPTED, "an interrupted run has raised"
-    compared, note = _compared(level, plan.parameters, run.of_bodies(outcome), known), ""
-    found = classify(compared)
+    compared, note = _compared(level, plan.parameters, run.of_bodies(outcome), motion), ""
+    kind = classify(compared)
     if outcome.code != abi.DONE:
         note = f"ended at t = {outcome.end:.4g} s"
-    if outcome.code in WATCHES and found == judged.DIVERGED:
+    if outcome.code in WATCHES and kind == judged.DIVERGED:
         # it stopped itself before its error could be seen: what would have become of it says what it was
         most = further_budget(budget, outcome.evaluations)
         violation, energy = UNWATCHED.max_violation, UNWATCHED.max_energy_error
@@ -184,12 +169,12 @@ def _run(task: RunTask) -> RunFields:
         further = run.integrate()
         if further.interrupted:
             raise KeyboardInterrupt
-        compared = _compared(level, plan.parameters, run.of_bodies(further), known)
-        found = classify(compared)
-        if found == judged.GOOD:
-            found, note = judged.INACCURATE, f"{note}; off its constraints, not off the motion"
+        compared = _compared(level, plan.parameters, run.of_bodies(further), motion)
+        kind = classify(compared)
+        if kind == judged.GOOD:
+            kind, note = judged.INACCURATE, f"{note}; off its constraints, not off the motion"
     return RunFields(
-        outcome=found,
+        outcome=kind,
         error=largest_error(compared.errors) if compared.reference_error is not None else None,
         status=verdict.status,
         reason=verdict.reason,
@@ -222,17 +207,14 @@ def _shaped(mechanism: Mechanism, settings: Settings) -> Settings:
     return replace(settings, coordinates=coordinates, shape="looped" if looped else "straight")
 
 
-def _points(level: Level, parameters: Mapping[str, float]) -> Points:
-    return Points.of(level.mechanism, parameter_values(level.mechanism, parameters))
-
-
-def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, known: Fields) -> Run:
+def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, motion: Fields) -> Run:
     """Return what classification asks for."""
-    values, points = parameter_values(level.mechanism, parameters), _points(level, parameters)
+    values = parameter_values(level.mechanism, parameters)
+    points = Points.of(level.mechanism, values)
     nq, count = outcome.compiled.info.nq, len(outcome.times)
     states = outcome.states[:, :nq]
     with np.errstate(all="ignore"):
-        errors = points.distances(states, np.array(known["q"])[:count])
+        errors = points.distances(states, np.array(motion["q"])[:count])
     violation = 0.0
     if not np.all(errors <= judged.ACCURATE):  # the equations are compiled only where it matters
         violation = math.inf
@@ -244,12 +226,11 @@ def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, k
             violation = float(np.linalg.norm(phi))
     return Run(
         finished=outcome.code == abi.DONE,
-        over_budget=False,
         errors=errors,
-        sines=np.array(known["sines"]),
+        sines=np.array(motion["sines"]),
         violation=violation,
-        reference_error=known["estimated_error"],
-        size=known["size"],
+        reference_error=motion["estimated_error"],
+        size=motion["size"],
     )
 
 
@@ -265,9 +246,9 @@ def _limit(task: LimitTask) -> Fields:
     def attempt(step: float) -> tuple[bool, bool]:
         if step not in ran:
             level = replace(task.level, step=step, watched=False, options={**task.level.options, **_constant(task)})
-            found = _run(RunTask(level, task.method, task.integrator, task.reference, coordinates=task.coordinates))
+            fields = _run(RunTask(level, task.method, task.integrator, task.reference, coordinates=task.coordinates))
             lost = judged.LOST * task.reference["size"]
-            error = found.error if found.error is not None and found.note == "" else math.inf
+            error = fields.error if fields.error is not None and fields.note == "" else math.inf
             ran[step] = error <= lost, error <= judged.ACCURATE
         return ran[step]
 

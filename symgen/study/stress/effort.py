@@ -8,7 +8,6 @@ studies of large mechanisms short.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from symgen.compiling.choose_shape import straight_seconds
@@ -96,26 +95,6 @@ def predicted(plan: Plan, decay: float) -> float:
 # -- what is compiled --------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class LeftOut:
-    """A pair that a mechanism is not run with, because its code would take too long to compile.
-
-    Attributes
-    ----------
-    mechanism : str
-        Name of the mechanism.
-    method, integrator : str
-        The pair.
-    why : str
-        With figures.
-    """
-
-    mechanism: str
-    method: str
-    integrator: str
-    why: str
-
-
 def needs_straight(method: str, integrator: str) -> bool:
     """Whether a pair has no looped shape, so that it is compiled for each mechanism anew."""
     if method == AUTO:
@@ -126,8 +105,8 @@ def needs_straight(method: str, integrator: str) -> bool:
 
 def left_out(
     mechanisms: Sequence[Mechanism], pairs: Sequence[tuple[str, str]], seconds: float, straight: bool = False
-) -> tuple[LeftOut, ...]:
-    """Return the pairs that do not fit into a time of compilation.
+) -> list[tuple[str, str, str, str]]:
+    """Return mechanism, method, integrator and reason of the pairs that do not fit into a time of compilation.
 
     Parameters
     ----------
@@ -143,19 +122,16 @@ def left_out(
     """
     wanted = [pair for pair in dict.fromkeys(pairs) if needs_straight(*pair) or (straight and pair[0] != AUTO)]
     wanted.sort(key=lambda pair: METHODS.get(pair[0]).default_integrator != pair[1])
-    found, spent = [], 0.0
+    found, compiled, spent = [], set[tuple[str, str, bool]](), 0.0
     for mechanism in mechanisms:
-        each, fits = straight_seconds(mechanism), dict[tuple[str, bool], bool]()
+        each = straight_seconds(mechanism)
         for method, integrator in wanted:
             # explicit integrators share the code of a method
-            stem = method, bool({"ode", "one-step"} & set(INTEGRATORS.get(integrator).forms))
-            if stem not in fits:
+            code = mechanism.name, method, bool({"ode", "one-step"} & set(INTEGRATORS.get(integrator).forms))
+            if code not in compiled and spent + each <= seconds:
                 spent += each
-                fits[stem] = spent <= seconds
-            if not fits[stem]:
-                why = (
-                    f"its code takes about {each:.2g} s to compile for {mechanism.body_coordinates} coordinates, "
-                    f"and the {seconds:g} s that are allowed are used up by others"
-                )
-                found.append(LeftOut(mechanism.name, method, integrator, why))
-    return tuple(found)
+                compiled.add(code)
+            if code not in compiled:
+                why = f"its code does not fit into the {seconds:g} s of compilation"
+                found.append((mechanism.name, method, integrator, why))
+    return found

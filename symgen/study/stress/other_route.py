@@ -1,6 +1,6 @@
 """Reference motions of mechanisms whose second derivation is not compiled: two formulations that agree.
 
-The second derivation of a spatial mechanism (`symgen.study.references.independent_space`) is interpreted: too slow for
+The second derivation of a spatial mechanism (`symgen.study.references.independent`) is interpreted: too slow for
 the many motions of a stress study. What can differ at the speed of compiled code is how the equations are formulated
 and integrated. The motion is that of `direct-correction` with Runge-Kutta steps at a tight tolerance; its error is
 estimated from `index1-augmented-lagrangian`, which solves another system for the accelerations, with Adams steps.

@@ -37,8 +37,6 @@ class Run:
     ----------
     finished : bool
         It reached its end.
-    over_budget : bool
-        It took more evaluations than it may.
     errors : Array, shape (k,)
         Distance to the reference [m] at the outputs that it reached.
     sines : Array, shape (n,)
@@ -53,7 +51,6 @@ class Run:
     """
 
     finished: bool
-    over_budget: bool
     errors: Array
     sines: Array
     violation: float
@@ -69,8 +66,6 @@ def classify(run: Run) -> str:
     inaccurate while constraints are closed or the error is below `LOST` of the size, else diverged. A run that ended
     early is singular where the reference is near a singular position there, else diverged.
     """
-    if run.over_budget:
-        return TOO_SLOW
     if run.reference_error is None or run.reference_error > TRUSTED * ACCURATE:
         return UNJUDGED
     last = len(run.errors)

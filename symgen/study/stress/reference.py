@@ -19,7 +19,8 @@ from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
 from symgen.runtime.motions import refuse_jumps
 from symgen.settings import Settings
-from symgen.study.references.reference import closed_form
+from symgen.study.references.passing import scaled_values
+from symgen.study.references.reference import closed_form, parallel_cranks
 from symgen.study.stress.bench import FREE_LENGTH, Level
 from symgen.study.stress.outcome import ACCURATE, TRUSTED
 
@@ -69,15 +70,15 @@ def _moved(level: Level) -> Fields:
     falling = fastest_decay(mechanism, compiled, start)
     if moved is None:
         try:
-            found = motion(equations, q, v, times) if planar else agreed(mechanism, parameters, times, falling)
+            reference = motion(equations, q, v, times) if planar else agreed(mechanism, parameters, times, falling)
         except SimulationError as error:  # over its budget, or at a singular position
             if not planar:
                 raise
             try:
-                found = agreed(mechanism, parameters, times, falling)
+                reference = agreed(mechanism, parameters, times, falling)
             except SimulationError as other:
                 raise SimulationError(f"{error}; {other}") from None
-        how, estimated, moved = found.how, found.estimated_error, found.q
+        how, estimated, moved = reference.how, reference.estimated_error, reference.q
     return {
         "unusable": None,
         "how": how,
@@ -92,12 +93,12 @@ def _moved(level: Level) -> Fields:
     }
 
 
-def without_reference(known: Mapping[str, Any]) -> str | None:
+def without_reference(motion: Mapping[str, Any]) -> str | None:
     """Return why the outcome of a reference judges nothing, None where it does."""
-    if known["unusable"] is not None:
-        return str(known["unusable"])
-    if known["estimated_error"] > TRUSTED * ACCURATE:
-        return f"the two reference runs differ by {known['estimated_error']:.2g} m"
+    if motion["unusable"] is not None:
+        return str(motion["unusable"])
+    if motion["estimated_error"] > TRUSTED * ACCURATE:
+        return f"the two reference runs differ by {motion['estimated_error']:.2g} m"
     return None
 
 
@@ -150,35 +151,11 @@ def _closed(level: Level, parameters: Mapping[str, float], q: Array, times: Arra
     if level.closed is None:
         return "", 0.0, None
     if level.closed == "parallelogram":
-        return parallelogram(times)
+        return parallel_cranks(("vertical0", "coupler0", "vertical1"), times)
     base = load_mechanism(level.closed)
     formula = closed_form(base)
     assert formula is not None, "levels name only what has a closed form"
     return formula(base, {p.name: parameters[p.name] for p in base.parameters}, q, times)
-
-
-def parallelogram(times: Array) -> tuple[str, float, Array]:
-    """Return the regular branch of crank, coupler and rocker of 1 m and 1 kg, from upright with 1 rad/s to the right.
-
-    (2/3 + 1) theta'' = 2 g sin(theta), theta clockwise from the upward vertical: two rods turn, one is carried.
-    """
-    from scipy.integrate import solve_ivp
-
-    def solve(rtol: float) -> Array:
-        found = solve_ivp(
-            lambda _, y: [y[1], 9.81 * 2.0 / (2.0 / 3.0 + 1.0) * math.sin(y[0])],
-            *((0.0, float(times[-1])), [0.0, 1.0], "DOP853", times),
-            rtol=rtol,
-            atol=rtol,
-            max_step=0.01,
-        )
-        return np.asarray(found.y[0], dtype=float)
-
-    theta = solve(3e-14)
-    s, c, zero = np.sin(theta), np.cos(theta), np.zeros(len(times))
-    columns = [0.5 * s, 0.5 * c, math.pi / 2 - theta, 0.5 + s, c, zero, 1.0 + 0.5 * s, 0.5 * c, math.pi / 2 - theta]
-    estimated = 2.0 * float(np.abs(solve(1e-12) - theta).max(initial=0.0))
-    return "the equation of the regular branch in one coordinate, DOP853 at 3e-14", estimated, np.column_stack(columns)
 
 
 def _sines(equations: Any, times: Array, q: Array) -> Array:
@@ -188,8 +165,7 @@ def _sines(equations: Any, times: Array, q: Array) -> Array:
     values, rank = [], 0
     for t, at in zip(times, q, strict=True):
         d = equations.evaluate(float(t), at, np.zeros(equations.n))[1]
-        lengths = np.linalg.norm(d, axis=1)
-        singular = np.linalg.svd(d / np.where(lengths > 0.0, lengths, 1.0)[:, None], compute_uv=False)
+        singular = scaled_values(d)
         rank = rank or int(np.sum(singular > 1e-6))
         values.append(float(singular[rank - 1]) if rank else 1.0)
     largest = max(values)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from symgen import arguments
 from symgen.describe.mechanism import bounded
@@ -21,8 +21,8 @@ from symgen.study.journal import Journal, Outcome, cell_key, code_identity, mech
 from symgen.study.runner import Cell, Status, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable
 from symgen.study.stress.cases import CASES, Family
-from symgen.study.stress.cells import CRASHED, WATCHED, Limits, LimitTask, ReferenceTask, RunTask, compute
-from symgen.study.stress.effort import BUDGET, LeftOut, left_out
+from symgen.study.stress.cells import WATCHED, Limits, LimitTask, ReferenceTask, RunTask, compute
+from symgen.study.stress.effort import BUDGET, left_out
 from symgen.study.stress.reference import without_reference
 from symgen.study.stress.rows import Limit, Row, Stress
 
@@ -35,17 +35,8 @@ LIMITED = ("duration", "stiffness", "damping")
 
 #: Called with what is being done and how far it is.
 Progress = Callable[[str, Status], None]
-
-
-# -- the cells of a study ----------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class _Case:
-    """A case of a family for a model."""
-
-    model: str
-    level: Level
+Motions = Sequence[tuple[ReferenceTask, Outcome]]
+Task = TypeVar("Task", bound=ReferenceTask | RunTask)
 
 
 def pairs(method: str, constant_steps: bool = False) -> tuple[tuple[str, str], ...]:
@@ -119,14 +110,13 @@ def stress(
     InputError
         If a name is wrong; nothing has been run then.
     """
-    asked = Settings(
+    common = Settings(
         max_violation=max_violation,
         max_energy_error=max_energy_error,
         max_step=max_step,
         max_attempts=max_attempts,
         coordinates=coordinates,
     )
-    limits = Limits(asked.max_violation, asked.max_energy_error, asked.max_attempts)
     cases, methods = arguments.words("cases", cases), arguments.words("methods", methods)
     quick, jobs = arguments.switch("quick", quick), arguments.whole("jobs", jobs, 1, 4096)
     if compilation != math.inf:
@@ -137,29 +127,38 @@ def stress(
     models = arguments.listed("models", [models] if isinstance(models, str) else models, "a list of models")
     bases = [Base.of(model) for model in models or (DEFAULT_MODEL,)]
     for base in bases:
-        refuse_events("stress", base.mechanism, asked)
+        refuse_events("stress", base.mechanism, common)
         refuse_weightless(base.mechanism)
     bases = [base.without_events() for base in bases]
     chosen = tuple(dict.fromkeys(CASES.canonical(name, "--cases") for name in cases or CASES.names))
-    wanted = tuple(dict.fromkeys(methods or (*METHODS.names, AUTO)))
-    for name in wanted:
+    names = tuple(dict.fromkeys(methods or (*METHODS.names, AUTO)))
+    for name in names:
         if name != AUTO:
             METHODS.get(name, "--methods")
     skipped: list[tuple[str, str, str]] = []
-    found = list(_cases(bases, chosen, quick, skipped, asked.max_step))
-    say = progress or (lambda what, status: None)
-    kept = Journal() if journal is None else journal
-    how = kept, jobs, say, compilation, limits, asked.coordinates
-    return _Study(bases, found, wanted, quick, tuple(skipped), *how).run()
+    levels = list(_levels(bases, chosen, quick, skipped, common.max_step))
+    study = _Study(
+        bases=bases,
+        levels=levels,
+        methods=names,
+        quick=quick,
+        journal=Journal() if journal is None else journal,
+        jobs=jobs,
+        progress=progress or (lambda what, status: None),
+        compilation=compilation,
+        limits=Limits(common.max_violation, common.max_energy_error, common.max_attempts),
+        coordinates=common.coordinates,
+    )
+    return study.run(tuple(skipped))
 
 
-def _cases(
+def _levels(
     bases: Sequence[Base],
     families: Sequence[str],
     quick: bool,
     skipped: list[tuple[str, str, str]],
     max_step: float | None,
-) -> Iterator[_Case]:
+) -> Iterator[Level]:
     for number, base in enumerate(bases):
         for name in families:
             family: Family = CASES.get(name)
@@ -168,160 +167,100 @@ def _cases(
             model = "-" if family.own else base.name
             try:
                 for level in family.levels(base, quick):
-                    yield _Case(model, replace(level, mechanism=bounded(level.mechanism, max_step)))
-            except NotApplicable as why:
+                    yield replace(level, mechanism=bounded(level.mechanism, max_step), model=model)
+            except (NotApplicable, InputError) as why:  # the latter e.g. where the model uses the name of a handle
                 skipped.append((base.name, name, str(why)))
-            except InputError as error:  # e.g. a handle's name that the model uses already
-                skipped.append((base.name, name, str(error)))
 
 
 @dataclass
 class _Study:
     bases: Sequence[Base]
-    cases: Sequence[_Case]
+    levels: Sequence[Level]
     methods: Sequence[str]
     quick: bool
-    skipped: tuple[tuple[str, str, str], ...]
     journal: Journal
     jobs: int
-    say: Progress
+    progress: Progress
     compilation: float
     limits: Limits
-    coordinates: str = "absolute"
-
-    @property
-    def _coordinates(self) -> dict[str, str]:
-        """What keys of cells say of coordinates: nothing of those that were there first."""
-        return {} if self.coordinates == "absolute" else {"coordinates": self.coordinates}
+    coordinates: str
 
     @cached_property
-    def left_out(self) -> dict[str, tuple[LeftOut, ...]]:
-        """Pairs that are not run, by model; mechanisms of families of their own are small."""
-        asked = [pair for name in self.methods for pair in (pairs(name)[:1] if self.quick else pairs(name))]
-        found = {}
+    def left_out(self) -> tuple[tuple[str, str, str, str], ...]:
+        """Pairs that are not run, by mechanism; those of families of their own are small."""
+        everything = [pair for name in self.methods for pair in (pairs(name)[:1] if self.quick else pairs(name))]
+        out = []
         for base in self.bases:
-            made = [base.stressed, *(case.level.mechanism for case in self.cases if case.model == base.name)]
+            made = [base.stressed, *(level.mechanism for level in self.levels if level.model == base.name)]
             # cases that differ in their start alone share code, and have the name of the base
             distinct = list({mechanism.name: mechanism for mechanism in made}.values())
-            found[base.name] = left_out(distinct, asked, self.compilation, self.coordinates == "joint")
-        return found
+            out += left_out(distinct, everything, self.compilation, self.coordinates == "joint")
+        return tuple(out)
 
-    def _is_left_out(self, case: _Case, method: str, integrator: str) -> bool:
-        name = case.level.mechanism.name
-        return (name, method, integrator) in [
-            (x.mechanism, x.method, x.integrator) for x in self.left_out.get(case.model, ())
-        ]
-
-    def run(self) -> Stress:
+    def run(self, skipped: tuple[tuple[str, str, str], ...]) -> Stress:
         """Compute references, then runs, then largest steps."""
-        references = [self._reference(case) for case in self.cases]
-        motions, interrupted = self._computed("references", references)
-        rows: list[Row] = []
-        limits: list[Limit] = []
+        motions, interrupted = self._computed("references", [ReferenceTask(level) for level in self.levels])
+        runs, searches = list[tuple[RunTask, Outcome]](), list[tuple[RunTask, Outcome]]()
         if not interrupted:
-            runs = list(self._runs(references, motions))
-            done, interrupted = self._computed("runs", [cell for cell, _, _ in runs])
-            rows = [self._row(case, cell.task, done[cell.key]) for cell, case, _ in runs if cell.key in done]
+            runs, interrupted = self._computed("runs", list(self._runs(motions)))
         if not interrupted:
-            searches = list(self._limits(references, motions))
-            done, interrupted = self._computed("largest steps", [cell for cell, _ in searches])
-            limits = [_limit(case, cell.task, done[cell.key]) for cell, case in searches if cell.key in done]
+            searches, interrupted = self._computed("largest steps", list(self._searches(motions)))
+        unusable = [(task.level, why) for task, motion in motions if (why := without_reference(motion)) is not None]
         return Stress(
             models=tuple(base.name for base in self.bases),
-            rows=tuple(rows),
-            limits=tuple(limits),
-            skipped=self.skipped,
-            unusable=tuple(_unusable(self.cases, references, motions)),
-            left_out=tuple((x.mechanism, x.method, x.integrator, x.why) for out in self.left_out.values() for x in out),
+            rows=tuple(_row(task, outcome) for task, outcome in runs),
+            limits=tuple(_limit(task, outcome) for task, outcome in searches),
+            skipped=skipped,
+            unusable=tuple((level.model, level.family, level.label, why) for level, why in unusable),
+            left_out=self.left_out,
             quick=self.quick,
             interrupted=interrupted,
             coordinates=self.coordinates,
         )
 
-    def _computed(self, what: str, cells: Sequence[Cell]) -> tuple[dict[str, Outcome], bool]:
-        return run_cells(cells, compute, self.journal, self.jobs, lambda status: self.say(what, status))
-
-    def _reference(self, case: _Case) -> Cell:
-        level = case.level
-        parts = {"kind": "reference", "code": code_identity()} | _parts(level, with_run=False)
-        return Cell(
-            cell_key(**parts), level.mechanism.name, ReferenceTask(level), cost=1e3 + min(level.until / level.step, 1e5)
+    def _computed(self, what: str, tasks: Sequence[Task]) -> tuple[list[tuple[Task, Outcome]], bool]:
+        """Return the tasks that are done with their outcomes, and whether the study was interrupted."""
+        cells = [_cell(task) for task in tasks]
+        done, interrupted = run_cells(
+            cells, compute, self.journal, self.jobs, lambda status: self.progress(what, status)
         )
+        return [(cell.task, done[cell.key]) for cell in cells if cell.key in done], interrupted
+
+    def _runs(self, motions: Motions) -> Iterator[RunTask]:
+        for task, motion in motions:
+            for pair in self._pairs(task.level):
+                if self._is_compiled(task.level, pair):
+                    yield RunTask(task.level, *pair, motion, self.limits, self.coordinates)
 
     def _pairs(self, level: Level) -> tuple[tuple[str, str], ...]:
         if level.pairs is not None:
             return tuple(pair for pair in level.pairs if pair[0] in self.methods)
         names = [n for n in self.methods if level.methods is None or n in level.methods]
-        found = [pairs(name, level.constant_steps) for name in names]
-        return tuple(pair for fit in found for pair in (fit[:1] if self.quick else fit))
+        fitting = [pairs(name, level.constant_steps) for name in names]
+        return tuple(pair for fit in fitting for pair in (fit[:1] if self.quick else fit))
 
-    def _runs(self, references: Sequence[Cell], motions: dict[str, Outcome]) -> Iterator[tuple[Cell, _Case, str]]:
-        for case, reference in zip(self.cases, references, strict=True):
-            if reference.key not in motions:
-                continue
-            for method, integrator in self._pairs(case.level):
-                if self._is_left_out(case, method, integrator):
-                    continue
-                known = _crashed_or(motions[reference.key])
-                task = RunTask(case.level, method, integrator, known, self.limits, self.coordinates)
-                parts = {"kind": "run", "code": code_identity(), "method": method, "integrator": integrator}
-                parts |= self._coordinates
-                key = cell_key(**parts, limits=asdict(self.limits), reference=reference.key, **_parts(case.level))
-                yield (
-                    Cell(key, f"{case.level.mechanism.name} {method}", task, _cost(case.level, integrator)),
-                    case,
-                    method,
-                )
+    def _searches(self, motions: Motions) -> Iterator[LimitTask]:
+        """Yield one case of each model and family for which largest steps are looked for, with every method."""
+        cases: dict[tuple[str, str], list[tuple[Level, Outcome]]] = {}
+        for task, motion in motions:
+            if task.level.family in LIMITED:
+                cases.setdefault((task.level.model, task.level.family), []).append((task.level, motion))
+        for (_, family), own in cases.items():
+            level, motion = own[0 if family == "duration" else min(1, len(own) - 1)]
+            for pair in ((name, METHODS.get(name).default_integrator) for name in self.methods if name != AUTO):
+                if self._is_compiled(level, pair):
+                    yield LimitTask(level, *pair, motion, coordinates=self.coordinates)
 
-    def _limits(self, references: Sequence[Cell], motions: dict[str, Outcome]) -> Iterator[tuple[Cell, _Case]]:
-        for case, reference in zip(self.cases, references, strict=True):
-            if reference.key not in motions or not self._is_limited(case):
-                continue
-            for method in self.methods:
-                if method == AUTO:
-                    continue
-                integrator = METHODS.get(method).default_integrator
-                if self._is_left_out(case, method, integrator):
-                    continue
-                known = _crashed_or(motions[reference.key])
-                task = LimitTask(case.level, method, integrator, known, self.coordinates)
-                parts = {"kind": "limit", "code": code_identity(), "method": method, "integrator": integrator}
-                parts |= self._coordinates
-                key = cell_key(**parts, reference=reference.key, **_parts(case.level))
-                yield Cell(key, f"{case.level.mechanism.name} {method}", task), case
-
-    def _is_limited(self, case: _Case) -> bool:
-        """Whether a case is the first of its model and family for which a largest step is looked for."""
-        if case.level.family not in LIMITED:
-            return False
-        same = [c for c in self.cases if c.model == case.model and c.level.family == case.level.family]
-        return case is same[0 if case.level.family == "duration" else min(1, len(same) - 1)]
-
-    def _row(self, case: _Case, task: RunTask, outcome: Outcome) -> Row:
-        level = case.level
-        constant = task.integrator != AUTO and not INTEGRATORS.get(task.integrator).adaptive
-        return Row(
-            model=case.model,
-            family=level.family,
-            case=level.label,
-            values=level.values,
-            method=task.method,
-            integrator=task.integrator,
-            step=level.step if constant else None,
-            until=level.until,
-            reference_error=task.reference.get("estimated_error"),
-            watched=level.watched,
-            **(CRASHED.to_json() if outcome.get("crashed") else outcome),
-        )
+    def _is_compiled(self, level: Level, pair: tuple[str, str]) -> bool:
+        return (level.mechanism.name, *pair) not in [out[:3] for out in self.left_out]
 
 
-def _crashed_or(reference: Outcome) -> Outcome:
-    return {"unusable": "the process that computed the reference died"} if reference.get("crashed") else reference
-
-
-def _parts(level: Level, with_run: bool = True) -> dict[str, Any]:
-    """Return everything of a case that its outcome depends on, for keys."""
+def _cell(task: ReferenceTask | RunTask) -> Cell:
+    """Return the cell of a task, its key from everything that the outcome depends on."""
+    level, name = task.level, task.level.mechanism.name
     parts: dict[str, Any] = {
+        "kind": type(task).__name__,
+        "code": code_identity(),
         "mechanism": mechanism_identity(level.mechanism),
         "parameters": dict(level.parameters),
         "until": level.until,
@@ -329,32 +268,35 @@ def _parts(level: Level, with_run: bool = True) -> dict[str, Any]:
         "spring_end": level.spring_end,
         "closed": level.closed,
     }
-    if with_run:
-        parts |= {"step": level.step, "options": dict(level.options), "watched": level.watched}
-    return parts
+    steps = min(level.until / level.step, float(BUDGET))
+    if isinstance(task, ReferenceTask):
+        return Cell(cell_key(**parts), name, task, 1e3 + steps)
+    parts |= {"step": level.step, "options": dict(level.options), "watched": level.watched}
+    parts |= {"method": task.method, "integrator": task.integrator, "coordinates": task.coordinates}
+    # roughly how long a run takes, in steps
+    cost = 50.0 + steps * (10.0 if task.integrator == "radau5" else 1.0)
+    return Cell(cell_key(**parts, limits=asdict(task.limits)), f"{name} {task.method}", task, cost)
 
 
-def _cost(level: Level, integrator: str) -> float:
-    """Return roughly how long a run takes, for the estimate of what is left [steps]."""
-    steps = level.until / level.step
-    return 50.0 + min(steps, float(BUDGET)) * (10.0 if integrator == "radau5" else 1.0)
-
-
-def _limit(case: _Case, task: LimitTask, outcome: Outcome) -> Limit:
-    return Limit(
-        *(case.model, case.level.family, case.level.label, task.method, task.integrator),
-        outcome.get("stable_step"),
-        outcome.get("accurate_step"),
-        case.level.until,
+def _row(task: RunTask, outcome: Outcome) -> Row:
+    level = task.level
+    constant = task.integrator != AUTO and not INTEGRATORS.get(task.integrator).adaptive
+    return Row(
+        model=level.model,
+        family=level.family,
+        case=level.label,
+        values=level.values,
+        method=task.method,
+        integrator=task.integrator,
+        step=level.step if constant else None,
+        until=level.until,
+        reference_error=task.reference.get("estimated_error"),
+        watched=level.watched,
+        **outcome,
     )
 
 
-def _unusable(
-    cases: Sequence[_Case], references: Sequence[Cell], motions: dict[str, Outcome]
-) -> Iterator[tuple[str, str, str, str]]:
-    for case, cell in zip(cases, references, strict=True):
-        if cell.key not in motions:
-            continue
-        why = without_reference(_crashed_or(motions[cell.key]))
-        if why is not None:
-            yield case.model, case.level.family, case.level.label, why
+def _limit(task: RunTask, outcome: Outcome) -> Limit:
+    level = task.level
+    steps = outcome["stable_step"], outcome["accurate_step"]
+    return Limit(level.model, level.family, level.label, task.method, task.integrator, *steps, level.until)

@@ -1,0 +1,255 @@
+"""Packages of emitted code: modules that people read and that run with NumPy and Numba alone."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+import numpy as np
+
+from symgen.compiling.choose_coordinates import choose_coordinates
+from symgen.compiling.choose_tree import on_tree
+from symgen.compiling.pipeline import MethodChoice, choose_method, for_coordinates, generate
+from symgen.describe.evaluate import parameter_values
+from symgen.describe.events import DOES
+from symgen.emit.module import render
+from symgen.emit.text import harmless
+from symgen.errors import AssemblyError, InputError
+from symgen.files import Content, check_name, templates_folder, why, write_all
+from symgen.ir.program import COUNTERS, STATUS, SUFFIXES
+from symgen.lower.looped.law import is_loopable
+from symgen.methods import METHODS
+from symgen.running.plan import Plan, Purpose
+from symgen.running.prepare import assemble, begin, make_plan
+from symgen.runtime.motions import refuse_jumps
+from symgen.settings import Settings
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.store.entries import Modules
+
+#: Sections of ``w`` that a start settles; all others are written before they are read.
+_SETTLED = ("status", "winding", "mask", "saved", "pivot", "gauge", "row_weight", "mass", "mass_entry")
+_MARK = "Written by symgen"
+
+
+@dataclass(frozen=True)
+class Package:
+    """Files of a package.
+
+    Attributes
+    ----------
+    folder : Path
+        The folder they are in.
+    files : tuple of Path
+        All that were written.
+    derive_seconds, emit_seconds : float
+        Time that deriving the equations and emitting the code took.
+    """
+
+    folder: Path
+    files: tuple[Path, ...]
+    derive_seconds: float
+    emit_seconds: float
+
+
+def write_package(
+    mechanism: Mechanism,
+    folder: Path,
+    methods: Sequence[str] | None,
+    options: Mapping[str, str],
+    coordinates: str,
+    shape: str,
+    target: str,
+) -> Package:
+    """Write the emitted code of a mechanism for people, with what simulates it.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+    folder : Path
+        The folder to write into, which is made if need be.
+    methods : sequence of str, optional
+        Names of methods; without any, all that suit the mechanism, the shape and the target.
+    options, coordinates, shape, target
+        As for `symgen.api.Model.generate`.
+
+    Raises
+    ------
+    InputError
+        If an argument is wrong, or the folder cannot be written.
+    """
+    # outputs belong to the runtime: on a tree, integrals would keep the rows of drivers whose efforts they read
+    mechanism = msgspec.structs.replace(mechanism, outputs=())
+    names = tuple(dict.fromkeys(METHODS.canonical(name, "--method") for name in methods or METHODS.names))
+    own = _options_of(names, options)
+    chosen = [choose_method(name, given) for name, given in own.items()]
+    if not methods and mechanism.has_massless:
+        chosen = [choice for choice in chosen if not choice.method.needs_regular_mass(choice.options)]
+    coordinates = choose_coordinates(mechanism, coordinates, shape if target == "cpu" else "looped").name
+    plans = [_plan(mechanism, c.method.name, own[c.method.name], coordinates) for c in chosen]
+    if not methods:
+        plans = [p for p in plans if _suits(for_coordinates(mechanism, p.choice), shape, target)]
+    check_name("-o", folder)
+    if folder.exists() and not folder.is_dir():
+        raise InputError("-o", "the name of a folder", f"the file '{folder}'")
+    run, reason = None, "this code is for other programs to call"
+    if shape == "straight" and target == "cpu":
+        plans, run, reason = _started(plans)
+    derived = on_tree(plans[0].mechanism) if coordinates == "joint" else plans[0].mechanism
+    choices = tuple(for_coordinates(derived, plan.choice) for plan in plans)
+    generated = generate(derived, choices, shape, target, whole=True)
+    modules, laws = _by_method(generated.modules, choices, SUFFIXES[target])
+    files: dict[str, Content] = {f"{stem}.py": source for stem, (source, _) in modules.items()}
+    files["model.json"] = _metadata(modules, laws, run)
+    beside = {"README.md": _readme(mechanism, modules, reason)}
+    if run is not None:
+        beside["simulate.py"] = (templates_folder() / "package" / "simulate.py").read_text(encoding="utf-8")
+    files |= {name: text for name, text in beside.items() if _may_write(folder / name)}
+    written = _write(folder, files)
+    if run is None and _may_write(folder / "simulate.py"):  # of another package
+        (folder / "simulate.py").unlink(missing_ok=True)
+    return Package(folder, written, generated.derive_seconds, generated.emit_seconds)
+
+
+def _options_of(names: Sequence[str], options: Mapping[str, str]) -> dict[str, dict[str, str]]:
+    """Return the options of each method; their names are ``METHOD.NAME``, or ``method.NAME`` for a method alone."""
+    own: dict[str, dict[str, str]] = {name: {} for name in names}
+    for key, value in options.items():
+        owner, _, name = key.partition(".")
+        if owner not in own and not (owner == "method" and len(own) == 1):
+            raise InputError(f"--option {key}", f"METHOD.NAME with one of {', '.join(own)}", f"'{key}'")
+        given = own[names[0] if owner == "method" else owner]
+        if name in given:
+            raise InputError(f"--option {key}", "each option once", f"{name} twice")
+        given[name] = value
+    return own
+
+
+def _plan(mechanism: Mechanism, name: str, options: Mapping[str, str], coordinates: str) -> Plan:
+    """Return a run by a method as it would be at its start."""
+    texts = {f"method.{key}": value for key, value in options.items()}
+    settings = Settings(name, options=texts, shape="straight", coordinates=coordinates)
+    return make_plan(mechanism, settings, Purpose.STATE)
+
+
+def _by_method(modules: Modules, choices: Sequence[MethodChoice], suffix: str) -> tuple[Modules, list[str]]:
+    """Return modules with those of laws named by their method alone, and these names."""
+    found, laws = dict(modules), [f"{_stem(choice)}{suffix}" for choice in choices]
+    _, tables = found.pop("mechanism", ("", {}))
+    for choice, law in zip(choices, laws, strict=True):
+        looped = f"law_{choice.method.stem(choice.options)}"
+        source, info = found.pop(looped if tables else f"{choice.stem}{suffix}")
+        of_law = tables.get(f"{looped}_implicit" if choice.implicit else looped, {})
+        found[law] = source, {**info, **({"tables": of_law} if of_law else {})}
+    return found, laws
+
+
+def _stem(choice: MethodChoice) -> str:
+    """Return the name of a method as that of a module."""
+    return choice.method.name.replace("-", "_")
+
+
+def _suits(choice: MethodChoice, shape: str, target: str) -> bool:
+    """Whether a method can be emitted in a shape and for a target."""
+    if shape == "looped":
+        return is_loopable(choice.method, choice.options, choice.implicit)
+    return target != "cuda" or not choice.implicit
+
+
+def _started(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] | None, str]:
+    """Return plans with the solver that their start asks for, numbers of that start, and why there are none.
+
+    Where light bodies make a run take another solver, the package does too.
+    """
+    explicit = sorted((plan for plan in plans if not plan.choice.implicit), key=lambda plan: not plan.solver_is_free)
+    if not explicit:
+        return list(plans), None, "no method here is for explicit integrators"
+    usual = next((plan for plan in explicit if plan.choice.method.name == "direct-correction"), explicit[0])
+    try:
+        assembled = assemble(usual)
+    except AssemblyError as error:
+        return list(plans), None, harmless(error)
+    solver = assembled.compiled.law.options.get("solver", "")
+    if usual.solver_is_free and solver != usual.choice.options["solver"]:
+        plans = [replace(p, choice=p.choice.given(solver=solver)) if p.solver_is_free else p for p in plans]
+    try:
+        refuse_jumps(usual.mechanism, {}, usual.spec.until)
+    except InputError as error:
+        return list(plans), None, harmless(error)
+    simulation = begin(usual, assembled).simulation()
+    simulation.enter(simulation.outputs(np.zeros(0)), until=0.0)
+    state, info, defaults = simulation.state, assembled.compiled.info, usual.mechanism.defaults
+    sections = {name: info.sections[name] for name in _SETTLED if name in info.sections}
+    run = {
+        "method": _stem(usual.choice),
+        "until": defaults.until,
+        "step": defaults.step,
+        "parameters": parameter_values(usual.mechanism),
+        "names": [q.name for q in (*info.coordinates, *info.velocities)] + ["work"],
+        "y": state.y[: info.work + 1].tolist(),
+        "counters": len(COUNTERS),
+        "step_at": info.sections["status"][0] + STATUS.index("step"),
+        "w": {name: list(map(_finite, state.w[at : at + size])) for name, (at, size) in sections.items()},
+    }
+    return list(plans), run, ""
+
+
+def _finite(number: float) -> float | str:
+    """Return a number as JSON has it: the mask of a row that depends on others is ``inf``."""
+    return float(number) if math.isfinite(number) else str(float(number))
+
+
+def _metadata(modules: Modules, laws: Sequence[str], run: Mapping[str, Any] | None) -> str:
+    """Return what programs have to know of modules, and the start of a run, as JSON with short lists in one line."""
+    others = {stem: info for stem, (_, info) in modules.items() if stem not in laws and info}
+    model = next((others.pop(stem) for stem in list(others) if stem.startswith("model")), {"kernels": others})
+    found = {**model, "methods": {stem: modules[stem][1] for stem in laws}, **({"run": run} if run else {})}
+    text = json.dumps(found, allow_nan=False, indent=1)
+    for innermost in (r"\{[^\[\]{}]*\}", r"\[[^\[\]{}]*\]"):
+        text = re.sub(innermost, lambda match: re.sub(r"\s*\n\s*", " ", match[0]), text)
+    return text + "\n"
+
+
+def _readme(mechanism: Mechanism, modules: Modules, reason: str) -> str:
+    """Return the page of a package; `reason` says why nothing simulates it."""
+    files = {f"{stem}.py": source.split('"""')[1].split(" Emitted by")[0] for stem, (source, _) in modules.items()}
+    files["model.json"] = "The same for programs: names, units, places in arrays"
+    if not reason:
+        files["model.json"] += "; parameters and a consistent start"
+        files["simulate.py"] = "A run from that start"
+    events = ", ".join(f"`{e.name}` {DOES[e.action]}" for e in mechanism.events if e.action in DOES)
+    title = harmless(mechanism.title or mechanism.name)
+    values = {"name": harmless(mechanism.name), "title": title, "files": list(files.items()), "reason": reason}
+    return render("package/README.md.j2", values | {"events": events})
+
+
+def _may_write(path: Path) -> bool:
+    """Whether a file may be written: it is not there, or symgen wrote it."""
+    try:
+        return not path.exists() or _MARK in path.read_text(encoding="utf-8")
+    except (OSError, ValueError):
+        return False
+
+
+def _write(folder: Path, files: Mapping[str, Content]) -> tuple[Path, ...]:
+    """Write files, all of them or none, and return them in order."""
+    paths = {folder / name: content for name, content in files.items()}
+    absent = [f for f in (folder, *folder.parents) if not f.exists()]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        write_all(paths)
+    except OSError as error:
+        raise InputError("-o", "a folder that can be written", f"'{folder}' ({why(error)})") from error
+    finally:
+        for each in absent:  # where nothing could be written
+            if each.is_dir() and not any(each.iterdir()):
+                each.rmdir()
+    return tuple(paths)

@@ -1,0 +1,293 @@
+"""The equations of a mechanism as SymPy's expressions, by another route than the pipeline's, for references.
+
+Positions of points are written out in the coordinates, and SymPy differentiates the whole constraints with respect to
+them; nothing of `formulate`, `lower` or the emitted code is used but the translation of a file's formulas. In space
+Euler parameters are coordinates like any others: the velocities are their rates, there is no angular velocity in the
+equations, |e| = 1 is a constraint row beside the joints', the rotation matrix stands in its inhomogeneous form
+1 - 2 (e2^2 + e3^2), and the inertia terms come from the kinetic energy as Lagrange's equations say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import sympy as sp
+
+from symgen.describe.mechanism import Mechanism, SpatialBody
+from symgen.formulate.translate import to_sympy
+from symgen.vocabulary.expressions import ZERO, Expr, Reading, names, readings
+from symgen.vocabulary.measures import (
+    GROUND,
+    Angle,
+    Bearing,
+    BladeSpeed,
+    Component,
+    Direction,
+    Distance,
+    Dot,
+    Driven,
+    Effort,
+    Exerted,
+    Holonomic,
+    Integral,
+    LinkStretch,
+    Marker,
+    Measure,
+    Nonholonomic,
+    PointSpeed,
+    RimHeight,
+    Speed,
+    Spin,
+    Sum,
+    Turn,
+)
+
+#: Phi, the entries of D by column, nu and gamma of a row.
+Row = tuple[Any, dict[int, Any], Any, Any]
+#: Entries of an inertia tensor, in the order of the file: xx, yy, zz, xy, xz, yz.
+TENSOR = ((0, 3, 4), (3, 1, 5), (4, 5, 2))
+
+
+class Formulas:
+    """Rows and forces of a mechanism.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+    parameters : mapping
+        What stands for each parameter: a number or a symbol.
+
+    Attributes
+    ----------
+    t, q, v
+        Symbols of the time, the coordinates and their rates.
+    first : dict
+        Where the coordinates of each body begin.
+    angles, turns : list
+        Angles that count whole turns, and the symbols of these.
+    """
+
+    def __init__(self, mechanism: Mechanism, parameters: Mapping[str, Any]) -> None:
+        self.mechanism = mechanism
+        self.t = sp.Symbol("t", real=True)
+        self.q, self.v = list[Any](), list[Any]()
+        self.first: dict[str, int] = {}
+        self.angles, self.turns = list[Any](), list[Any]()
+        self._symbols: dict[str, Any] = {"t": self.t, **parameters}
+        for body in mechanism.bodies:
+            i = self.first[body.name] = len(self.q)
+            for name in body.coordinates:
+                self.q.append(sp.Symbol(f"q{len(self.q)}", real=True))
+                self.v.append(sp.Symbol(f"v{len(self.v)}", real=True))
+                self._symbols[f"{body.name}.{name}"] = self.q[-1]
+            rates = self.v[i:]
+            if _turns_in_space(body):
+                rates = [*rates[:3], *angular_velocity(self.q[i + 3 :], rates[3:])]
+            self._symbols |= {f"{body.name}.{name}": rate for name, rate in zip(body.speeds, rates, strict=True)}
+
+    def rows(self) -> list[Row]:
+        """Return the rows of joints, and one for the length of each body's Euler parameters."""
+        rows = [self._row(row) for joint in self.mechanism.joints for row in joint.rows]
+        for body in self.mechanism.bodies:
+            if _turns_in_space(body):
+                i = self.first[body.name] + 3
+                e, rates = self.q[i : i + 4], self.v[i : i + 4]
+                phi = (sum((x**2 for x in e), sp.S.Zero) - 1) / 2
+                gamma = -sum((x**2 for x in rates), sp.S.Zero)
+                rows.append((phi, {i + k: e[k] for k in range(4)}, sp.S.Zero, gamma))
+        return rows
+
+    def forces(self) -> list[Any]:
+        """Return the generalised forces by coordinate, the terms of inertia that hold no acceleration among them."""
+        total = [sp.S.Zero] * len(self.q)
+        for body in self.mechanism.bodies:
+            i = self.first[body.name]
+            for k, gravity in enumerate(self.mechanism.gravity):
+                total[i + k] += self._expression(body.mass) * self._expression(gravity)
+            if isinstance(body, SpatialBody) and body.inertia is not None:
+                entries = [self._expression(e) for e in body.inertia]
+                tensor = sp.Matrix([[entries[k] for k in line] for line in TENSOR])
+                for k, term in enumerate(_gyroscopic(tensor, self.q[i + 3 : i + 7], self.v[i + 3 : i + 7])):
+                    total[i + 3 + k] += term
+        for force in self.mechanism.forces:
+            for effort in force.efforts:
+                for i, e in self._effort(effort).items():
+                    total[i] += e
+        return total
+
+    def _expression(self, e: Expr, **placeholders: Any) -> Any:
+        seen = {r.name: self._reading(r) for r in readings(e)}
+        return to_sympy(e, {**self._symbols, **seen, **placeholders})
+
+    def _reading(self, r: Reading) -> Any:
+        """Return a measure's value, or its rate."""
+        assert not isinstance(r.source, Speed | Exerted | Driven | Integral), "functions of state read measures"
+        value = self._measure(r.source)
+        return self._along(value) if r.order else value
+
+    def _effort(self, effort: Effort) -> dict[int, Any]:
+        measure = effort.measure
+        reads = effort.potential != ZERO and "s" in set(names(effort.potential))
+        if isinstance(measure, Spin | PointSpeed):
+            assert not reads, "velocities have no value"
+            rate = self._spin(measure) if isinstance(measure, Spin) else self._speed(measure)
+            total = self._expression(effort.magnitude, s=sp.S.Zero, rate=rate)
+            return {i: e * total for i, e in self._by_rates(rate).items()}
+        value = self._measure(measure)
+        total = self._expression(effort.magnitude, s=value, rate=self._along(value))
+        if reads:
+            s = sp.Symbol("s", real=True)
+            total -= sp.diff(self._expression(effort.potential, s=s), s).subs(s, value)
+        return {i: e * total for i, e in self._gradient(value).items()}
+
+    # -- rows ----------------------------------------------------------------------------------------------------------
+
+    def _gradient(self, s: Any) -> dict[int, Any]:
+        free = s.free_symbols
+        entries = {i: sp.diff(s, symbol) for i, symbol in enumerate(self.q) if symbol in free}
+        return {i: e for i, e in entries.items() if e != 0}
+
+    def _by_rates(self, speed: Any) -> dict[int, Any]:
+        """Return the coefficients of the rates in something linear in them."""
+        free = speed.free_symbols
+        entries = {i: sp.diff(speed, v) for i, v in enumerate(self.v) if v in free}
+        return {i: e for i, e in entries.items() if e != 0}
+
+    def _along(self, e: Any) -> Any:
+        """Return the derivative of a function of q along the motion."""
+        return sum((d * self.v[i] for i, d in self._gradient(e).items()), sp.S.Zero)
+
+    def _row(self, row: Holonomic | Nonholonomic) -> Row:
+        value = self._expression(row.value)
+        slope = sp.diff(value, self.t)
+        if isinstance(row, Holonomic):
+            s = self._measure(row.measure)
+            gradient = self._gradient(s)
+            bias = sum((self._along(e) * self.v[i] for i, e in gradient.items()), sp.S.Zero)
+            return s - value, gradient, slope, sp.diff(slope, self.t) - bias
+        speed = self._speed(row.speed)
+        return sp.S.Zero, self._by_rates(speed), value, slope - self._along(speed)
+
+    # -- positions -----------------------------------------------------------------------------------------------------
+
+    def _turned(self, body: str, vector: sp.Matrix) -> sp.Matrix:
+        """Return a vector of the body frame in the ground frame."""
+        if body == GROUND or self.mechanism.body(body).is_point:
+            return vector
+        i = self.first[body]
+        if len(vector) == 2:
+            c, s = sp.cos(self.q[i + 2]), sp.sin(self.q[i + 2])
+            return sp.Matrix([[c, -s], [s, c]]) * vector
+        a, b, c, d = self.q[i + 3 : i + 7]
+        matrix = sp.Matrix(
+            [
+                [1 - 2 * (c**2 + d**2), 2 * (b * c - a * d), 2 * (b * d + a * c)],
+                [2 * (b * c + a * d), 1 - 2 * (b**2 + d**2), 2 * (c * d - a * b)],
+                [2 * (b * d - a * c), 2 * (c * d + a * b), 1 - 2 * (b**2 + c**2)],
+            ]
+        )
+        return matrix * vector
+
+    def _vector(self, components: tuple[Expr, ...]) -> sp.Matrix:
+        return sp.Matrix([self._expression(e) for e in components])
+
+    def _place(self, marker: Marker) -> sp.Matrix:
+        point = self._vector(marker.point)
+        if marker.body == GROUND:
+            return point
+        centre, i = self._vector(self.mechanism.body(marker.body).centre_of_mass), self.first[marker.body]
+        return sp.Matrix(self.q[i : i + len(point)]) + self._turned(marker.body, point - centre)
+
+    def _pointing(self, direction: Direction) -> sp.Matrix:
+        return self._turned(direction.body, self._vector(direction.vector))
+
+    def _measure(self, m: Measure) -> Any:
+        if isinstance(m, Angle):
+            a, b = (sp.S.Zero if body == GROUND else self.q[self.first[body] + 2] for body in (m.a, m.b))
+            return b - a
+        if isinstance(m, Component | Distance | LinkStretch):
+            away = self._place(m.b) - self._place(m.a)
+            if isinstance(m, Component):
+                return self._pointing(m.along).dot(away)
+            if isinstance(m, Distance):
+                return sp.sqrt(away.dot(away))
+            length = self._expression(m.length)
+            return (away.dot(away) - length**2) / (2 * length)
+        if isinstance(m, Dot):
+            return self._pointing(m.u).dot(self._pointing(m.v))
+        if isinstance(m, Turn):
+            return self._angle(self._pointing(m.pointer), m.zero, m.quarter)
+        if isinstance(m, Bearing):
+            return self._angle(self._place(m.b) - self._place(m.a), m.zero, m.quarter)
+        if isinstance(m, RimHeight):
+            normal, axis = self._pointing(m.normal), self._pointing(m.axis)
+            height = normal.dot(self._place(m.centre) - self._place(m.plane))
+            return height - self._expression(m.radius) * sp.sqrt(1 - normal.dot(axis) ** 2)
+        assert isinstance(m, Sum), f"no such measure: {type(m).__name__}"
+        return sum((self._expression(k) * self._measure(part) for k, part in m.terms), sp.S.Zero)
+
+    def _angle(self, pointer: sp.Matrix, zero: Direction, quarter: Direction) -> Any:
+        """Return an angle about the axis zero x quarter, plus the whole turns that are counted beside it."""
+        angle = sp.atan2(pointer.dot(self._pointing(quarter)), pointer.dot(self._pointing(zero)))
+        if angle not in self.angles:
+            self.angles.append(angle)
+            self.turns.append(sp.Symbol(f"n{len(self.angles)}", real=True))
+        return angle + 2 * sp.pi.evalf(17) * self.turns[self.angles.index(angle)]
+
+    # -- speeds --------------------------------------------------------------------------------------------------------
+
+    def _omega(self, body: str) -> sp.Matrix:
+        """Return the angular velocity in ground axes."""
+        if body == GROUND or self.mechanism.body(body).is_point:
+            return sp.zeros(3, 1)
+        i = self.first[body] + 3
+        return self._turned(body, sp.Matrix(angular_velocity(self.q[i : i + 4], self.v[i : i + 4])))
+
+    def _spin(self, m: Spin) -> Any:
+        return self._pointing(m.along).dot(self._omega(m.b) - self._omega(m.a))
+
+    def _velocity(self, marker: Marker) -> sp.Matrix:
+        return sp.Matrix([self._along(x) for x in self._place(marker)])
+
+    def _speed(self, speed: Speed) -> Any:
+        if isinstance(speed, PointSpeed):
+            return self._pointing(speed.along).dot(self._velocity(speed.at))
+        if isinstance(speed, BladeSpeed):
+            across = self._pointing(speed.normal).cross(self._pointing(speed.blade))
+            return self._velocity(speed.at).dot(across) / sp.sqrt(across.dot(across))
+        along, down = self._pointing(speed.along), -self._pointing(speed.normal)
+        if speed.axis is not None:  # a thin disc touches with its lowest point
+            axis = self._pointing(speed.axis)
+            down = down - axis.dot(down) * axis
+            down = down / sp.sqrt(down.dot(down))
+        arm = self._expression(speed.radius) * down
+        return along.dot(self._velocity(speed.centre) + self._omega(speed.centre.body).cross(arm))
+
+
+def _turns_in_space(body: Any) -> bool:
+    return isinstance(body, SpatialBody) and not body.is_point
+
+
+def angular_velocity(e: list[Any], rates: list[Any]) -> list[Any]:
+    """Return omega = 2 L(e) e' in body axes."""
+    a, b, c, d = e
+    p, q, r, s = rates
+    return [
+        2 * (-b * p + a * q + d * r - c * s),
+        2 * (-c * p - d * q + a * r + b * s),
+        2 * (-d * p + c * q - b * r + a * s),
+    ]
+
+
+def _gyroscopic(tensor: sp.Matrix, e: list[Any], rates: list[Any]) -> list[Any]:
+    """Return dT/de - (d/dt dT/de' without e'') of the energy of turning T."""
+    omega = sp.Matrix(angular_velocity(e, rates))
+    kinetic = (omega.T * tensor * omega)[0] / 2
+    terms = []
+    for k in range(4):
+        momentum = sp.diff(kinetic, rates[k])
+        along = sum((sp.diff(momentum, e[j]) * rates[j] for j in range(4)), sp.S.Zero)
+        terms.append(sp.diff(kinetic, e[k]) - along)
+    return terms

@@ -1,0 +1,128 @@
+"""Emitted modules whose text is held: which mechanisms, methods, shapes and targets, and what is shown of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cache, partial
+from pathlib import Path
+
+from symgen.compiling.choose_tree import on_tree
+from symgen.compiling.looped import generate_looped
+from symgen.compiling.pipeline import MethodChoice, choose_method, generate
+from symgen.describe import load
+from symgen.describe.mechanism import Mechanism
+from symgen.lower.looped.law import is_loopable
+from symgen.methods import METHODS
+
+MODELS = (
+    *("pendulum", "four-bar", "slider-crank", "n-four-bar:2", "andrews", "driven-four-bar", "bricard"),
+    *("four-bar joint", "bricard joint"),  # with the joints of a tree for coordinates
+)
+THOROUGH = ("pendulum", "four-bar")
+#: Also emitted for CUDA and in lanes, by the methods of `CORE`.
+OTHER_TARGETS = ("four-bar",)
+CORE = ("lagrange", "baumgarte", "direct-correction")
+#: Also emitted in the looped shape, the first with every method.
+LOOPED = ("four-bar", "bricard")
+#: Stands in headers of looped modules in place of the digest of all sources, which changes with every edit.
+GENERATOR = "of-golden-trees"
+EXPLICIT = {"ode", "one-step"}
+
+
+def folder(model: str) -> str:
+    """Return the name of a mechanism's folder."""
+    return model.replace("-", "_").replace(":", "_").replace(" ", "_")
+
+
+def described(model: str) -> Mechanism:
+    """Return a mechanism, on its tree where its name says so."""
+    name, _, coordinates = model.partition(" ")
+    return on_tree(load(name)) if coordinates == "joint" else load(name)
+
+
+def choices(model: str) -> tuple[MethodChoice, ...]:
+    """Return what is emitted for a model.
+
+    For small ones every method in all its forms, with all values of its options; for the others the three methods that
+    share most of their code with the rest.
+    """
+    found: dict[str, MethodChoice] = {}
+    for name, method in METHODS.items():
+        if model not in THOROUGH and name not in CORE:
+            continue
+        explicit = bool(EXPLICIT & set(method.forms))
+        variants = [{option.name: value} for option in method.options for value in option.values]
+        for options in [{}, *variants] if explicit else [{}]:
+            if model in THOROUGH or options.get("solver") in (None, "elimination"):
+                choice = choose_method(name, options, implicit=not explicit)
+                found[choice.stem] = choice
+        if model in THOROUGH and set(method.forms) - EXPLICIT:
+            choice = choose_method(name, None, implicit=True)
+            found[choice.stem] = choice
+    return tuple(found[stem] for stem in sorted(found))
+
+
+def looped_choices(model: str) -> list[MethodChoice]:
+    """Return what is emitted in the looped shape: every method, option and descriptor form for the first model."""
+    chosen = CORE if model != LOOPED[0] else tuple(METHODS.names)
+    found = []
+    for name in chosen:
+        method = METHODS.get(name)
+        variants = [{}, *({o.name: value} for o in method.options for value in o.values[1:])]
+        forms = [(given, False) for given in variants] if EXPLICIT & set(method.forms) else []
+        if set(method.forms) - EXPLICIT and (model == LOOPED[0] or name == CORE[0]):
+            forms.append(({}, True))
+        for given, implicit in forms:
+            choice = choose_method(name, given, implicit)
+            if is_loopable(method, choice.options, implicit):
+                found.append(choice)
+    return found
+
+
+@cache
+def emitted(model: str, whole: bool = True) -> dict[str, str]:
+    """Return stem -> source of straight code for all targets."""
+    made = dict(generate(described(model), choices(model), whole=whole).modules)
+    if model in OTHER_TARGETS:
+        core = tuple(choose_method(name) for name in CORE)
+        for target in ("cuda", "lanes"):
+            made |= generate(load(model), core, target=target, whole=whole).modules
+    return {stem: source for stem, (source, _) in made.items()}
+
+
+@cache
+def emitted_looped(model: str, whole: bool = True) -> dict[str, str]:
+    """Return stem -> source of looped modules."""
+    made = generate_looped(load(model), looped_choices(model), GENERATOR, whole)
+    return {stem: source for stem, (source, _) in made.items() if source}
+
+
+def written(modules: Mapping[str, str], where: Path) -> Path:
+    """Write modules into a folder of their own and return it."""
+    for stem, source in modules.items():
+        (where / f"{stem}.py").write_text(source, encoding="utf-8")
+    return where
+
+
+def everything() -> dict[str, Callable[[], dict[str, str]]]:
+    """Return by the name of each folder what gives its modules, as people read them."""
+    straight = {folder(model): partial(emitted, model) for model in MODELS}
+    return straight | {f"looped_{folder(model)}": partial(emitted_looped, model) for model in LOOPED}
+
+
+#: Modules that are checked in as they are: each shape, each target, both kinds of coordinates, an implicit method.
+SHOWN = {
+    "four_bar": (
+        *("model", "lagrange", "direct_correction", "null_space", "ggl_implicit"),
+        *("model_cuda", "direct_correction_cuda", "model_lanes", "direct_correction_lanes"),
+    ),
+    "bricard": ("model", "lagrange"),
+    "bricard_joint": ("model", "direct_correction_mass"),
+}
+
+
+def shown() -> dict[str, dict[str, str]]:
+    """Return the modules that are checked in, by folder."""
+    found = {name: {stem: everything()[name]()[stem] for stem in stems} for name, stems in SHOWN.items()}
+    looped = generate_looped(load("four-bar"), [choose_method("direct-correction")], GENERATOR, True)
+    return found | {"four_bar_looped": {stem: source for stem, (source, _) in looped.items() if source}}
