@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.describe.columns import PREFIX
-from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, quoted
 from symgen.result.labelled import Array
 from symgen.result.saved import read_saved
@@ -103,9 +102,3 @@ def read_recorded(option: str, path: Path) -> Recorded:
     return read_saved(
         option, path, lambda s: Recorded(where, s.t, s.columns, s.run.get("parameters", {}), s.run.get("inputs", {}))
     )
-
-
-def accelerations(velocities: Sequence[str]) -> list[str]:
-    """Return the names of accelerations by those of velocities."""
-    parts = (name.rpartition(".") for name in velocities)
-    return [f"{body}.{ACCELERATIONS[speed]}" for body, _, speed in parts]

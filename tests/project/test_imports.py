@@ -130,6 +130,7 @@ DRAWING = {"matplotlib", "pandas", "pyarrow", "rich", "xarray"}
 def test_importing_symgen_costs_nothing(tmp_path: Path) -> None:
     heavy = {"click", "msgspec", "numba", "numpy", "sympy", "jinja2", *DRAWING}
     assert not loaded("import symgen", tmp_path) & heavy
+    assert not loaded("import symgen.store.modules", tmp_path) & {"llvmlite", "numba", "numpy", "sympy", "jinja2"}
 
 
 def test_running_a_generated_model_needs_neither_sympy_nor_jinja2_nor_numba(tmp_path: Path) -> None:
