@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.result.labelled import Array, Labelled
+from symgen.result.points import rotation_matrices
 from symgen.vocabulary.measures import GROUND
-from symgen.vocabulary.rotations import matrix
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import ModelInfo
@@ -181,17 +181,12 @@ class Acting:
     def _axes(self, body: str) -> Array:
         """Return the rotation matrices of a body at the outputs, shape (k, 3, 3)."""
         known = {quantity.name for quantity in self.info.coordinates}
-        axes = np.zeros((len(self.states), 3, 3)) + np.eye(3)
+        found = np.zeros((len(self.states), 3, 3)) + np.eye(3)
         if f"{body}.theta" in known:
-            (theta,) = self._coordinates(body, ("theta",))
-            axes[:, 0, 0] = axes[:, 1, 1] = np.cos(theta)
-            axes[:, 1, 0] = np.sin(theta)
-            axes[:, 0, 1] = -axes[:, 1, 0]
+            found[:, :2, :2] = rotation_matrices(np.column_stack(self._coordinates(body, ("theta",))))
         elif f"{body}.e0" in known:
-            e = np.column_stack(self._coordinates(body, ("e0", "e1", "e2", "e3")))
-            e0, e1, e2, e3 = (e / np.linalg.norm(e, axis=1, keepdims=True)).T
-            axes = np.stack([np.stack(row, 1) for row in matrix((e0, e1, e2, e3))], 1)
-        return axes
+            found = rotation_matrices(np.column_stack(self._coordinates(body, ("e0", "e1", "e2", "e3"))))
+        return found
 
     @staticmethod
     def _in_space(vectors: Array) -> Array:

@@ -39,7 +39,7 @@ PLOTTED: Mapping[str, tuple[str, ...]] = {".png": ("matplotlib",), ".svg": ("mat
 LAST_HEADER, LAST_PREFIX = "last_state", "last_"
 
 #: Table -> name of its second dimension in a dataset.
-_DIMENSION = {
+DIMENSIONS = {
     "q": "coordinate",
     "v": "velocity",
     "a": "acceleration",
@@ -156,7 +156,7 @@ def to_xarray(result: RunData) -> xr.Dataset:
     variables: dict[str, Any] = {}
     coordinates: dict[str, Any] = {"time": ("time", result.t, {"units": "s"})}
     for name, table in result.tables().items():
-        dimension = _DIMENSION[name]
+        dimension = DIMENSIONS[name]
         variables[name] = (("time", dimension), table.values)
         coordinates[dimension] = (dimension, _texts(table.names), {})
         coordinates[f"{dimension}_unit"] = (dimension, _texts(table.units), {})

@@ -13,9 +13,8 @@ import numpy as np
 from symgen.arguments import shown
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, nearest
-from symgen.result.derived import Derived
 from symgen.result.labelled import Array, Labelled
-from symgen.result.tables import Tables
+from symgen.result.tables import MotionTables
 
 if TYPE_CHECKING:
     from symgen.result.measured import Measured
@@ -45,7 +44,7 @@ def accelerations_of(velocities: Iterable[str]) -> tuple[str, ...]:
 
 
 @dataclass(frozen=True, repr=False)
-class RunData(Derived, Tables):
+class RunData(MotionTables):
     """What a run gave, see `symgen.Result`, which adds the ways out of Python."""
 
     of_process: ClassVar[tuple[str, ...]] = ("outcome", "forces", "measured", "ended")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -14,12 +14,12 @@ import numpy as np
 from symgen.describe.columns import PREFIX
 from symgen.errors import InputError
 from symgen.files import check_name, unheaded
-from symgen.result.export import LAST_HEADER, LAST_PREFIX, SAVED, need
+from symgen.result.export import DIMENSIONS, LAST_HEADER, LAST_PREFIX, SAVED, need
 from symgen.result.labelled import Array
 
 _Value = TypeVar("_Value")
-#: Tables of a NetCDF file that are read, with the names of their columns.
-_TABLES = {"q": "coordinate", "v": "velocity", "a": "acceleration", "joint_coordinates": "joint_coordinate"}
+#: Tables of a NetCDF file that are read.
+_TABLES = ("q", "v", "a", "joint_coordinates")
 
 
 @dataclass(frozen=True)
@@ -67,12 +67,18 @@ def read_saved(option: str, path: Path, use: Callable[[Saved], _Value]) -> _Valu
     ending = path.suffix.lower()
     if ending not in SAVED:
         raise InputError(option, f"a file ending in {', '.join(SAVED)}", f"'{path}'")
-    need(option, *SAVED[ending])
+    read = {".nc": _of_dataset, ".csv": _of_csv, ".parquet": _of_parquet}[ending]
+    return checked(option, path, lambda path: use(read(path)), SAVED[ending])
+
+
+def checked(option: str, path: Path, read: Callable[[Path], _Value], libraries: Sequence[str]) -> _Value:
+    """Return what `read` makes of a file, with sentences about files that are missing or hold something else."""
+    need(option, *libraries)
     check_name(option, path)
     if not path.is_file():
         raise InputError(option, "a file of a result", f"'{path}', which is none")
     try:
-        return use({".nc": _of_dataset, ".csv": _of_csv, ".parquet": _of_parquet}[ending](path))
+        return read(path)
     except InputError:
         raise
     except (OSError, ValueError, KeyError, IndexError, TypeError, StopIteration, csv.Error) as error:
@@ -84,9 +90,9 @@ def _of_dataset(path: Path) -> Saved:
     import xarray as xr
 
     dataset, columns = xr.load_dataset(path, engine="h5netcdf"), dict[str, Array]()
-    for table, labels in _TABLES.items():
+    for table in _TABLES:
         values = np.asarray(dataset[table].values, dtype=np.float64)
-        columns |= {f"{PREFIX[table]}{name}": values[:, i] for i, name in enumerate(dataset[labels].values)}
+        columns |= {f"{PREFIX[table]}{name}": values[:, i] for i, name in enumerate(dataset[DIMENSIONS[table]].values)}
     last = None
     if LAST_HEADER in dataset.attrs:
         kept = {str(name): v.values for name, v in dataset.data_vars.items() if v.dims == (f"{name}_index",)}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -38,7 +39,6 @@ class Tables(ABC):
     t: Array
     mechanism: str
     forces: Forces
-    measured: Measured
 
     #: Attributes that belong to the process: compiled code is no data. And what a copy keeps beside its tables.
     of_process: ClassVar[tuple[str, ...]] = ("motion", "forces", "measured")
@@ -58,6 +58,33 @@ class Tables(ABC):
     def title(self) -> str:
         """What stands above a plot."""
         return self.mechanism
+
+    # -- multipliers and reactions -------------------------------------------------------------------------------------
+
+    @cached_property
+    def lam(self) -> Labelled:
+        """Multipliers; where constraints are redundant, those of minimum norm."""
+        return self.forces.multipliers()
+
+    @cached_property
+    def reactions(self) -> Labelled:
+        """Reaction of each joint on its first body: ``JOINT.Fx``, ``JOINT.Fy`` [N], ``JOINT.M`` [N m].
+
+        In space ``JOINT.Fx`` ... ``.Fz`` and ``JOINT.Mx`` ... ``.Mz``, all in ground axes. ``-D^T lambda`` of the
+        joint's rows; moments are about the joint's own point on that body, and where a kind of joint has none about
+        the body's centre of mass, on the ground about the origin.
+        """
+        return self.forces.reactions(self.lam)
+
+    @cached_property
+    def magnitudes(self) -> Labelled:
+        """Magnitudes of the reactions: ``JOINT.F`` [N] and, in space, ``JOINT.T`` [N m] of their moments."""
+        return self.forces.magnitudes(self.reactions)
+
+    @cached_property
+    def non_unique_reactions(self) -> tuple[str, ...]:
+        """Joints whose reactions the motion does not determine, because constraints are redundant."""
+        return self.forces.non_unique
 
     # -- copies and other processes ------------------------------------------------------------------------------------
 
@@ -83,8 +110,6 @@ class Tables(ABC):
     def columns(self, table: str) -> tuple[str, ...]:
         """Return the names of the columns of a table; values of a costly one are not computed for that."""
         one_of("table", table, self.names)
-        if table not in self.__dict__ and table in SIDE:
-            return tuple(column.name for column in self.measured.columns(table))
         if table not in self.__dict__ and table in _OF_FORCES:
             return self.forces.columns(table)
         found: Labelled = getattr(self, table)
@@ -198,6 +223,42 @@ class Tables(ABC):
             return {name: found.values[:, i].tolist() for i, name in enumerate(found.names)}
         columns = ((name, found.values[:, i].tolist()) for i, name in enumerate(found.names))
         return {name: [x if np.isfinite(x) else None for x in column] for name, column in columns}
+
+
+class MotionTables(Tables):
+    """Tables of a motion: with what joints report, and the quantities that a file names."""
+
+    measured: Measured
+
+    def columns(self, table: str) -> tuple[str, ...]:
+        """Return the names of the columns of a table; values of a costly one are not computed for that."""
+        if table in SIDE and table not in self.__dict__:
+            return tuple(column.name for column in self.measured.columns(table))
+        return super().columns(table)
+
+    @cached_property
+    def joint_coordinates(self) -> Labelled:
+        """What joints report, each followed by its rate: ``JOINT.angle``, ``JOINT.angle.rate``."""
+        motion = self.measured.outcome
+        quantities = motion.compiled.info.joint_coordinates
+        names = tuple(name for q in quantities for name in (q.name, f"{q.name}.rate"))
+        units = tuple(unit for q in quantities for unit in (q.unit, f"{q.unit}/s"))
+        return Labelled(motion.joint_coordinates, names, units)
+
+    @cached_property
+    def points(self) -> Labelled:
+        """Named points of bodies in the ground frame: ``arm.tip.x``, ``.vx``, ``.ax``, ..."""
+        return self.measured.table("points")
+
+    @cached_property
+    def elements(self) -> Labelled:
+        """Force elements and drivers: ``spring.length``, ``.rate``, ``.force``, ``.power``; ``motor.effort``, ..."""
+        return self.measured.table("elements")
+
+    @cached_property
+    def outputs(self) -> Labelled:
+        """The formulas of the file's ``[outputs]``; integrals are left out where nothing is integrated."""
+        return self.measured.table("outputs")
 
 
 def choose(

@@ -14,12 +14,12 @@ from symgen.describe.evaluate import parameter_values, said
 from symgen.describe.events import DOES
 from symgen.describe.input_data import are_words_of_data
 from symgen.errors import AssemblyError, InputError
-from symgen.files import check_name
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.page import Page, page
 from symgen.player.recording import LONGEST_KEY, Group, Moment, Recording, position_groups
-from symgen.result.export import need
+from symgen.result.export import DIMENSIONS, SAVED
 from symgen.result.labelled import Array, Labelled
+from symgen.result.saved import checked
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -283,29 +283,15 @@ def mechanism_name(option: str, path: Path) -> str:
 
 
 def _dataset(option: str, path: Path) -> xr.Dataset:
-    need(option, "xarray", "h5netcdf", "h5py")
-    import xarray as xr
+    def read(path: Path) -> xr.Dataset:
+        import xarray as xr
 
-    check_name(option, path)
-    if not path.is_file():
-        raise InputError(option, "a file of a result", f"'{path}', which is none")
-    try:
         found = xr.load_dataset(path, engine="h5netcdf")
         if not {"q", "energy", "violations", "reactions"} <= set(found.data_vars) or "mechanism" not in found.attrs:
             raise ValueError("it has not the tables of a result")
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        why = " ".join(str(error).split())[:80]
-        raise InputError(option, "a file of a result", f"'{path}', which cannot be read as one ({why})") from None
-    return found
+        return found
 
-
-_COLUMNS = {
-    "energy": "kind_of_energy",
-    "violations": "level",
-    "reactions": "reaction",
-    "elements": "element_quantity",
-    "outputs": "output",
-}
+    return checked(option, path, read, SAVED[".nc"])
 
 
 def recorded_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
@@ -323,7 +309,8 @@ def recorded_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
             option, f"a result of {mechanism.name}", f"'{path}', which is one of {data.attrs['mechanism']}"
         )
     tables = {}
-    for name, of in _COLUMNS.items():
+    for name in ("energy", "violations", "reactions", "elements", "outputs"):
+        of = DIMENSIONS[name]
         known = [str(n) for n in data[of].values] if of in data.coords else []
         units = tuple(str(u) for u in data[f"{of}_unit"].values) if known else ()
         values = np.asarray(data[name].values, dtype=np.float64) if known else np.zeros((data.sizes["time"], 0))
