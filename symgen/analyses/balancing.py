@@ -20,7 +20,8 @@ from symgen.describe.columns import PREFIX
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, nearest, quoted
 from symgen.lower.windings import winding_order
-from symgen.result.recorded import Recorded, accelerations
+from symgen.result.recorded import Recorded
+from symgen.result.run_data import accelerations_of
 from symgen.running.plan import Purpose
 from symgen.running.prepare import make_plan
 from symgen.running.starts import closed_by, compiled_for
@@ -143,7 +144,7 @@ def _motions(made: Actuated, settings: Settings, found: Recorded) -> list[Prescr
     info = code.info
     velocities = [v.name for v in info.velocities]
     q, v = found.table([c.name for c in info.coordinates]), found.table(velocities)
-    a = found.table(accelerations(velocities))
+    a = found.table(accelerations_of(velocities))
     instant = (float(found.t[0]), ())
 
     def close(compiled: CompiledModel, ask_light: bool) -> Start:

@@ -18,7 +18,6 @@ from symgen.analyses.prescribed import drivers_of
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.input_data import are_words_of_data
 from symgen.errors import InputError
-from symgen.result.derived import OfForces
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.reactions import Forces, seats
 from symgen.result.recorded import Recorded, read_recorded, recorded
@@ -39,7 +38,7 @@ COARSE = 0.03
 
 
 @dataclass(frozen=True, repr=False)
-class Inverse(OfForces, Tables):
+class Inverse(Tables):
     """The efforts of a motion; arrays have one row a time.
 
     Attributes

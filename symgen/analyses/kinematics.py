@@ -19,12 +19,11 @@ from symgen.analyses.tracing import trace
 from symgen.analyses.transmission import transmission_angles
 from symgen.errors import InputError, nearest
 from symgen.memory import require
-from symgen.result.derived import Derived
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.measured import Measured
 from symgen.result.reactions import Forces, multiplier_unit, seats
 from symgen.result.run_data import accelerations_of
-from symgen.result.tables import Tables
+from symgen.result.tables import MotionTables
 from symgen.running.outputs import multiples, output_size
 from symgen.runtime import abi
 from symgen.runtime.outcome import PrescribedMotion
@@ -44,7 +43,7 @@ MOST_TIMES = 100_000_000
 
 
 @dataclass(frozen=True, repr=False)
-class Kinematics(Derived, Tables):
+class Kinematics(MotionTables):
     """A prescribed motion; arrays have one row a time.
 
     Attributes

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from rich.console import Console
 from rich.table import Table
@@ -11,6 +12,13 @@ from rich.text import Text
 
 #: Between two columns.
 GAP = 2
+COLOURS = {"ok": "green", "unverified": "yellow", "failed": "red"}
+
+
+def console() -> Console:
+    """Return a console on standard output; where that is no terminal, wide enough that no figure is cut."""
+    wide = Console(highlight=False, markup=False)
+    return wide if wide.is_terminal else Console(highlight=False, markup=False, width=200)
 
 
 @dataclass(frozen=True)
@@ -27,15 +35,15 @@ class Column:
         Whether it is flush left, as words are.
     weight : int
         How important it is: the columns of least weight are left out first; 0 is never left out.
-    style : str
-        Of its cells; "status" colours them by what they say.
+    coloured : bool
+        Whether its cells are statuses, which have colours.
     """
 
     heading: str
     cells: tuple[str, ...]
     left: bool = False
     weight: int = 0
-    style: str = ""
+    coloured: bool = False
 
     @property
     def width(self) -> int:
@@ -67,21 +75,42 @@ def in_parts(columns: Sequence[Column], width: int, first: int = 1) -> Iterator[
     yield [*head, *part]
 
 
-def show(out: Console, columns: Sequence[Column], title: str = "", colours: dict[str, str] | None = None) -> None:
+def columns_of(
+    headings: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    left: Sequence[str] = (),
+    weights: Mapping[str, int] | None = None,
+) -> list[Column]:
+    """Return the columns of rows of cells, with the headings of those that are flush left and the weights of some."""
+    cells = list(zip(*rows, strict=True)) or [()] * len(headings)
+    of = weights or {}
+    return [Column(h, c, h in left, of.get(h, 0), h == "status") for h, c in zip(headings, cells, strict=True)]
+
+
+def show(out: Console, columns: Sequence[Column], title: str = "") -> None:
     """Print a table, none of its cells cut: what is wider than the terminal goes on in the next line."""
     table = Table(title=title or None, title_justify="left", box=None, header_style="dim", pad_edge=False)
     for column in columns:
-        table.add_column(
-            column.heading,
-            justify="left" if column.left else "right",
-            no_wrap=True,
-            min_width=column.width,
-            overflow="fold",
-        )
+        side: Any = "left" if column.left else "right"
+        table.add_column(column.heading, justify=side, no_wrap=True, min_width=column.width, overflow="fold")
     for row in zip(*(column.cells for column in columns), strict=True):
-        texts = [
-            Text(cell, style=(colours or {}).get(cell, "") if column.style == "status" else column.style)
-            for column, cell in zip(columns, row, strict=True)
-        ]
-        table.add_row(*texts)
+        pairs = zip(columns, row, strict=True)
+        table.add_row(*(Text(cell, COLOURS.get(cell, "") if column.coloured else "") for column, cell in pairs))
     out.print(table, soft_wrap=room(columns) > out.width, crop=False)
+
+
+def show_parts(out: Console, columns: Sequence[Column], title: str = "") -> None:
+    """Print a table, on a narrow terminal in parts."""
+    for k, part in enumerate(in_parts(columns, out.width)):
+        show(out, part, "" if k else title)
+
+
+def show_facts(out: Console, facts: Iterable[tuple[str, str]]) -> None:
+    """Print labels with what belongs to them; statuses have colours."""
+    table = Table(show_header=False, box=None, pad_edge=False)
+    table.add_column(style="dim")
+    table.add_column(overflow="fold")
+    for label, text in facts:
+        status = text.partition(" ")[0].rstrip(":") if label == "status" else ""
+        table.add_row(label, Text(text, COLOURS.get(status, "")))
+    out.print(table)

@@ -12,7 +12,7 @@ import click
 
 from symgen import arguments
 from symgen.errors import InputError, quoted
-from symgen.settings import Settings, about, default, flag, is_given, told_constant
+from symgen.settings import about, default, flag
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -173,15 +173,12 @@ def output_file(option: str, text: str | None, kind: str = "") -> Path | None:
     if text is None:
         return None
     from symgen.files import check_writable
-    from symgen.result.export import PLOTTED, SAVED, check_path
+    from symgen.result.export import COLUMNS, PLOTTED, SAVED, check_path
 
     path = Path(text)
-    if kind == "tables":
-        from symgen.result.tables import SAVED as TABLES
-
-        check_path(option, path, TABLES, "data")
-    elif kind:
-        check_path(option, path, SAVED if kind == "data" else PLOTTED, kind)
+    if kind:
+        endings = {"data": SAVED, "tables": COLUMNS, "plot": PLOTTED}[kind]
+        check_path(option, path, endings, "plot" if kind == "plot" else "data")
     else:
         check_writable(option, path)
     return path
@@ -209,37 +206,6 @@ def tell(notes: Iterable[str]) -> None:
     """Say on standard error what belongs to an answer and is no part of it."""
     for sentence in notes:
         click.echo(f"symgen: {sentence}", err=True)
-
-
-def tell_idle(settings: Settings, chosen: tuple[str, str] | None = None) -> None:
-    """Say on standard error that settings of adaptive steps which a run with constant ones has count for nothing.
-
-    Parameters
-    ----------
-    settings : Settings
-        As asked for. Where something in it is ``auto``, nothing is said before it is known what was chosen.
-    chosen : (str, str), optional
-        Method and integrator that were run. Where nothing is ``auto``, nothing is said again.
-
-    Raises
-    ------
-    InputError
-        If there is no such method or integrator.
-    """
-    from symgen.integrators import INTEGRATORS
-    from symgen.methods import METHODS
-    from symgen.running.automatic import AUTO
-
-    given = [name for name in ("rtol", "atol", "max_step") if is_given(settings, name)]
-    automatic = AUTO in (settings.method, settings.integrator)
-    if not given or automatic is (chosen is None):
-        return
-    method, integrator = chosen or (settings.method, settings.integrator)
-    named = integrator or METHODS.get(method, "--method").default_integrator
-    known = INTEGRATORS.get(named, "--integrator")
-    if not known.adaptive or told_constant(settings.options, known.name):
-        counts = " and ".join(map(flag, given)) + (" count" if len(given) > 1 else " counts")
-        click.echo(f"symgen: {counts} for nothing: {known.name} has constant steps, which --step gives", err=True)
 
 
 def time_list(option: str, text: str) -> tuple[float, ...]:

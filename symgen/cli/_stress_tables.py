@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rich.table import Table
 from rich.text import Text
 
-from symgen.cli._columns import Column, fitting, show
-from symgen.cli._tables import console
+from symgen.cli._columns import columns_of, console, fitting, show
 
 if TYPE_CHECKING:
-    from symgen.study.stress.rows import Stress
+    from symgen.study.stress.rows import Limit, Stress
 
 
 def show_stress(study: Stress) -> None:
@@ -40,23 +38,12 @@ def show_stress(study: Stress) -> None:
         out.print(f"accurate cells of those judged; {LEGEND}", style="dim")
     if study.limits:
         out.print("largest constant step [s] that follows the motion, and that keeps the error below 1e-3 m")
-        show(out, fitting(_steps(study), out.width))
+        rows = [(x.model, f"{x.family} {x.case}", x.method, x.integrator, *_steps(x)) for x in study.limits]
+        headings = ("model", "case", "method", "integrator", "stable", "accurate")
+        show(out, fitting(columns_of(headings, rows, headings[:4], {"model": 1, "integrator": 2}), out.width))
     for sentence in findings(study):
         out.print(sentence)
 
 
-def _steps(study: Stress) -> list[Column]:
-    def column(heading: str, cell: Callable[[Any], str], left: bool = True, weight: int = 0) -> Column:
-        return Column(heading, tuple(map(cell, study.limits)), left, weight)
-
-    def step(x: float | None) -> str:
-        return "none" if x is None else f"{x:.3g}"
-
-    return [
-        column("model", lambda limit: limit.model, weight=1),
-        column("case", lambda limit: f"{limit.family} {limit.case}"),
-        column("method", lambda limit: limit.method),
-        column("integrator", lambda limit: limit.integrator, weight=2),
-        column("stable", lambda limit: step(limit.stable_step), left=False),
-        column("accurate", lambda limit: step(limit.accurate_step), left=False),
-    ]
+def _steps(limit: Limit) -> list[str]:
+    return ["none" if x is None else f"{x:.3g}" for x in (limit.stable_step, limit.accurate_step)]

@@ -1,15 +1,11 @@
-"""What commands show on a terminal."""
+"""What commands show on a terminal of runs, analyses and comparisons."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
-
-from symgen.cli._columns import Column, fitting, in_parts, show
+from symgen.cli._columns import Column, columns_of, console, fitting, show, show_facts, show_parts
 
 if TYPE_CHECKING:
     from symgen.analyses.kinds import Table as Shown
@@ -17,77 +13,43 @@ if TYPE_CHECKING:
     from symgen.study.comparison.compare import Study
     from symgen.study.comparison.rows import Row
 
-COLOURS = {"ok": "green", "unverified": "yellow", "failed": "red"}
-
-
-def console() -> Console:
-    """Return a console on standard output; where that is no terminal, wide enough that no figure is cut."""
-    wide = Console(highlight=False, markup=False)
-    return wide if wide.is_terminal else Console(highlight=False, markup=False, width=200)
-
 
 def show_result(result: Result) -> None:
     """Print what a run gave."""
     from symgen.result.summary import lines
 
-    table = Table(show_header=False, box=None, pad_edge=False)
-    table.add_column(style="dim")
-    table.add_column(overflow="fold")
-    for label, text in lines(result):
-        table.add_row(label, Text(text, style=COLOURS[result.status] if label == "status" else ""))
     out = console()
-    out.print(table)
+    show_facts(out, lines(result))
     if len(result.t):
-        for k, part in enumerate(in_parts(_final(result), out.width)):
-            show(out, part, "" if k else "final state")
+        show_parts(out, _final(result), "final state")
 
 
 def show_quantities(found: Mapping[str, Mapping[str, Any]]) -> None:
     """Print last, smallest and largest values of quantities."""
-    columns = [Column("quantity", tuple(found), left=True)]
-    for heading, key in (("final", "final"), ("smallest", "min"), ("largest", "max")):
-        numbers = ("" if entry[key] is None else f"{entry[key]:.6g}" for entry in found.values())
-        columns.append(Column(heading, tuple(numbers)))
-    columns.append(Column("unit", tuple(str(entry["unit"]) for entry in found.values()), left=True))
-    out = console()
-    for part in in_parts(columns, out.width):
-        show(out, part)
+    rows = [
+        (name, *("" if entry[key] is None else f"{entry[key]:.6g}" for key in ("final", "min", "max")), entry["unit"])
+        for name, entry in found.items()
+    ]
+    headings = ("quantity", "final", "smallest", "largest", "unit")
+    show_parts(console(), columns_of(headings, rows, left=("quantity", "unit")))
 
 
 def show_table(found: Shown) -> None:
     """Print a table of an analysis."""
-    out = console()
-    if found.parts:
-        cells = zip(*found.rows, strict=True) if found.rows else ((),) * len(found.headings)
-        columns = [Column(h, tuple(c), left=h in found.left) for h, c in zip(found.headings, cells, strict=True)]
-        for part in in_parts(columns, out.width):
-            show(out, part)
-        return
-    table = Table(box=None, header_style="dim", pad_edge=False)
-    for heading in found.headings:
-        table.add_column(heading, justify="left" if heading in found.left else "right")
-    for row in found.rows:
-        table.add_row(*row)
-    out.print(table)
+    show_parts(console(), columns_of(found.headings, found.rows, found.left))
 
 
 def _final(result: Result, most: int = 12) -> list[Column]:
     """Return the last positions and velocities, of the first bodies where there are many."""
-    rows: dict[str, dict[str, str]] = {}
-    labels: dict[str, None] = {}
-    for values in (result.q.row(), result.v.row()):
-        for name, value in values.items():
-            body, _, label = name.rpartition(".")
-            rows.setdefault(body, {})[label] = f"{value:.6g}"
-            labels[label] = None
-    order = sorted(labels, key=_LABELS.index)
-    shown = list(rows.items())[:most]
-    bodies = [body for body, _ in shown] + ([f"... {len(rows) - most} more"] if len(rows) > most else [])
-    columns = [Column("body", tuple(bodies), left=True)]
-    for label in order:
-        cells = [row.get(label, "") for _, row in shown] + [""] * (len(bodies) - len(shown))
-        columns.append(Column(label, tuple(cells)))
-    return columns
+    bodies = dict[str, dict[str, str]]()
+    for name, value in (result.q.row() | result.v.row()).items():
+        body, _, label = name.rpartition(".")
+        bodies.setdefault(body, {})[label] = f"{value:.6g}"
+    labels = sorted({label for row in bodies.values() for label in row}, key=_LABELS.index)
+    rows = [(body, *(row.get(label, "") for label in labels)) for body, row in list(bodies.items())[:most]]
+    if len(bodies) > most:
+        rows.append((f"... {len(bodies) - most} more", *("" for _ in labels)))
+    return columns_of(("body", *labels), rows, left=("body",))
 
 
 #: Coordinates and velocities of bodies in the order in which they are shown.
@@ -101,9 +63,9 @@ def show_study(study: Study) -> None:
     out.print(f"{study.mechanism}, {study.until:g} s; reference: {study.how}{off}")
     if study.note:
         out.print(study.note)
-    columns = _of_study(study)
+    columns = columns_of(_HEADINGS, map(_cells, study.rows), _HEADINGS[:4], _WEIGHTS)
     kept = fitting(columns, out.width)
-    show(out, kept, colours=COLOURS)
+    show(out, kept)
     if len(kept) < len(columns):
         missing = ", ".join(column.heading for column in columns if column not in kept)
         out.print(f"left out for want of room: {missing} (--csv has them)", style="dim")
@@ -124,23 +86,23 @@ def show_study(study: Study) -> None:
             out.print(f"{row.label}, {row.integrator}, {steps}: {sentence}", style="dim")
 
 
-def _of_study(study: Study) -> list[Column]:
-    def column(heading: str, cell: Callable[[Row], str], weight: int = 0, **more: Any) -> Column:
-        return Column(heading, tuple(map(cell, study.rows)), weight=weight, **more)
+#: Columns of a study; the first four are words. Those of least weight are left out first on a narrow terminal.
+_HEADINGS = (
+    *("method", "integrator", "step, rtol", "status", "error [m]", "run [ms]", "spread", "x lagrange", "evaluations"),
+    *("|Phi|", "|D v - nu|", "energy [J]"),
+)
+_WEIGHTS = {
+    **{"spread": 1, "|D v - nu|": 2, "evaluations": 3, "energy [J]": 5, "|Phi|": 6, "x lagrange": 7},
+    **{"status": 8, "run [ms]": 9},
+}
 
-    return [
-        column("method", lambda r: r.label, left=True),
-        column("integrator", lambda r: r.integrator, left=True),
-        column("step, rtol", lambda r: f"rtol {r.rtol:g}" if r.rtol is not None else f"{r.step:g} s", left=True),
-        column("status", lambda r: r.status, 8, left=True, style="status"),
-        column(
-            "error [m]", lambda r: "" if r.error is None else f"{r.error:.2e}" + (" *" if r.below_reference else "")
-        ),
-        column("run [ms]", lambda r: f"{1e3 * r.run_seconds:.3f}", 9),
-        column("spread", lambda r: f"{1e3 * r.run_seconds_spread:.3f}", 1),
-        column("x lagrange", lambda r: "" if r.cost_ratio is None else f"{r.cost_ratio:.2f}", 7),
-        column("evaluations", lambda r: str(r.evaluations), 3),
-        column("|Phi|", lambda r: f"{r.position_violation_max:.1e}", 6),
-        column("|D v - nu|", lambda r: f"{r.velocity_violation_max:.1e}", 2),
-        column("energy [J]", lambda r: f"{r.energy_drift_max:.1e}", 5),
-    ]
+
+def _cells(row: Row) -> tuple[str, ...]:
+    """Return the cells of a row of a study."""
+    return (
+        *(row.label, row.integrator, f"rtol {row.rtol:g}" if row.rtol is not None else f"{row.step:g} s", row.status),
+        "" if row.error is None else f"{row.error:.2e}" + (" *" if row.below_reference else ""),
+        *(f"{1e3 * row.run_seconds:.3f}", f"{1e3 * row.run_seconds_spread:.3f}"),
+        *("" if row.cost_ratio is None else f"{row.cost_ratio:.2f}", str(row.evaluations)),
+        *(f"{row.position_violation_max:.1e}", f"{row.velocity_violation_max:.1e}", f"{row.energy_drift_max:.1e}"),
+    )

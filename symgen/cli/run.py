@@ -15,7 +15,6 @@ from symgen.cli._options import (
     output_file,
     setting_options,
     tell,
-    tell_idle,
     units_option,
 )
 from symgen.errors import InputError
@@ -74,7 +73,6 @@ def command(
     """
     # before anything expensive: what is wrong with the words of the command
     settings = Settings(**asked)
-    tell_idle(settings)
     if whence is not None and settings.start:
         raise InputError("--from", "one way of saying where a run begins", "--start as well")
     save_path = output_file("--save", save, "data")
@@ -99,13 +97,10 @@ def command(
     solver = settings.method + (f", {settings.integrator}" if settings.integrator else "")
     with Bar(f"{loaded.name}, {solver}", settings.until or loaded.mechanism.defaults.until) as bar:
         result = loaded.simulate(settings, progress=bar)
-    tell_idle(settings, (result.method, result.integrator))
-    found = _proposals(loaded, settings, result)
     tell((*result.notes, *(f"warning: {w}" for w in result.warnings)))
     chosen = extremes(result.select(quantities)) if quantities else {}
     if as_json:
-        told = {"proposals": list(found)} | ({"quantities": chosen} if quantities else {})
-        write_json(result.to_json() | told)
+        write_json(result.to_json() | {"proposals": []} | ({"quantities": chosen} if quantities else {}))
     else:
         from symgen.cli._tables import show_quantities, show_result
 
@@ -113,16 +108,15 @@ def command(
         if quantities:
             show_quantities(chosen)
     files = {save_path: lambda path: result.save(path, quantities, units), plot_path: result.plot}
-    return write_files(
-        _exit_code(result, found), files, None if as_json else lambda path: click.echo(f"written: {path}")
-    )
+    return write_files(_exit_code(result), files, None if as_json else lambda path: click.echo(f"written: {path}"))
 
 
 def _prepare(model: Model, settings: Settings, quantities: tuple[str, ...]) -> None:
     """Refuse quantities that no result will have."""
     if not quantities:
         return
-    from symgen.result.select import choose, columns_of
+    from symgen.result.select import columns_of
+    from symgen.result.tables import choose
     from symgen.running.plan import Purpose
     from symgen.running.prepare import make_plan
     from symgen.running.starts import compiled_for
@@ -131,24 +125,11 @@ def _prepare(model: Model, settings: Settings, quantities: tuple[str, ...]) -> N
     choose(columns_of(plan.mechanism, compiled_for(plan.mechanism, plan.choice).info), quantities, model.name)
 
 
-def _proposals(model: Model, settings: Settings, result: Result) -> tuple[str, ...]:
-    """Return what makes a run that failed come to its end."""
-    if result.status != "failed" or result.interrupted:
-        return ()
-    from symgen.reruns.proposals import proposals
-
-    try:
-        return proposals(model.mechanism, settings, result.outcome)
-    except KeyboardInterrupt:
-        return ()
-
-
-def _exit_code(result: Result, found: tuple[str, ...]) -> int:
+def _exit_code(result: Result) -> int:
     if result.interrupted:
         return complain(INTERRUPTED_AT.format(result.t[-1] if len(result.t) else 0.0), INTERRUPTED)
     if result.status == "failed":
-        tried = f"; it ends as ok with {' or with '.join(found)}" if found else ""
-        return complain(f"failed: {result.reason}{tried}", FAILURE)
+        return complain(f"failed: {result.reason}", FAILURE)
     if result.status == "unverified":
         return complain(f"warning: unverified: {result.reason}", OK)
     return OK

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import examples, jobs_option, json_option, setting_options, tell, tell_idle
+from symgen.cli._options import examples, jobs_option, json_option, setting_options, tell
 from symgen.cli._target import target_option
 from symgen.errors import InputError, quoted
 from symgen.settings import Settings
@@ -76,7 +76,6 @@ def command(
     # before anything expensive: what is wrong with the words of the command
     axes = _axes(varied)
     settings = Settings(**asked)
-    tell_idle(settings)
     if settings.times is not None and settings.output_step is not None:
         raise InputError("--times", "one way of choosing outputs", "--output-step as well")
     if resume and output is None:
@@ -116,7 +115,6 @@ def command(
             settings=settings,
             progress=progress,
         )
-    tell_idle(settings, (found.ensemble.compiled.law.method, found.ensemble.plan.integrator.name))
     tell(found.ensemble.notes)
     tell(f"warning: in {count} of {len(found)} runs: {sentence}" for sentence, count in found.told())
     if as_json:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import examples, json_option, setting_options, tell_idle
+from symgen.cli._options import examples, json_option, setting_options
 from symgen.errors import InputError
 from symgen.settings import Settings, flag, is_given, names
 
@@ -73,7 +73,6 @@ def command(
 
     stored = Path(what) if what.lower().endswith(".nc") else None
     settings = Settings(**asked)
-    tell_idle(settings)
     if stored is not None:
         from symgen.result.viewed import mechanism_name
 
@@ -103,7 +102,6 @@ def command(
 
     with Bar(f"{model.name}, {settings.method}", settings.until or model.mechanism.defaults.until) as bar:
         result = model.simulate(settings, progress=bar)
-    tell_idle(settings, (result.method, result.integrator))
     if not len(result.t):
         return complain(f"failed: {result.reason}", FAILURE)
     if file.suffix.lower() != ".html":

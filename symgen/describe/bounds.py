@@ -1,7 +1,8 @@
 """Bounds of a mechanism file, checked on its text before the TOML parser builds anything of it.
 
-The parser keeps every beginning of a dotted key, so a long key costs the square of its parts, and it calls itself for
-every bracket. No table of a mechanism file lies deeper than four keys, so the bounds refuse nothing that has a meaning.
+The parser keeps every beginning of a dotted key, so a long key costs the square of its parts; brackets that are nested
+too deep end in a `RecursionError`. No table of a mechanism file lies deeper than four keys, so the bounds refuse
+nothing that has a meaning.
 """
 
 from __future__ import annotations
@@ -22,33 +23,30 @@ MOST_PARAMETERS = 10_000
 #: Parts of a dotted key, and parts behind the second one in all keys together: the parser keeps a kilobyte for each.
 LONGEST_KEY, MOST_PARTS = 8, 50_000
 
-# What may hold a bracket or a dot without meaning it (comments and strings) comes first; a string that does not end
-# matches nothing here, and the parser says so. Nothing is tried twice: the loops keep what they have.
+# What may hold a dot that joins no keys (comments and strings) comes first; a string that does not end matches nothing
+# here, and the parser says so. Nothing is tried twice: the loops keep what they have.
 _TOKEN = re.compile(
     r"""(?P<comment>\#[^\n]*+)
       | (?P<long>\"{3}(?:[^"\\]++|\\.|"{1,2}+(?!"))*+"{3,5}+ | '{3}(?:[^']++|'{1,2}+(?!'))*+'{3,5}+)
       | (?P<part>"(?:[^"\\\n]++|\\.)*+" | '[^'\n]*+' | [A-Za-z0-9_+-]++)
-      | (?P<open>[\[{]) | (?P<close>[\]}]) | (?P<dot>\.) | (?P<space>[ \t]++) | (?P<other>.)""",
+      | (?P<dot>\.) | (?P<space>[ \t]++) | (?P<other>.)""",
     re.VERBOSE | re.DOTALL,
 )
 
 
 def check_text(text: str, source: str) -> None:
-    """Refuse TOML text that is nested too deep or has keys of too many parts.
+    """Refuse TOML text that has keys of too many parts.
 
     Raises
     ------
     InputError
         With the bound that it exceeds.
     """
-    depth = parts = further = 0
+    parts = further = 0
     after_dot = False
     for token in _TOKEN.finditer(text):
         kind = token.lastgroup
         if kind == "space":
-            continue
-        if kind == "dot":
-            after_dot = True
             continue
         if kind == "part":
             parts = parts + 1 if after_dot else 1
@@ -57,13 +55,7 @@ def check_text(text: str, source: str) -> None:
             further += parts > 2
             if further > MOST_PARTS:
                 raise InputError(source, f"at most {MOST_PARTS} tables inside tables, by dotted keys", "more")
-        elif kind == "open":
-            depth += 1
-            if depth > DEEPEST:
-                raise too_deep(source)
-        elif kind == "close":
-            depth -= 1
-        after_dot = False
+        after_dot = kind == "dot"
 
 
 def check_values(raw: Mapping[str, Any], source: str) -> None:

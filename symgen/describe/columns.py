@@ -7,7 +7,7 @@ one name: such a description is refused, since nothing could tell them apart whe
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -17,9 +17,6 @@ from symgen.errors import InputError
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-
-    _Names = Callable[[Mechanism], Iterator[str]]
-    _Labels = Callable[[Mechanism, str], Iterator[str]]
 
 #: Table -> what its columns are prefixed with. Bodies and joints may share names, so all but the tables of bodies say
 #: whose they are.
@@ -64,25 +61,19 @@ def check_columns(mechanism: Mechanism, source: str) -> None:
     """
     owners = {body.name: "bodies" for body in mechanism.bodies} | {force.name: "forces" for force in mechanism.forces}
     owners |= {joint.name: "joints" for joint in mechanism.joints}
-    for table, what, headed, besides in _HEADED:
-        owner = PREFIX[table].rstrip(".")
-        if owner in owners:  # hardly ever: a file may have thousands of points
-            own = {f"{owner}.{label}" for label in besides(mechanism, owner)}
-            for name in headed(mechanism):
-                if PREFIX[table] + name in own:
-                    where, got = f"{source}: {owners[owner]}.{owner}", f"'{PREFIX[table]}{name}'"
-                    hint = f"that is what the {what} of '{name}' is called: give one of them another name"
-                    raise InputError(where, "columns of results that nothing else is called", got, hint)
+    heads = {PREFIX[table].rstrip("."): table for table in _SHARED}
+    for owner in [name for name in heads if name in owners]:  # hardly ever: a file may have thousands of points
+        coordinates = {label for body in mechanism.bodies if body.name == owner for label in body.coordinates}
+        own = coordinates | {*_further(mechanism, owner)}
+        for table, what, name, beside_all in _headed(mechanism):
+            if table == heads[owner] and name in (own if beside_all else coordinates):
+                where, got = f"{source}: {owners[owner]}.{owner}", f"'{PREFIX[table]}{name}'"
+                hint = f"that is what the {what} of '{name}' is called: give one of them another name"
+                raise InputError(where, "columns of results that nothing else is called", got, hint)
 
 
-def _coordinates(mechanism: Mechanism, owner: str) -> Iterator[str]:
-    """Yield what the coordinates of a body are called behind its name."""
-    yield from (label for body in mechanism.bodies if body.name == owner for label in body.coordinates)
-
-
-def _own(mechanism: Mechanism, owner: str) -> Iterator[str]:
-    """Yield what all columns of a body, driver or force are called behind its name."""
-    yield from _coordinates(mechanism, owner)
+def _further(mechanism: Mechanism, owner: str) -> Iterator[str]:
+    """Yield what columns of a body, driver or force are called behind its name, beside its coordinates."""
     for speed in (speed for body in mechanism.bodies if body.name == owner for speed in body.speeds):
         yield from (speed, ACCELERATIONS[speed])
     for column in (*points(mechanism), *elements(mechanism)):
@@ -90,44 +81,27 @@ def _own(mechanism: Mechanism, owner: str) -> Iterator[str]:
             yield column.name.partition(".")[2]
 
 
-def _multipliers(mechanism: Mechanism) -> Iterator[str]:
-    yield from (f"{joint.name}.{row.label}" for joint in mechanism.joints for row in joint.rows)
+#: Tables whose columns may be called as those of a body, driver or force. What reactions, energies and violations are
+#: called is nothing of a body's.
+_SHARED = ("joint_coordinates", "lam", "efforts", "transmission", "power")
 
 
-def _of_joints(mechanism: Mechanism) -> Iterator[str]:
+def _headed(mechanism: Mechanism) -> Iterator[tuple[str, str, str, bool]]:
+    """Yield columns of these tables: table, word for what they hold, name, and whether more than coordinates is beside.
+
+    Results of inverse dynamics, which have efforts of any actuator and powers, hold coordinates of bodies alone.
+    """
+    actuators = list[str]()
     for joint in mechanism.joints:
-        for label, _ in joint.coordinates:
-            yield from (f"{joint.name}.{label}", f"{joint.name}.{label}.rate")
-
-
-def _joints(mechanism: Mechanism) -> Iterator[str]:
-    yield from (joint.name for joint in mechanism.joints)
-
-
-def _drivers(mechanism: Mechanism) -> Iterator[str]:
-    yield from (joint.name for joint in mechanism.joints if joint.kind == "driver")
-
-
-def _along_rates(mechanism: Mechanism) -> Iterator[str]:
-    """Yield what may be an actuator along something: joints, their coordinates, forces and their components."""
-    for joint in mechanism.joints:
-        yield from (joint.name, *(f"{joint.name}.{label}" for label, _ in joint.coordinates))
+        labels = [f"{joint.name}.{label}" for label, _ in joint.coordinates]
+        for label in labels:
+            yield from (("joint_coordinates", "coordinate", name, True) for name in (label, f"{label}.rate"))
+        yield from (("lam", "multiplier", f"{joint.name}.{row.label}", True) for row in joint.rows)
+        yield "transmission", "transmission angle", joint.name, True
+        if joint.kind == "driver":
+            yield "efforts", "effort", joint.name, True
+        actuators += (joint.name, *labels)
     for force in mechanism.forces:
-        yield from (force.name, *(f"{force.name}.{effort.label}" for effort in force.efforts))
-
-
-def _actuators(mechanism: Mechanism) -> Iterator[str]:
-    yield from (*_along_rates(mechanism), *mechanism.inputs)
-
-
-#: Tables whose columns may be called as those of a body, driver or force, what they hold, their names in any result,
-#: and what stands beside them there. What reactions, energies and violations are called is nothing of a body's.
-_HEADED: tuple[tuple[str, str, _Names, _Labels], ...] = (
-    ("joint_coordinates", "coordinate", _of_joints, _own),
-    ("lam", "multiplier", _multipliers, _own),
-    ("efforts", "effort", _drivers, _own),
-    ("transmission", "transmission angle", _joints, _own),
-    # of inverse dynamics
-    ("efforts", "effort", _actuators, _coordinates),
-    ("power", "power", _along_rates, _coordinates),
-)
+        actuators += (force.name, *(f"{force.name}.{effort.label}" for effort in force.efforts))
+    yield from (("efforts", "effort", name, False) for name in (*actuators, *mechanism.inputs))
+    yield from (("power", "power", name, False) for name in actuators)

@@ -16,7 +16,6 @@ from typing import Protocol
 import msgspec
 
 from symgen.describe.names import CALLABLE, INTEGRAL
-from symgen.describe.with_units import in_si
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import (
     FUNCTIONS,
@@ -43,6 +42,8 @@ _TOKEN = re.compile(
       | (?P<operator>\*\*|<=|>=|[-+*/<>(),.](?!=))""",
     re.VERBOSE,
 )
+#: A number with a unit that people write behind it.
+_WITH_UNIT = re.compile(r"\s*[-+]?[\d.]+(e[-+]?\d+)?\s*([cmk]?m(/s)?|km/h|k?g|ms|min|k?N ?m?|(rad|deg)(/s)?|°|rpm)\s*")
 _WORDS = frozenset({"and", "or", "not", "if", "else"})
 _HINTS = {
     "^": "a power is written **",
@@ -149,7 +150,7 @@ class _Reader:
             tree = ast.parse(re.sub(r"\s", " ", text).strip(), mode="eval")
         except SyntaxError as error:
             near = f" near column {error.offset}" if (error.offset or 0) > 1 else ""
-            raise self.fail(f"{quoted(text)}, which is incomplete or has a syntax error{near}", in_si(text)) from None
+            raise self.fail(f"{quoted(text)}, which is incomplete or has a syntax error{near}", _units(text)) from None
         except (MemoryError, RecursionError, ValueError):
             raise self.too_deep() from None
         condition = conditions and _is_condition(tree.body)
@@ -174,8 +175,8 @@ class _Reader:
                 sign = text[position]
                 if sign in "0123456789.":
                     wrong = re.split(r"[^A-Za-z0-9_.]", text[position:], maxsplit=1)[0]
-                    raise self.fail(f"{quoted(wrong)}, which is not a number, at column {position + 1}", in_si(text))
-                hint = _HINTS.get(sign, "") or in_si(text)
+                    raise self.fail(f"{quoted(wrong)}, which is not a number, at column {position + 1}", _units(text))
+                hint = _HINTS.get(sign, "") or _units(text)
                 raise self.fail(f"the character {quoted(sign)} at column {position + 1}", hint)
             brackets += {"(": 1, ")": -1}.get(token.group(), 0)
             if brackets > DEEPEST:
@@ -389,3 +390,8 @@ def _depth(expression: Expr) -> int:
         if isinstance(node, Call):
             stack.extend((argument, depth + 1) for argument in node.arguments)
     return deepest
+
+
+def _units(text: str) -> str:
+    """Return a hint where a text is a number with a unit."""
+    return "numbers are in SI units, written without them" if _WITH_UNIT.fullmatch(text) else ""

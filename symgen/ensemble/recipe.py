@@ -9,7 +9,7 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
-from functools import cached_property, lru_cache
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,7 @@ from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.ensemble_abi import SIDE
 from symgen.runtime.held import Held
 from symgen.runtime.run import RunSpec
+from symgen.store.identity import SOURCES, digest, sources_digest
 from symgen.version import __version__
 
 Array = NDArray[np.float64]
@@ -266,12 +267,6 @@ class Recipe:
         return hashlib.sha256(text.encode() + self.spec.times.tobytes()).hexdigest()
 
 
-@lru_cache(maxsize=1)
 def code_identity() -> str:
     """Return a digest of all that computes runs: the version, and the sources of loops, schemes and ensembles."""
-    package = Path(__file__).resolve().parent.parent
-    found = hashlib.sha256(__version__.encode())
-    for folder in ("ensemble", "integrators", "result", "running", "runtime"):
-        for path in sorted((package / folder).rglob("*.py")):
-            found.update(path.relative_to(package).as_posix().encode() + b"\0" + path.read_bytes())
-    return found.hexdigest()
+    return digest(__version__, sources_digest(*SOURCES["rows"]))

@@ -1,1 +1,1 @@
-"""Runs that follow another one: with finer steps to estimate its error, with other settings where it failed."""
+"""A second run with finer steps, which estimates the error of the first."""

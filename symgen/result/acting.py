@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.result.labelled import Array, Labelled
+from symgen.result.points import rotation_matrices
 from symgen.vocabulary.measures import GROUND
-from symgen.vocabulary.rotations import matrix
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Mechanism
     from symgen.runtime.compiled import ModelInfo
 
 
@@ -41,16 +40,23 @@ def _labels(spatial: bool, velocities: int) -> list[str]:
     return [*(f"F{axis}" for axis in axes), *(f"M{axis}" for axis in ("xyz" if spatial else ("",)) if turns)]
 
 
-def reaction_names(mechanism: Mechanism, info: ModelInfo) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the names of the components of all reactions, and those of their magnitudes, of any run of a model."""
+def reaction_names(joints: Mapping[str, str], info: ModelInfo) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the names of the components of all reactions, and those of their magnitudes, of any run of a model.
+
+    Parameters
+    ----------
+    joints : mapping of str to str
+        Joint -> its first body.
+    info : ModelInfo
+        The model.
+    """
     bodies = [velocity.name.rpartition(".")[0] for velocity in info.velocities]
     parts, lengths = list[str](), list[str]()
-    for joint in mechanism.joints:
-        body = joint.bodies[0]
+    for joint, body in joints.items():
         labels = _labels(_is_spatial(info), 0 if body == GROUND else bodies.count(body))
-        parts += [f"{joint.name}.{label}" for label in labels]
+        parts += [f"{joint}.{label}" for label in labels]
         several = (name for letter, name in (("F", "F"), ("M", "T")) if sum(x[0] == letter for x in labels) > 1)
-        lengths += [f"{joint.name}.{name}" for name in several]
+        lengths += [f"{joint}.{name}" for name in several]
     return tuple(parts), tuple(lengths)
 
 
@@ -175,17 +181,12 @@ class Acting:
     def _axes(self, body: str) -> Array:
         """Return the rotation matrices of a body at the outputs, shape (k, 3, 3)."""
         known = {quantity.name for quantity in self.info.coordinates}
-        axes = np.zeros((len(self.states), 3, 3)) + np.eye(3)
+        found = np.zeros((len(self.states), 3, 3)) + np.eye(3)
         if f"{body}.theta" in known:
-            (theta,) = self._coordinates(body, ("theta",))
-            axes[:, 0, 0] = axes[:, 1, 1] = np.cos(theta)
-            axes[:, 1, 0] = np.sin(theta)
-            axes[:, 0, 1] = -axes[:, 1, 0]
+            found[:, :2, :2] = rotation_matrices(np.column_stack(self._coordinates(body, ("theta",))))
         elif f"{body}.e0" in known:
-            e = np.column_stack(self._coordinates(body, ("e0", "e1", "e2", "e3")))
-            e0, e1, e2, e3 = (e / np.linalg.norm(e, axis=1, keepdims=True)).T
-            axes = np.stack([np.stack(row, 1) for row in matrix((e0, e1, e2, e3))], 1)
-        return axes
+            found = rotation_matrices(np.column_stack(self._coordinates(body, ("e0", "e1", "e2", "e3"))))
+        return found
 
     @staticmethod
     def _in_space(vectors: Array) -> Array:

@@ -3,69 +3,48 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from symgen.result.run_data import RunData
 
 
+#: Attributes of a result that stand in its JSON under their own names, before and behind the times.
+_FIRST = (
+    *("mechanism", "method", "integrator", "shape", "coordinates", "state", "step", "rtol", "atol", "until"),
+    *("status", "reason", "warnings", "notes", "parameters", "inputs"),
+    *("steps", "rejected", "evaluations", "iterations"),
+)
+_SECOND = ("position_violation_max", "velocity_violation_max", "energy_drift_max", "error_estimate")
+
+
 def contract(result: RunData) -> dict[str, Any]:
     """Return a result as JSON has it; numbers that are not finite become None."""
-    last = result.t.shape[0] - 1
+    seconds, rank = asdict(result.seconds), asdict(result.rank)
+    del seconds["run_spread"], rank["redundant_rows"]
+    final = {
+        "t": float(result.t[-1]) if len(result.t) else None,
+        "q": result.q.row(),
+        "v": result.v.row(),
+        "lam": result._final_multipliers,
+        **({"outputs": result.outputs.row()} if result.columns("outputs") else {}),
+    }
     found: dict[str, Any] = finite(
         {
-            "mechanism": result.mechanism,
-            "method": result.method,
-            "integrator": result.integrator,
-            "shape": result.shape,
-            "coordinates": result.coordinates,
-            "state": list(result.state),
-            "step": result.step,
-            "rtol": result.rtol,
-            "atol": result.atol,
-            "until": result.until,
-            "status": result.status,
-            "reason": result.reason,
-            "warnings": list(result.warnings),
-            "notes": list(result.notes),
-            "parameters": dict(result.parameters),
-            "inputs": dict(result.inputs),
-            "steps": result.steps,
-            "rejected": result.rejected,
-            "evaluations": result.evaluations,
-            "iterations": result.iterations,
-            "seconds": {
-                "derive": result.seconds.derive,
-                "emit": result.seconds.emit,
-                "compile": result.seconds.compile,
-                "run": result.seconds.run,
-            },
-            "position_violation_max": result.position_violation_max,
-            "velocity_violation_max": result.velocity_violation_max,
-            "energy_drift_max": result.energy_drift_max,
-            "error_estimate": result.error_estimate,
-            "rank": {
-                "rows": result.rank.rows,
-                "rank": result.rank.rank,
-                "identical_rows_dropped": result.rank.identical_rows_dropped,
-            },
-            "rank_events": [
-                {"t_in": e.t_in, "t_out": e.t_out, "rank": e.rank, "smallest_pivot": e.smallest_pivot}
-                for e in result.rank_events
-            ],
+            **{name: getattr(result, name) for name in _FIRST},
+            "seconds": seconds,
+            **{name: getattr(result, name) for name in _SECOND},
+            "rank": rank,
+            "rank_events": [asdict(event) for event in result.rank_events],
             "rank_event_count": result.rank_event_count,
             "end": result.end,
             "events": [event.to_json() for event in result.events],
             "watched": [{"name": name, "action": action} for name, action in result.watched],
             "accumulation": result.accumulation,
             "start": result.start,
-            "final": {
-                "t": float(result.t[last]) if last >= 0 else None,
-                "q": result.q.row(),
-                "v": result.v.row(),
-                "lam": result._final_multipliers,
-                **({"outputs": result.outputs.row()} if result.columns("outputs") else {}),
-            },
+            "final": final,
         }
     )
     return found
@@ -73,7 +52,7 @@ def contract(result: RunData) -> dict[str, Any]:
 
 def finite(value: Any) -> Any:
     """Return `value` with every number that JSON cannot express replaced by None."""
-    if isinstance(value, dict):
+    if isinstance(value, Mapping):
         return {key: finite(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return [finite(item) for item in value]

@@ -13,26 +13,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.describe.columns import PREFIX
 from symgen.errors import InputError, nearest
 from symgen.files import check_writable, headed, write_whole
 from symgen.memory import require
 from symgen.result.contract import contract
-from symgen.result.run_data import SIDE
-from symgen.result.select import select
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+    from symgen.result.labelled import Array, Labelled
     from symgen.result.run_data import RunData
 
-#: Endings of data files -> the libraries needed.
+#: Endings of data files -> the libraries needed; those of files of columns alone.
 SAVED: Mapping[str, tuple[str, ...]] = {
     ".nc": ("xarray", "h5netcdf", "h5py"),
     ".parquet": ("pandas", "pyarrow"),
     ".csv": ("pandas",),
 }
+COLUMNS: Mapping[str, tuple[str, ...]] = {ending: SAVED[ending] for ending in (".csv", ".parquet")}
 #: Endings of plots -> the libraries needed.
 PLOTTED: Mapping[str, tuple[str, ...]] = {".png": ("matplotlib",), ".svg": ("matplotlib",), ".pdf": ("matplotlib",)}
 
@@ -40,7 +39,7 @@ PLOTTED: Mapping[str, tuple[str, ...]] = {".png": ("matplotlib",), ".svg": ("mat
 LAST_HEADER, LAST_PREFIX = "last_state", "last_"
 
 #: Table -> name of its second dimension in a dataset.
-_DIMENSION = {
+DIMENSIONS = {
     "q": "coordinate",
     "v": "velocity",
     "a": "acceleration",
@@ -130,25 +129,23 @@ def with_last_state(dataset: xr.Dataset, result: RunData) -> xr.Dataset:
     return found
 
 
-def to_dataframe(result: RunData) -> pd.DataFrame:
-    """Return all tables side by side over time; ``attrs`` holds units and what was run."""
+def data_frame(t: Array, columns: Labelled, units: bool = False) -> pd.DataFrame:
+    """Return columns over time, their units in the names where these are wanted; ``attrs["units"]`` holds units."""
     need("to_dataframe", "pandas")
     import pandas as pd
 
-    tables = result.tables()
-    columns = {
-        PREFIX[name] + column: table.values[:, i]
-        for name, table in tables.items()
-        for i, column in enumerate(table.names)
-    }
-    frame = pd.DataFrame(columns, index=pd.Index(result.t, name="t"))
-    frame.attrs["units"] = {
-        PREFIX[name] + column: unit
-        for name, table in tables.items()
-        for column, unit in zip(table.names, table.units, strict=True)
-    }
-    frame.attrs["run"] = contract(result)
+    names = [headed(*of) if units else of[0] for of in zip(columns.names, columns.units, strict=True)]
+    index = pd.Index(t, name=headed("t", "s") if units else "t")
+    frame = pd.DataFrame(columns.values, columns=names, index=index)
+    frame.attrs["units"] = dict(zip(names, columns.units, strict=True))
     return frame
+
+
+def write_frame(frame: pd.DataFrame, path: Path) -> Path:
+    """Write a data frame to a Parquet or CSV file, as the ending of the path says."""
+    if path.suffix.lower() == ".parquet":
+        return write_whole(path, lambda file: frame.to_parquet(file, engine="pyarrow"))
+    return write_whole(path, lambda file: frame.to_csv(file, mode="wb"))
 
 
 def to_xarray(result: RunData) -> xr.Dataset:
@@ -159,7 +156,7 @@ def to_xarray(result: RunData) -> xr.Dataset:
     variables: dict[str, Any] = {}
     coordinates: dict[str, Any] = {"time": ("time", result.t, {"units": "s"})}
     for name, table in result.tables().items():
-        dimension = _DIMENSION[name]
+        dimension = DIMENSIONS[name]
         variables[name] = (("time", dimension), table.values)
         coordinates[dimension] = (dimension, _texts(table.names), {})
         coordinates[f"{dimension}_unit"] = (dimension, _texts(table.units), {})
@@ -191,31 +188,10 @@ def save(result: RunData, path: Path, quantities: Sequence[str] = (), units: boo
     if units and ending != ".csv":
         raise InputError("save: units", "a file ending in .csv, whose headings carry them", f"'{path}'")
     if quantities and ending != ".nc":
-        frame = chosen_frame(result, quantities, units=ending == ".csv")
-    else:
-        columns = len(result.q) + 2 * len(result.v) + 3 * result.rank.rows + 16
-        columns += sum(len(result.columns(table)) for table in SIDE)
-        require("save", f"{len(result.t)} outputs of {result.mechanism}", 40.0 * len(result.t) * columns)
-        if ending == ".nc":
-            return write_whole(path, netcdf(with_last_state(to_xarray(result), result)))
-        frame = to_dataframe(result)
-        if units:
-            own = frame.attrs["units"]
-            frame = frame.rename(columns={name: headed(name, own[name]) for name in frame.columns})
-            frame.index.name = headed("t", "s")
-    if ending == ".parquet":
-        return write_whole(path, lambda file: frame.to_parquet(file, engine="pyarrow"))
-    return write_whole(path, lambda file: frame.to_csv(file, mode="wb"))
-
-
-def chosen_frame(result: RunData, quantities: Sequence[str], units: bool) -> pd.DataFrame:
-    """Return some columns over time, their units in the names where these are asked for."""
-    need("save", "pandas")
-    import pandas as pd
-
-    chosen = select(result, quantities)
-    names = [headed(n, u) if units else n for n, u in zip(chosen.names, chosen.units, strict=True)]
-    index = pd.Index(result.t, name=headed("t", "s") if units else "t")
-    frame = pd.DataFrame(chosen.values, columns=names, index=index)
-    frame.attrs["units"] = dict(zip(names, chosen.units, strict=True))
-    return frame
+        return write_frame(data_frame(result.t, result.select(quantities), ending == ".csv"), path)
+    size = 40.0 * len(result.t) * sum(len(result.columns(table)) for table in result.names)
+    require("save", f"{len(result.t)} outputs of {result.mechanism}", size)
+    if ending == ".nc":
+        return write_whole(path, netcdf(with_last_state(to_xarray(result), result)))
+    frame = data_frame(result.t, result.select(result.names), True) if units else result.to_dataframe()
+    return write_frame(frame, path)

@@ -97,17 +97,17 @@ class Points:
             centre = a[:, i : i + self.dimension] - b[:, i : i + self.dimension]
             candidates = [np.linalg.norm(centre, axis=1)]
             if length > 0.0:
-                j = i + self.dimension
-                tips = self._axes(a, j) - self._axes(b, j)
+                turn = slice(i + self.dimension, i + self.dimension + (1 if self.dimension == 2 else 4))
+                tips = rotation_matrices(a[:, turn]) - rotation_matrices(b[:, turn])
                 candidates += [np.linalg.norm(centre + length * tips[:, :, k], axis=1) for k in range(self.dimension)]
             largest = np.maximum(largest, np.max(candidates, axis=0))
         return largest
 
-    def _axes(self, q: Array, j: int) -> Array:
-        """Return the axes of a body as columns of rotation matrices, from its orientation at column `j`."""
-        if self.dimension == 2:
-            c, s = np.cos(q[:, j]), np.sin(q[:, j])
-            return np.stack([np.stack([c, -s], 1), np.stack([s, c], 1)], 1)
-        e = q[:, j : j + 4]
-        e0, e1, e2, e3 = (e / np.linalg.norm(e, axis=1, keepdims=True)).T
-        return np.stack([np.stack(row, 1) for row in matrix((e0, e1, e2, e3))], 1)
+
+def rotation_matrices(orientation: Array) -> Array:
+    """Return rotation matrices from angles, shape (k, 1), or from Euler parameters, shape (k, 4)."""
+    if orientation.shape[1] == 1:
+        c, s = np.cos(orientation[:, 0]), np.sin(orientation[:, 0])
+        return np.stack([np.stack([c, -s], 1), np.stack([s, c], 1)], 1)
+    e0, e1, e2, e3 = (orientation / np.linalg.norm(orientation, axis=1, keepdims=True)).T
+    return np.stack([np.stack(row, 1) for row in matrix((e0, e1, e2, e3))], 1)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.describe.evaluate import evaluate
-from symgen.result.acting import Acting, Seat
+from symgen.result.acting import Acting, Seat, reaction_names
 from symgen.result.labelled import Array, Labelled
 from symgen.runtime import abi
 from symgen.vocabulary.measures import GROUND
@@ -67,6 +67,13 @@ class Forces:
     def redundant(self) -> bool:
         """Whether some rows depend on others at the start."""
         return self.outcome.start.rank < self.compiled.info.m
+
+    def columns(self, table: str) -> tuple[str, ...]:
+        """Return the names of multipliers (``lam``), of reactions or of their ``magnitudes``."""
+        if table == "lam":
+            return tuple(row.name for row in self.compiled.info.rows)
+        parts, lengths = reaction_names({joint: seat.body for joint, seat in self.seats.items()}, self.compiled.info)
+        return lengths if table == "magnitudes" else parts
 
     # -- multipliers ---------------------------------------------------------------------------------------------------
 

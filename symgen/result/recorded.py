@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
-import csv
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from symgen.describe.columns import PREFIX
-from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, quoted
-from symgen.files import unheaded
+from symgen.result.labelled import Array
 from symgen.result.saved import read_saved
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -104,39 +98,7 @@ def read_recorded(option: str, path: Path) -> Recorded:
     InputError
         If there is no such file, or it is none of a result.
     """
-    return read_saved(option, path, _of_dataset, _of_columns)
-
-
-def _of_dataset(option: str, path: Path) -> Recorded:
-    import xarray as xr
-
-    dataset, columns = xr.load_dataset(path, engine="h5netcdf"), dict[str, Array]()
-    tables = ("q", "coordinate"), ("v", "velocity"), ("a", "acceleration"), ("joint_coordinates", "joint_coordinate")
-    for table, labels in tables:
-        values, prefix = np.asarray(dataset[table].values, dtype=np.float64), PREFIX[table]
-        columns |= {f"{prefix}{name}": values[:, i] for i, name in enumerate(dataset[labels].values)}
-    run = json.loads(dataset.attrs["run"])
-    t = np.asarray(dataset["time"].values, dtype=np.float64)
-    return Recorded(f"{option} '{path.name}'", t, columns, run["parameters"], run["inputs"])
-
-
-def _of_columns(option: str, path: Path) -> Recorded:
-    if path.suffix.lower() == ".csv":
-        with path.open(encoding="utf-8", newline="") as file:
-            rows = csv.reader(file)
-            names = [unheaded(name) for name in next(rows)]
-            values = np.array([[float(x) for x in row] for row in rows])
-        columns = {name: values[:, i] for i, name in enumerate(names)}
-    else:
-        import pandas as pd
-
-        frame = pd.read_parquet(path, engine="pyarrow")
-        columns = {str(name): np.asarray(frame[name], dtype=np.float64) for name in frame.columns}
-        columns["t"] = np.asarray(frame.index, dtype=np.float64)
-    return Recorded(f"{option} '{path.name}'", columns.pop("t"), columns)
-
-
-def accelerations(velocities: Sequence[str]) -> list[str]:
-    """Return the names of accelerations by those of velocities."""
-    parts = (name.rpartition(".") for name in velocities)
-    return [f"{body}.{ACCELERATIONS[speed]}" for body, _, speed in parts]
+    where = f"{option} '{path.name}'"
+    return read_saved(
+        option, path, lambda s: Recorded(where, s.t, s.columns, s.run.get("parameters", {}), s.run.get("inputs", {}))
+    )

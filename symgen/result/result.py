@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 from symgen.arguments import of_kind, switch, words
 from symgen.arguments import path as argument_path
-from symgen.result.labelled import Labelled
 from symgen.result.run_data import RunData
 
 if TYPE_CHECKING:
@@ -91,21 +90,15 @@ class Result(RunData):
         InputError
             If pandas is not installed; says how to install it.
         """
-        from symgen.result.export import to_dataframe
-
-        return to_dataframe(self)
+        frame = super().to_dataframe()
+        frame.attrs["run"] = self.to_json()
+        return frame
 
     def to_xarray(self) -> xr.Dataset:
         """Return all tables as a dataset over time, with units and what was run; raises as `to_dataframe` does."""
         from symgen.result.export import to_xarray
 
         return to_xarray(self)
-
-    def select(self, names: Sequence[str]) -> Labelled:
-        """Return columns of any tables, by their names in data frames: see `symgen.result.select.select`."""
-        from symgen.result.select import select
-
-        return select(self, names)
 
     def view(self, beside: Result | None = None, *, live: bool = True) -> Page:
         """Return a page that plays the motion, which notebooks show and ``.save("x.html")`` writes.
@@ -153,14 +146,14 @@ class Result(RunData):
 
         return save(self, argument_path("save", path), words("quantities", quantities), switch("units", units))
 
-    def plot(self, path: str | PathLike[str], what: tuple[str, ...] = ("positions", "energy", "violations")) -> Path:
+    def plot(self, path: str | PathLike[str], what: Sequence[str] = ("positions", "energy", "violations")) -> Path:
         """Draw panels over time into a PNG, SVG or PDF file.
 
         Parameters
         ----------
         path : path
             The file; its ending says the kind.
-        what : tuple of str
+        what : sequence of str
             Any of ``positions``, ``velocities``, ``energy``, ``violations``, ``reactions``.
         """
         from symgen.result.plots import plot

@@ -6,15 +6,15 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.arguments import one_of, shown
+from symgen.arguments import shown
 from symgen.describe.mechanism import ACCELERATIONS
-from symgen.errors import InputError, nearest, quoted
-from symgen.result.derived import Derived
+from symgen.errors import InputError, nearest
 from symgen.result.labelled import Array, Labelled
+from symgen.result.tables import MotionTables
 
 if TYPE_CHECKING:
     from symgen.result.measured import Measured
@@ -33,19 +33,8 @@ TABLES = (
 )
 #: Columns of two of them.
 ENERGIES, VIOLATIONS = ("kinetic", "potential", "work", "error"), ("position", "velocity", "acceleration")
-#: Those that need code of their own.
-SIDE = ("points", "elements", "outputs")
 #: Reason of a run that was stopped from outside.
 INTERRUPTED = "interrupted"
-
-
-#: What a copy does without, and what is worked out before.
-_OF_THE_RUN = ("outcome", "forces", "measured", "ended")
-_DERIVED = (
-    *("a", "joint_coordinates", "violations", "lam", "reactions", "body_reactions", "magnitudes"),
-    *("points", "elements", "outputs", "non_unique_reactions", "shape", "start", "last_state"),
-    "_final_multipliers",
-)
 
 
 def accelerations_of(velocities: Iterable[str]) -> tuple[str, ...]:
@@ -55,8 +44,14 @@ def accelerations_of(velocities: Iterable[str]) -> tuple[str, ...]:
 
 
 @dataclass(frozen=True, repr=False)
-class RunData(Derived):
+class RunData(MotionTables):
     """What a run gave, see `symgen.Result`, which adds the ways out of Python."""
+
+    of_process: ClassVar[tuple[str, ...]] = ("outcome", "forces", "measured", "ended")
+    kept: ClassVar[tuple[str, ...]] = (
+        *("non_unique_reactions", "shape", "start", "last_state"),
+        "_final_multipliers",
+    )
 
     mechanism: str
     method: str
@@ -102,20 +97,15 @@ class RunData(Derived):
     state: tuple[str, ...] = ()
     watched: tuple[tuple[str, str], ...] = ()
 
-    # -- copies and other processes ------------------------------------------------------------------------------------
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the tables."""
+        return TABLES
 
-    def __getstate__(self) -> dict[str, Any]:
-        for name in _DERIVED:
-            getattr(self, name)  # kept by the instance
-        return {name: value for name, value in self.__dict__.items() if name not in _OF_THE_RUN}
-
-    if not TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:
-            if name in _OF_THE_RUN and "mechanism" in self.__dict__:
-                got = "one that was pickled or copied: it has its tables only"
-                raise InputError(f"result.{name}", "a result of this process", got)
-            raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'")
+    @property
+    def searched(self) -> tuple[str, ...]:
+        """Tables in which a column is looked for by its name alone, cheap ones first."""
+        return ("q", "v", "joint_coordinates", "a", "lam", "reactions", "outputs", "elements", "points")
 
     # -- derived, when first asked for ---------------------------------------------------------------------------------
 
@@ -163,38 +153,6 @@ class RunData(Derived):
         """Energies as one table: ``kinetic``, ``potential``, ``work``, ``error`` [J]."""
         values = np.column_stack([self.kinetic, self.potential, self.work, self.energy_error])
         return Labelled(values, ENERGIES, ("J",) * len(ENERGIES))
-
-    def tables(self) -> dict[str, Labelled]:
-        """Return all tables by name; see `TABLES`."""
-        return {name: getattr(self, name) for name in TABLES}
-
-    def columns(self, table: str) -> tuple[str, ...]:
-        """Return the names of the columns of one of `TABLES`; code of a table's own is not generated for that."""
-        one_of("table", table, TABLES)
-        if table in SIDE and table not in self.__dict__:
-            return tuple(column.name for column in self.measured.columns(table))
-        found: Labelled = getattr(self, table)
-        return found.names
-
-    def __getitem__(self, name: str) -> Array:
-        """Return a column of whatever table has it: ``result["crank.x"]``, ``result["crank.omega"]``, ``result["t"]``.
-
-        Multipliers of a joint that is called like a body are hidden by the body's coordinates here; they are in `lam`.
-        """
-        if not isinstance(name, str):
-            hint = "outputs are rows: result.q.values[-1] holds the last coordinates, result.q.row(-1) by name"
-            raise InputError("result", "the name of a column", shown(name), hint)
-        if name == "t":
-            return self.t
-        known: list[str] = []
-        # cheap ones first: a table behind the one that has the name is never computed
-        for table in ("q", "v", "joint_coordinates", "a", "lam", "reactions", "outputs", "elements", "points"):
-            names = self.columns(table)
-            if name in names:
-                found: Array = getattr(self, table)[name]
-                return found
-            known += names
-        raise InputError("result", "the name of a column", quoted(name), nearest(name, known))
 
     @cached_property
     def last_state(self) -> LastState:

@@ -1,17 +1,13 @@
-"""Columns of a result by the names that data frames give them, from whatever tables have them."""
+"""Names of the columns of any run of a model, and what they come to."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from symgen.arguments import words
 from symgen.describe.columns import PREFIX
 from symgen.describe.outputs import TABLES as MEASURED
-from symgen.errors import InputError, nearest
 from symgen.result.acting import reaction_names
 from symgen.result.contract import finite
 from symgen.result.labelled import Labelled
@@ -19,59 +15,7 @@ from symgen.result.run_data import ENERGIES, TABLES, VIOLATIONS, accelerations_o
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.result.run_data import RunData
     from symgen.runtime.compiled import ModelInfo
-
-
-def select(result: RunData, names: Sequence[str]) -> Labelled:
-    """Return columns called `names`, in this order.
-
-    Parameters
-    ----------
-    result, names : RunData, sequence of str
-        Of a run; of columns of a data frame, such as ``crank.theta``, ``lam.A.x``, ``spring.force`` or ``reach``, of a
-        group, such as ``crank``, ``spring`` or ``energy``, or of a table, such as ``q`` or ``outputs``.
-
-    Raises
-    ------
-    InputError
-        If there is no such name; says the nearest one.
-    """
-    chosen = choose(_columns(result), names, result.mechanism)
-    tables: dict[str, Labelled] = {table: getattr(result, table) for table in dict.fromkeys(chosen.values())}
-    own = {column: (tables[table], column.removeprefix(PREFIX[table])) for column, table in chosen.items()}
-    values = [table[name] for table, name in own.values()]
-    stacked = np.column_stack(values) if values else np.zeros((len(result.t), 0))
-    return Labelled(stacked, tuple(own), tuple(table.unit(name) for table, name in own.values()))
-
-
-def choose(columns: Mapping[str, str], names: Sequence[str], mechanism: str) -> dict[str, str]:
-    """Return the columns that names mean, with their tables.
-
-    Parameters
-    ----------
-    columns : mapping of str to str
-        All columns, with their tables.
-    names : sequence of str
-        See `select`.
-    mechanism : str
-        Its name, for the message.
-
-    Raises
-    ------
-    InputError
-        If there is no such name; says the nearest one.
-    """
-    chosen: dict[str, str] = {}
-    for name in words("quantities", names):
-        found = _named(columns, name)
-        if not found:
-            groups = {column.partition(".")[0] for column in columns}
-            known = [*columns, *groups, *TABLES] if len(columns) <= 60 or "." in name else [*groups, *TABLES]
-            expected = f"a quantity of {mechanism}"
-            raise InputError(f"quantity '{name}'", expected, "none of that name", nearest(name, known))
-        chosen |= found
-    return chosen
 
 
 def columns_of(mechanism: Mechanism, info: ModelInfo) -> dict[str, str]:
@@ -85,7 +29,7 @@ def columns_of(mechanism: Mechanism, info: ModelInfo) -> dict[str, str]:
         Of its compiled model.
     """
     velocities = [velocity.name for velocity in info.velocities]
-    parts, lengths = reaction_names(mechanism, info)
+    parts, lengths = reaction_names({joint.name: joint.bodies[0] for joint in mechanism.joints}, info)
     names: dict[str, Iterable[str]] = {
         "q": [coordinate.name for coordinate in info.coordinates],
         "v": velocities,
@@ -107,20 +51,3 @@ def extremes(table: Labelled) -> dict[str, dict[str, Any]]:
         numbers = (values[-1], values.min(), values.max()) if len(values) else (math.nan,) * 3
         found[name] = {"unit": unit, **dict(zip(("final", "min", "max"), map(float, numbers), strict=True))}
     return {name: finite(entry) for name, entry in found.items()}
-
-
-def _columns(result: RunData) -> dict[str, str]:
-    """Return the names of all columns with their tables; nothing is generated for it."""
-    found: dict[str, str] = {}
-    for table in TABLES:
-        found |= {PREFIX[table] + name: table for name in result.columns(table)}
-    return found
-
-
-def _named(columns: Mapping[str, str], name: str) -> dict[str, str]:
-    """Return what a name means: a column, all columns of a body, element or prefix, or all of a table."""
-    if name in columns:
-        return {name: columns[name]}
-    if name in TABLES:
-        return {column: table for column, table in columns.items() if table == name}
-    return {column: table for column, table in columns.items() if column.startswith(f"{name}.")}

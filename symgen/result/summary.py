@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
+from symgen.result.labelled import html_table
 from symgen.result.run_data import FAILED
 
 if TYPE_CHECKING:
@@ -65,11 +66,5 @@ def status_in_words(result: RunData) -> str:
 
 def html(result: RunData) -> str:
     """Return the summary as an HTML table."""
-    from html import escape
-
     rows = [*lines(result), *(("warning", w) for w in result.warnings), *(("note", n) for n in result.notes)]
-    cells = "".join(
-        f"<tr><th style='text-align:left'>{escape(label)}</th><td style='text-align:left'>{escape(text)}</td></tr>"
-        for label, text in rows
-    )
-    return f"<table>{cells}</table>"
+    return html_table((), rows)

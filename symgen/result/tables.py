@@ -1,71 +1,119 @@
-"""What a motion gives beside runs: tables over time, read by name, written to files and drawn."""
+"""Tables over time, read by name, written to files and drawn: what runs and analyses along a motion have in common."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symgen.arguments import one_of, shown, words
 from symgen.arguments import path as argument_path
-from symgen.arguments import words
 from symgen.describe.columns import PREFIX
-from symgen.errors import MOST_LISTED, InputError, nearest
-from symgen.files import headed
-from symgen.result.export import PLOTTED, check_path, need
-from symgen.result.labelled import Labelled
+from symgen.errors import InputError, nearest, quoted
+from symgen.result.export import COLUMNS, PLOTTED, check_path, data_frame, write_frame
+from symgen.result.labelled import Array, Labelled
 
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
+    from symgen.result.measured import Measured
+    from symgen.result.reactions import Forces
 
-#: What tables are worked out from: compiled code among it, which is no data.
-_OF_THE_PROCESS = ("motion", "forces", "measured")
-#: Endings of data files.
-SAVED: Mapping[str, tuple[str, ...]] = {".csv": ("pandas",), ".parquet": ("pandas", "pyarrow")}
+#: Tables that need code of their own, and tables of forces: names of their columns are there without their values.
+SIDE = ("points", "elements", "outputs")
+_OF_FORCES = ("lam", "reactions", "body_reactions", "magnitudes")
 
 
 class Tables(ABC):
     """Tables over time; columns have the names that data frames of runs give them.
 
     What was pickled or copied holds all of its tables, worked out when that was done, but not what they are worked out
-    from, which belongs to the process that found the motion.
+    from, which belongs to the process that computed the motion.
     """
 
     t: Array
     mechanism: str
+    forces: Forces
+
+    #: Attributes that belong to the process: compiled code is no data. And what a copy keeps beside its tables.
+    of_process: ClassVar[tuple[str, ...]] = ("motion", "forces", "measured")
+    kept: ClassVar[tuple[str, ...]] = ("non_unique_reactions",)
 
     @property
     @abstractmethod
     def names(self) -> tuple[str, ...]:
-        """Names of the tables, those first that cost least."""
+        """Names of the tables, in the order of files."""
+
+    @property
+    def searched(self) -> tuple[str, ...]:
+        """Tables in which a column is looked for by its name alone, cheap ones first."""
+        return self.names
 
     @property
     def title(self) -> str:
         """What stands above a plot."""
         return self.mechanism
 
+    # -- multipliers and reactions -------------------------------------------------------------------------------------
+
+    @cached_property
+    def lam(self) -> Labelled:
+        """Multipliers; where constraints are redundant, those of minimum norm."""
+        return self.forces.multipliers()
+
+    @cached_property
+    def reactions(self) -> Labelled:
+        """Reaction of each joint on its first body: ``JOINT.Fx``, ``JOINT.Fy`` [N], ``JOINT.M`` [N m].
+
+        In space ``JOINT.Fx`` ... ``.Fz`` and ``JOINT.Mx`` ... ``.Mz``, all in ground axes. ``-D^T lambda`` of the
+        joint's rows; moments are about the joint's own point on that body, and where a kind of joint has none about
+        the body's centre of mass, on the ground about the origin.
+        """
+        return self.forces.reactions(self.lam)
+
+    @cached_property
+    def magnitudes(self) -> Labelled:
+        """Magnitudes of the reactions: ``JOINT.F`` [N] and, in space, ``JOINT.T`` [N m] of their moments."""
+        return self.forces.magnitudes(self.reactions)
+
+    @cached_property
+    def non_unique_reactions(self) -> tuple[str, ...]:
+        """Joints whose reactions the motion does not determine, because constraints are redundant."""
+        return self.forces.non_unique
+
+    # -- copies and other processes ------------------------------------------------------------------------------------
+
     def __getstate__(self) -> dict[str, Any]:
-        for name in (*self.names, "non_unique_reactions"):
+        for name in (*self.names, *self.kept):
             getattr(self, name)  # kept by the instance
-        return {name: value for name, value in self.__dict__.items() if name not in _OF_THE_PROCESS}
+        return {name: value for name, value in self.__dict__.items() if name not in self.of_process}
 
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
-            if name in _OF_THE_PROCESS and "mechanism" in self.__dict__:
+            if name in self.of_process and "mechanism" in self.__dict__:
                 got = "one that was pickled or copied: it has its tables only"
                 raise InputError(f"result.{name}", "a result of this process", got)
             raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'")
 
+    # -- columns by name -----------------------------------------------------------------------------------------------
+
     def tables(self) -> dict[str, Labelled]:
         """Return all tables by name."""
         return {name: getattr(self, name) for name in self.names}
+
+    def columns(self, table: str) -> tuple[str, ...]:
+        """Return the names of the columns of a table; values of a costly one are not computed for that."""
+        one_of("table", table, self.names)
+        if table not in self.__dict__ and table in _OF_FORCES:
+            return self.forces.columns(table)
+        found: Labelled = getattr(self, table)
+        return found.names
 
     def select(self, names: Sequence[str]) -> Labelled:
         """Return columns of any tables, in this order.
@@ -73,47 +121,52 @@ class Tables(ABC):
         Parameters
         ----------
         names : sequence of str
-            Columns (``crank.theta``, ``reaction.A.Fx``), bodies or joints (``crank``), or tables (``points``).
+            Columns of a data frame (``crank.theta``, ``lam.A.x``, ``reaction.A.Fx``, ``spring.force``), all columns of
+            a body, a joint, an element or a prefix (``crank``, ``energy``), or tables (``q``, ``points``).
 
         Raises
         ------
         InputError
             If there is no such name; says the nearest one.
         """
-        found: dict[str, tuple[Array, str]] = {}
-        for name in words("quantities", names):
-            found |= self._named(name)
-        values = [column for column, _ in found.values()]
-        stacked = np.column_stack(values) if values else np.zeros((len(self.t), 0))
-        return Labelled(stacked, tuple(found), tuple(unit for _, unit in found.values()))
+        columns = {PREFIX[table] + name: table for table in self.names for name in self.columns(table)}
+        chosen = choose(columns, names, self.mechanism, self.names)
+        found = {
+            PREFIX[table] + name: (i, values)
+            for table in dict.fromkeys(chosen.values())
+            for values in (getattr(self, table),)
+            for i, name in enumerate(values.names)
+        }
+        places = [found[name] for name in chosen]
+        stacked = [table.values[:, i] for i, table in places]
+        values = np.column_stack(stacked) if stacked else np.zeros((len(self.t), 0))
+        return Labelled(values, tuple(chosen), tuple(table.units[i] for i, table in places))
 
     def __getitem__(self, name: str) -> Array:
-        """Return one column of whatever table has it, or ``t``; shape (k,)."""
+        """Return a column of whatever table has it: ``result["crank.x"]``, ``result["crank.omega"]``, ``result["t"]``.
+
+        Multipliers of a joint that is called like a body are hidden by the body's coordinates here; they are in `lam`.
+        Names of data frames, such as ``lam.A.x``, tell them apart.
+        """
+        if not isinstance(name, str):
+            hint = "outputs are rows: result.q.values[-1] holds the last coordinates, result.q.row(-1) by name"
+            raise InputError("result", "the name of a column", shown(name), hint)
         if name == "t":
             return self.t
-        for table in self.names:
-            found: Labelled = getattr(self, table)
-            if name in found.names:
-                return found[name]
-        return self.select([name]).values[:, 0]
-
-    def _named(self, name: str) -> dict[str, tuple[Array, str]]:
         known = list[str]()
-        if name in self.names:
-            return dict(_columns(name, getattr(self, name)))
+        for table in self.searched:
+            names = self.columns(table)
+            if name in names:
+                found: Labelled = getattr(self, table)
+                return found[name]
+            known += names
         for table in self.names:
-            columns = dict(_columns(table, getattr(self, table)))
-            if name in columns:
-                return {name: columns[name]}
-            group = {full: column for full, column in columns.items() if full.startswith(f"{name}.")}
-            if group:
-                return group
-            known += columns
-        if len(known) > MOST_LISTED and "." not in name:
-            known = [*self.names, *dict.fromkeys(column.partition(".")[0] for column in known)]
-        raise InputError(
-            f"quantity '{name}'", f"a quantity of {self.mechanism}", "none of that name", nearest(name, known)
-        )
+            if name.startswith(PREFIX[table]) and (own := name.removeprefix(PREFIX[table])) in self.columns(table):
+                found = getattr(self, table)
+                return found[own]
+        raise InputError("result", "the name of a column", quoted(name), nearest(name, known))
+
+    # -- leaving Python ------------------------------------------------------------------------------------------------
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return all tables as one data frame over time; ``attrs["units"]`` holds units.
@@ -123,7 +176,7 @@ class Tables(ABC):
         InputError
             If pandas is not installed; says how to install it.
         """
-        return self._frame(dict(c for name, table in self.tables().items() for c in _columns(name, table)), False)
+        return data_frame(self.t, self.select(self.names))
 
     def save(self, path: str | PathLike[str], quantities: Sequence[str] = ()) -> Path:
         """Write all tables, or chosen columns, to ``.csv`` with units in its header, or ``.parquet``.
@@ -140,28 +193,10 @@ class Tables(ABC):
         InputError
             If the ending is not known, a library is missing, or the file cannot be written.
         """
-        from symgen.files import write_whole
-
         where = argument_path("save", path)
-        check_path("save", where, SAVED, "data")
-        columns = dict[str, tuple[Array, str]]()
-        for name in words("quantities", quantities) or self.names:
-            columns |= self._named(name)
-        if where.suffix.lower() == ".parquet":
-            frame = self._frame(columns, False)
-            return write_whole(where, lambda file: frame.to_parquet(file, engine="pyarrow"))
-        frame = self._frame(columns, True)
-        return write_whole(where, lambda file: frame.to_csv(file, mode="wb"))
-
-    def _frame(self, columns: Mapping[str, tuple[Array, str]], units: bool) -> pd.DataFrame:
-        need("to_dataframe", "pandas")
-        import pandas as pd
-
-        names = {name: headed(name, unit) if units else name for name, (_, unit) in columns.items()}
-        index = pd.Index(self.t, name=headed("t", "s") if units else "t")
-        frame = pd.DataFrame({names[name]: values for name, (values, _) in columns.items()}, index=index)
-        frame.attrs["units"] = {names[name]: unit for name, (_, unit) in columns.items()}
-        return frame
+        check_path("save", where, COLUMNS, "data")
+        chosen = self.select(words("quantities", quantities) or self.names)
+        return write_frame(data_frame(self.t, chosen, where.suffix.lower() == ".csv"), where)
 
     def plot(self, path: str | PathLike[str], what: Sequence[str] = ()) -> Path:
         """Draw quantities over time into a PNG, SVG or PDF file, a panel for each unit.
@@ -183,14 +218,82 @@ class Tables(ABC):
 
     def series(self, table: str) -> dict[str, list[Any]]:
         """Return a table as JSON has it: lists by name; numbers that are not finite are None."""
-        found: Labelled = getattr(self, table)
+        found: Labelled = getattr(self, one_of("table", table, self.names))
         if np.all(np.isfinite(found.values)):
             return {name: found.values[:, i].tolist() for i, name in enumerate(found.names)}
         columns = ((name, found.values[:, i].tolist()) for i, name in enumerate(found.names))
         return {name: [x if np.isfinite(x) else None for x in column] for name, column in columns}
 
 
-def _columns(table: str, found: Labelled) -> Iterable[tuple[str, tuple[Array, str]]]:
-    prefix = PREFIX[table]
-    for i, (name, unit) in enumerate(zip(found.names, found.units, strict=True)):
-        yield prefix + name, (found.values[:, i], unit)
+class MotionTables(Tables):
+    """Tables of a motion: with what joints report, and the quantities that a file names."""
+
+    measured: Measured
+
+    def columns(self, table: str) -> tuple[str, ...]:
+        """Return the names of the columns of a table; values of a costly one are not computed for that."""
+        if table in SIDE and table not in self.__dict__:
+            return tuple(column.name for column in self.measured.columns(table))
+        return super().columns(table)
+
+    @cached_property
+    def joint_coordinates(self) -> Labelled:
+        """What joints report, each followed by its rate: ``JOINT.angle``, ``JOINT.angle.rate``."""
+        motion = self.measured.outcome
+        quantities = motion.compiled.info.joint_coordinates
+        names = tuple(name for q in quantities for name in (q.name, f"{q.name}.rate"))
+        units = tuple(unit for q in quantities for unit in (q.unit, f"{q.unit}/s"))
+        return Labelled(motion.joint_coordinates, names, units)
+
+    @cached_property
+    def points(self) -> Labelled:
+        """Named points of bodies in the ground frame: ``arm.tip.x``, ``.vx``, ``.ax``, ..."""
+        return self.measured.table("points")
+
+    @cached_property
+    def elements(self) -> Labelled:
+        """Force elements and drivers: ``spring.length``, ``.rate``, ``.force``, ``.power``; ``motor.effort``, ..."""
+        return self.measured.table("elements")
+
+    @cached_property
+    def outputs(self) -> Labelled:
+        """The formulas of the file's ``[outputs]``; integrals are left out where nothing is integrated."""
+        return self.measured.table("outputs")
+
+
+def choose(
+    columns: Mapping[str, str], names: Sequence[str], mechanism: str, tables: Sequence[str] = ()
+) -> dict[str, str]:
+    """Return the columns that names mean, with their tables.
+
+    Parameters
+    ----------
+    columns : mapping of str to str
+        All columns, with their tables.
+    names : sequence of str
+        See `Tables.select`.
+    mechanism : str
+        Its name, for the message.
+    tables : sequence of str
+        Tables that may be named although they have no columns.
+
+    Raises
+    ------
+    InputError
+        If there is no such name; says the nearest one.
+    """
+    chosen, groups = dict[str, str](), dict.fromkeys((*columns.values(), *tables))
+    for name in words("quantities", names):
+        if name in columns:
+            found = {name: columns[name]}
+        elif name in groups:
+            found = {column: table for column, table in columns.items() if table == name}
+        else:
+            found = {column: table for column, table in columns.items() if column.startswith(f"{name}.")}
+        if not found and name not in tables:
+            groups |= dict.fromkeys(column.partition(".")[0] for column in columns)
+            known = [*columns, *groups] if len(columns) <= 60 or "." in name else [*groups]
+            expected = f"a quantity of {mechanism}"
+            raise InputError(f"quantity '{name}'", expected, "none of that name", nearest(name, known))
+        chosen |= found
+    return chosen

@@ -14,12 +14,12 @@ from symgen.describe.evaluate import parameter_values, said
 from symgen.describe.events import DOES
 from symgen.describe.input_data import are_words_of_data
 from symgen.errors import AssemblyError, InputError
-from symgen.files import check_name
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.page import Page, page
 from symgen.player.recording import LONGEST_KEY, Group, Moment, Recording, position_groups
-from symgen.result.export import need
+from symgen.result.export import DIMENSIONS, SAVED
 from symgen.result.labelled import Array, Labelled
+from symgen.result.saved import checked
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -66,23 +66,16 @@ def recorded(result: RunData) -> Recording:
     if not len(result.t):
         raise InputError("view", "a result with outputs", f"one of {result.mechanism} without")
     mechanism = result.measured.mechanism
-    tables: dict[str, Labelled] = {"energy": result.energy, "violations": result.violations}
-    tables |= {"reactions": result.reactions, "elements": result.elements, "outputs": result.outputs}
-    moments = _moments([asdict(e) for e in result.rank_events], [(e.t, e.name) for e in result.events])
-    facts = [("", result.method), ("", result.integrator), ("status", result.status)]
-    if result.reason:
-        facts.append(("", result.reason))
+    run = {name: getattr(result, name) for name in ("method", "integrator", "status", "reason")}
+    run["rank_events"] = [asdict(event) for event in result.rank_events]
+    run["events"] = [{"t": event.t, "name": event.name} for event in result.events]
     values = parameter_values(mechanism) | dict(result.parameters)
-    return _recording(mechanism, values, result.t, result.q.values, tables, facts, moments)
+    tables: dict[str, Labelled] = {name: getattr(result, name) for name in _TABLES}
+    return _recording(mechanism, values, result.t, result.q.values, tables, run)
 
 
-def _moments(passages: Sequence[Mapping[str, Any]], events: Sequence[tuple[float, str]]) -> list[Moment]:
-    """Return passages near singular positions, and events."""
-    found = [
-        Moment(e["t_in"], e["t_out"], "rank", f"rank {e['rank']}, smallest pivot {e['smallest_pivot']:.1e}")
-        for e in passages
-    ]
-    return found + [Moment(t, t, "event", name) for t, name in events]
+#: Tables of a result that pages show beside the coordinates.
+_TABLES = ("energy", "violations", "reactions", "elements", "outputs")
 
 
 def _recording(
@@ -91,9 +84,16 @@ def _recording(
     t: Array,
     q: Array,
     tables: Mapping[str, Labelled],
-    facts: list[tuple[str, str]],
-    moments: list[Moment],
+    run: Mapping[str, Any],
 ) -> Recording:
+    """Return a motion as a page plays it, with facts of its run by the names of JSON."""
+    facts = [("", run["method"]), ("", run["integrator"]), ("status", run["status"])]
+    facts += [("", run["reason"])] if run["reason"] else []
+    moments = [
+        Moment(e["t_in"], e["t_out"], "rank", f"rank {e['rank']}, smallest pivot {e['smallest_pivot']:.1e}")
+        for e in run.get("rank_events", [])
+    ]
+    moments += [Moment(e["t"], e["t"], "event", e["name"]) for e in run.get("events", [])]
     reactions, pushed = _reactions(mechanism, tables["reactions"])
     pulls = [name for name in tables["elements"].names if name.endswith(".force")]
     pulling = tuple(name.removesuffix(".force") for name in pulls)
@@ -102,7 +102,7 @@ def _recording(
         dict(values),
         *(t, q),
         facts=tuple(facts),
-        status=dict(facts).get("status", "ok"),
+        status=run["status"],
         groups=tuple(_groups(mechanism, q, tables)),
         reactions=reactions,
         pushed=pushed,
@@ -283,29 +283,15 @@ def mechanism_name(option: str, path: Path) -> str:
 
 
 def _dataset(option: str, path: Path) -> xr.Dataset:
-    need(option, "xarray", "h5netcdf", "h5py")
-    import xarray as xr
+    def read(path: Path) -> xr.Dataset:
+        import xarray as xr
 
-    check_name(option, path)
-    if not path.is_file():
-        raise InputError(option, "a file of a result", f"'{path}', which is none")
-    try:
         found = xr.load_dataset(path, engine="h5netcdf")
         if not {"q", "energy", "violations", "reactions"} <= set(found.data_vars) or "mechanism" not in found.attrs:
             raise ValueError("it has not the tables of a result")
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        why = " ".join(str(error).split())[:80]
-        raise InputError(option, "a file of a result", f"'{path}', which cannot be read as one ({why})") from None
-    return found
+        return found
 
-
-_COLUMNS = {
-    "energy": "kind_of_energy",
-    "violations": "level",
-    "reactions": "reaction",
-    "elements": "element_quantity",
-    "outputs": "output",
-}
+    return checked(option, path, read, SAVED[".nc"])
 
 
 def recorded_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
@@ -323,22 +309,14 @@ def recorded_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
             option, f"a result of {mechanism.name}", f"'{path}', which is one of {data.attrs['mechanism']}"
         )
     tables = {}
-    for name, of in _COLUMNS.items():
+    for name in _TABLES:
+        of = DIMENSIONS[name]
         known = [str(n) for n in data[of].values] if of in data.coords else []
         units = tuple(str(u) for u in data[f"{of}_unit"].values) if known else ()
         values = np.asarray(data[name].values, dtype=np.float64) if known else np.zeros((data.sizes["time"], 0))
         tables[name] = Labelled(values, tuple(known), units)
     run: dict[str, Any] = json.loads(data.attrs["run"])
-    facts = [
-        ("", str(data.attrs["method"])),
-        ("", str(data.attrs["integrator"])),
-        ("status", str(data.attrs["status"])),
-    ]
-    if data.attrs["reason"]:
-        facts.append(("", str(data.attrs["reason"])))
     known_values = {p.name for p in mechanism.parameters}
     given = {k: float(v) for k, v in run.get("parameters", {}).items() if k in known_values}
-    return _recording(
-        *(mechanism, parameter_values(mechanism, given), data["time"].values, data["q"].values, tables, facts),
-        moments=_moments(run.get("rank_events", []), [(e["t"], e["name"]) for e in run.get("events", [])]),
-    )
+    numbers, t, q = parameter_values(mechanism, given), data["time"].values, data["q"].values
+    return _recording(mechanism, numbers, t, q, tables, run)

@@ -10,13 +10,26 @@ import functools
 import hashlib
 import inspect
 import linecache
+import os
 import types
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-# Loops call helpers of these packages.
-_SOURCE_FOLDERS = ("runtime", "integrators")
+#: Sources of symgen by what depends on them: the text of emitted code and what is kept beside it, loops and the helpers
+#: that they call, the compiler, rows of sweeps, and cells of studies, whose run times are kept as well.
+SOURCES: Mapping[str, tuple[str, ...]] = {
+    "code": ("describe", "vocabulary", "formulate", "ir", "lower", "emit", "methods", "compiling"),
+    "loops": ("runtime", "integrators"),
+    "compiler": ("native",),
+    "rows": ("ensemble", "integrators", "result", "running", "runtime"),
+    "cells": (
+        *("compiling", "integrators", "native", "reruns", "result", "running", "runtime", "store", "study"),
+        *("api.py", "settings.py"),
+    ),
+}
+#: Folders of templates of emitted code.
+TEMPLATES = ("looped", "parts", "curves")
 
 
 def digest(*parts: str | bytes) -> str:
@@ -47,7 +60,7 @@ def source_stamp(function: Any) -> str:
     """
     files = sorted({inspect.getfile(reached) for reached in _reached(function, {})})
     # Contents without names: the same sources in another place give the same machine code.
-    return digest(*sorted(file_digest(file) for file in files), sources_digest(*_SOURCE_FOLDERS))
+    return digest(*sorted(file_digest(file) for file in files), sources_digest(*SOURCES["loops"]))
 
 
 def content(path: str) -> bytes:
@@ -83,8 +96,23 @@ def file_digest(path: str) -> str:
 
 
 @functools.cache
-def sources_digest(*folders: str) -> str:
-    """Return the digest of all sources in folders of symgen."""
-    base = Path(__file__).parent.parent
-    files = sorted(path for folder in folders for path in (base / folder).rglob("*.py"))
-    return digest(*(text for path in files for text in (path.relative_to(base).as_posix(), path.read_bytes())))
+def sources_digest(*places: str) -> str:
+    """Return the digest of sources: of files and folders of symgen, and of folders of templates by absolute paths."""
+    base = os.path.dirname(os.path.dirname(__file__))
+    parts = list[str | bytes]()
+    for place in places:
+        root = os.path.join(base, place)
+        for path in _sources(root):
+            parts += (place + path[len(root) :] if not os.path.isabs(place) else path[len(root) :], content(path))
+    return digest(*parts)
+
+
+def _sources(place: str) -> Iterator[str]:
+    """Yield a source file, or those below a folder in an order of their own; twice as fast as ``rglob``."""
+    if place.endswith((".py", ".j2")):
+        yield place
+        return
+    with os.scandir(place) as entries:
+        for entry in sorted(entries, key=lambda entry: entry.name):
+            if entry.name.endswith((".py", ".j2")) or (entry.name != "__pycache__" and entry.is_dir()):
+                yield from _sources(entry.path)

@@ -28,7 +28,7 @@ from symgen.native.calls import caller, kind_of
 from symgen.native.compiler import COMPILER, by_numba, compiler, interpreted
 from symgen.native.machine import load, lock, processor
 from symgen.store import private
-from symgen.store.identity import content, digest, file_digest, source_stamp, sources_digest
+from symgen.store.identity import SOURCES, content, digest, file_digest, source_stamp, sources_digest
 from symgen.store.paths import cache_location
 from symgen.store.stats import Clock
 from symgen.store.upkeep import NATIVE
@@ -138,7 +138,9 @@ class MachineFunction(ABC):
 
     def key(self, arguments: Arguments) -> str:
         """Return all that the machine code for arguments of some types depends on."""
-        return "\n".join((self.identity(), repr(arguments), processor(), _environment(), sources_digest("native")))
+        return "\n".join(
+            (self.identity(), repr(arguments), processor(), _environment(), sources_digest(*SOURCES["compiler"]))
+        )
 
     def symbol(self, arguments: Arguments) -> str:
         """Return the name in machine code, which holds a digest of all that the machine code depends on."""

@@ -24,7 +24,6 @@ from typing import Any
 
 from symgen.errors import InputError
 from symgen.store import private
-from symgen.store.emitted import EmittedFunction, Origin, imported
 from symgen.store.paths import cache_location
 from symgen.store.upkeep import BYTECODE
 
@@ -194,6 +193,8 @@ def _register_package(name: str) -> None:
 def _execute(name: str, source: _Source, stamp: str) -> ModuleType:
     if name in sys.modules:
         return sys.modules[name]
+    from symgen.store.emitted import EmittedFunction, Origin, imported  # with NumPy and llvmlite
+
     package, _, last = name.rpartition(".")
     module = ModuleType(name)
     module.__file__ = str(source.path)
@@ -208,14 +209,10 @@ def _execute(name: str, source: _Source, stamp: str) -> ModuleType:
         del sys.modules[name]
         raise
     setattr(sys.modules[package], last, module)
-    _attach(module, stamp, source)
-    return module
-
-
-def _attach(module: ModuleType, stamp: str, source: _Source) -> None:
     for value in vars(module).values():
-        if isinstance(value, EmittedFunction) and value.py_func.__module__ == module.__name__:
+        if isinstance(value, EmittedFunction) and value.py_func.__module__ == name:
             value.origin = Origin(stamp, source.content)
+    return module
 
 
 def interpreted(function: Any) -> Any:

@@ -13,7 +13,6 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from functools import lru_cache
 from pathlib import Path
 from types import TracebackType
 from typing import IO, TYPE_CHECKING, Any
@@ -21,6 +20,7 @@ from typing import IO, TYPE_CHECKING, Any
 from symgen.describe.digest import identity
 from symgen.errors import InputError, SimulationError
 from symgen.files import check_name
+from symgen.store.identity import SOURCES, digest, sources_digest
 from symgen.version import __version__
 
 if TYPE_CHECKING:
@@ -31,8 +31,6 @@ if TYPE_CHECKING:
 #: First line of every journal; the number changes when the form of lines does.
 FORM = 1
 HEADER = json.dumps({"symgen-journal": FORM}).encode() + b"\n"
-#: Modules of studies that put finished cells into words and tables; no cell depends on them.
-WORDING = frozenset({"study/stress/findings.py", "study/stress/map.py", "study/stress/rows.py"})
 
 Outcome = dict[str, Any]
 
@@ -69,23 +67,12 @@ def mechanism_identity(mechanism: Mechanism) -> str:
     return identity(mechanism)
 
 
-@lru_cache(maxsize=1)
 def code_identity() -> str:
     """Return a digest of all that computes a cell: the version, the emitted form and the sources of the package."""
     from symgen.compiling.pipeline import generator_digest
     from symgen.ir.program import FORMAT
 
-    package = Path(__file__).resolve().parent.parent
-    found = hashlib.sha256(f"{__version__} {FORMAT} {generator_digest()}".encode())
-    # `native` and `store` make machine code: run times are theirs as well
-    for folder in ("compiling", "integrators", "native", "reruns", "result", "running", "runtime", "store", "study"):
-        for path in sorted((package / folder).rglob("*.py")):
-            name = path.relative_to(package).as_posix()
-            if name not in WORDING:
-                found.update(name.encode() + b"\0" + path.read_bytes())
-    for name in ("api.py", "settings.py"):
-        found.update((package / name).read_bytes())
-    return found.hexdigest()
+    return digest(__version__, str(FORMAT), generator_digest(), sources_digest(*SOURCES["cells"]))
 
 
 # -- the file ----------------------------------------------------------------------------------------------------------
@@ -245,8 +232,8 @@ def _parsed(line: bytes) -> tuple[str, Outcome] | None:
     """Return key and outcome of a line, None of one that is damaged."""
     try:
         entry = json.loads(line)
-        digest = entry.pop("sha256", None)  # lines of earlier versions have none
-        if set(entry) != {"key", "outcome"} or digest not in (None, _digest(entry)):
+        written = entry.pop("sha256", None)  # lines of earlier versions have none
+        if set(entry) != {"key", "outcome"} or written not in (None, _digest(entry)):
             return None
     except (ValueError, RecursionError, AttributeError, TypeError):
         return None

@@ -83,15 +83,6 @@ def test_what_contradicts_or_counts_for_nothing_is_refused(said, tmp_path, words
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        ("run rod.toml --max-step 1e-2", "--max-step counts for nothing: rk4 has constant steps, which --step gives"),
-        ("run rod.toml --rtol 1e-9", "--rtol counts for nothing: rk4 has constant steps, which --step gives"),
-        ("run rod.toml --integrator heun --rtol 1e-9 --atol 1", "--rtol and --atol count for nothing: heun has"),
-        ("sweep rod.toml --vary bar.omega=lin(0,1,2) --rtol 1e-9", "--rtol counts for nothing: rk4 has"),
-        ("run rod.toml --integrator dopri5 --option dopri5.adaptive=false --rtol 1e-9", "nothing: dopri5 has"),
-        ("run rod.toml --integrator dopri5 --option integrator.adaptive=False --rtol 1e-9", "nothing: dopri5 has"),
-        ("run rod.toml --method auto --rtol 1e-9", "--rtol counts for nothing: rk4 has constant steps"),
-        ("view rod.toml --method auto --atol 1e-9 --live", "--atol counts for nothing: rk4 has constant steps"),
-        ("sweep rod.toml --vary bar.omega=lin(0,1,2) --method auto --rtol 1e-9", "--rtol counts for nothing: rk4"),
         ("compare rod.toml --methods lagrange --integrators rk4 --rtols 1e-3", "--rtols counted for nothing"),
         ("compare rod.toml --methods lagrange --integrators dopri5 --steps 1e-3", "--steps counted for nothing"),
         ("draw rod.toml --view 30,20", "--view counts for nothing: rod is planar"),
@@ -124,23 +115,11 @@ def test_a_scan_without_any_force_says_nothing_of_its_arithmetic(said):
     assert code == 0 and err == ""
 
 
-@pytest.mark.parametrize(
-    ("written", "value", "unit"),
-    [
-        ("3 mm", 3e-3, "m"),
-        ("3mm", 3e-3, "m"),
-        ("-1.5e2 deg", math.radians(-150.0), "rad"),
-        ("30°", math.pi / 6.0, "rad"),
-        ("60 rpm", 2.0 * math.pi, "rad/s"),
-        ("36 km/h", 10.0, "m/s"),
-    ],
-)
-def test_a_number_with_a_unit_is_answered_with_what_to_write(said, tmp_path, written, value, unit):
+@pytest.mark.parametrize("written", ["3 mm", "3mm", "-1.5e2 deg", "30°", "60 rpm", "36 km/h"])
+def test_a_number_with_a_unit_is_answered_with_a_hint(said, tmp_path, written):
     (tmp_path / "rod.toml").write_text(ROD.replace("[1.0, 0.0]", f"['{written}', 0.0]", 1), encoding="utf-8")
     code, _, err = said("check", "rod.toml")
-    hint = err.partition("numbers are in SI units, written without them: ")[2]
-    assert code == 2 and err.count("\n") == 1 and hint.endswith(f" for {unit}\n")
-    assert math.isclose(float(hint.split()[0]), value, rel_tol=1e-9)
+    assert code == 2 and err.count("\n") == 1 and err.endswith("numbers are in SI units, written without them\n")
 
 
 def test_a_text_that_is_no_number_with_a_unit_has_no_such_hint(said, tmp_path):

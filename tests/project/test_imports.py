@@ -7,7 +7,6 @@ held, which the table of packages in docs/architecture.md names, and what one re
 from __future__ import annotations
 
 import ast
-import io
 import os
 import re
 import subprocess
@@ -19,7 +18,9 @@ from pathlib import Path
 import pytest
 
 from symgen.compiling import pipeline
-from symgen.compiling.pipeline import GENERATING, TEMPLATES
+from symgen.store import identity
+from symgen.store.identity import SOURCES as GROUPS
+from symgen.store.identity import TEMPLATES
 
 PACKAGE = Path(__file__).resolve().parents[2] / "symgen"
 
@@ -129,6 +130,7 @@ DRAWING = {"matplotlib", "pandas", "pyarrow", "rich", "xarray"}
 def test_importing_symgen_costs_nothing(tmp_path: Path) -> None:
     heavy = {"click", "msgspec", "numba", "numpy", "sympy", "jinja2", *DRAWING}
     assert not loaded("import symgen", tmp_path) & heavy
+    assert not loaded("import symgen.store.modules", tmp_path) & {"llvmlite", "numba", "numpy", "sympy", "jinja2"}
 
 
 def test_running_a_generated_model_needs_neither_sympy_nor_jinja2_nor_numba(tmp_path: Path) -> None:
@@ -207,23 +209,20 @@ def test_whatever_code_is_generated_with_is_in_the_digest_of_the_generator():
                 waiting.append(path)
     folders = {path.relative_to(PACKAGE).parts[0].removesuffix(".py") for path in reached}
     assert "describe" in folders, "imports are followed"
-    assert folders <= {*GENERATING, *UNMARKED}
+    assert folders <= {*GROUPS["code"], *UNMARKED}
     named = (PACKAGE.parent / "templates").rglob("*.j2")
     assert {path.parent.name for path in named} - {"report", "package"} == set(TEMPLATES)
 
 
 @pytest.mark.parametrize("file", ["describe/formulas.py", "lower/looped/kernels.py", "compiling/choose_tree.py"])
 def test_an_edit_of_a_source_makes_another_generator(file, monkeypatch):
-    class Raw(io.BytesIO):
-        def readall(self):
-            return self.read()
+    def edited():
+        identity.sources_digest.cache_clear()
+        return pipeline.generator_digest.__wrapped__()
 
-    before = pipeline.generator_digest.__wrapped__()
-    assert pipeline.generator_digest.__wrapped__() == before
-    monkeypatch.setattr(
-        pipeline,
-        "open",
-        lambda path, *mode, **more: Raw(b"edited") if str(path).endswith(file) else open(path, *mode, **more),
-        raising=False,
-    )
-    assert pipeline.generator_digest.__wrapped__() != before
+    before, real = edited(), identity.content
+    assert edited() == before
+    monkeypatch.setattr(identity, "content", lambda path: b"edited" if path.endswith(file) else real(path))
+    after = edited()
+    identity.sources_digest.cache_clear()
+    assert after != before

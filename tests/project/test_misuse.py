@@ -270,6 +270,7 @@ def rows():
     yield "save folder", lambda x: x.result.save("no/where/a.csv"), "save: expected a file in a folder that exists"
     yield "save null", lambda x: x.result.save("a\0.csv"), "save: expected a name that a file can have"
     yield "columns", lambda x: x.result.columns("pints"), "table: expected one of q, v, a, lam, reactions"
+    yield "series of columns", lambda x: x.result.series("pints"), "table: expected one of q, v, a, lam, reactions"
     yield "columns 3", lambda x: x.result.columns(3), "table: expected one of q, v, a, lam, reactions"
     yield "select", lambda x: x.result.select(3), "quantities: expected a list of names, got 3"
     yield "select name", lambda x: x.result.select(["bob.z"]), "quantity 'bob.z': expected a quantity of"
@@ -522,7 +523,14 @@ def test_no_function_with_arguments_is_left_out():
         *("Sweep.save", "Sweep.reasons", "Model.start"),
         *(f"SteppedRun.{name}" for name in ("step", "run", "every", "set", "restore")),
         *(f"MechanismBuilder.{name}" for name in ("run", "parameter", "input", "table", "body", "joint", "force")),
-        *("MechanismBuilder.output", "MechanismBuilder.event", "Result.columns", "Result.select", "Result.view"),
+        *(
+            "MechanismBuilder.output",
+            "MechanismBuilder.event",
+            "Result.columns",
+            "Result.select",
+            "Result.series",
+            "Result.view",
+        ),
     }
     tested |= {f"Model.{method.__name__}" for method in ANALYSIS_METHODS}
     # what only the package makes or calls

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import symgen
+from symgen.describe.columns import PREFIX
 from symgen.errors import InputError
-from symgen.result.export import PREFIX
 from symgen.result.run_data import TABLES
 from symgen.result.select import columns_of
 

@@ -98,14 +98,11 @@ class Table:
         Their cells.
     left : sequence of str
         Headings of columns that are flush left, as words are.
-    parts : bool
-        Whether a narrow terminal shows it in parts, each with the first column, instead of breaking cells.
     """
 
     headings: Sequence[str]
     rows: Sequence[Sequence[str]]
     left: Sequence[str] = ()
-    parts: bool = False
 
 
 @dataclass(frozen=True)

@@ -105,7 +105,7 @@ def _shown(result: Inverse) -> Iterator[str | Table | Note]:
         (name, *(x if isinstance(x := entry.get(key, ""), str) else f"{x:.6g}" for key in columns.values()))
         for name, entry in result.summary().items()
     ]
-    yield Table(("effort", *columns), rows, left=("effort", "unit"), parts=True)
+    yield Table(("effort", *columns), rows, left=("effort", "unit"))
     if few := result.too_few():
         yield Note(few)
 
