@@ -209,9 +209,7 @@ def equilibria(subject: Subject, scan: tuple[str, Array] | None = None) -> tuple
 
 def _reaching(subject: Subject, name: str, values: Array) -> Subject:
     """Return a subject as long as a scan leads it: steps are bounded by its length, and its start may have none."""
-    space, at = subject.position(name)
-    unit = subject.compiled.info.coordinates[at].unit if space == "q" else subject.form.units[name]
-    if unit != "m":
+    if subject.unit(name) != "m":
         return subject
     return subject.as_long_as(float(np.abs(values - _value(subject, subject.y, name)).max()))
 

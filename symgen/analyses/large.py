@@ -12,7 +12,8 @@ from symgen.analyses.edges import edges_of_large
 from symgen.analyses.equilibrium import Equilibrium, reduced_squares, stability_of
 from symgen.analyses.linearise import in_order
 from symgen.analyses.modes import Modes
-from symgen.analyses.sparse import Solver, Sparse, settled, solver
+from symgen.analyses.settle import Solver
+from symgen.analyses.sparse import Sparse, settled, solver
 from symgen.errors import AnalysisError, InputError
 from symgen.runtime import abi
 from symgen.runtime.probe import Ready

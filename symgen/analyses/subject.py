@@ -214,6 +214,11 @@ class Subject(Yardsticks):
         expected = f"a coordinate of {self.mechanism.name}"
         raise InputError(f"'{name}'", expected, "none of that name", nearest(name, {*names, *known}))
 
+    def unit(self, name: str) -> str:
+        """Return the unit of a coordinate."""
+        space, at = self.position(name)
+        return self.compiled.info.coordinates[at].unit if space == "q" else self.form.units[name]
+
     def named(self, y: Array) -> dict[str, float]:
         """Return the coordinates by name: the state's own, those of bodies where a tree carries them, and of joints."""
         info, found = self.compiled.info, self.evaluated(y).value("functions")
