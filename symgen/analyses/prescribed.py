@@ -41,7 +41,7 @@ ON_GROUND = 10.0
 #: Places that a mechanism is closed from, and those behind the last new way after which no more are looked for.
 TRIES, ENOUGH = 200, 40
 #: Positions as near as this are one, in lengths of the mechanism and radians.
-SAME = 1e-6
+SAME_WAY = 1e-6
 
 
 @dataclass(frozen=True)
@@ -313,7 +313,7 @@ def branch_near(plan: Plan, asked: Mapping[str, float]) -> tuple[Array, str]:
             refused = error if k == 0 else refused
             continue
         found = start.y[: info.nq].copy()
-        if not any(_apart(compiled, found, other) < SAME for other, _ in ways):
+        if not any(_apart(compiled, found, other) < SAME_WAY for other, _ in ways):
             ways.append((found, _values(compiled, start)))
             last = k
     if not ways:

@@ -10,19 +10,18 @@ which is Newton's method where s = 0. Far from rest s is so large that a step st
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.analyses.algebra import Solver, largest, level, solver
 from symgen.analyses.subject import Subject
 from symgen.errors import AnalysisError
 
 Array = NDArray[np.float64]
-#: Forces and violations that are to be undone -> the step and the change of what rows exert.
-Solver = Callable[[Array, Array], tuple[Array, Array]]
 
 #: Steps of a search at most, and trials of one.
 MOST_STEPS, MOST_TRIALS = 300, 60
@@ -37,9 +36,7 @@ OPENED = 0.05
 #: A closing step as long as this has no way; what everything is moved by then, in lengths of the mechanism and radians.
 SINGULAR, ASTRAY = 1e6, 0.01
 #: What s is multiplied with where a step is too long, and the least part of its root that is left behind a short one.
-FASTER, LEAST = 4.0, 0.3
-#: Parts of the largest singular value of a dense matrix that count as zero, and of a right side that no step undoes.
-RANK, UNSOLVED = 1e-13, 1e-6
+FASTER, SLOWER = 4.0, 0.3
 
 
 class Statics(Protocol):
@@ -66,15 +63,6 @@ class Statics(Protocol):
 
     def wound(self, y: Array) -> Self:
         """Return the same with the angles that count turns as they are at a state less than half a turn away."""
-
-    def level(self) -> Any:
-        """Return G: turns, and displacements over the mechanism's length.
-
-        Not masses: light turns would be cheap, and short links fold like a fan rather than bend.
-        """
-
-    def solver(self, stiffness: Any, rows: Any) -> Solver | None:
-        """Return what solves with a matrix of directions and rows; None where it is singular."""
 
 
 S = TypeVar("S", bound=Statics)
@@ -156,30 +144,6 @@ class DenseStatics:
         """Return the same with the angles that count turns as they are at a state less than half a turn away."""
         return replace(self, subject=self.subject.wound(y))
 
-    def level(self) -> Array:
-        """Return turns, and displacements over the mechanism's length."""
-        return np.eye(self.subject.nv)
-
-    def solver(self, stiffness: Array, rows: Array) -> Solver | None:
-        """Return what solves with a matrix of directions and rows, by its pseudo-inverse; None where it is not finite.
-
-        A step is infinite where none undoes what it is to undo, such as a force along which the stiffness vanishes.
-        """
-        n, scale = len(stiffness), float(np.abs(stiffness).max(initial=0.0)) or 1.0
-        matrix = np.block([[stiffness / scale, rows.T], [rows, np.zeros((len(rows), len(rows)))]])
-        if not np.all(np.isfinite(matrix)):
-            return None
-        inverse = np.linalg.pinv(matrix, rcond=RANK)
-
-        def solve(force: Array, gaps: Array) -> tuple[Array, Array]:
-            right = np.concatenate([force / scale, gaps])
-            found = inverse @ right
-            if not np.linalg.norm(right - matrix @ found) <= UNSOLVED * np.linalg.norm(right):
-                found = np.full(len(right), np.inf)
-            return found[:n], found[n:] * scale
-
-        return solve
-
 
 @dataclass(frozen=True)
 class Settled:
@@ -246,10 +210,11 @@ def search(statics: S, y: Array) -> tuple[S, Array, Array, int]:
 def _search(statics: S, y: Array, near: float) -> tuple[S, Array, Array, int]:
     """Return the same; steps of Newton's method up to `near` are taken, else those downhill."""
     statics, y, steps = _closed(statics, y)
-    nothing, level = statics.whole(None), statics.level()
-    motion, rows, stiffness = statics.derivatives(y, nothing)
+    nothing = statics.whole(None)
     force, gaps = statics.forces(y, nothing)
-    solve = statics.solver(level, rows)
+    _, rows, stiffness = statics.derivatives(y, nothing)
+    even = level(stiffness)
+    solve = solver(even, rows)
     if solve is None:
         raise AnalysisError("the rows cannot be told apart: some depend on others near the start")
     work = solve(-force, np.zeros(len(gaps)))[1]
@@ -259,7 +224,7 @@ def _search(statics: S, y: Array, near: float) -> tuple[S, Array, Array, int]:
         lam = statics.whole(work)
         force, gaps = statics.forces(y, lam)
         motion, rows, stiffness = statics.derivatives(y, lam)
-        first = first or float(abs(stiffness).max()) or 1.0
+        first = first or largest(stiffness) or 1.0
         # where joints and forces carry nothing, what each would change by over a thousandth of the mechanism
         stiff = 1e-3 * np.asarray(abs(stiffness).sum(axis=1)).ravel()
         size = np.maximum(size, np.maximum(np.abs(force - rows.T @ work).max(initial=1e-300), stiff))
@@ -271,11 +236,11 @@ def _search(statics: S, y: Array, near: float) -> tuple[S, Array, Array, int]:
             return statics, y, statics.whole(work), step
         if error < best:
             before, best = (y, work), error
-        way = _newton(statics, motion, statics.solver(stiffness, rows), (force, gaps), near)
+        way = _newton(statics, motion, solver(stiffness, rows), (force, gaps), near)
         if way is None and good:
             return statics, y, lam, step
         if way is None:
-            way, shift = _down(statics, (y, work), (motion, level, rows, stiffness), (force, gaps), shift or first)
+            way, shift = _down(statics, (y, work), (motion, even, rows, stiffness), (force, gaps), shift or first)
         y, work = statics.moved(y, motion @ way[0]), work + way[1]
         statics = statics.wound(y)
     raise AnalysisError(
@@ -292,8 +257,8 @@ def _closed(statics: S, y: Array) -> tuple[S, Array, int]:
     lam, rng = statics.whole(None), np.random.default_rng(0)
     for step in range(MOST_STEPS):
         force, gaps = statics.forces(y, lam)
-        motion, rows, _ = statics.derivatives(y, lam)
-        solve = statics.solver(statics.level(), rows)
+        motion, rows, stiffness = statics.derivatives(y, lam)
+        solve = solver(level(stiffness), rows)
         if solve is not None and np.linalg.norm(gaps) <= OPENED:
             return statics, y, step
         change = np.full(len(force), np.inf) if solve is None else solve(np.zeros(len(force)), -gaps)[0]
@@ -327,17 +292,17 @@ def _down(
     statics: Statics, at: tuple[Array, Array], matrices: tuple[Any, ...], right: tuple[Array, Array], shift: float
 ) -> tuple[tuple[Array, Array], float]:
     """Return a step downhill that is short enough, and the s that the next one is to be tried with."""
-    (y, work), (motion, level, rows, stiffness), (force, gaps) = at, matrices, right
+    (y, work), (motion, even, rows, stiffness), (force, gaps) = at, matrices, right
     for _ in range(MOST_TRIALS):
-        solve = statics.solver(stiffness + shift * level, rows)
+        solve = solver(stiffness + shift * even, rows)
         if solve is not None:
             change, more = solve(-force, -gaps)
             long = _length(statics, motion, change)
-            steep = float(change @ ((stiffness + shift * level) @ change)) if long <= REACH else 0.0
+            steep = float(change @ ((stiffness + shift * even) @ change)) if long <= REACH else 0.0
             if steep > 0.0:
                 then, opened = statics.forces(statics.moved(y, motion @ change), statics.whole(work + more))
                 ahead = float(change @ then) <= 0.5 * steep
                 if ahead and np.linalg.norm(opened) <= max(OPENED, float(np.linalg.norm(gaps))):
-                    return (change, more), shift * min(1.0, max(LEAST, 0.7 * long / REACH) ** 2)
+                    return (change, more), shift * min(1.0, max(SLOWER, 0.7 * long / REACH) ** 2)
         shift *= FASTER
     raise AnalysisError("no equilibrium was found from this start: no step leads downhill; another start may do")

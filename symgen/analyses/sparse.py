@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.settle import Solver, search
+from symgen.analyses.settle import search
 from symgen.analyses.subject import at_start, given_at_start
 from symgen.analyses.yardsticks import Yardsticks
 from symgen.runtime import abi
@@ -100,27 +100,9 @@ class Sparse(Yardsticks):
         found[self.kept] = 0.0 if work is None else work
         return found / self.gaps
 
-    def moved(self, y: Array, change: Array) -> Array:
-        """Return a state whose coordinates are moved by a change, Euler parameters kept at length 1."""
-        found = y.copy()
-        found[: self.pattern.nq] += change
-        for first, _ in self.compiled.info.spins:
-            found[first : first + 4] /= np.linalg.norm(found[first : first + 4])
-        return found
-
     def wound(self, y: Array) -> Sparse:
         """Return the same: angles of looped code are those of bodies."""
         return self
-
-    def level(self) -> Any:
-        """Return turns, and displacements over the mechanism's length."""
-        from scipy.sparse import eye
-
-        return eye(self.pattern.nv, format="csc")
-
-    def solver(self, stiffness: Any, rows: Any) -> Solver | None:
-        """Return what solves with a matrix of directions and rows; None where it is singular."""
-        return solver(stiffness, rows)
 
 
 def _at_start(mechanism: Mechanism, settings: Settings) -> Sparse:
@@ -154,25 +136,3 @@ def settled(mechanism: Mechanism, settings: Settings) -> tuple[Sparse, Array, Ar
     """
     sparse = _at_start(mechanism, settings)
     return search(sparse, sparse.y)
-
-
-def solver(stiffness: Any, rows: Any) -> Solver | None:
-    """Return what solves with the sparse matrix of directions and rows, refined once; None where it is singular."""
-    from scipy.sparse import bmat
-    from scipy.sparse.linalg import splu
-
-    n = stiffness.shape[0]
-    scale = float(abs(stiffness).max()) or 1.0
-    matrix = bmat([[stiffness / scale, rows.T], [rows, None]], format="csc")
-    try:
-        factors = splu(matrix)
-    except RuntimeError:
-        return None
-
-    def solve(force: Array, gaps: Array) -> tuple[Array, Array]:
-        right = np.concatenate([force / scale, gaps])
-        found = factors.solve(right)
-        found += factors.solve(right - matrix @ found)
-        return found[:n], found[n:] * scale
-
-    return solve

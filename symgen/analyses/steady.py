@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import split
+from symgen.analyses.algebra import ROUNDED, split
 from symgen.analyses.reduced import Quantity, Tangent, quantities_of, tangent
 from symgen.analyses.subject import RATE, Subject
 from symgen.errors import AnalysisError, InputError
@@ -22,13 +22,13 @@ from symgen.runtime.probe import rate_function
 
 Array = NDArray[np.float64]
 
-#: Rates below this fraction of the motion's own count as none, and at rest those below this one of the fastest.
-STILL, ROUNDING = 1e-7, 1e-13
+#: Rates below this fraction of the motion's own count as none.
+STILL = 1e-7
 #: How far one quantity may follow from others, as a fraction of it.
 CLOSED = 1e-8
 #: Rates that change by less than this part of the largest change of any are compared with that part of it: a wheel by
 #: itself has none but rounding.
-ROUNDED = 1e-6
+LEAST_CHANGE = 1e-6
 #: The same later on, where the motion was followed by steps: their error is in it.
 LATER = 1e-4
 #: Radians, or lengths of the mechanism, between the instants at which is asked again.
@@ -50,7 +50,7 @@ def at_rest(subject: Subject, x: Tangent) -> bool:
     heavy = np.diag(e.by("balance", "a")) * spans
     found = heavy > 0.0  # what has no mass follows
     quick = carried[found] / heavy[found]
-    limit = STILL * quick + ROUNDING * quick.max(initial=0.0)
+    limit = STILL * quick + ROUNDED * quick.max(initial=0.0)
     v, a = np.abs(x.speeds / spans)[found], np.abs(x.a / spans)[found]
     return bool(np.all(a <= limit) and np.all(v**2 <= STILL * limit))
 
@@ -174,7 +174,7 @@ def system(x: Tangent, names: Sequence[str]) -> tuple[Array, Array, Array, Array
     alike = x.sizes  # of s and u, as `sizes` of states: digits are lost by neither
     a = np.linalg.lstsq((states[:, :n] * alike).T, (rates[:, :n] * alike).T, rcond=1e-11)[0].T
     rest = (rates[:, :n] - a @ states[:, :n]) * alike
-    size = max(np.abs(rates[:, :n] * alike).max(initial=1e-300), ROUNDED * np.abs(x.matrix).max(initial=0.0))
+    size = max(np.abs(rates[:, :n] * alike).max(initial=1e-300), LEAST_CHANGE * np.abs(x.matrix).max(initial=0.0))
     b = sizes * (rates[:, n:] - a @ states[:, n:])
     return sizes * a / sizes.T, b, rest, np.full(len(a), size)
 

@@ -151,14 +151,6 @@ class Subject(Yardsticks):
         spans = self.spans[:, np.newaxis]
         return np.asarray(spans * split(self.rows(e) * spans.T)[0])
 
-    def moved(self, y: Array, change: Array) -> Array:
-        """Return a state whose coordinates are moved by a change, Euler parameters kept at length 1."""
-        found = y.copy()
-        found[: self.nq] += change
-        for first, _ in self.compiled.info.spins:
-            found[first : first + 4] /= np.linalg.norm(found[first : first + 4])
-        return found
-
     def wound(self, y: Array) -> Subject:
         """Return the same with the angles that count turns as they are at a state less than half a turn away."""
         count, model = self.compiled.info.windings, self.compiled.model
