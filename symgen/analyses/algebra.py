@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+#: Forces and violations that are to be undone -> the step and the change of what rows exert.
+Solver = Callable[[Array, Array], tuple[Array, Array]]
 
 #: Singular values of D below this fraction of the largest one count as zero.
 DEPENDENT = 1e-9
@@ -21,6 +24,8 @@ ROUNDED = 1e-13
 LOW = 1e-3
 #: What of a stiffness is not symmetric is rounding below this part of what its shapes are restored by.
 EVEN = 1e-9
+#: Parts of the largest singular value of a dense matrix that count as zero, and of a right side that no step undoes.
+RANK, UNSOLVED = 1e-13, 1e-6
 
 
 def split(d: Array, loads: Array | None = None) -> tuple[Array, Array, Array]:
@@ -163,3 +168,54 @@ def ranking(values: Array | Complex) -> NDArray[np.int64]:
     found = np.asarray(values, dtype=np.complex128)
     grain = 1e-12 * np.abs(found).max(initial=0.0) or 1.0
     return np.asarray(np.lexsort((-found.imag, -np.round(found.real / grain))), dtype=np.int64)
+
+
+def largest(matrix: Any) -> float:
+    """Return the largest size of an element of a dense or sparse matrix, 0 of an empty one."""
+    return float(abs(matrix).max()) if matrix.shape[0] else 0.0
+
+
+def level(stiffness: Any) -> Any:
+    """Return the identity, dense or sparse as a stiffness: turns, and displacements over the mechanism's length.
+
+    Not masses: light turns would be cheap, and short links fold like a fan rather than bend.
+    """
+    from scipy.sparse import eye, issparse
+
+    n = stiffness.shape[0]
+    return eye(n, format="csc") if issparse(stiffness) else np.eye(n)
+
+
+def solver(stiffness: Any, rows: Any) -> Solver | None:
+    """Return what solves with the dense or sparse matrix of directions and rows.
+
+    None where it is singular or not finite. Of dense ones it is the pseudo-inverse; a step is infinite where none
+    undoes what it is to undo, such as a force along which the stiffness vanishes.
+    """
+    from scipy.sparse import bmat, issparse
+    from scipy.sparse.linalg import splu
+
+    matrix: Any
+    inverse: Any
+    n, scale, sparse = stiffness.shape[0], largest(stiffness) or 1.0, issparse(stiffness)
+    if sparse:
+        matrix = bmat([[stiffness / scale, rows.T], [rows, None]], format="csc")
+        try:
+            inverse = splu(matrix).solve
+        except RuntimeError:
+            return None
+    else:
+        matrix = np.block([[stiffness / scale, rows.T], [rows, np.zeros((len(rows), len(rows)))]])
+        if not np.all(np.isfinite(matrix)):
+            return None
+        inverse = np.linalg.pinv(matrix, rcond=RANK).dot
+
+    def solve(force: Array, gaps: Array) -> tuple[Array, Array]:
+        right = np.concatenate([force / scale, gaps])
+        found = inverse(right)
+        found += inverse(right - matrix @ found)
+        if not sparse and not np.linalg.norm(right - matrix @ found) <= UNSOLVED * np.linalg.norm(right):
+            found[:] = np.inf
+        return found[:n], found[n:] * scale
+
+    return solve

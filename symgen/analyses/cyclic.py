@@ -17,10 +17,8 @@ Array = NDArray[np.float64]
 
 #: What coordinates change by less than this part of what a row is made of is nothing.
 WITHOUT = 1e-11
-#: Parts of a way along which nothing changes that are rounding.
+#: Parts of a way along which nothing changes that are rounding, and changes of rates by a turning, of the largest one.
 NO_PART = 1e-9
-#: A turning that changes rates by less than this part of the largest change changes nothing.
-SPUN = 1e-9
 
 
 def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> Settled:
@@ -201,8 +199,8 @@ def _refuse_lost(subject: Subject, y: Array, lost: Array) -> None:
         turned = np.linalg.lstsq(free, about, rcond=None)[0]
         changes = np.vstack([matrix[:, : x.positions] @ turned / size, about - free @ turned])
         _, felt, axes = np.linalg.svd(changes)
-        spin = axes[felt <= SPUN] @ lost[first : first + 3]
-        if np.abs(spin).max(initial=0.0) > SPUN * np.abs(lost / subject.spans).max():
+        spin = axes[felt <= NO_PART] @ lost[first : first + 3]
+        if np.abs(spin).max(initial=0.0) > NO_PART * np.abs(lost / subject.spans).max():
             k = int(np.argmax(np.abs(lost[first : first + 3])))
             _refuse_spin(subject.compiled.info.velocities[first + k].name)
 

@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 STEPS = (1e-5, 1e-7)
 #: What is left of a straight line falls by this or more from one step to the next where there is a derivative, and so
 #: does the difference across the state where there is no jump. What is below this part of a formula is rounding.
-BENT, JUMPING, ROUNDED = 1 / 200, 1 / 20, 1e-12
+BENT, JUMPING, GRAIN = 1 / 200, 1 / 20, 1e-12
 
 
 def edges(subject: Subject, y: Array, a: Array | None = None, outputs: Sequence[str] = ()) -> tuple[str, ...]:
@@ -84,7 +84,7 @@ def _note(
         return side(t, there, p, place.w.copy(), rates)
 
     here, far, near = values(0.0), *((values(step), values(-step)) for step in STEPS)
-    rounding = ROUNDED * (np.abs(here) + np.abs(far[0] - here) / STEPS[0])
+    rounding = GRAIN * (np.abs(here) + np.abs(far[0] - here) / STEPS[0])
     left, across = ([np.abs(x + sign * z - (1.0 + sign) * here) for x, z in (far, near)] for sign in (1.0, -1.0))
     counts = (left[1] > np.maximum(BENT * left[0], rounding)) | (across[1] > np.maximum(JUMPING * across[0], rounding))
     named = dict.fromkeys(label for (label, _), there in zip(formulas, counts, strict=True) if there)

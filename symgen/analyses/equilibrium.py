@@ -7,7 +7,7 @@ and share the load afterwards, by the smallest multipliers.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,12 +18,15 @@ from symgen.analyses.settle import Settled, settle
 from symgen.analyses.subject import Subject
 from symgen.errors import AnalysisError, InputError
 
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.runtime.compiled import ModelInfo
+
 Array = NDArray[np.float64]
 
-#: A real part below this fraction of the largest eigenvalue is none; so is an imaginary part below this one of its own.
+#: A real part below this fraction of the largest eigenvalue is none; so is a part of an
+#: eigenvalue, real or imaginary, below this one of its own, which is what rounding leaves of two that are one.
 FLAT, REAL = 1e-9, 1e-6
-#: A real part of up to this share of an eigenvalue is what rounding leaves of two that are one.
-GROWS = 1e-6
 #: A force that holds a coordinate below this part of that at the next value is nothing.
 NOTHING = 1e-9
 #: Halvings of an interval that has an equilibrium before Newton's method is tried, and at most; so far beside the
@@ -100,8 +103,6 @@ def judged(subject: Subject, y: Array, steps: int) -> Equilibrium:
     stiffness = e.by("balance", "q") @ e.by("motion", "v")
     squares = reduced_squares(e.by("balance", "a"), stiffness, subject.free(e))
     share = np.linalg.norm(dependent, axis=1) if dependent.size else np.zeros(info.m)
-    joints = {row.joint for row, x in zip(info.rows, share, strict=True) if x > 1e-8}
-    joints |= {name.partition(".")[0] for pair in info.dropped_rows for name in pair.split(" = ")}
     return Equilibrium(
         q=subject.named(y),
         stability=stability_of(squares),
@@ -109,11 +110,18 @@ def judged(subject: Subject, y: Array, steps: int) -> Equilibrium:
         residual=float(np.abs(e.value("balance")).max(initial=0.0)),
         iterations=steps,
         multipliers={row.name: float(x) for row, x in zip(info.rows, lam, strict=True)},
-        not_unique=tuple(j.name for j in subject.mechanism.joints if j.name in joints),
+        not_unique=not_unique(subject.mechanism, info, share),
         y=y,
         lam=lam,
         notes=edges(subject, y),
     )
+
+
+def not_unique(mechanism: Mechanism, info: ModelInfo, share: Array) -> tuple[str, ...]:
+    """Return the joints whose reactions are not determined, by the share of each row in what exerts nothing."""
+    joints = {row.joint for row, x in zip(info.rows, share, strict=True) if x > 1e-8}
+    joints |= {name.partition(".")[0] for pair in info.dropped_rows for name in pair.split(" = ")}
+    return tuple(j.name for j in mechanism.joints if j.name in joints)
 
 
 def stability_of(squares: Array | Complex) -> str:
@@ -126,7 +134,7 @@ def stability_of(squares: Array | Complex) -> str:
 def stability_in_motion(eigenvalues: Complex) -> str:
     """Return the word for the eigenvalues of a steady motion's linear system."""
     largest = np.abs(eigenvalues).max(initial=0.0)
-    if np.any((eigenvalues.real > GROWS * np.abs(eigenvalues)) & (eigenvalues.real > FLAT * largest)):
+    if np.any((eigenvalues.real > REAL * np.abs(eigenvalues)) & (eigenvalues.real > FLAT * largest)):
         return UNSTABLE
     return INDIFFERENT if np.any(eigenvalues == 0.0) else STABLE
 
@@ -209,9 +217,7 @@ def equilibria(subject: Subject, scan: tuple[str, Array] | None = None) -> tuple
 
 def _reaching(subject: Subject, name: str, values: Array) -> Subject:
     """Return a subject as long as a scan leads it: steps are bounded by its length, and its start may have none."""
-    space, at = subject.position(name)
-    unit = subject.compiled.info.coordinates[at].unit if space == "q" else subject.form.units[name]
-    if unit != "m":
+    if subject.unit(name) != "m":
         return subject
     return subject.as_long_as(float(np.abs(values - _value(subject, subject.y, name)).max()))
 

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import ROUNDED, split, summed, symmetric
+from symgen.analyses.algebra import ROUNDED, Solver, level, solver, split, summed, symmetric
 from symgen.analyses.edges import edges_of_large
-from symgen.analyses.equilibrium import Equilibrium, reduced_squares, stability_of
+from symgen.analyses.equilibrium import Equilibrium, not_unique, reduced_squares, stability_of
 from symgen.analyses.linearise import in_order
 from symgen.analyses.modes import Modes
-from symgen.analyses.sparse import Solver, Sparse, settled, solver
+from symgen.analyses.sparse import Sparse, settled
 from symgen.errors import AnalysisError, InputError
 from symgen.runtime import abi
 from symgen.runtime.probe import Ready
@@ -101,9 +101,7 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     out = np.zeros(info.m + 2 * len(found))
     observe = Ready(sparse.compiled.model.observe, abi.OBSERVE)
     observe(0.0, y.copy(), sparse.p, sparse.w.copy(), np.zeros(info.ny), out)
-    lam, loose = _smallest(sparse, y, lam)
-    joints = {info.rows[i].joint for i in loose}
-    joints |= {name.partition(".")[0] for pair in info.dropped_rows for name in pair.split(" = ")}
+    lam, share = _smallest(sparse, y, lam)
     places = {c.name: float(x) for c, x in zip(info.coordinates, y, strict=False)}
     return Equilibrium(
         q=places | {c.name: float(x) for c, x in zip(found, out[info.m :: 2], strict=True)},
@@ -112,7 +110,7 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         residual=float(np.abs(sparse.forces(y, lam)[0] / sparse.spans).max(initial=0.0)),
         iterations=steps,
         multipliers={row.name: float(x) for row, x in zip(info.rows, lam, strict=True)},
-        not_unique=tuple(j.name for j in mechanism.joints if j.name in joints),
+        not_unique=not_unique(mechanism, info, share),
         y=y,
         lam=lam,
         notes=edges_of_large(sparse, mechanism, settings, y, lam),
@@ -124,45 +122,39 @@ def _follows(stiffness: Any, rows: Any) -> bool:
 
     What is not symmetric beside it is the rows' to take, and is no part of any motion: seen by some motions at random.
     """
-    from scipy.sparse import eye
-
     apart = stiffness - stiffness.T
     if not apart.nnz:
         return False
     # motions by forces of one size: what is soft moves most, so that nothing stiff beside it hides it
-    moved, level = solver(stiffness, rows), _regular(eye(stiffness.shape[0], format="csc"), rows)
+    moved, even = solver(stiffness, rows), _regular(level(stiffness), rows)
     none, most = np.zeros(rows.shape[0]), float(abs(stiffness).max())
     for anything in np.random.default_rng(0).standard_normal((SEEN, stiffness.shape[0])):
-        force = level(anything, none)[0]
+        force = even(anything, none)[0]
         along = force if moved is None else moved(force, none)[0]
         restored = most * np.abs(along).max() if moved is None else np.abs(force).max()
         limit = UNEVEN * restored + ROUNDED * np.abs(abs(apart) @ np.abs(along)).max()
-        if np.abs(level(apart @ along, none)[0]).max(initial=0.0) > limit:
+        if np.abs(even(apart @ along, none)[0]).max(initial=0.0) > limit:
             return True
     return False
 
 
 def _along(rows: Any, free: int) -> Array:
     """Return an orthonormal basis of the few velocities that rows leave free, shape (nv, free)."""
-    from scipy.sparse import eye
-
     n, none = rows.shape[1], np.zeros(rows.shape[0])
-    solve = _regular(eye(n, format="csc"), rows)
+    solve = _regular(level(rows.T @ rows), rows)
     anything = np.random.default_rng(0).standard_normal((free, n))  # what is left of it is a basis almost surely
     basis = np.linalg.qr(np.array([solve(x, none)[0] for x in anything]).reshape(free, n).T)[0]
     return np.asarray(basis)
 
 
-def _smallest(sparse: Sparse, y: Array, lam: Array) -> tuple[Array, list[int]]:
-    """Return the smallest multipliers that exert the same, and the rows whose own are not determined."""
-    from scipy.sparse import eye
-
+def _smallest(sparse: Sparse, y: Array, lam: Array) -> tuple[Array, Array]:
+    """Return the smallest multipliers that exert the same, and the share of each row in what exerts nothing."""
     extra = np.setdiff1d(np.arange(sparse.pattern.m), sparse.kept)
     if not len(extra):
-        return lam, []
+        return lam, np.zeros(sparse.pattern.m)
     whole = sparse.all_rows(y).tocsr()
     kept = whole[sparse.kept]
-    solve = _regular(eye(kept.shape[1], format="csc"), kept)
+    solve = _regular(level(whole.T @ whole), kept)
     # D_extra = C D_kept, so that (C, -1) exerts nothing: C from least squares
     none = np.zeros((len(extra), sparse.pattern.m))
     for i, row in enumerate(extra):
@@ -170,8 +162,7 @@ def _smallest(sparse: Sparse, y: Array, lam: Array) -> tuple[Array, list[int]]:
         none[i, row] = -1.0
     loads = sparse.loads
     basis = np.linalg.qr(none.T / (sparse.gaps * loads)[:, np.newaxis])[0]
-    share = np.linalg.norm(basis, axis=1)
-    return lam - loads * (basis @ (basis.T @ (lam / loads))), [int(i) for i in np.flatnonzero(share > 1e-8)]
+    return lam - loads * (basis @ (basis.T @ (lam / loads))), np.linalg.norm(basis, axis=1)
 
 
 def _nearest(stiffness: Any, mass: Any, rows: Any, count: int) -> tuple[Array, Array]:

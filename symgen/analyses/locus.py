@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import arguments
-from symgen.analyses.asked import Array, Asked, asked_modes, range_of
+from symgen.analyses.places import Array, Place, modes_at, range_of
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, SymgenError
 from symgen.files import write_whole
@@ -126,7 +126,7 @@ class Locus:
         return figure
 
 
-def locus(asked: Asked, over: tuple[str, Sequence[float] | Array], states: Sequence[str] = ()) -> Locus:
+def locus(place: Place, over: tuple[str, Sequence[float] | Array], states: Sequence[str] = ()) -> Locus:
     """Return how the eigenvalues move with a parameter; see `symgen.api.Model.locus`.
 
     Raises
@@ -137,15 +137,15 @@ def locus(asked: Asked, over: tuple[str, Sequence[float] | Array], states: Seque
     name, values = range_of("over", over)
     if len(values) < 2 or np.any(np.diff(values) <= 0.0):
         raise InputError(f"over {name}", "two values or more in increasing order", f"{len(values)}")
-    settings = asked.settings
+    settings = place.settings
     if name in settings.inputs or name in settings.parameters:
         raise InputError(f"over {name}", "one way of giving it a value", "two")
-    parameter_values(asked.mechanism, {name: float(values[0])})
+    parameter_values(place.mechanism, {name: float(values[0])})
 
     @cache
     def eigenvalues(value: float) -> Complex:
         changed = replace(settings, parameters={**settings.parameters, name: value})
-        return asked_modes(replace(asked, settings=changed), states).eigenvalues
+        return modes_at(replace(place, settings=changed), states).eigenvalues
 
     count = len(eigenvalues(float(values[0])))
     for value in values[1:]:

@@ -1,103 +1,148 @@
-"""The search for an equilibrium: Newton's method with a line search on f(q, 0) = D^T lambda, Phi(q) = 0."""
+"""The search for an equilibrium: f(q, 0) = D^T lambda, Phi(q) = 0, with dense or with sparse matrices.
+
+The mechanism is closed first. A search then solves, step by step,
+
+    [ K + s G   D^T ]
+    [ D         0   ]
+
+which is Newton's method where s = 0. Far from rest s is so large that a step stays short and goes downhill.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any, Protocol, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import split, symmetric
+from symgen.analyses.algebra import Solver, largest, level, solver
 from symgen.analyses.subject import Subject
 from symgen.errors import AnalysisError
 
 Array = NDArray[np.float64]
 
-#: Steps at most, and halvings of one.
-MOST_STEPS, MOST_HALVINGS = 60, 12
-#: Times that a search is begun, the steps that a mechanism sinks before it is begun again, and how long these are.
-ATTEMPTS, SINKING, REACH = 4, 12, 0.3
-#: A step of Newton's method up to this, in lengths of the mechanism and radians, is near what it leads to.
-NEAR = 0.15
-#: A step as short as this balances nothing.
-BLIND = 1e-9
-#: Parts of the largest singular value of Newton's matrix that count as zero, and that may be what is not balanced yet.
-RANK, FLAT = 1e-13, 1e-9
-#: A shape whose stiffness is below this part of the largest one hardly restores anything.
-LOOSE = 1e-6
-#: Lengths of the mechanism by which a step downhill may open it.
-OPENED = 0.05
+#: Steps of a search at most, and trials of one.
+MOST_STEPS, MOST_TRIALS = 300, 60
 #: Forces and violations below this fraction of what they are compared with count as zero; below this one they are
 #: rounding, and no step makes them less.
-TOLERANCE, EXACT = 1e-10, 1e-16
+TOLERANCE, EXACT = 1e-9, 1e-16
+#: A step of Newton's method up to this, in lengths of the mechanism and radians, is near what it leads to; steps
+#: downhill are this long at most.
+NEAR, REACH = 0.15, 1.0
+#: Lengths of the mechanism by which a step downhill may open it.
+OPENED = 0.05
+#: A closing step as long as this has no way; what everything is moved by then, in lengths of the mechanism and radians.
+SINGULAR, ASTRAY = 1e6, 0.01
+#: What s is multiplied with where a step is too long, and the least part of its root that is left behind a short one.
+FASTER, SLOWER = 4.0, 0.3
+
+
+class Statics(Protocol):
+    """A static problem over changes in lengths of the mechanism and radians: forces are work.
+
+    So it is the same one in micrometres, where moments are nothing beside forces as numbers.
+    """
+
+    @property
+    def lengths(self) -> Array:
+        """What changes of coordinates are compared with, shape (nq,)."""
+
+    def forces(self, y: Array, lam: Array) -> tuple[Array, Array]:
+        """Return D^T lambda - f, and by how much each row is open."""
+
+    def derivatives(self, y: Array, lam: Array) -> tuple[Any, Any, Any]:
+        """Return N, D of rows that do not depend on others, and the stiffness K."""
+
+    def whole(self, work: Array | None) -> Array:
+        """Return multipliers of all rows from the work of those in D; 0 without."""
+
+    def moved(self, y: Array, change: Array) -> Array:
+        """Return a state whose coordinates are moved by a change."""
+
+    def wound(self, y: Array) -> Self:
+        """Return the same with the angles that count turns as they are at a state less than half a turn away."""
+
+
+S = TypeVar("S", bound=Statics)
 
 
 @dataclass(frozen=True)
-class Balance:
-    """The static problem at one position, over changes in lengths of the mechanism and radians: forces are work.
-
-    So it is the same one in micrometres, where moments are nothing beside forces as numbers.
+class DenseStatics:
+    """The static problem of a mechanism in dense matrices; velocities of its states are kept.
 
     Attributes
     ----------
-    force : Array, shape (nv,)
-        -f, and M v' where velocities are kept: what multipliers have to balance.
-    rows : Array, shape (k, nv)
-        D without rows that depend on others, then rows that hold coordinates.
-    open : Array, shape (k,)
-        By how much each of them is violated, in lengths of the mechanism or radians.
-    stiffness : Array, shape (nv, nv)
-        Derivative of the balance along changes of position, that of D^T lambda among it.
-    motion : Array, shape (nq, nv)
-        N.
+    subject : Subject
+        The mechanism.
+    held : sequence of (str, float)
+        Coordinates that are held at a value by a force of their own, whose multiplier stands last.
     """
 
-    force: Array
-    rows: Array
-    open: Array
-    stiffness: Array
-    motion: Array
+    subject: Subject
+    held: Sequence[tuple[str, float]] = ()
 
     @property
-    def scale(self) -> float:
-        """The largest stiffness."""
-        return float(np.abs(self.stiffness).max(initial=0.0)) or 1.0
+    def lengths(self) -> Array:
+        """What changes of coordinates are compared with, shape (nq,)."""
+        return self.subject.lengths
 
+    @property
+    def _kept(self) -> NDArray[np.bool_]:
+        return np.append(~self.subject.redundant, np.ones(len(self.held), dtype=np.bool_))
 
-def balance(subject: Subject, y: Array, lam: Array, held: Sequence[tuple[str, float]] = ()) -> Balance:
-    """Return the static problem; `lam` holds multipliers of all rows, then of what is held [N, N m]."""
-    m, kept = subject.m, ~subject.redundant
-    e = subject.evaluated(y, lam=lam[:m])
-    motion = e.by("motion", "v")
-    d = e.by("velocities", "v")
-    stiffness = e.by("balance", "q") @ motion
-    rows, gaps = [d[kept]], [e.value("positions")[kept]]
-    for name, value in held:
-        space, at = subject.position(name)
-        if space == "q":
-            row, now = motion[at], float(y[at])
-        else:
-            row, now = e.by("functions", "q")[at] @ motion, float(e.value("functions")[at])
-        rows.append(row[None, :])
-        gaps.append(np.array([now - value]))
-    spans, units = subject.spans, _units(subject, held)[np.append(kept, np.ones(len(held), dtype=np.bool_))]
-    return Balance(
-        spans * (e.value("balance") - d.T @ lam[:m]),
-        np.vstack(rows) * spans / units[:, np.newaxis],
-        np.concatenate(gaps) / units,
-        spans[:, np.newaxis] * stiffness * spans,
-        motion * spans,
-    )
+    def _parts(self, y: Array, lam: Array) -> tuple[Array, Array, Array, Array, Array]:
+        subject = self.subject
+        e = subject.evaluated(y, lam=lam[: subject.m])
+        motion, kept = e.by("motion", "v"), ~subject.redundant
+        rows, gaps = [e.by("velocities", "v")[kept]], [e.value("positions")[kept]]
+        force = e.value("balance")
+        for (name, value), multiplier in zip(self.held, lam[subject.m :], strict=True):
+            space, at = subject.position(name)
+            if space == "q":
+                row, now = motion[at], float(y[at])
+            else:
+                row, now = e.by("functions", "q")[at] @ motion, float(e.value("functions")[at])
+            force = force + row * multiplier
+            rows.append(row[np.newaxis])
+            gaps.append(np.array([now - value]))
+        spans, units = subject.spans, self._units()[self._kept]
+        stiffness = spans[:, np.newaxis] * (e.by("balance", "q") @ motion) * spans
+        return (
+            spans * force,
+            np.concatenate(gaps) / units,
+            motion * spans,
+            np.vstack(rows) * spans / units[:, np.newaxis],
+            stiffness,
+        )
 
+    def _units(self) -> Array:
+        """Return what counts as 1 of each row and held coordinate: a length of the mechanism or 1 rad."""
+        units = [self.subject.unit(name) for name, _ in self.held]
+        return np.append(self.subject.gaps, [self.subject.length if unit == "m" else 1.0 for unit in units])
 
-def _units(subject: Subject, held: Sequence[tuple[str, float]]) -> Array:
-    """Return what counts as 1 of each row, and of each coordinate that is held: a length of the mechanism or 1 rad."""
-    info, units = subject.compiled.info, list[str]()
-    for name, _ in held:
-        space, at = subject.position(name)
-        units.append(info.coordinates[at].unit if space == "q" else subject.form.units[name])
-    return np.append(subject.gaps, [subject.length if unit == "m" else 1.0 for unit in units])
+    def forces(self, y: Array, lam: Array) -> tuple[Array, Array]:
+        """Return D^T lambda - f, with M v' where velocities are kept, and by how much each row is open."""
+        return self._parts(y, lam)[:2]
+
+    def derivatives(self, y: Array, lam: Array) -> tuple[Array, Array, Array]:
+        """Return N, D of rows that do not depend on others and of what is held, and the stiffness K."""
+        return self._parts(y, lam)[2:]
+
+    def whole(self, work: Array | None) -> Array:
+        """Return multipliers of all rows from the work of those in D, those of what is held last; 0 without."""
+        found = np.zeros(len(self._kept))
+        found[self._kept] = 0.0 if work is None else work
+        return np.asarray(found / self._units())
+
+    def moved(self, y: Array, change: Array) -> Array:
+        """Return a state whose coordinates are moved by a change."""
+        return self.subject.moved(y, change)
+
+    def wound(self, y: Array) -> DenseStatics:
+        """Return the same with the angles that count turns as they are at a state less than half a turn away."""
+        return replace(self, subject=self.subject.wound(y))
 
 
 @dataclass(frozen=True)
@@ -125,9 +170,6 @@ class Settled:
 def settle(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -> Settled:
     """Return a position where all forces balance.
 
-    Where that gets nowhere it is tried again behind some steps downhill, whatever becomes of the balance; then Newton's
-    method alone, from both.
-
     Parameters
     ----------
     subject : Subject
@@ -142,200 +184,125 @@ def settle(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -
     AnalysisError
         If none is found.
     """
-    lower: tuple[Subject, Array] | None = None
-    for attempt in range(ATTEMPTS):
-        sinking, again = attempt < 2, attempt % 2 == 1
-        if again and lower is None:
-            lower = _sunk(subject, y, held)
-        begun, place = (subject, y) if lower is None or not again else lower
+    statics, y, lam, steps = search(DenseStatics(subject, held), y)
+    return Settled(statics.subject, y, lam, steps)
+
+
+def search(statics: S, y: Array) -> tuple[S, Array, Array, int]:
+    """Return a static problem at an equilibrium, the state there, its multipliers, and the steps taken.
+
+    Where forces have no potential, as those of a controller, downhill may lead nowhere: Newton's method alone follows.
+
+    Raises
+    ------
+    AnalysisError
+        If none is found.
+    """
+    try:
+        return _search(statics, y, NEAR)
+    except AnalysisError as error:
         try:
-            found = _search(begun, place, held, sinking)
+            return _search(statics, y, np.inf)
         except AnalysisError:
-            if attempt == ATTEMPTS - 1:
-                raise
-        else:
-            return replace(found, steps=found.steps + SINKING * again)
-    raise AssertionError("the last attempt returns or raises")
+            raise error from None
 
 
-def _sunk(subject: Subject, y: Array, held: Sequence[tuple[str, float]]) -> tuple[Subject, Array]:
-    """Return where a few bounded steps downhill lead that also close what is open."""
-    lam = np.zeros(subject.m + len(held))
-    for _ in range(SINKING):
-        now = balance(subject, y, lam, held)
-        change, multipliers = _downhill(now)
-        lam = _all_rows(subject, multipliers, held)
-        longest = (np.abs(now.motion @ change) / subject.lengths).max(initial=0.0)
-        y = subject.moved(y, now.motion @ (min(1.0, REACH / max(longest, 1e-300)) * change))
-        subject = subject.wound(y)
-    return subject, y
-
-
-def _all_rows(subject: Subject, work: Array, held: Sequence[tuple[str, float]]) -> Array:
-    """Return multipliers of all rows from the work of those that are kept; what is held stands last."""
-    kept = np.flatnonzero(~subject.redundant)
-    whole = np.zeros(subject.m + len(held))
-    whole[kept] = work[: len(kept)]
-    whole[subject.m :] = work[len(kept) :]
-    return np.asarray(whole / _units(subject, held))
-
-
-def _search(subject: Subject, y: Array, held: Sequence[tuple[str, float]], sinking: bool) -> Settled:
-    now = balance(subject, y, np.zeros(subject.m + len(held)), held)
-    lam = np.asarray(np.linalg.lstsq(now.rows.T, -now.force, rcond=1e-12)[0], dtype=np.float64)
-    now = balance(subject, y, _all_rows(subject, lam, held), held)
-    left, step, error, size, before = np.inf, 0, np.inf, np.zeros(subject.nv), (y, lam)
-    for step in range(MOST_STEPS):
-        # and where joints and forces carry nothing, what each would change by over a thousandth of the mechanism
-        stiff = 1e-3 * np.abs(now.stiffness).sum(axis=1)
-        size = np.maximum(size, np.maximum(np.abs(now.force).max(initial=1e-300), stiff))
-        error = _error(now, lam, size)
-        good = error < TOLERANCE
-        if good and (error >= 0.5 * left or error <= EXACT):
+def _search(statics: S, y: Array, near: float) -> tuple[S, Array, Array, int]:
+    """Return the same; steps of Newton's method up to `near` are taken, else those downhill."""
+    statics, y, steps = _closed(statics, y)
+    nothing = statics.whole(None)
+    force, gaps = statics.forces(y, nothing)
+    _, rows, stiffness = statics.derivatives(y, nothing)
+    even = level(stiffness)
+    solve = solver(even, rows)
+    if solve is None:
+        raise AnalysisError("the rows cannot be told apart: some depend on others near the start")
+    work = solve(-force, np.zeros(len(gaps)))[1]
+    before = y, work
+    error, best, shift, first, size = np.inf, np.inf, 0.0, 0.0, np.zeros(len(force))
+    for step in range(steps, MOST_STEPS):
+        lam = statics.whole(work)
+        force, gaps = statics.forces(y, lam)
+        motion, rows, stiffness = statics.derivatives(y, lam)
+        first = first or largest(stiffness) or 1.0
+        # where joints and forces carry nothing, what each would change by over a thousandth of the mechanism
+        stiff = 1e-3 * np.asarray(abs(stiffness).sum(axis=1)).ravel()
+        size = np.maximum(size, np.maximum(np.abs(force - rows.T @ work).max(initial=1e-300), stiff))
+        error = float((np.abs(force) / size).max(initial=0.0) + np.abs(gaps).max(initial=0.0))
+        good = min(error, best) < TOLERANCE
+        if good and (error >= 0.5 * best or error <= EXACT):
             # a step that balances no more may lead anywhere
-            y, lam = before if error >= left else (y, lam)
-            return Settled(subject, y, _all_rows(subject, lam, held), step)
-        left, before = error if good else np.inf, (y, lam)
-        found = _stepped(subject, y, lam, now, held, size, good, sinking)
-        if found is None and good:
-            return Settled(subject, y, _all_rows(subject, lam, held), step)
-        if found is None:
-            break
-        y, lam, now = found
-        subject = subject.wound(y)
+            y, work = before if error > best else (y, work)
+            return statics, y, statics.whole(work), step
+        if error < best:
+            before, best = (y, work), error
+        way = _newton(statics, motion, solver(stiffness, rows), (force, gaps), near)
+        if way is None and good:
+            return statics, y, lam, step
+        if way is None:
+            way, shift = _down(statics, (y, work), (motion, even, rows, stiffness), (force, gaps), shift or first)
+        y, work = statics.moved(y, motion @ way[0]), work + way[1]
+        statics = statics.wound(y)
     raise AnalysisError(
-        f"no equilibrium was found from this start: after {step} steps {error:.3g} of the forces is not balanced; "
-        "another start may lead to one"
+        f"no equilibrium was found from this start: after {MOST_STEPS} steps {error:.3g} of the forces is not "
+        "balanced; another start may lead to one"
     )
 
 
-def _stepped(
-    subject: Subject,
-    y: Array,
-    lam: Array,
-    now: Balance,
-    held: Sequence[tuple[str, float]],
-    size: Array,
-    good: bool,
-    sinking: bool,
-) -> tuple[Array, Array, Balance] | None:
-    """Return what a step leads to: as long a one as makes forces, or the next step of Newton's method, smaller.
+def _closed(statics: S, y: Array) -> tuple[S, Array, int]:
+    """Return a position that is nearly closed, and the steps taken: each the shortest one.
 
-    Where forces are `good` only whole steps of Newton's method are tried, for the last digits.
+    Where rows depend on each other, as those of links in one line, everything is moved a little.
     """
-    if good:
-        return _refined(subject, y, lam, now, held, size)
-    matrix = _inverse(now)
-    if matrix is None:
+    lam, rng = statics.whole(None), np.random.default_rng(0)
+    for step in range(MOST_STEPS):
+        force, gaps = statics.forces(y, lam)
+        motion, rows, stiffness = statics.derivatives(y, lam)
+        solve = solver(level(stiffness), rows)
+        if solve is not None and np.linalg.norm(gaps) <= OPENED:
+            return statics, y, step
+        change = np.full(len(force), np.inf) if solve is None else solve(np.zeros(len(force)), -gaps)[0]
+        long = _length(statics, motion, change)
+        if not long < SINGULAR:
+            change, long = ASTRAY * rng.standard_normal(len(force)), 1.0
+        y = statics.moved(y, motion @ (min(1.0, REACH / max(long, 1e-300)) * change))
+        statics = statics.wound(y)
+    raise AnalysisError("no equilibrium was found from this start: it cannot be closed; another start may do")
+
+
+def _length(statics: Statics, motion: Any, change: Array) -> float:
+    if not np.all(np.isfinite(change)):
+        return np.inf
+    return float((np.abs(motion @ change) / statics.lengths).max(initial=0.0))
+
+
+def _newton(
+    statics: Statics, motion: Any, solve: Solver | None, right: tuple[Array, Array], near: float
+) -> tuple[Array, Array] | None:
+    """Return the step of Newton's method, or as much of it as a step may be long, where it is shorter than `near`."""
+    if solve is None:
         return None
-    error, natural = _error(now, lam, size), np.linalg.norm(_correction(now, lam, matrix))
-    far, steps = _steps(subject, now, lam, matrix)
-    if not sinking:
-        far, steps = False, sorted(steps, key=lambda step: step is not steps[far])
-    for way, (change, multipliers) in enumerate(steps):
-        longest = (np.abs(now.motion @ change) / subject.lengths).max(initial=0.0)
-        part = min(1.0, 1.0 / longest) if longest > 0.0 else 1.0
-        for _ in range(MOST_HALVINGS):
-            tried = subject.moved(y, now.motion @ (part * change))
-            new = lam + part * (multipliers - lam)
-            then = balance(subject, tried, _all_rows(subject, new, held), held)
-            if _error(then, new, size) < error * (1.0 - 1e-3 * part):
-                return tried, new, then
-            if np.linalg.norm(_correction(then, new, matrix)) < natural * (1.0 - 0.25 * part):
-                return tried, new, then
-            if far and way == 0 and _sinks(change, now, then, multipliers):
-                return tried, new, then
-            part *= 0.5
-    return None
+    change, more = solve(-right[0], -right[1])
+    long = _length(statics, motion, change)
+    part = min(1.0, REACH / max(long, 1e-300))
+    return (part * change, part * more) if long < near else None
 
 
-def _refined(
-    subject: Subject, y: Array, lam: Array, now: Balance, held: Sequence[tuple[str, float]], size: Array
-) -> tuple[Array, Array, Balance] | None:
-    """Return what the better one of two whole steps leads to: with all stiffnesses, or without the smallest ones.
-
-    Along a way on which nothing changes the stiffness is what forces are not yet balanced by, and a step anything.
-    """
-    best, least = None, _error(now, lam, size) * (1.0 - 1e-3)
-    for rank in (RANK, FLAT):
-        matrix = _inverse(now, rank)
-        if matrix is None:
-            return None
-        change, new = _newton(now, lam, matrix)
-        tried = subject.moved(y, now.motion @ change)
-        then = balance(subject, tried, _all_rows(subject, new, held), held)
-        error = _error(then, new, size)
-        if error < least:
-            best, least = (tried, new, then), error
-    return best
-
-
-def _error(now: Balance, lam: Array, size: Array) -> float:
-    with np.errstate(over="ignore"):  # far away forces may be so large that their squares are not finite
-        unbalanced = np.linalg.norm((now.force + now.rows.T @ lam) / size)
-    return float(np.hypot(unbalanced, np.linalg.norm(now.open)))
-
-
-def _sinks(change: Array, now: Balance, then: Balance, multipliers: Array) -> bool:
-    """Whether a step downhill has not gone far beyond the lowest point of its way, and opens little."""
-    before = float(change @ (now.force + now.rows.T @ multipliers))
-    after = float(change @ (then.force + then.rows.T @ multipliers))
-    opened = np.linalg.norm(then.open) <= max(OPENED, float(np.linalg.norm(now.open)))
-    return bool(before < 0.0 and after <= 0.5 * abs(before) and opened)
-
-
-def _steps(subject: Subject, now: Balance, lam: Array, matrix: Array) -> tuple[bool, list[tuple[Array, Array]]]:
-    """Return whether the equilibrium is far, Newton's step and one downhill, that first which is to be tried first.
-
-    Newton's method finds equilibria of any kind. That is what is wanted near one; from further away it is left to
-    chance which, so that the mechanism sinks.
-    """
-    newton, downhill = _newton(now, lam, matrix), _downhill(now)
-    longest = float((np.abs(now.motion @ newton[0]) / subject.lengths).max(initial=0.0))
-    # forces that no step would balance: where the stiffness vanishes along them, as that of a level pendulum does
-    blind = longest < BLIND and np.linalg.norm(now.force + now.rows.T @ newton[1]) > TOLERANCE * np.linalg.norm(
-        now.force
-    )
-    far = bool(longest >= NEAR or blind)
-    return far, [downhill, newton] if far else [newton, downhill]
-
-
-def _inverse(now: Balance, rank: float = RANK) -> Array | None:
-    """Return the pseudo-inverse of Newton's matrix, forces over the largest stiffness; None where it is not finite."""
-    k, scale = len(now.open), now.scale
-    matrix = np.block([[now.stiffness / scale, now.rows.T], [now.rows, np.zeros((k, k))]])
-    return np.linalg.pinv(matrix, rcond=rank) if np.all(np.isfinite(matrix)) else None
-
-
-def _correction(now: Balance, lam: Array, matrix: Array) -> Array:
-    """Return what a matrix of Newton's makes of what is not balanced: a measure that does not know units of forces."""
-    right = np.concatenate([(now.force + now.rows.T @ lam) / now.scale, now.open])
-    found: Array = matrix @ right if np.all(np.isfinite(right)) else np.full(len(right), np.inf)
-    return found
-
-
-def _newton(now: Balance, lam: Array, matrix: Array) -> tuple[Array, Array]:
-    """Return the step of Newton's method, the shortest one where the matrix is singular, and the new multipliers."""
-    n = len(now.force)
-    found = -_correction(now, lam, matrix)
-    return found[:n], lam + found[n:] * now.scale
-
-
-def _downhill(now: Balance) -> tuple[Array, Array]:
-    """Return a step that lowers the energy also where the stiffness is negative: its modes count by their size.
-
-    What is pulled while nothing restores it falls by a length of the mechanism or a radian: what its own stiffness, or
-    one above rounding beside a stiff spring, would make of it tells its weight in some unit, and no distance.
-    """
-    basis, inverse, _ = split(now.rows)
-    closing = -inverse @ now.open
-    values, vectors = np.linalg.eigh(symmetric(basis.T @ now.stiffness @ basis))
-    slope = vectors.T @ basis.T @ (now.force + now.stiffness @ closing)
-    own, least = np.abs(values), LOOSE * np.abs(values).max(initial=0.0)
-    falls = np.abs(slope) * np.abs(basis @ vectors).max(axis=0, initial=0.0)
-    pulled = (own <= least) & (np.abs(slope) > TOLERANCE * np.linalg.norm(now.force))
-    sizes = np.where(pulled, np.minimum(least or np.inf, np.maximum(own, falls)), np.maximum(own, least))
-    sizes[sizes == 0.0] = 1.0
-    change = closing - basis @ (vectors @ (slope / sizes))
-    multipliers = -inverse.T @ (now.force + now.stiffness @ change)
-    return change, multipliers
+def _down(
+    statics: Statics, at: tuple[Array, Array], matrices: tuple[Any, ...], right: tuple[Array, Array], shift: float
+) -> tuple[tuple[Array, Array], float]:
+    """Return a step downhill that is short enough, and the s that the next one is to be tried with."""
+    (y, work), (motion, even, rows, stiffness), (force, gaps) = at, matrices, right
+    for _ in range(MOST_TRIALS):
+        solve = solver(stiffness + shift * even, rows)
+        if solve is not None:
+            change, more = solve(-force, -gaps)
+            long = _length(statics, motion, change)
+            steep = float(change @ ((stiffness + shift * even) @ change)) if long <= REACH else 0.0
+            if steep > 0.0:
+                then, opened = statics.forces(statics.moved(y, motion @ change), statics.whole(work + more))
+                ahead = float(change @ then) <= 0.5 * steep
+                if ahead and np.linalg.norm(opened) <= max(OPENED, float(np.linalg.norm(gaps))):
+                    return (change, more), shift * min(1.0, max(SLOWER, 0.7 * long / REACH) ** 2)
+        shift *= FASTER
+    raise AnalysisError("no equilibrium was found from this start: no step leads downhill; another start may do")

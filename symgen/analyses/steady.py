@@ -7,13 +7,13 @@ meanwhile: they are cyclic. Both is asked at the state and again a little later 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import split
+from symgen.analyses.algebra import ROUNDED, split
 from symgen.analyses.reduced import Quantity, Tangent, quantities_of, tangent
 from symgen.analyses.subject import RATE, Subject
 from symgen.errors import AnalysisError, InputError
@@ -22,20 +22,19 @@ from symgen.runtime.probe import rate_function
 
 Array = NDArray[np.float64]
 
-#: Rates below this fraction of the motion's own count as none, and at rest those below this one of the fastest.
-STILL, ROUNDING = 1e-7, 1e-13
+#: Rates below this fraction of the motion's own count as none.
+STILL = 1e-7
 #: How far one quantity may follow from others, as a fraction of it.
 CLOSED = 1e-8
 #: Rates that change by less than this part of the largest change of any are compared with that part of it: a wheel by
 #: itself has none but rounding.
-ROUNDED = 1e-6
+LEAST_CHANGE = 1e-6
 #: The same later on, where the motion was followed by steps: their error is in it.
 LATER = 1e-4
 #: Radians, or lengths of the mechanism, between the instants at which is asked again.
 APART = 0.7
-#: Steps between them; a motion with an eigenvalue that asks for more is stiff, and is followed for so many radians of
-#: its fastest eigenvalue at most.
-STEPS, FARTHEST = 60, 1e4
+#: A motion is followed for so many radians of its fastest eigenvalue at most.
+FARTHEST = 1e4
 
 
 def at_rest(subject: Subject, x: Tangent) -> bool:
@@ -51,7 +50,7 @@ def at_rest(subject: Subject, x: Tangent) -> bool:
     heavy = np.diag(e.by("balance", "a")) * spans
     found = heavy > 0.0  # what has no mass follows
     quick = carried[found] / heavy[found]
-    limit = STILL * quick + ROUNDING * quick.max(initial=0.0)
+    limit = STILL * quick + ROUNDED * quick.max(initial=0.0)
     v, a = np.abs(x.speeds / spans)[found], np.abs(x.a / spans)[found]
     return bool(np.all(a <= limit) and np.all(v**2 <= STILL * limit))
 
@@ -175,7 +174,7 @@ def system(x: Tangent, names: Sequence[str]) -> tuple[Array, Array, Array, Array
     alike = x.sizes  # of s and u, as `sizes` of states: digits are lost by neither
     a = np.linalg.lstsq((states[:, :n] * alike).T, (rates[:, :n] * alike).T, rcond=1e-11)[0].T
     rest = (rates[:, :n] - a @ states[:, :n]) * alike
-    size = max(np.abs(rates[:, :n] * alike).max(initial=1e-300), ROUNDED * np.abs(x.matrix).max(initial=0.0))
+    size = max(np.abs(rates[:, :n] * alike).max(initial=1e-300), LEAST_CHANGE * np.abs(x.matrix).max(initial=0.0))
     b = sizes * (rates[:, n:] - a @ states[:, n:])
     return sizes * a / sizes.T, b, rest, np.full(len(a), size)
 
@@ -269,31 +268,26 @@ def _check_still(x: Tangent, names: Sequence[str], where: str) -> None:
 
 
 def after(subject: Subject, x: Tangent) -> Tangent:
-    """Return how everything changes a little later on the motion."""
-    y, t = later(subject, x)
-    return tangent(subject, y, t)
+    """Return how everything changes a little later on the motion: followed by steps, and projected behind them."""
+    from scipy.integrate import solve_ivp
 
-
-def later(subject: Subject, x: Tangent) -> tuple[Array, float]:
-    """Return the state a little later on the motion, and its time: followed by steps, and projected behind them."""
     nq, nv, y = subject.nq, subject.nv, x.y
     kept = ~subject.redundant
-
     rates, w = rate_function(subject.compiled), subject.w.copy()
     iw, whole = np.zeros(len(COUNTERS), dtype=np.int64), np.zeros_like(y)
 
     def slope(t: float, z: Array) -> Array:
-        rates(t, _filled(y, z), subject.p, w, iw, whole)
+        rates(float(t), _filled(y, z), subject.p, w, iw, whole)
         return whole[: nq + nv].copy()
 
     fastest = np.abs(np.linalg.eigvals(x.matrix)).max(initial=0.0)
     speed = max(pace(x), APART * fastest / FARTHEST)
     end = x.t + APART / speed
-    stiff = fastest * APART / speed > STEPS
-    if stiff:
-        z = _by_implicit_steps(slope, x.t, end, y[: nq + nv], np.append(subject.lengths, speed * subject.spans))
-    else:
-        z = _by_steps(slope, x.t, end, y[: nq + nv])
+    large: Any = np.append(subject.lengths, speed * subject.spans)  # SciPy's types do not know arrays of tolerances
+    run = solve_ivp(slope, (x.t, end), y[: nq + nv], "Radau", rtol=1e-8, atol=1e-10 * large)
+    if not run.success:
+        raise AnalysisError(f"the motion cannot be followed beyond t = {run.t[-1]:.4g} s: {run.message}")
+    z = run.y[:, -1]
     y = subject.moved(_filled(y, z), np.zeros(nq))
     for _ in range(4):
         e = subject.evaluated(y, t=end)
@@ -301,31 +295,7 @@ def later(subject: Subject, x: Tangent) -> tuple[Array, float]:
         y = subject.moved(y, -e.by("motion", "v") @ (inverse @ (e.value("positions") * kept)))
     e = subject.evaluated(y, t=end)
     y[nq : nq + nv] -= split(subject.rows(e) * kept[:, None])[1] @ (e.value("velocities") * kept)
-    return y, end
-
-
-def _by_steps(slope: Callable[[float, Array], Array], t: float, end: float, z: Array) -> Array:
-    """Return what Runge's, Heun's and Kutta's steps lead to."""
-    step = (end - t) / STEPS
-    for i in range(STEPS):
-        now = t + i * step
-        k1 = slope(now, z)
-        k2 = slope(now + 0.5 * step, z + 0.5 * step * k1)
-        k3 = slope(now + 0.5 * step, z + 0.5 * step * k2)
-        k4 = slope(now + step, z + step * k3)
-        z = z + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-    return z
-
-
-def _by_implicit_steps(slope: Callable[[float, Array], Array], t: float, end: float, z: Array, sizes: Array) -> Array:
-    """Return the same of a stiff motion; `sizes` say what counts as large of the state."""
-    from scipy.integrate import solve_ivp
-
-    solve: Any = solve_ivp  # SciPy's types do not know arrays of tolerances
-    run = solve(lambda t, z: slope(float(t), z), (t, end), z, method="Radau", rtol=1e-8, atol=1e-10 * sizes)
-    if not run.success:
-        raise AnalysisError(f"the motion cannot be followed beyond t = {run.t[-1]:.4g} s: {run.message}")
-    return np.asarray(run.y[:, -1], dtype=np.float64)
+    return tangent(subject, y, end)
 
 
 def _filled(y: Array, z: Array) -> Array:

@@ -151,14 +151,6 @@ class Subject(Yardsticks):
         spans = self.spans[:, np.newaxis]
         return np.asarray(spans * split(self.rows(e) * spans.T)[0])
 
-    def moved(self, y: Array, change: Array) -> Array:
-        """Return a state whose coordinates are moved by a change, Euler parameters kept at length 1."""
-        found = y.copy()
-        found[: self.nq] += change
-        for first, _ in self.compiled.info.spins:
-            found[first : first + 4] /= np.linalg.norm(found[first : first + 4])
-        return found
-
     def wound(self, y: Array) -> Subject:
         """Return the same with the angles that count turns as they are at a state less than half a turn away."""
         count, model = self.compiled.info.windings, self.compiled.model
@@ -213,6 +205,11 @@ class Subject(Yardsticks):
             return "functions", self.form.functions[name][0]
         expected = f"a coordinate of {self.mechanism.name}"
         raise InputError(f"'{name}'", expected, "none of that name", nearest(name, {*names, *known}))
+
+    def unit(self, name: str) -> str:
+        """Return the unit of a coordinate."""
+        space, at = self.position(name)
+        return self.compiled.info.coordinates[at].unit if space == "q" else self.form.units[name]
 
     def named(self, y: Array) -> dict[str, float]:
         """Return the coordinates by name: the state's own, those of bodies where a tree carries them, and of joints."""

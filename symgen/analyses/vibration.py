@@ -19,7 +19,7 @@ from symgen.analyses.steady import at_rest, system
 Array = NDArray[np.float64]
 
 #: What damping along two shapes may be of the faster one's frequency where there is none.
-NONE = 1e-11
+UNDAMPED = 1e-11
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ def vibration(x: Tangent) -> Vibration | None:
     along, whole = basis @ vectors, e.by("balance", "v")
     fast, sizes = np.sqrt(np.abs(squares)), summed(whole, along)
     damping = along.T @ whole @ along
-    limit = NONE * np.maximum.outer(fast, fast) + ROUNDED * np.sqrt(np.outer(sizes, sizes))
+    limit = UNDAMPED * np.maximum.outer(fast, fast) + ROUNDED * np.sqrt(np.outer(sizes, sizes))
     return Vibration(squares, along, np.where(np.abs(damping) > limit, damping, 0.0))
 
 

@@ -49,5 +49,13 @@ class Yardsticks:
         """
         return self._of(tuple(row.unit for row in self.compiled.info.rows), "rad")
 
+    def moved(self, y: Array, change: Array) -> Array:
+        """Return a state whose coordinates are moved by a change, Euler parameters kept at length 1."""
+        found = y.copy()
+        found[: self.compiled.info.nq] += change
+        for first, _ in self.compiled.info.spins:
+            found[first : first + 4] /= np.linalg.norm(found[first : first + 4])
+        return found
+
     def _of(self, units: tuple[str, ...], long: str) -> Array:
         return np.array([self.length if unit == long else 1.0 for unit in units])

@@ -136,7 +136,7 @@ def _checked(file: Path) -> Path:
 
 def _mode(model: Model, settings: Settings, mode: int, at: str, file: Path, as_json: bool) -> int:
     """Write a page or film of a mode shape."""
-    from symgen.analyses.shown import mode_page, mode_recording
+    from symgen.analyses.animation import mode_page, mode_recording
     from symgen.player.moving import is_film, write_film
 
     of = (model.mechanism, model.modes(settings, at=at), mode, settings.parameters)

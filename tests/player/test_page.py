@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from support import processes
 
-from symgen.analyses.shown import mode_recording
+from symgen.analyses.animation import mode_recording
 from symgen.api import load
 from symgen.cli import main
 from symgen.describe.validate import validate

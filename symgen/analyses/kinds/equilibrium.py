@@ -39,9 +39,9 @@ def equilibrium(model: Analysed, settings: Settings | None = None, **changes: ob
     AnalysisError
         If none is found.
     """
-    from symgen.analyses.asked import asked_equilibrium
+    from symgen.analyses.places import rest_from
 
-    return asked_equilibrium(model.mechanism, settings_of("equilibrium", settings, changes))
+    return rest_from(model.mechanism, settings_of("equilibrium", settings, changes))
 
 
 def equilibria(
@@ -61,7 +61,7 @@ def equilibria(
     AnalysisError
         If none is found.
     """
-    from symgen.analyses.asked import scanned
+    from symgen.analyses.places import scanned
 
     return scanned(model.mechanism, settings_of("equilibria", settings, changes), scan)
 
@@ -84,9 +84,9 @@ def steady(
     AnalysisError
         If none is found.
     """
-    from symgen.analyses.asked import asked_steady
+    from symgen.analyses.places import steady_from
 
-    return asked_steady(model.mechanism, settings_of("steady", settings, changes), cyclic)
+    return steady_from(model.mechanism, settings_of("steady", settings, changes), cyclic)
 
 
 def command(load: Callable[[], Analysed], settings: Settings, scan: tuple[str, Array] | None, moving: bool) -> Output:

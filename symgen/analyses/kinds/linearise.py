@@ -48,10 +48,10 @@ def linearise(
     AnalysisError
         If no equilibrium is found.
     """
-    from symgen.analyses.asked import Asked, asked_system
+    from symgen.analyses.places import Place, system_at
 
-    asked = Asked(model.mechanism, settings_at("linearise", settings, changes, at), at, model.simulate, cyclic)
-    return asked_system(asked, states, instantaneous, by)
+    place = Place(model.mechanism, settings_at("linearise", settings, changes, at), at, model.simulate, cyclic)
+    return system_at(place, states, instantaneous, by)
 
 
 def command(load: Callable[[], Analysed], settings: Settings, **further: Any) -> Output:

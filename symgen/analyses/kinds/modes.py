@@ -63,10 +63,10 @@ def modes(
     AnalysisError
         If no equilibrium is found.
     """
-    from symgen.analyses.asked import Asked, asked_modes
+    from symgen.analyses.places import Place, modes_at
 
-    asked = Asked(model.mechanism, settings_at("modes", settings, changes, at), at, model.simulate, cyclic)
-    return asked_modes(asked, states, count)
+    place = Place(model.mechanism, settings_at("modes", settings, changes, at), at, model.simulate, cyclic)
+    return modes_at(place, states, count)
 
 
 def view_mode(
@@ -99,7 +99,7 @@ def view_mode(
     AnalysisError
         If no equilibrium is found.
     """
-    from symgen.analyses.shown import mode_page
+    from symgen.analyses.animation import mode_page
 
     whole = settings_at("view_mode", settings, changes, at)
     number = arguments.whole("number", number, 1, 10**6)
@@ -125,11 +125,11 @@ def locus(
     settings, at, states, cyclic, **changes
         As for `modes`.
     """
-    from symgen.analyses.asked import Asked
     from symgen.analyses.locus import locus as locus_of
+    from symgen.analyses.places import Place
 
-    asked = Asked(model.mechanism, settings_at("locus", settings, changes, at), at, model.simulate, cyclic)
-    return locus_of(asked, over, states)
+    place = Place(model.mechanism, settings_at("locus", settings, changes, at), at, model.simulate, cyclic)
+    return locus_of(place, over, states)
 
 
 def command(

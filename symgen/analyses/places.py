@@ -59,7 +59,7 @@ def is_large(mechanism: Mechanism, settings: Settings) -> bool:
 
 
 @dataclass(frozen=True)
-class Asked:
+class Place:
     """What is analysed, and where.
 
     Attributes
@@ -95,7 +95,7 @@ class Asked:
             raise InputError("cyclic", "names where a steady motion is searched (at steady)", ", ".join(self.cyclic))
 
 
-def arrived(asked: Asked) -> Asked:
+def arrived(place: Place) -> Place:
     """Return the same about the start, which is the state of a run where a time is asked for.
 
     Raises
@@ -103,23 +103,23 @@ def arrived(asked: Asked) -> Asked:
     AnalysisError
         If the run fails or does not come to the time.
     """
-    if isinstance(asked.at, str):
-        return asked
-    settings, at = asked.settings, asked.at
-    result = asked.run(replace(settings, until=at, output_step=None, times=(at,), **FOLLOWED))  # type: ignore[arg-type]  # of settings
+    if isinstance(place.at, str):
+        return place
+    settings, at = place.settings, place.at
+    result = place.run(replace(settings, until=at, output_step=None, times=(at,), **FOLLOWED))  # type: ignore[arg-type]  # of settings
     if result.status == "failed":
         raise AnalysisError(f"the run to t = {at:g} s failed: {result.reason}")
     if result.end < at:
         raise AnalysisError(f"the run to t = {at:g} s is over at t = {result.end:.6g} s: an event ends it")
-    return replace(asked, settings=replace(settings, start=result), at="start")  # type: ignore[arg-type]  # gone on from
+    return replace(place, settings=replace(settings, start=result), at="start")  # type: ignore[arg-type]  # gone on from
 
 
-def subject_at(asked: Asked, by: Sequence[str] = ()) -> tuple[Subject, Array]:
+def subject_at(place: Place, by: Sequence[str] = ()) -> tuple[Subject, Array]:
     """Return what is analysed, and the state that it is analysed about.
 
     Parameters
     ----------
-    asked : Asked
+    place : Place
         What is asked for.
     by : sequence of str
         Parameters that derivatives are wanted by.
@@ -131,11 +131,11 @@ def subject_at(asked: Asked, by: Sequence[str] = ()) -> tuple[Subject, Array]:
     AnalysisError
         If no equilibrium or steady motion is found, or the run fails or does not come to the time asked for.
     """
-    asked = arrived(asked)
-    mechanism, settings, at = asked.mechanism, asked.settings, asked.at
+    place = arrived(place)
+    mechanism, settings, at = place.mechanism, place.settings, place.at
     if at == "steady":
         subject = subject_of(mechanism, replace(settings, coordinates="joint"), by)
-        moving = steady_motion(subject, asked.cyclic)
+        moving = steady_motion(subject, place.cyclic)
         return moving.subject, moving.y
     subject = subject_of(mechanism, settings, by)
     if at == "equilibrium":
@@ -146,7 +146,7 @@ def subject_at(asked: Asked, by: Sequence[str] = ()) -> tuple[Subject, Array]:
     return subject, subject.y
 
 
-def asked_steady(mechanism: Mechanism, settings: Settings, cyclic: Sequence[str] = ()) -> Equilibrium:
+def steady_from(mechanism: Mechanism, settings: Settings, cyclic: Sequence[str] = ()) -> Equilibrium:
     """Return a steady motion as an equilibrium; see `symgen.api.Model.steady`."""
     subject = subject_of(mechanism, replace(settings, coordinates="joint"))
     found = steady_motion(subject, arguments.words("cyclic", cyclic))
@@ -170,7 +170,7 @@ def scanned(
     return _of_bodies(mechanism, settings, subject, equilibria(subject, (name, values)))
 
 
-def asked_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
+def rest_from(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     """Return the equilibrium that the start leads to; see `symgen.api.Model.equilibrium`."""
     if settings.coordinates == "absolute" and is_large(mechanism, settings):
         from symgen.analyses.large import large_equilibrium
@@ -213,34 +213,34 @@ def range_of(where: str, given: object) -> tuple[str, Array]:
     return given[0], np.array(arguments.numbers(f"{where} {given[0]}", given[1]), dtype=np.float64)
 
 
-def asked_modes(asked: Asked, states: Sequence[str] = (), count: int | None = None) -> Modes:
+def modes_at(place: Place, states: Sequence[str] = (), count: int | None = None) -> Modes:
     """Return the modes at a place; see `symgen.api.Model.modes`."""
     states = arguments.words("states", states)
     if count is not None:
         from symgen.analyses.large import lowest_modes
 
-        if states or asked.cyclic or asked.at != "equilibrium":
+        if states or place.cyclic or place.at != "equilibrium":
             raise InputError(
                 "count", "modes about an equilibrium, without states of their own", "another place, or states"
             )
-        if asked.settings.coordinates == "joint":
+        if place.settings.coordinates == "joint":
             raise InputError("count", "coordinates of bodies", "those of joints", "ask for all modes")
-        return lowest_modes(asked.mechanism, asked.settings, arguments.whole("count", count, 1, 10_000))
-    asked = arrived(asked)  # inputs may be others there than at the start
-    subject, y = subject_at(asked)
+        return lowest_modes(place.mechanism, place.settings, arguments.whole("count", count, 1, 10_000))
+    place = arrived(place)  # inputs may be others there than at the start
+    subject, y = subject_at(place)
 
     def bodies() -> Subject:
-        return subject_of(asked.mechanism, replace(asked.settings, coordinates="absolute"))
+        return subject_of(place.mechanism, replace(place.settings, coordinates="absolute"))
 
     return replace(modes(subject, y, None, states, bodies=bodies), notes=edges(subject, y))
 
 
-def asked_system(
-    asked: Asked, states: Sequence[str] = (), instantaneous: bool = False, by: Sequence[str] = ()
+def system_at(
+    place: Place, states: Sequence[str] = (), instantaneous: bool = False, by: Sequence[str] = ()
 ) -> LinearSystem:
     """Return the linear system at a place; see `symgen.api.Model.linearise`."""
     states = arguments.words("states", states)
-    subject, y = subject_at(asked, arguments.words("by", by))
+    subject, y = subject_at(place, arguments.words("by", by))
     found = linear_system(subject, y, None, states, arguments.switch("instantaneous", instantaneous))
     accelerations = tangent(subject, y).a if found.outputs else None
     return replace(found, notes=edges(subject, y, accelerations, found.outputs))
