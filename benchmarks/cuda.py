@@ -64,7 +64,7 @@ def device_of(model: str, name: str, settings: Settings) -> DeviceRuns:
     loaded = symgen.load(model)
     value = loaded.parameters({}).get(name, 1.0)
     found = kernel_of(make_ensemble(loaded, settings, {name: [value]}, {}, None, "cuda").recipe).first.runs
-    assert found is not None, "the target is cuda"
+    assert isinstance(found, DeviceRuns), "the target is cuda"
     return found
 
 
