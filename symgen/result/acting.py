@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -50,10 +51,10 @@ def reaction_names(joints: Mapping[str, str], info: ModelInfo) -> tuple[tuple[st
     info : ModelInfo
         The model.
     """
-    bodies = [velocity.name.rpartition(".")[0] for velocity in info.velocities]
+    sizes, spatial = Counter(velocity.name.rpartition(".")[0] for velocity in info.velocities), _is_spatial(info)
     parts, lengths = list[str](), list[str]()
     for joint, body in joints.items():
-        labels = _labels(_is_spatial(info), 0 if body == GROUND else bodies.count(body))
+        labels = _labels(spatial, 0 if body == GROUND else sizes[body])
         parts += [f"{joint}.{label}" for label in labels]
         several = (name for letter, name in (("F", "F"), ("M", "T")) if sum(x[0] == letter for x in labels) > 1)
         lengths += [f"{joint}.{name}" for name in several]
