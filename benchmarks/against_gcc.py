@@ -27,7 +27,7 @@ from symgen.api import load
 from symgen.compiling.pipeline import choose_method
 from symgen.emit.printer import ElementAccess, Printer
 from symgen.formulate.formulate import formulate
-from symgen.ir.program import Block, Layout
+from symgen.ir.program import Block, ModelLayout
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
 from symgen.native import types
@@ -48,7 +48,7 @@ def _repeat_emitted(rhs: Any, y: Any, p: Any, w: Any, iw: Any, ydot: Any, count:
     return float(ydot[0])
 
 
-def c_function(block: Block, layout: Layout) -> str:
+def c_function(block: Block, layout: ModelLayout) -> str:
     """Return `block` as a C function with a loop beside it that calls it through a pointer."""
     lines = Printer(block, ElementAccess(layout, {})).lines()
     body = [f"    const __auto_type {_c(line)};" for line in (*lines.inputs, *lines.terms)]

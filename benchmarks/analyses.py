@@ -27,7 +27,7 @@ import symgen
 from benchmarks.peers.analyses import CATENARY, CHAINS, FOUR_BAR, GRAVITY, SLOPE, places
 from benchmarks.show import show
 from symgen.analyses.modes import modes
-from symgen.analyses.places import Place, subject_at
+from symgen.analyses.places import NamedPlace, subject_at
 from symgen.settings import Settings
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -106,7 +106,7 @@ def own() -> list[dict[str, Any]]:
     ):
         for coordinates in ("absolute", "joint"):
             settings = Settings(coordinates=coordinates)
-            subject, y = subject_at(Place(model.mechanism, settings, "equilibrium", model.simulate))
+            subject, y = subject_at(NamedPlace(model.mechanism, settings, "equilibrium", model.simulate))
             seconds, found = fastest(partial(modes, subject, y))
             call, _ = fastest(partial(model.modes, coordinates=coordinates))
             error = float(np.abs(found.omega_squared / truth - 1.0).max())

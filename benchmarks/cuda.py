@@ -27,9 +27,9 @@ from rich.table import Table
 
 import symgen
 from benchmarks.show import show
-from symgen.ensemble.device import DeviceRuns, compilable, usable
+from symgen.ensemble.device_runs import DeviceRuns, compilable, usable
 from symgen.ensemble.kernel import kernel_of
-from symgen.ensemble.plan import make_ensemble
+from symgen.ensemble.sweep_plan import make_ensemble
 from symgen.memory import processors
 from symgen.settings import Settings
 

@@ -22,12 +22,12 @@ from statistics import median
 from typing import Any
 
 from symgen.api import load
-from symgen.catalogue import Entry, entries
+from symgen.catalogue import CatalogueEntry, entries
 from symgen.describe.digest import digest
 from symgen.report import words
 from symgen.report.document import Picture
-from symgen.study.comparison.rows import YARDSTICK, Row, Study
-from symgen.study.machine import machine_class, versions
+from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study
+from symgen.study.machine_class import machine_class, versions
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 FOLDER = DOCS / "gallery"
@@ -85,13 +85,13 @@ def choice(name: str) -> Choice:
     return CHOICES.get(name, Choice())
 
 
-def model_name(entry: Entry) -> str:
+def model_name(entry: CatalogueEntry) -> str:
     """Return how an entry is typed: with the size that is measured where it has one."""
     size = choice(entry.name).size or entry.default_size
     return f"{entry.name}:{size}" if entry.sized else entry.name
 
 
-def command(entry: Entry) -> str:
+def command(entry: CatalogueEntry) -> str:
     """Return the command that measures the rows of an entry."""
     own, model = choice(entry.name), load(model_name(entry))
     parts = ["symgen compare", model_name(entry)]
@@ -106,7 +106,7 @@ def command(entry: Entry) -> str:
 # -- measuring ---------------------------------------------------------------------------------------------------------
 
 
-def measure(entry: Entry) -> None:
+def measure(entry: CatalogueEntry) -> None:
     """Run the comparison of an entry and keep its rows."""
     from symgen.study.comparison.compare import compare
 
@@ -124,7 +124,7 @@ def measure(entry: Entry) -> None:
     )
 
 
-def draw(entry: Entry) -> None:
+def draw(entry: CatalogueEntry) -> None:
     """Draw an entry in motion, from a run in the shape of code that all mechanisms share."""
     from symgen.drawing import Drawing
 
@@ -143,7 +143,7 @@ def draw(entry: Entry) -> None:
     keep(entry, caption=drawn.caption, rank=result.rank.rank)
 
 
-def keep(entry: Entry, **facts: Any) -> None:
+def keep(entry: CatalogueEntry, **facts: Any) -> None:
     """Put facts into the data of an entry; rows of a mechanism that has changed since are dropped."""
     now = digest(load(model_name(entry)).mechanism)
     before = data(entry.name) or {}
@@ -212,7 +212,7 @@ def data(name: str) -> Mapping[str, Any] | None:
     return found
 
 
-def page(entry: Entry) -> str:
+def page(entry: CatalogueEntry) -> str:
     """Return the page of an entry."""
     mechanism = load(model_name(entry)).mechanism
     measured = data(entry.name)
@@ -241,7 +241,7 @@ def page(entry: Entry) -> str:
     return "\n".join(lines)
 
 
-def _unmeasured(entry: Entry) -> list[str]:
+def _unmeasured(entry: CatalogueEntry) -> list[str]:
     return [f"No rows have been measured for this page yet: `python -m benchmarks.gallery {entry.name}` does that.", ""]
 
 

@@ -21,24 +21,24 @@ import msgspec
 
 from benchmarks.gallery import slim
 from symgen.running.automatic import AUTO
+from symgen.study.stress.cell_outcome import GOOD, OUTCOMES, REFUSED, UNJUDGED
 from symgen.study.stress.findings import cause
 from symgen.study.stress.map import map_rows, outcomes_of_models
-from symgen.study.stress.outcome import GOOD, OUTCOMES, REFUSED, UNJUDGED
-from symgen.study.stress.rows import Limit, Row, Stress
+from symgen.study.stress.stress_rows import Limit, Stress, StressRow
 
 COLUMNS = ("rk4", "dop853", "radau5", AUTO)
 
 
 def studied(paths: Iterable[Path]) -> Stress:
     """Return one study of several in JSON."""
-    rows: dict[tuple[object, ...], Row] = {}
+    rows: dict[tuple[object, ...], StressRow] = {}
     limits: dict[tuple[object, ...], Limit] = {}
     kept: dict[str, list[tuple[Any, ...]]] = {"skipped": [], "unusable": [], "left_out": []}
     models: list[str] = []
     for path in paths:
         found = json.loads(path.read_text(encoding="utf-8"))
         models += [model for model in found["models"] if model not in models]
-        for row in (msgspec.convert(each, Row) for each in found["rows"]):
+        for row in (msgspec.convert(each, StressRow) for each in found["rows"]):
             rows[row.model, row.family, row.case, row.method, row.integrator, row.step, row.values] = row
         for limit in (msgspec.convert(each, Limit) for each in found["limits"]):
             limits[limit.model, limit.family, limit.case, limit.method, limit.integrator] = limit

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from symgen.api import simulate as simulate
     from symgen.describe.builder import MechanismBuilder
     from symgen.describe.mechanism import Mechanism
-    from symgen.ensemble.study import Sweep
     from symgen.ensemble.sweep import sweep
+    from symgen.ensemble.sweep_study import Sweep
     from symgen.errors import AssemblyError, InputError, SimulationError, StepError, SymgenError
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
@@ -43,7 +43,7 @@ _WHERE = {
     "StepError": "symgen.errors",
     "SteppedRun": "symgen.stepping.run",
     "Study": "symgen.study.comparison.compare",
-    "Sweep": "symgen.ensemble.study",
+    "Sweep": "symgen.ensemble.sweep_study",
     "SymgenError": "symgen.errors",
     "compare": "symgen.study.comparison.compare",
     "load": "symgen.api",

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen import arguments
-from symgen.analyses.model import Analysed
+from symgen.analyses.model_methods import Analysed
 from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.holds import holds_of
@@ -29,7 +29,7 @@ from symgen.settings import COORDINATES, SHAPES, Settings, changed, is_given
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.drawing import Drawing, View
-    from symgen.reading.equations import SymbolicEquations
+    from symgen.reading.symbolic_equations import SymbolicEquations
     from symgen.result.result import Result
     from symgen.running.package import Package
     from symgen.runtime.assembly import Start
@@ -106,7 +106,7 @@ class Model(Analysed):
             If there are no such coordinates.
         """
         from symgen.compiling.choose_tree import on_tree
-        from symgen.reading.equations import SymbolicEquations
+        from symgen.reading.symbolic_equations import SymbolicEquations
 
         asked = arguments.one_of("coordinates", coordinates, ("absolute", "joint"))
         return SymbolicEquations(on_tree(self.mechanism) if asked == "joint" else self.mechanism)

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.describe.evaluate import parameter_values
-from symgen.drawing.build import SHARE, build_scene
+from symgen.drawing.mechanism_scene import SHARE, build_scene
 from symgen.errors import InputError
-from symgen.player.page import Page, page
+from symgen.player.motion_page import Page, page
 from symgen.player.recording import Recording, position_groups
 
 if TYPE_CHECKING:

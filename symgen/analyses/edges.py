@@ -17,7 +17,7 @@ from symgen.compiling.side import compile_side
 from symgen.describe.kinks import changing
 
 if TYPE_CHECKING:
-    from symgen.analyses.sparse import Sparse
+    from symgen.analyses.sparse_state import Sparse
     from symgen.analyses.subject import Subject
     from symgen.describe.mechanism import Force, Joint, Mechanism, Output
     from symgen.settings import Settings

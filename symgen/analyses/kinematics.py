@@ -29,7 +29,7 @@ from symgen.runtime import abi
 from symgen.runtime.outcome import PrescribedMotion
 
 if TYPE_CHECKING:
-    from symgen.analyses.prescribed import Prescribed
+    from symgen.analyses.prescribed import PrescribedRun
     from symgen.analyses.tracing import Traced
     from symgen.describe.mechanism import Mechanism
     from symgen.settings import Settings
@@ -229,7 +229,7 @@ def kinematics(
     return _result(found, trace(found, asked), angles)
 
 
-def _result(found: Prescribed, traced: Traced, transmission: tuple[str, ...]) -> Kinematics:
+def _result(found: PrescribedRun, traced: Traced, transmission: tuple[str, ...]) -> Kinematics:
     info, start = found.compiled.info, found.start
     motion = PrescribedMotion(
         times=traced.times,
@@ -268,7 +268,7 @@ def _result(found: Prescribed, traced: Traced, transmission: tuple[str, ...]) ->
     )
 
 
-def _numbers(found: Prescribed) -> dict[str, float]:
+def _numbers(found: PrescribedRun) -> dict[str, float]:
     return {q.name: float(x) for q, x in zip(found.compiled.info.parameters, found.start.p, strict=False)}
 
 

@@ -12,7 +12,7 @@ from symgen.analyses.edges import edges_of_large
 from symgen.analyses.equilibrium import Equilibrium, not_unique, reduced_squares, stability_of
 from symgen.analyses.linearise import in_order
 from symgen.analyses.modes import Modes
-from symgen.analyses.sparse import Sparse, settled
+from symgen.analyses.sparse_state import Sparse, settled
 from symgen.errors import AnalysisError, InputError
 from symgen.runtime import abi
 from symgen.runtime.probe import Ready
@@ -40,7 +40,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     Parameters
     ----------
     mechanism, settings
-        As for `symgen.analyses.sparse.settled`.
+        As for `symgen.analyses.sparse_state.settled`.
     count : int
         How many.
 
@@ -79,12 +79,12 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     Parameters
     ----------
     mechanism, settings
-        As for `symgen.analyses.sparse.settled`.
+        As for `symgen.analyses.sparse_state.settled`.
 
     Raises
     ------
     InputError, AnalysisError
-        As by `symgen.analyses.sparse.settled`.
+        As by `symgen.analyses.sparse_state.settled`.
     """
     sparse, y, lam, steps = settled(mechanism, settings)
     _, mass, rows, stiffness, _ = sparse.matrices(y, lam)

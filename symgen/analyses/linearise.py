@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import eigenvalues_of, ranking
-from symgen.analyses.reduced import Tangent, tangent
+from symgen.analyses.reduced import StateTangent, tangent
 from symgen.analyses.steady import after, at_rest, check_steady, chosen, found_states, system, with_rates
 from symgen.analyses.subject import Subject
 from symgen.analyses.vibration import eigenvectors, vibration
@@ -131,7 +131,7 @@ def linear_system(
 
 
 def named_states(
-    subject: Subject, x: Tangent, states: Sequence[str], instantaneous: bool, where: str
+    subject: Subject, x: StateTangent, states: Sequence[str], instantaneous: bool, where: str
 ) -> tuple[str, ...]:
     """Return the names of the states that are asked for or found, after a check that they make a linear system."""
     resting, soon = at_rest(subject, x), None
@@ -156,14 +156,14 @@ def named_states(
     return names
 
 
-def _independent(x: Tangent, names: Sequence[str]) -> int:
+def _independent(x: StateTangent, names: Sequence[str]) -> int:
     """Return how many of some states do not depend on each other."""
     rows = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(len(names), x.size)
     rows = rows * x.sizes / x.sizes_of(names)[:, np.newaxis]
     return int(np.linalg.matrix_rank(rows, tol=1e-9 * np.abs(rows).max(initial=1e-300)))
 
 
-def _with_outputs(subject: Subject, x: Tangent, names: Sequence[str], a: Array, b: Array) -> LinearSystem:
+def _with_outputs(subject: Subject, x: StateTangent, names: Sequence[str], a: Array, b: Array) -> LinearSystem:
     n, form, sizes = x.size, subject.form, x.sizes_of(names)
     changes = np.array([x.quantity(name).changes for name in names]).reshape(len(names), n + len(x.inputs))
     outputs, left_out, c, d = list[str](), list[str](), list[Array](), list[Array]()

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import arguments
-from symgen.analyses.places import Array, Place, modes_at, range_of
+from symgen.analyses.places import Array, NamedPlace, modes_at, range_of
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, SymgenError
 from symgen.files import write_whole
@@ -126,7 +126,7 @@ class Locus:
         return figure
 
 
-def locus(place: Place, over: tuple[str, Sequence[float] | Array], states: Sequence[str] = ()) -> Locus:
+def locus(place: NamedPlace, over: tuple[str, Sequence[float] | Array], states: Sequence[str] = ()) -> Locus:
     """Return how the eigenvalues move with a parameter; see `symgen.api.Model.locus`.
 
     Raises

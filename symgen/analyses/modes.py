@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.algebra import ranking, split
 from symgen.analyses.linearise import in_order, named_states
-from symgen.analyses.reduced import Tangent, accelerations, tangent
+from symgen.analyses.reduced import StateTangent, accelerations, tangent
 from symgen.analyses.steady import at_rest
 from symgen.analyses.subject import Subject
 from symgen.analyses.vibration import Vibration, eigenvectors, vibration
@@ -170,7 +170,7 @@ def modes(
     )
 
 
-def _of_squares(x: Tangent, still: Vibration, bodies: Callable[[], Subject] | None) -> Modes:
+def _of_squares(x: StateTangent, still: Vibration, bodies: Callable[[], Subject] | None) -> Modes:
     """Return the modes of symmetric stiffness and masses."""
     subject, squares = x.subject, still.squares
     roots = np.sqrt(-squares.astype(np.complex128))
@@ -193,12 +193,12 @@ def _coordinates(subject: Subject) -> tuple[str, ...]:
     return tuple(q.name for q in subject.compiled.info.coordinates)
 
 
-def _velocities(x: Tangent, vectors: Complex) -> Complex:
+def _velocities(x: StateTangent, vectors: Complex) -> Complex:
     """Return the changes of position of eigenvectors in terms of velocities, one a row."""
     return np.asarray((x.free @ vectors[: x.positions]).T)
 
 
-def _twice_kinetic(x: Tangent, change: Complex) -> float:
+def _twice_kinetic(x: StateTangent, change: Complex) -> float:
     return float(np.real(change.conj() @ x.base.by("balance", "a") @ change))
 
 
@@ -221,12 +221,12 @@ class Shares:
     dissipation: Mapping[str, Array]
 
 
-def shares(x: Tangent, vectors: Array | Complex, bodies: Callable[[], Subject] | None = None) -> Shares:
+def shares(x: StateTangent, vectors: Array | Complex, bodies: Callable[[], Subject] | None = None) -> Shares:
     """Return the tables of modes.
 
     Parameters
     ----------
-    x : Tangent
+    x : StateTangent
         Where they are.
     vectors : Array, shape (size, k)
         Changes of s and u.
@@ -262,7 +262,9 @@ def shares(x: Tangent, vectors: Array | Complex, bodies: Callable[[], Subject] |
     )
 
 
-def _of_bodies(x: Tangent, bodies: Subject, vectors: Array | Complex) -> tuple[Array, Array | Complex, Array | Complex]:
+def _of_bodies(
+    x: StateTangent, bodies: Subject, vectors: Array | Complex
+) -> tuple[Array, Array | Complex, Array | Complex]:
     """Return state and changes of bodies' own coordinates from those of joints."""
     y, changes = np.zeros_like(bodies.y), list[Array]()
     for i, name in enumerate(bodies.state_names):

@@ -59,7 +59,7 @@ def is_large(mechanism: Mechanism, settings: Settings) -> bool:
 
 
 @dataclass(frozen=True)
-class Place:
+class NamedPlace:
     """What is analysed, and where.
 
     Attributes
@@ -95,7 +95,7 @@ class Place:
             raise InputError("cyclic", "names where a steady motion is searched (at steady)", ", ".join(self.cyclic))
 
 
-def arrived(place: Place) -> Place:
+def arrived(place: NamedPlace) -> NamedPlace:
     """Return the same about the start, which is the state of a run where a time is asked for.
 
     Raises
@@ -114,12 +114,12 @@ def arrived(place: Place) -> Place:
     return replace(place, settings=replace(settings, start=result), at="start")  # type: ignore[arg-type]  # gone on from
 
 
-def subject_at(place: Place, by: Sequence[str] = ()) -> tuple[Subject, Array]:
+def subject_at(place: NamedPlace, by: Sequence[str] = ()) -> tuple[Subject, Array]:
     """Return what is analysed, and the state that it is analysed about.
 
     Parameters
     ----------
-    place : Place
+    place : NamedPlace
         What is asked for.
     by : sequence of str
         Parameters that derivatives are wanted by.
@@ -213,7 +213,7 @@ def range_of(where: str, given: object) -> tuple[str, Array]:
     return given[0], np.array(arguments.numbers(f"{where} {given[0]}", given[1]), dtype=np.float64)
 
 
-def modes_at(place: Place, states: Sequence[str] = (), count: int | None = None) -> Modes:
+def modes_at(place: NamedPlace, states: Sequence[str] = (), count: int | None = None) -> Modes:
     """Return the modes at a place; see `symgen.api.Model.modes`."""
     states = arguments.words("states", states)
     if count is not None:
@@ -236,7 +236,7 @@ def modes_at(place: Place, states: Sequence[str] = (), count: int | None = None)
 
 
 def system_at(
-    place: Place, states: Sequence[str] = (), instantaneous: bool = False, by: Sequence[str] = ()
+    place: NamedPlace, states: Sequence[str] = (), instantaneous: bool = False, by: Sequence[str] = ()
 ) -> LinearSystem:
     """Return the linear system at a place; see `symgen.api.Model.linearise`."""
     states = arguments.words("states", states)

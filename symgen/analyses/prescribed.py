@@ -45,7 +45,7 @@ SAME_WAY = 1e-6
 
 
 @dataclass(frozen=True)
-class Prescribed:
+class PrescribedRun:
     """A mechanism that is ready to be followed.
 
     Attributes
@@ -102,7 +102,7 @@ def _still(body: AnyBody) -> AnyBody:
     return msgspec.structs.replace(body, velocity=(None, None), angular_velocity=None)
 
 
-def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: float = 0.0) -> Prescribed:
+def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: float = 0.0) -> PrescribedRun:
     """Return the code and the start of a mechanism, and what holds of its inputs when.
 
     Parameters
@@ -150,10 +150,10 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
         compiled.prepare(p)
     values = {q.name: float(x) for q, x in zip(compiled.info.parameters, start.p, strict=False)}
     parameters = {name: x for name, x in values.items() if name not in found.inputs}
-    return Prescribed(found, compiled, start, parameters, tuple(held), p, dict(given.words), (*notes, *start.notes))
+    return PrescribedRun(found, compiled, start, parameters, tuple(held), p, dict(given.words), (*notes, *start.notes))
 
 
-def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: str, first: float = 0.0) -> Prescribed:
+def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: str, first: float = 0.0) -> PrescribedRun:
     """Return a mechanism whose freedom is all driven, ready to be followed; see `make_ready`.
 
     Parameters
@@ -230,7 +230,7 @@ def jacobian_at(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array)
     return found
 
 
-def free_coordinates(found: Prescribed, count: int) -> list[str]:
+def free_coordinates(found: PrescribedRun, count: int) -> list[str]:
     """Return the names of as many coordinates as the freedom that is left, each of another part of it.
 
     Joints' own coordinates are named where they tell it, else coordinates of bodies.
@@ -256,7 +256,7 @@ def free_coordinates(found: Prescribed, count: int) -> list[str]:
     return chosen
 
 
-def rates_of_joints(found: Prescribed, basis: Array) -> Array:
+def rates_of_joints(found: PrescribedRun, basis: Array) -> Array:
     """Return the rates of all joint coordinates along directions of the velocities, shape (n, directions)."""
     compiled, start, info = found.compiled, found.start, found.compiled.info
     observe = Ready(compiled.model.observe, abi.OBSERVE)

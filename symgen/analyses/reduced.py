@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Tangent:
+class StateTangent:
     """How everything changes with x = (s, u, inputs, parameters) near a state; all matrices have as many columns.
 
     Attributes
@@ -129,7 +129,7 @@ class Tangent:
         """Where the inputs and parameters that vary stand among all parameters."""
         return inputs_of(self.subject)
 
-    def quantity(self, name: str) -> Quantity:
+    def quantity(self, name: str) -> StateQuantity:
         """Return a quantity of the state by name, with its rate.
 
         Raises
@@ -144,15 +144,15 @@ class Tangent:
         space, at = known[name]
         e, y, nq = self.base, self.y, self.subject.nq
         if space == "q":
-            return Quantity(name, float(y[at]), float(e.value("motion")[at]), self.q[at], self.q_rates[at])
+            return StateQuantity(name, float(y[at]), float(e.value("motion")[at]), self.q[at], self.q_rates[at])
         if space == "v":
-            return Quantity(name, float(y[nq + at]), float(self.a[at]), self.v[at], self.rates[at])
+            return StateQuantity(name, float(y[nq + at]), float(self.a[at]), self.v[at], self.rates[at])
         value, rate = self.function(at), self.function(at + 1)
-        return Quantity(name, value[0], rate[0], value[1], rate[1])
+        return StateQuantity(name, value[0], rate[0], value[1], rate[1])
 
 
 @dataclass(frozen=True)
-class Quantity:
+class StateQuantity:
     """A quantity of the state: its value and rate, and how both change with (s, u, inputs)."""
 
     name: str
@@ -203,7 +203,7 @@ def _solved(heavy: Array, right: Array) -> Array:
         raise AnalysisError("nothing determines the accelerations: a body without mass is free to move") from None
 
 
-def tangent(subject: Subject, y: Array, t: float | None = None) -> Tangent:
+def tangent(subject: Subject, y: Array, t: float | None = None) -> StateTangent:
     """Return how everything changes near a state that satisfies the constraints.
 
     Parameters
@@ -258,7 +258,7 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> Tangent:
     states = np.eye(positions + velocities, width)
     state_rates = np.vstack([back @ q_rates, along @ rates])
     drift = np.concatenate([back @ e.value("motion"), along @ a])
-    return Tangent(
+    return StateTangent(
         *(subject, now, y, a, lam, e, positions, velocities, q, q_rates, v, rates, multipliers),
         *(states, state_rates, drift, free, basis),
     )

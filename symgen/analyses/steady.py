@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import ROUNDED, split
-from symgen.analyses.reduced import Quantity, Tangent, quantities_of, tangent
+from symgen.analyses.reduced import StateQuantity, StateTangent, quantities_of, tangent
 from symgen.analyses.subject import RATE, Subject
 from symgen.errors import AnalysisError, InputError
 from symgen.ir.program import COUNTERS
@@ -37,7 +37,7 @@ APART = 0.7
 FARTHEST = 1e4
 
 
-def at_rest(subject: Subject, x: Tangent) -> bool:
+def at_rest(subject: Subject, x: StateTangent) -> bool:
     """Whether nothing moves at a state, nor begins to, nor is driven.
 
     What moves is compared with what the forces on it could do in its own place: what joints carry there and what
@@ -55,20 +55,20 @@ def at_rest(subject: Subject, x: Tangent) -> bool:
     return bool(np.all(a <= limit) and np.all(v**2 <= STILL * limit))
 
 
-def pace(x: Tangent) -> float:
+def pace(x: StateTangent) -> float:
     """Return by how many lengths of the mechanism, or radians, a motion goes on in a second, or would from rest."""
     v, a = (np.abs(z / x.subject.spans).max(initial=0.0) for z in (x.speeds, x.a))
     return float(max(v, np.sqrt(a)))
 
 
-def extents(x: Tangent, quantities: Sequence[Quantity]) -> Array:
+def extents(x: StateTangent, quantities: Sequence[StateQuantity]) -> Array:
     """Return by how much quantities change where everything moves by a length, or a radian, or as fast as it does."""
     going = np.repeat([1.0, pace(x)], [x.positions, x.velocities])
     found = np.array([np.abs(q.changes[: x.size] * going).max(initial=0.0) for q in quantities])
     return np.where(found > 0.0, found, 1.0)
 
 
-def still(x: Tangent, quantity: Quantity) -> bool:
+def still(x: StateTangent, quantity: StateQuantity) -> bool:
     """Whether a quantity does not change in a motion."""
     return bool(abs(quantity.rate) <= STILL * pace(x) * extents(x, [quantity])[0])
 
@@ -124,7 +124,7 @@ def with_rates(subject: Subject, names: Sequence[str]) -> tuple[str, ...]:
     return tuple(found)
 
 
-def chosen(subject: Subject, x: Tangent) -> tuple[str, ...]:
+def chosen(subject: Subject, x: StateTangent) -> tuple[str, ...]:
     """Return names of states that determine all others, coordinates before velocities."""
     info = subject.compiled.info
     turning = {first + k for first, _ in info.spins for k in range(4)}
@@ -144,7 +144,7 @@ def chosen(subject: Subject, x: Tangent) -> tuple[str, ...]:
     return (*positions, *_independent(x, known, x.velocities, slice(x.positions, x.size)))
 
 
-def _independent(x: Tangent, weights: dict[str, float], count: int, columns: slice) -> list[str]:
+def _independent(x: StateTangent, weights: dict[str, float], count: int, columns: slice) -> list[str]:
     from scipy import linalg
 
     if not count:
@@ -155,7 +155,7 @@ def _independent(x: Tangent, weights: dict[str, float], count: int, columns: sli
     return [names[i] for i in sorted(order[:count])]
 
 
-def system(x: Tangent, names: Sequence[str]) -> tuple[Array, Array, Array, Array]:
+def system(x: StateTangent, names: Sequence[str]) -> tuple[Array, Array, Array, Array]:
     """Return A and B of named states, what of their rates depends on something else, and that something's size.
 
     Returns
@@ -179,7 +179,7 @@ def system(x: Tangent, names: Sequence[str]) -> tuple[Array, Array, Array, Array
     return sizes * a / sizes.T, b, rest, np.full(len(a), size)
 
 
-def found_states(subject: Subject, x: Tangent, soon: Tangent) -> tuple[str, ...]:
+def found_states(subject: Subject, x: StateTangent, soon: StateTangent) -> tuple[str, ...]:
     """Return the named quantities that do not change and whose rates follow from each other: the steady ones.
 
     What is at an end of its swing does not change at the state either, so that it is looked at `soon` as well.
@@ -210,7 +210,9 @@ def _of_spin(subject: Subject, at: int) -> bool:
     return any(first <= at < first + 4 for first, _ in subject.compiled.info.spins)
 
 
-def check_steady(subject: Subject, x: Tangent, names: Sequence[str], where: str, soon: Tangent | None = None) -> None:
+def check_steady(
+    subject: Subject, x: StateTangent, names: Sequence[str], where: str, soon: StateTangent | None = None
+) -> None:
     """Refuse a motion in which states change, or depend on what is no state.
 
     `soon` is what is `after` the state, where that is known.
@@ -252,13 +254,13 @@ def check_steady(subject: Subject, x: Tangent, names: Sequence[str], where: str,
                 raise InputError(where, "a steady motion", f"one in which '{before.name}' changes until t = {t:.4g} s")
 
 
-def _explains(x: Tangent, row: Array, name: str) -> float:
+def _explains(x: StateTangent, row: Array, name: str) -> float:
     own = x.quantity(name).changes[: x.size] * x.sizes
     size = np.linalg.norm(own)
     return float(abs(own @ row) / size) if size > 0.0 else 0.0
 
 
-def _check_still(x: Tangent, names: Sequence[str], where: str) -> None:
+def _check_still(x: StateTangent, names: Sequence[str], where: str) -> None:
     moving = [q for name in names if not still(x, q := x.quantity(name))]
     if moving:
         worst = moving[int(np.argmax(np.abs([q.rate for q in moving]) / extents(x, moving)))]
@@ -267,7 +269,7 @@ def _check_still(x: Tangent, names: Sequence[str], where: str) -> None:
         raise InputError(where, expected, f"one where '{worst.name}' changes at a rate of {worst.rate:.4g}", hint)
 
 
-def after(subject: Subject, x: Tangent) -> Tangent:
+def after(subject: Subject, x: StateTangent) -> StateTangent:
     """Return how everything changes a little later on the motion: followed by steps, and projected behind them."""
     from scipy.integrate import solve_ivp
 

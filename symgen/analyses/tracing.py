@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.passing import Curve, Passage, curve_through, rates_of
-from symgen.analyses.prescribed import CUTOFF, DRIVER, Prescribed, jacobian_at
+from symgen.analyses.prescribed import CUTOFF, DRIVER, PrescribedRun, jacobian_at
 from symgen.runtime import abi, decisions
 from symgen.runtime import following as f
 from symgen.runtime.exact import compiled_form
@@ -62,12 +62,12 @@ class Traced:
         return Traced(*moved, self.status[::-1].copy(), self.passages[::-1], self.ended, self.steps)
 
 
-def trace(found: Prescribed, times: Array) -> Traced:
+def trace(found: PrescribedRun, times: Array) -> Traced:
     """Follow a motion through increasing times, those before 0 backwards.
 
     Parameters
     ----------
-    found : Prescribed
+    found : PrescribedRun
         Ready, and all driven.
     times : Array, shape (k,)
         Increasing [s].
@@ -119,13 +119,13 @@ class Tracer:
 
     Parameters
     ----------
-    found : Prescribed
+    found : PrescribedRun
         Ready, and all driven.
     times : Array, shape (k,)
         In the order in which they are met [s].
     """
 
-    found: Prescribed
+    found: PrescribedRun
     times: Array
     passages: list[Passage] = field(default_factory=list)
 

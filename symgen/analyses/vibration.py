@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import ROUNDED, Complex, eigenvalues_of, squares_along, summed
-from symgen.analyses.reduced import Tangent
+from symgen.analyses.reduced import StateTangent
 from symgen.analyses.steady import at_rest, system
 
 Array = NDArray[np.float64]
@@ -40,12 +40,12 @@ class Vibration:
     shapes: Array
     damping: Array
 
-    def changes(self, x: Tangent) -> tuple[Array, Array]:
+    def changes(self, x: StateTangent) -> tuple[Array, Array]:
         """Return the shapes as changes of s and as changes of u."""
         found = [np.linalg.lstsq(basis, self.shapes, rcond=None)[0] for basis in (x.free, x.basis)]
         return np.asarray(found[0]), np.asarray(found[1])
 
-    def eigenvectors(self, x: Tangent) -> tuple[Complex, Complex]:
+    def eigenvectors(self, x: StateTangent) -> tuple[Complex, Complex]:
         """Return eigenvalues and eigenvectors in terms of s and u."""
         n = len(self.squares)
         fast = np.sqrt(np.abs(self.squares))
@@ -57,7 +57,7 @@ class Vibration:
         return values, np.vstack([positions @ parts[:n], speeds @ parts[n:]])
 
 
-def vibration(x: Tangent) -> Vibration | None:
+def vibration(x: StateTangent) -> Vibration | None:
     """Return the small motions about a state of rest.
 
     None where something moves or has no mass, a force follows, or joints hold velocities alone.
@@ -78,12 +78,12 @@ def vibration(x: Tangent) -> Vibration | None:
     return Vibration(squares, along, np.where(np.abs(damping) > limit, damping, 0.0))
 
 
-def eigenvectors(x: Tangent, names: Sequence[str], still: Vibration | None) -> tuple[Complex, Complex]:
+def eigenvectors(x: StateTangent, names: Sequence[str], still: Vibration | None) -> tuple[Complex, Complex]:
     """Return eigenvalues and eigenvectors in terms of s and u.
 
     Parameters
     ----------
-    x : Tangent
+    x : StateTangent
         What they are of.
     names : sequence of str
         Independent states; some motions have fewer than there are s and u.

@@ -48,7 +48,7 @@ class Sized(msgspec.Struct, frozen=True):
     largest: int
 
 
-class Entry(msgspec.Struct, frozen=True):
+class CatalogueEntry(msgspec.Struct, frozen=True):
     """One line of the catalogue."""
 
     name: str
@@ -112,7 +112,7 @@ def raw(name: str, size: int | None = None) -> dict[str, Any]:
     return tomllib.loads((_files(STUDIED) | _files(MACHINES))[name].read_text(encoding="utf-8"))
 
 
-def entries(group: str = STUDIED) -> tuple[Entry, ...]:
+def entries(group: str = STUDIED) -> tuple[CatalogueEntry, ...]:
     """Return the entries of a group with title and source, in alphabetical order.
 
     Parameters
@@ -124,7 +124,7 @@ def entries(group: str = STUDIED) -> tuple[Entry, ...]:
     for name in names(group):
         head = raw(name)["mechanism"]
         default = SIZED.get(name).default if name in SIZED else None
-        result.append(Entry(name, head["title"], head["source"], default is not None, default, group))
+        result.append(CatalogueEntry(name, head["title"], head["source"], default is not None, default, group))
     return tuple(result)
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from symgen.analyses.kinds import ANALYSES, Note, Option, Table
+from symgen.analyses.kinds import ANALYSES, AnalysisTable, Note, Option
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
 from symgen.cli._options import (
     assignments,
@@ -109,14 +109,14 @@ def _range(flag: str, text: str) -> tuple[str, NDArray[np.float64]]:
     return name.strip(), parse(values.strip(), f"{flag} {name.strip()}")
 
 
-def _show(item: str | Table | Note | Mapping[str, Mapping[str, Any]]) -> None:
+def _show(item: str | AnalysisTable | Note | Mapping[str, Mapping[str, Any]]) -> None:
     from symgen.cli._tables import show_quantities, show_table
 
     if isinstance(item, str):
         click.echo(item)
     elif isinstance(item, Note):
         tell([item.text])
-    elif isinstance(item, Table):
+    elif isinstance(item, AnalysisTable):
         show_table(item)
     else:
         show_quantities(item)

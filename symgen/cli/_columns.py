@@ -22,7 +22,7 @@ def console() -> Console:
 
 
 @dataclass(frozen=True)
-class Column:
+class TableColumn:
     """A column of a table.
 
     Attributes
@@ -51,12 +51,12 @@ class Column:
         return max(map(len, (self.heading, *self.cells)), default=0)
 
 
-def room(columns: Sequence[Column]) -> int:
+def room(columns: Sequence[TableColumn]) -> int:
     """Return how wide a table of columns is."""
     return sum(column.width for column in columns) + GAP * (len(columns) - 1)
 
 
-def fitting(columns: Sequence[Column], width: int) -> list[Column]:
+def fitting(columns: Sequence[TableColumn], width: int) -> list[TableColumn]:
     """Return the columns without the least important ones, so that they fit if they can."""
     kept = list(columns)
     while room(kept) > width and any(column.weight for column in kept):
@@ -64,9 +64,9 @@ def fitting(columns: Sequence[Column], width: int) -> list[Column]:
     return kept
 
 
-def in_parts(columns: Sequence[Column], width: int, first: int = 1) -> Iterator[list[Column]]:
+def in_parts(columns: Sequence[TableColumn], width: int, first: int = 1) -> Iterator[list[TableColumn]]:
     """Yield tables of as many columns as fit, each beginning with the first ones."""
-    head, part = list(columns[:first]), list[Column]()
+    head, part = list(columns[:first]), list[TableColumn]()
     for column in columns[first:]:
         if part and room([*head, *part, column]) > width:
             yield [*head, *part]
@@ -80,14 +80,14 @@ def columns_of(
     rows: Iterable[Sequence[str]],
     left: Sequence[str] = (),
     weights: Mapping[str, int] | None = None,
-) -> list[Column]:
+) -> list[TableColumn]:
     """Return the columns of rows of cells, with the headings of those that are flush left and the weights of some."""
     cells = list(zip(*rows, strict=True)) or [()] * len(headings)
     of = weights or {}
-    return [Column(h, c, h in left, of.get(h, 0), h == "status") for h, c in zip(headings, cells, strict=True)]
+    return [TableColumn(h, c, h in left, of.get(h, 0), h == "status") for h, c in zip(headings, cells, strict=True)]
 
 
-def show(out: Console, columns: Sequence[Column], title: str = "") -> None:
+def show(out: Console, columns: Sequence[TableColumn], title: str = "") -> None:
     """Print a table, none of its cells cut: what is wider than the terminal goes on in the next line."""
     table = Table(title=title or None, title_justify="left", box=None, header_style="dim", pad_edge=False)
     for column in columns:
@@ -99,7 +99,7 @@ def show(out: Console, columns: Sequence[Column], title: str = "") -> None:
     out.print(table, soft_wrap=room(columns) > out.width, crop=False)
 
 
-def show_parts(out: Console, columns: Sequence[Column], title: str = "") -> None:
+def show_parts(out: Console, columns: Sequence[TableColumn], title: str = "") -> None:
     """Print a table, on a narrow terminal in parts."""
     for k, part in enumerate(in_parts(columns, out.width)):
         show(out, part, "" if k else title)

@@ -45,7 +45,7 @@ def latex_of(name: str, settings: Settings, select: str | None, symbols: bool, w
     from symgen.compiling.choose_coordinates import choose_coordinates
     from symgen.describe.load import read_raw
     from symgen.describe.validate import validate
-    from symgen.reading.document import document
+    from symgen.reading.latex_document import document
     from symgen.reading.law import law
     from symgen.reading.lengths import with_symbols
 
@@ -72,9 +72,9 @@ def write_page(name: str, settings: Settings, output: str) -> None:
     from symgen.api import load
     from symgen.errors import AssemblyError
     from symgen.files import write_whole
-    from symgen.player.page import check_page
-    from symgen.reading.page import MOST_STRAIGHT, Subject, check_size, page
-    from symgen.reading.source import text_of
+    from symgen.player.motion_page import check_page
+    from symgen.reading.function_source import text_of
+    from symgen.reading.page import MOST_STRAIGHT, PageSubject, check_size, page
 
     path = check_page("inspect: -o", Path(output))
     model = load(name)
@@ -94,7 +94,7 @@ def write_page(name: str, settings: Settings, output: str) -> None:
             facts.append(f"Coordinates: {run.plan.coordinates_reason}.")
     except AssemblyError as error:
         facts = [f"It does not close, and is drawn as described: {error}"]
-    subject = Subject(
+    subject = PageSubject(
         whole=model.mechanism,
         mechanism=mechanism,
         choice=choice,

@@ -10,7 +10,7 @@ from rich.text import Text
 from symgen.cli._columns import columns_of, console, fitting, show
 
 if TYPE_CHECKING:
-    from symgen.study.stress.rows import Limit, Stress
+    from symgen.study.stress.stress_rows import Limit, Stress
 
 
 def show_stress(study: Stress) -> None:

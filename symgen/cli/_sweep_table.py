@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from symgen.cli._columns import columns_of, console, show_facts, show_parts
 
 if TYPE_CHECKING:
-    from symgen.ensemble.study import Sweep
+    from symgen.ensemble.sweep_study import Sweep
 
 
 def show_sweep(found: Sweep, written: Path | None) -> None:

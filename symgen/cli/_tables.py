@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from symgen.cli._columns import Column, columns_of, console, fitting, show, show_facts, show_parts
+from symgen.cli._columns import TableColumn, columns_of, console, fitting, show, show_facts, show_parts
 
 if TYPE_CHECKING:
-    from symgen.analyses.kinds import Table as Shown
+    from symgen.analyses.kinds import AnalysisTable as Shown
     from symgen.result.result import Result
     from symgen.study.comparison.compare import Study
-    from symgen.study.comparison.rows import Row
+    from symgen.study.comparison.comparison_rows import Row
 
 
 def show_result(result: Result) -> None:
@@ -39,7 +39,7 @@ def show_table(found: Shown) -> None:
     show_parts(console(), columns_of(found.headings, found.rows, found.left))
 
 
-def _final(result: Result, most: int = 12) -> list[Column]:
+def _final(result: Result, most: int = 12) -> list[TableColumn]:
     """Return the last positions and velocities, of the first bodies where there are many."""
     bodies = dict[str, dict[str, str]]()
     for name, value in (result.q.row() | result.v.row()).items():

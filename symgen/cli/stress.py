@@ -16,7 +16,7 @@ from symgen.cli._report import StudyFiles, command_again, interrupted, sketches_
 
 if TYPE_CHECKING:
     from symgen.study.runner import Status
-    from symgen.study.stress.rows import Stress
+    from symgen.study.stress.stress_rows import Stress
 
 
 @click.command(
@@ -59,7 +59,7 @@ def command(
     from symgen.cli._progress import Lines
     from symgen.memory import processors
     from symgen.study.journal import Journal
-    from symgen.study.stress.rows import save_csv
+    from symgen.study.stress.stress_rows import save_csv
     from symgen.study.stress.study import stress
 
     with ExitStack() as stack:

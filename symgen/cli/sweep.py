@@ -14,7 +14,7 @@ from symgen.errors import InputError, quoted
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
-    from symgen.ensemble.study import Sweep
+    from symgen.ensemble.sweep_study import Sweep
 
 
 @click.command(
@@ -84,7 +84,7 @@ def command(
         raise InputError("--jobs", "threads of this machine", "--scheduler as well", "the cluster has its own")
     path = None if output is None else Path(output)
 
-    from symgen.ensemble.device import check_target
+    from symgen.ensemble.device_runs import check_target
     from symgen.ensemble.sweep import folder_of
 
     check_target(target, scheduler)

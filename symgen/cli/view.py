@@ -124,8 +124,8 @@ def _refuse(settings: Settings, known: Collection[str], what: str) -> None:
 
 def _checked(file: Path) -> Path:
     """Return the file if it can be written: a film or a page."""
+    from symgen.player.motion_page import check_page
     from symgen.player.moving import check_film, is_film
-    from symgen.player.page import check_page
 
     if is_film(file):
         check_film("--output", file)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
 
 
-class Seconds(NamedTuple):
+class ShapeCost(NamedTuple):
     """What a mechanism costs for each of its coordinates; turns and their kernels make more of one in space.
 
     Attributes
@@ -40,7 +40,7 @@ class Seconds(NamedTuple):
 
 #: Seconds to derive, emit and compile any mechanism straight.
 STRAIGHT_LEAST = 0.3
-EACH = {"planar": Seconds(0.011, 0.013, 0.8e-8, 1.8e-8), "spatial": Seconds(0.03, 0.036, 2.5e-8, 1.0e-7)}
+EACH = {"planar": ShapeCost(0.011, 0.013, 0.8e-8, 1.8e-8), "spatial": ShapeCost(0.03, 0.036, 2.5e-8, 1.0e-7)}
 #: Seconds to derive and compile what looped code shares, where none of it is there: one figure for 1 to 4, whatever is.
 LOOPED_LEAST = 2.2
 #: Seconds of a looped evaluation whatever the size.

@@ -63,13 +63,13 @@ def operations(mechanism: Mechanism) -> int:
     from symgen.formulate.formulate import formulate
     from symgen.lower.law import part_outputs
     from symgen.lower.record import record_law
-    from symgen.lower.scalar import Scalars
+    from symgen.lower.scalar import ScalarNodes
     from symgen.methods import METHODS
 
     method = METHODS.get("lagrange", "")
     equations = formulate(mechanism)
     record = record_law(method, method.complete_options({}), equations.driving is not None)
-    scalars = Scalars(equations, record.operations, [p.name for p in method.parameters])
+    scalars = ScalarNodes(equations, record.operations, [p.name for p in method.parameters])
     scalars.run(range(len(record.operations)))
     nodes = [node for part in record.parts if part.role == "acceleration" for _, node in part_outputs(scalars, part)]
     return scalars.graph.operations(nodes)

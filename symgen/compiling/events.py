@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from symgen.compiling.side import compile_side
 from symgen.describe.evaluate import evaluate
+from symgen.describe.formula_text import to_text
 from symgen.describe.kinks import Discontinuity, discontinuities_of
 from symgen.describe.mechanism import Event, Mechanism, SpatialBody
-from symgen.describe.printer import to_text
 from symgen.ir.interpolation import Interpolation
 from symgen.runtime.abi import OBSERVE
 from symgen.runtime.compiled import CompiledModel

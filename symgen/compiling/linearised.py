@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.side import beside, made_beside
-from symgen.describe.derived import derived
+from symgen.describe.derived_parameters import derived
+from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.printer import to_text
 from symgen.errors import finite_numbers
 from symgen.runtime.abi import OBSERVE
 from symgen.runtime.compiled import CompiledModel

@@ -27,8 +27,8 @@ from symgen.lower.looped.forms import FormInfo, form_key, form_stem, lower_form
 from symgen.lower.looped.instances import Instance, instances
 from symgen.lower.looped.kernels import KernelInfo, kernel_stem
 from symgen.lower.looped.law import LoopedLawInfo, refuse_dense
-from symgen.lower.looped.shape import Shape
-from symgen.lower.looped.tables import Builder, Tables
+from symgen.lower.looped.shape import LoopedShape
+from symgen.lower.looped.tables import Builder, IndexTables
 from symgen.lower.record import record_form
 from symgen.store.entries import Entries, FolderName, Modules
 from symgen.store.modules import load_module
@@ -125,7 +125,7 @@ class Needs:
         whole : bool
             Whether the law is one module.
         """
-        from symgen.emit.kernels import emit_form, emit_kernel
+        from symgen.emit.kernel_modules import emit_form, emit_kernel
         from symgen.emit.looped import emit_looped_law, emit_machine, emit_shared_model
         from symgen.lower.looped.kernels import lower_kernel
         from symgen.lower.looped.law import lower_looped
@@ -158,12 +158,12 @@ class Needs:
                 modules[form] = emit_form(part, kernel.info, generator), msgspec.to_builtins(part.info)
         return modules
 
-    def laid_out(self, known: Mapping[str, Mapping[str, Any]]) -> tuple[Shape, Tables, LawInfo]:
+    def laid_out(self, known: Mapping[str, Mapping[str, Any]]) -> tuple[LoopedShape, IndexTables, LawInfo]:
         """Return the mechanism's indices, its tables and what is known of the law with these, from all metadata."""
         choice = self.choice
         infos = {stem: msgspec.convert(known[stem], KernelInfo) for stem in self.elements}
         law = msgspec.convert(known[self.law], LoopedLawInfo)
-        shape = Shape(self.instances, self.stems, infos, len(self.mechanism.parameters))
+        shape = LoopedShape(self.instances, self.stems, infos, len(self.mechanism.parameters))
         parts = {stem: (form, msgspec.convert(known[form], FormInfo)) for stem, form in self.forms.items()}
         level = record_form(choice.method, choice.options).form if choice.implicit else ""
         tables = Builder(shape, law, level, parts).tables()

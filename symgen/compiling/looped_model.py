@@ -14,9 +14,9 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import quantities
 from symgen.lower.looped.layout import GENERIC, HEAD
-from symgen.lower.looped.shape import Shape
-from symgen.lower.looped.tables import Tables
-from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, Row
+from symgen.lower.looped.shape import LoopedShape
+from symgen.lower.looped.tables import IndexTables
+from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, RowInfo
 from symgen.store.modules import interpreted
 from symgen.vocabulary.measures import Holonomic
 from symgen.vocabulary.quantities import Quantity
@@ -29,7 +29,7 @@ class LoopedModel(CompiledModel):
 
     Attributes
     ----------
-    tables : Tables
+    tables : IndexTables
         What generic code reads.
     kernels : mapping of str to module
         By name.
@@ -38,15 +38,15 @@ class LoopedModel(CompiledModel):
     """
 
     shape, sparse = "looped", True
-    tables: Tables = field(kw_only=True)
+    tables: IndexTables = field(kw_only=True)
     kernels: Mapping[str, ModuleType] = field(kw_only=True)
     machine: ModuleType = field(kw_only=True)
 
     def scratch(self) -> Array:
         """Return a new scratch array ``w`` with the tables in it."""
         # Numba stands behind these, which emitting code does without
-        from symgen.runtime.kernels import GENERIC as GENERIC_CODE
-        from symgen.runtime.kernels import address
+        from symgen.runtime.kernel_addresses import GENERIC as GENERIC_CODE
+        from symgen.runtime.kernel_addresses import address
 
         w = np.zeros(self.law.nw)
         offset, size = self.tables.sections["tables"]
@@ -67,7 +67,7 @@ class LoopedModel(CompiledModel):
         return self.with_scales(w)
 
 
-def diagonal(shape: Shape, tables: Tables) -> Callable[[Array, Array], int]:
+def diagonal(shape: LoopedShape, tables: IndexTables) -> Callable[[Array, Array], int]:
     """Return the function that puts the diagonal of M into its section."""
     first, (offset, size) = shape.mass_diagonal, tables.sections["mass"]
 
@@ -79,7 +79,7 @@ def diagonal(shape: Shape, tables: Tables) -> Callable[[Array, Array], int]:
 
 
 def preparation(
-    mechanism: Mechanism, shape: Shape, tables: Tables, kernels: Mapping[str, ModuleType]
+    mechanism: Mechanism, shape: LoopedShape, tables: IndexTables, kernels: Mapping[str, ModuleType]
 ) -> Callable[[Array], int]:
     """Return the function that fills the numbers behind the parameters in ``p``: interpreted, once a run."""
     numbers = np.frombuffer(tables.numbers, dtype=np.uint32)
@@ -106,7 +106,7 @@ def preparation(
     return prepare
 
 
-def describe_model(mechanism: Mechanism, shape: Shape, tables: Tables) -> ModelInfo:
+def describe_model(mechanism: Mechanism, shape: LoopedShape, tables: IndexTables) -> ModelInfo:
     """Return what the runtime has to know of a mechanism in the looped shape."""
     mechanism, repeats = without_repeats(mechanism)
     coordinates, velocities = quantities(mechanism)
@@ -121,7 +121,7 @@ def describe_model(mechanism: Mechanism, shape: Shape, tables: Tables) -> ModelI
         coordinates=coordinates,
         velocities=velocities,
         rows=tuple(
-            Row(f"{joint.name}.{row.label}", joint.name, row.unit, isinstance(row, Holonomic))
+            RowInfo(f"{joint.name}.{row.label}", joint.name, row.unit, isinstance(row, Holonomic))
             for joint in mechanism.joints
             for row in joint.rows
         ),

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, final
 import msgspec
 import numpy as np
 
-from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, Row
+from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, RowInfo
 from symgen.store.modules import load_module
 from symgen.vocabulary.infos import LawInfo
 from symgen.vocabulary.quantities import Quantity
@@ -74,7 +74,7 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
         parameters=equations.parameters,
         coordinates=equations.coordinates,
         velocities=equations.velocities,
-        rows=tuple(Row(r.name, r.joint, r.unit, r.phi is not None) for r in equations.rows),
+        rows=tuple(RowInfo(r.name, r.joint, r.unit, r.phi is not None) for r in equations.rows),
         joint_coordinates=tuple(Quantity(c.name, c.unit) for c in equations.joint_coordinates),
         sections=dict(program.layout.sections),
         jacobian=tuple((e.row, e.column, e.constant, e.slot) for e in program.jacobian),

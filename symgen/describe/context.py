@@ -8,7 +8,7 @@ from functools import cached_property
 import msgspec
 
 from symgen.describe.mechanism import AnyBody, Force, Joint, Mechanism, Vec
-from symgen.describe.parser import Names
+from symgen.describe.parser import FormulaNames
 from symgen.describe.tables import Table
 
 
@@ -55,14 +55,16 @@ class Context(msgspec.Struct, frozen=True, dict=True):
         return {name: dict(body.points) for name, body in self.bodies.items()}
 
     @cached_property
-    def constants(self) -> Names:
+    def constants(self) -> FormulaNames:
         """Names of a formula of parameters."""
         plain = {name: name for name in self.values}
         elsewhere = frozenset({"t", *self.tables, *self.inputs})
-        return Names("a number or an expression of parameters", plain, elsewhere=elsewhere, hints=self._of_inputs)
+        return FormulaNames(
+            "a number or an expression of parameters", plain, elsewhere=elsewhere, hints=self._of_inputs
+        )
 
     @cached_property
-    def times(self) -> Names:
+    def times(self) -> FormulaNames:
         """Names of a formula of t and parameters."""
         plain = {name: name for name in (*self.values, "t")}
         smooth = {name: t.function for name, t in self.tables.items() if t.interpolation == "cubic"}
@@ -70,7 +72,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
         hints = dict.fromkeys(others, "a motion needs two continuous derivatives, which interpolation = 'cubic' has")
         what = "a number or an expression of t and parameters"
         elsewhere = others | frozenset(self.inputs)
-        return Names(what, plain, tables=smooth, elsewhere=elsewhere, hints=hints | self._of_inputs)
+        return FormulaNames(what, plain, tables=smooth, elsewhere=elsewhere, hints=hints | self._of_inputs)
 
     @cached_property
     def states(self) -> dict[str, str]:

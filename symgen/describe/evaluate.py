@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping
 
 from symgen import arguments
-from symgen.describe.derived import derived
+from symgen.describe.derived_parameters import derived
+from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.numbers import Scalars
-from symgen.describe.printer import to_text
 from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, table_of

@@ -17,7 +17,7 @@ from symgen import arguments
 from symgen.describe.context import Context
 from symgen.describe.input_data import Data, data_of
 from symgen.describe.mechanism import Mechanism, Parameter
-from symgen.describe.parser import Names, parse
+from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import Readings
 from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import BENT, ZERO, Call, Expr, Name, Number, call, names, table_of
@@ -54,7 +54,7 @@ class Jump:
 
 
 @dataclass(frozen=True)
-class Driven:
+class DrivenMechanism:
     """A mechanism with what a run gives its inputs.
 
     Attributes
@@ -91,7 +91,7 @@ class Driven:
         return msgspec.structs.replace(self.mechanism, **parts)
 
 
-def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> Driven:
+def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> DrivenMechanism:
     """Return a mechanism with what a run gives its inputs.
 
     Parameters
@@ -140,11 +140,11 @@ def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> Driven:
     changed = {name: _Switching(known, name, jumps).expression(e) for name, e in formulas.items()}
     switches = tuple(Parameter(j.switch, 0.0, input=True) for j in jumps if j.switch)
     if not changed:
-        return Driven(mechanism, numbers, samples, curves, (), told, mechanism)
+        return DrivenMechanism(mechanism, numbers, samples, curves, (), told, mechanism)
     parts = {part: put(getattr(known, part), changed) for part in _READING}
     parameters, put_in = (*known.parameters, *switches), tuple(changed.items())
     whole = msgspec.structs.replace(known, **parts, parameters=parameters, given=put_in)
-    return Driven(whole, numbers, samples, curves, tuple(jumps), told, known)
+    return DrivenMechanism(whole, numbers, samples, curves, tuple(jumps), told, known)
 
 
 def put(value: T, formulas: Mapping[str, Expr]) -> T:
@@ -172,7 +172,7 @@ def _number(text: str) -> float | None:
         return None
 
 
-def _names(mechanism: Mechanism) -> Names:
+def _names(mechanism: Mechanism) -> FormulaNames:
     """Return what the formula of an input may use."""
     plain = {p.name: p.name for p in mechanism.parameters if not p.input} | {"t": "t"}
     bodies = {body.name: body.coordinates + body.speeds for body in mechanism.bodies}
@@ -180,7 +180,7 @@ def _names(mechanism: Mechanism) -> Names:
     hints = dict.fromkeys(mechanism.inputs, "an input does not depend on others")
     tables = {table.name: table.function for table in mechanism.tables}
     readings = Readings(Context.of(mechanism))
-    return Names(what, plain, bodies, tables, frozenset(mechanism.inputs), readings=readings, hints=hints)
+    return FormulaNames(what, plain, bodies, tables, frozenset(mechanism.inputs), readings=readings, hints=hints)
 
 
 def compared(e: Call) -> Expr:

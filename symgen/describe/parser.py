@@ -76,7 +76,7 @@ class Lookup(Protocol):
         ...
 
 
-class Names(msgspec.Struct, frozen=True):
+class FormulaNames(msgspec.Struct, frozen=True):
     """What the names in a formula may be.
 
     Parameters
@@ -108,19 +108,19 @@ class Names(msgspec.Struct, frozen=True):
     integrals: bool = False
     hints: Mapping[str, str] = {}
 
-    def beside(self, what: str, plain: Mapping[str, str]) -> Names:
+    def beside(self, what: str, plain: Mapping[str, str]) -> FormulaNames:
         """Return other plain names where the same ones exist elsewhere."""
-        return Names(what, plain, elsewhere=self.elsewhere, hints=self.hints)
+        return FormulaNames(what, plain, elsewhere=self.elsewhere, hints=self.hints)
 
 
-def parse(text: str, names: Names, where: str, conditions: bool = False) -> Expr:
+def parse(text: str, names: FormulaNames, where: str, conditions: bool = False) -> Expr:
     """Return the tree of the formula `text`, or raise `InputError` with one sentence about what is wrong.
 
     Parameters
     ----------
     text : str
         The formula as written.
-    names : Names
+    names : FormulaNames
         The names it may use.
     where : str
         File and key, for the message.
@@ -133,7 +133,7 @@ def parse(text: str, names: Names, where: str, conditions: bool = False) -> Expr
 class _Reader:
     """One formula being read; holds what its messages need."""
 
-    def __init__(self, names: Names, where: str) -> None:
+    def __init__(self, names: FormulaNames, where: str) -> None:
         self.names, self.where, self.nodes = names, where, 0
 
     def fail(self, got: str, hint: str = "", expected: str = "") -> InputError:
@@ -289,7 +289,7 @@ class _Reader:
         """Return the call, folded where its arguments are literals, refused where they have no finite value."""
         result = logic(function, arguments) if function in ("and", "or", "not") else call(function, *arguments)
         if isinstance(result, Call) and all(isinstance(a, Number) for a in result.arguments):
-            from symgen.describe.printer import to_text
+            from symgen.describe.formula_text import to_text
 
             raise self.fail(f"'{to_text(result)}', which has no finite value")
         return result
@@ -329,7 +329,7 @@ class _Reader:
         integrand = self.quantity(node, depth)
         if any(isinstance(r.source, Integral) for r in readings(integrand)):
             raise self.fail("an integral of an integral", "give the inner one an integrand of its own")
-        from symgen.describe.printer import to_text
+        from symgen.describe.formula_text import to_text
 
         return Reading(f"{INTEGRAL}({to_text(integrand)})", Integral(integrand))
 

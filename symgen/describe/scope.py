@@ -11,7 +11,7 @@ from symgen.describe.context import Context
 from symgen.describe.evaluate import evaluate
 from symgen.describe.fields import found
 from symgen.describe.mechanism import ACCELERATIONS, Joint, Vec
-from symgen.describe.parser import Names, parse
+from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import OUTPUT, Readings
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import ZERO, Expr, Number, call
@@ -216,7 +216,9 @@ class Scope:
         kind = "a condition" if conditions else "a number"
         what = f"{kind} or an expression of t{listed}, parameters and body coordinates"
         plain = ChainMap(own, self.context.states)
-        known = Names(what, plain, self.context.coordinates, self.context.functions, readings=Readings(self.context))
+        known = FormulaNames(
+            what, plain, self.context.coordinates, self.context.functions, readings=Readings(self.context)
+        )
         return self._expression(key, value, known, conditions)
 
     def of_motion(self, key: str, value: float | str) -> Expr:
@@ -227,7 +229,7 @@ class Scope:
             for name, known in self.context.coordinates.items()
         }
         known = Readings(self.context, OUTPUT)
-        names = Names(what, self.context.states, own, self.context.functions, readings=known, integrals=True)
+        names = FormulaNames(what, self.context.states, own, self.context.functions, readings=known, integrals=True)
         return self._expression(key, value, names)
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:
@@ -251,7 +253,7 @@ class Scope:
                 raise self.error(key, f"'{word}' to mean the element's own", got, f"rename the {what}")
         return own
 
-    def _expression(self, key: str, value: float | str, names: Names, conditions: bool = False) -> Expr:
+    def _expression(self, key: str, value: float | str, names: FormulaNames, conditions: bool = False) -> Expr:
         if isinstance(value, str):
             return parse(value, names, self.where(key), conditions)
         if not math.isfinite(value):

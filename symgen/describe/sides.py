@@ -24,7 +24,7 @@ class Arm(NamedTuple):
     vector: tuple[float, float, float]
 
 
-class Side(NamedTuple):
+class SidedJoint(NamedTuple):
     """A joint whose directions point the same way, whether they keep bodies from turning, and which they are."""
 
     joint: str
@@ -61,7 +61,7 @@ def wrong_sides(mechanism: Mechanism, q: Sequence[float]) -> Iterator[tuple[str,
 
 
 @remembered
-def sides_of(mechanism: Mechanism) -> tuple[Side, ...]:
+def sides_of(mechanism: Mechanism) -> tuple[SidedJoint, ...]:
     """Return the joints with directions that point the same way; none in the plane."""
     if mechanism.space != "spatial":
         return ()
@@ -76,7 +76,7 @@ def sides_of(mechanism: Mechanism) -> tuple[Side, ...]:
         return Arm(places.get(direction.body, -1), (x, y, z))
 
     return tuple(
-        Side(joint.name, held, tuple((arm(a), arm(b)) for a, b in pairs))
+        SidedJoint(joint.name, held, tuple((arm(a), arm(b)) for a, b in pairs))
         for joint in mechanism.joints
         for held, pairs in _of_joint(joint)
     )

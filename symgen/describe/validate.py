@@ -12,7 +12,7 @@ from symgen.describe.bodies import planar_body, spatial_body
 from symgen.describe.bounds import DEEPEST
 from symgen.describe.columns import check_columns
 from symgen.describe.context import Context
-from symgen.describe.derived import in_order
+from symgen.describe.derived_parameters import in_order
 from symgen.describe.evaluate import evaluate
 from symgen.describe.events import read_event
 from symgen.describe.fields import Flag, JointStart, OutputFunction, Scalar, found, read, read_value
@@ -20,7 +20,7 @@ from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
-from symgen.describe.parser import Names, parse
+from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.scope import Scope
 from symgen.describe.sections import (
     NAMED,
@@ -178,7 +178,9 @@ class _Validator:
         """Return the parameters in the order of the file, then the inputs, formulas worked out with the defaults."""
         entries, inputs = dict(self.entries("parameters")), dict(self.entries("inputs"))
         elsewhere = frozenset(("t", *inputs, *(name for name, _ in self.entries("tables"))))
-        known = Names("a number or an expression of parameters", {name: name for name in entries}, elsewhere=elsewhere)
+        known = FormulaNames(
+            "a number or an expression of parameters", {name: name for name in entries}, elsewhere=elsewhere
+        )
         found = {name: self.parameter("parameters", name, value, known) for name, value in entries.items()}
         found |= {name: self.parameter("inputs", name, value, known) for name, value in inputs.items()}
         values = dict[str, float]()
@@ -190,7 +192,7 @@ class _Validator:
             values[name] = found[name].value
         return tuple(found.values())
 
-    def parameter(self, section: str, name: str, raw: object, known: Names) -> Parameter:
+    def parameter(self, section: str, name: str, raw: object, known: FormulaNames) -> Parameter:
         """Return a parameter or an input; one with a formula of others has no value yet."""
         where, unit, note = self.where(f"{section}.{name}"), "", ""
         value: float | str

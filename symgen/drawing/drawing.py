@@ -15,7 +15,7 @@ import numpy as np
 from symgen.arguments import path as argument_path
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.start import described_start
-from symgen.drawing.build import build_scene
+from symgen.drawing.mechanism_scene import build_scene
 from symgen.drawing.paper import Drawn, View, axes, on_paper
 from symgen.drawing.paper import Path as Stroke
 from symgen.drawing.scene import COLOURS, Array, Item, Look, Point, Scene

@@ -8,7 +8,7 @@ import numpy as np
 
 from symgen.describe.mechanism import Joint
 from symgen.describe.topology import articulation_of
-from symgen.drawing.markers import Numbers, Place, parts
+from symgen.drawing.markers import BodyPoint, PlacedMechanism, parts
 from symgen.drawing.pen import EARTH, FILLED, PLAIN, Pen, across
 from symgen.drawing.scene import COLOURS, GREY, GROUNDED, Array, Look, Mark
 from symgen.vocabulary.measures import Component, Sum, Turning
@@ -24,7 +24,7 @@ def plain(pen: Pen, joint: Joint) -> list[Mark]:
     return [pen.dot(place, 0.35, PLAIN) for place in pen.numbers.markers(joint)]
 
 
-def ends_of(numbers: Numbers, joint: Joint) -> tuple[Place, Place]:
+def ends_of(numbers: PlacedMechanism, joint: Joint) -> tuple[BodyPoint, BodyPoint]:
     """Return the points of both bodies of a joint; those of its first rows, in the order of its bodies."""
     found = articulation_of(joint)
     if found is not None:
@@ -33,13 +33,13 @@ def ends_of(numbers: Numbers, joint: Joint) -> tuple[Place, Place]:
     return places[0], places[1] if len(places) > 1 else places[0]
 
 
-def along_of(numbers: Numbers, joint: Joint) -> Array:
+def along_of(numbers: PlacedMechanism, joint: Joint) -> Array:
     """Return the direction that a joint's displacement counts along."""
     found = [m for _, m in joint.coordinates if isinstance(m, Component)]
     return numbers.direction(found[0].along) if found else np.array([1.0, 0.0, 0.0])
 
 
-def axis_of(numbers: Numbers, joint: Joint) -> Array:
+def axis_of(numbers: PlacedMechanism, joint: Joint) -> Array:
     """Return the axis of a joint."""
     if not numbers.spatial:
         return Z
@@ -53,7 +53,7 @@ def axis_of(numbers: Numbers, joint: Joint) -> Array:
     return numbers.direction(directions[-1]) if directions else Z
 
 
-def turned_about(numbers: Numbers, joint: Joint, angle: object) -> tuple[Place, Array]:
+def turned_about(numbers: PlacedMechanism, joint: Joint, angle: object) -> tuple[BodyPoint, Array]:
     """Return the point of a joint and the axis that one of its angles is about, both on the body that has the axis.
 
     The second body turns forward about the axis where the angle grows.
@@ -70,7 +70,7 @@ def turned_about(numbers: Numbers, joint: Joint, angle: object) -> tuple[Place, 
     return ends[0], axis_of(numbers, joint)
 
 
-def grounded(pen: Pen, places: tuple[Place, Place], swivel: bool = True) -> list[Mark]:
+def grounded(pen: Pen, places: tuple[BodyPoint, BodyPoint], swivel: bool = True) -> list[Mark]:
     """Return the stand of a point of the ground, where a joint has one."""
     for place in places:
         if place.body == GROUNDED:
@@ -96,7 +96,9 @@ def _stand(pen: Pen, at: Array) -> list[Mark]:
     return [*marks, pen.tube(GROUNDED, foot, at, 0.22, Look(GREY, "#c9cfd6", 0.8))]
 
 
-def wheel_marks(pen: Pen, centre: Place, axis: Array, radius: float, body: str, look: Look | None = None) -> list[Mark]:
+def wheel_marks(
+    pen: Pen, centre: BodyPoint, axis: Array, radius: float, body: str, look: Look | None = None
+) -> list[Mark]:
     """Return a circle with a spoke, in the colour of its body."""
     colour = COLOURS[pen.numbers.index[body] % len(COLOURS)] if body in pen.numbers.index else GREY
     at = pen.numbers.out(centre)

@@ -11,7 +11,7 @@ import numpy as np
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
-from symgen.drawing.scene import GROUNDED, Array, Frame, Point, Poses, frames_of, is_spatial
+from symgen.drawing.scene import GROUNDED, Array, BodyFrame, Point, Poses, frames_of, is_spatial
 from symgen.vocabulary.measures import GROUND, Direction, Marker
 
 
@@ -27,14 +27,14 @@ def parts(value: Any) -> Iterator[Any]:
 
 
 @dataclass(frozen=True)
-class Place:
+class BodyPoint:
     """A point of a body: its index, and where it is on it."""
 
     body: int
     at: Point
 
 
-class Numbers:
+class PlacedMechanism:
     """A mechanism with numbers for its parameters, in the positions that symbols are laid out for.
 
     Parameters
@@ -49,7 +49,7 @@ class Numbers:
 
     def __init__(self, mechanism: Mechanism, values: Mapping[str, float], q: Array) -> None:
         self.mechanism, self.values, self.spatial = mechanism, values, is_spatial(mechanism)
-        self.frames: tuple[Frame, ...] = frames_of(mechanism)
+        self.frames: tuple[BodyFrame, ...] = frames_of(mechanism)
         self.index = {frame.name: i for i, frame in enumerate(self.frames)} | {GROUND: GROUNDED}
         self.centres = {body.name: self.vector(body.centre_of_mass) for body in mechanism.bodies}
         self.centres[GROUND] = np.zeros(3)
@@ -74,12 +74,12 @@ class Numbers:
         found[: len(expressions)] = [self.number(e) for e in expressions]
         return found
 
-    def place(self, marker: Marker) -> Place:
+    def place(self, marker: Marker) -> BodyPoint:
         """Return a marker as a point from the centre of mass of its body."""
         x, y, z = self.vector(marker.point) - self.centres[marker.body]
-        return Place(self.index[marker.body], (float(x), float(y), float(z)))
+        return BodyPoint(self.index[marker.body], (float(x), float(y), float(z)))
 
-    def out(self, place: Place) -> Array:
+    def out(self, place: BodyPoint) -> Array:
         """Return where a point is, shape (3,)."""
         return np.asarray(self.now.out(place.body, [place.at])[0])
 
@@ -89,7 +89,7 @@ class Numbers:
         length = float(np.linalg.norm(found))
         return np.asarray(found / length if length else found)
 
-    def markers(self, value: Any) -> list[Place]:
+    def markers(self, value: Any) -> list[BodyPoint]:
         """Return the different points that a value names, in order."""
         return list(dict.fromkeys(self.place(m) for m in parts(value) if isinstance(m, Marker)))
 
@@ -97,7 +97,7 @@ class Numbers:
         """Return the different directions that a value names, in order."""
         return list(dict.fromkeys(d for d in parts(value) if isinstance(d, Direction)))
 
-    def span(self, a: Place, b: Place, along: Array) -> tuple[float, float]:
+    def span(self, a: BodyPoint, b: BodyPoint, along: Array) -> tuple[float, float]:
         """Return from where to where b moves along a direction, which a's body carries, as seen from a [m].
 
         The guide of a body that moves begins at the body's own point; that of the ground is only as long as it is used.

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from symgen.drawing.scene import INK, PAPER, Array, Dot, Item, Line, Look, Mark, Poses, Scene, Solid, Stretch, Tube
+from symgen.drawing.scene import INK, PAPER, Array, Disc, Item, Line, Look, Mark, Poses, Scene, Solid, Stretch, Tube
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ def _plainly(item: Item) -> Item:
     for mark in item.marks:
         if isinstance(mark, Tube):
             marks.append(Line(mark.body, (mark.a, mark.b), replace(mark.look, width=3.0)))
-        elif not (isinstance(mark, Dot) and mark.mass):
+        elif not (isinstance(mark, Disc) and mark.mass):
             marks.append(mark)
     return replace(item, marks=tuple(marks))
 
@@ -121,7 +121,7 @@ def _parts(mark: Mark, poses: Poses, eye: Array) -> Iterator[tuple[Array, Path |
     if isinstance(mark, Line):
         seen = poses.out(mark.body, mark.points) @ eye.T
         yield seen, Path(seen[:, :2], mark.look, mark.closed)
-    elif isinstance(mark, Dot):
+    elif isinstance(mark, Disc):
         seen = poses.out(mark.body, [mark.at]) @ eye.T
         x, y = float(seen[0, 0]), float(seen[0, 1])
         if not mark.mass:

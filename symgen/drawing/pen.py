@@ -6,15 +6,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from symgen.drawing.markers import Numbers, Place
+from symgen.drawing.markers import BodyPoint, PlacedMechanism
 from symgen.drawing.scene import (
     GREY,
     GROUNDED,
     INK,
     PAPER,
     Array,
-    Carried,
-    Dot,
+    CarriedFrame,
+    Disc,
     Line,
     Look,
     Mark,
@@ -34,7 +34,7 @@ class Pen:
 
     Parameters
     ----------
-    numbers : Numbers
+    numbers : PlacedMechanism
         The mechanism in its positions.
     unit : float
         Size of a joint's symbol [m].
@@ -43,15 +43,15 @@ class Pen:
 
     Attributes
     ----------
-    carried : list of Carried
+    carried : list of CarriedFrame
         Frames beside those of the bodies that were asked for so far.
     """
 
-    def __init__(self, numbers: Numbers, unit: float, up: Point) -> None:
+    def __init__(self, numbers: PlacedMechanism, unit: float, up: Point) -> None:
         self.numbers, self.unit, self.up = numbers, unit, np.array(up)
-        self.carried: list[Carried] = []
+        self.carried: list[CarriedFrame] = []
 
-    def carry(self, place: Place, turned: int) -> int:
+    def carry(self, place: BodyPoint, turned: int) -> int:
         """Return the number of a frame that goes with a point and has the directions of a body, or of the ground.
 
         That of the body itself where it has those directions in any position.
@@ -59,7 +59,7 @@ class Pen:
         frames, still = self.numbers.frames, 3 if self.numbers.spatial else 2  # coordinates of a body that is a point
         if place.body == turned or (turned == GROUNDED and frames[place.body].size == still):
             return place.body
-        wanted = Carried(place.body, place.at, turned)
+        wanted = CarriedFrame(place.body, place.at, turned)
         if wanted not in self.carried:
             self.carried.append(wanted)
         return len(frames) + self.carried.index(wanted)
@@ -78,16 +78,16 @@ class Pen:
         """Return a polyline of a body."""
         return Line(body, self.points(body, points), look, closed)
 
-    def dot(self, place: Place, radius: float, look: Look = FILLED, mass: bool = False) -> Dot:
+    def dot(self, place: BodyPoint, radius: float, look: Look = FILLED, mass: bool = False) -> Disc:
         """Return a circle; its radius is in units."""
-        return Dot(place.body, place.at, radius * self.unit, look, mass)
+        return Disc(place.body, place.at, radius * self.unit, look, mass)
 
     def tube(self, body: int, a: Array, b: Array, radius: float, look: Look = FILLED) -> Tube:
         """Return a round bar; its radius is in units."""
         ends = self.points(body, [a, b])
         return Tube(body, ends[0], ends[1], radius * self.unit, look)
 
-    def stretch(self, kind: str, a: Place, b: Place, look: Look) -> Stretch:
+    def stretch(self, kind: str, a: BodyPoint, b: BodyPoint, look: Look) -> Stretch:
         """Return what reaches from one point to another."""
         return Stretch(kind, a.body, a.at, b.body, b.at, self.unit, look)
 

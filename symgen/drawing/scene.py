@@ -67,7 +67,7 @@ class Line:
 
 
 @dataclass(frozen=True)
-class Dot:
+class Disc:
     """A circle that faces whoever looks: a pin, a ball.
 
     Attributes
@@ -129,7 +129,7 @@ class Stretch:
     look: Look
 
 
-Mark = Line | Dot | Tube | Solid | Stretch
+Mark = Line | Disc | Tube | Solid | Stretch
 
 
 @dataclass(frozen=True)
@@ -159,7 +159,7 @@ class Item:
 
 
 @dataclass(frozen=True)
-class Frame:
+class BodyFrame:
     """Where the coordinates of a body stand in q: `first`, and how many, 2 or 3 in the plane, 3 or 7 in space."""
 
     name: str
@@ -168,7 +168,7 @@ class Frame:
 
 
 @dataclass(frozen=True)
-class Carried:
+class CarriedFrame:
     """A frame that goes with a point of one body and turns with another one, or keeps the directions of the ground.
 
     Attributes
@@ -200,9 +200,9 @@ class Scene:
         The direction against gravity, the y axis in the plane and the z axis in space where there is none.
     unit : float
         Size of a joint's symbol [m].
-    frames : tuple of Frame
+    frames : tuple of BodyFrame
         Of the bodies.
-    carried : tuple of Carried
+    carried : tuple of CarriedFrame
         Further frames, numbered on from those of the bodies.
     """
 
@@ -212,8 +212,8 @@ class Scene:
     spatial: bool
     up: Point
     unit: float
-    frames: tuple[Frame, ...]
-    carried: tuple[Carried, ...] = ()
+    frames: tuple[BodyFrame, ...]
+    carried: tuple[CarriedFrame, ...] = ()
 
     def poses(self, q: Sequence[float] | Array) -> Poses:
         """Return where all frames are for coordinates, shape (nq,)."""
@@ -228,18 +228,22 @@ class Poses:
 
     Parameters
     ----------
-    frames : sequence of Frame
+    frames : sequence of BodyFrame
         Of the bodies.
     q : Array, shape (nq,)
         Coordinates.
     spatial : bool
         Whether the mechanism is.
-    carried : sequence of Carried
+    carried : sequence of CarriedFrame
         Frames beside those of the bodies.
     """
 
     def __init__(
-        self, frames: Sequence[Frame], q: Sequence[float] | Array, spatial: bool, carried: Sequence[Carried] = ()
+        self,
+        frames: Sequence[BodyFrame],
+        q: Sequence[float] | Array,
+        spatial: bool,
+        carried: Sequence[CarriedFrame] = (),
     ) -> None:
         n = len(frames) + len(carried) + 1
         self.turns = np.tile(np.eye(3), (n, 1, 1))
@@ -266,11 +270,11 @@ class Poses:
         return np.asarray((np.asarray(points) - self.centres[body]) @ self.turns[body])
 
 
-def frames_of(mechanism: Mechanism) -> tuple[Frame, ...]:
+def frames_of(mechanism: Mechanism) -> tuple[BodyFrame, ...]:
     """Return where the coordinates of each body stand in q."""
     found, first = [], 0
     for body in mechanism.bodies:
-        found.append(Frame(body.name, first, len(body.coordinates)))
+        found.append(BodyFrame(body.name, first, len(body.coordinates)))
         first += len(body.coordinates)
     return tuple(found)
 

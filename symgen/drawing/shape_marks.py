@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from symgen.describe.mechanism import AnyBody, Shape, Vec
-from symgen.drawing.markers import Place
+from symgen.drawing.markers import BodyPoint
 from symgen.drawing.pen import Pen, across
-from symgen.drawing.scene import Dot, Line, Look, Mark, Solid
+from symgen.drawing.scene import Disc, Line, Look, Mark, Solid
 from symgen.vocabulary.measures import Marker
 
 #: Sides of a cylinder.
@@ -35,7 +35,7 @@ def shape_marks(pen: Pen, body: AnyBody, shape: Shape, colour: str) -> list[Mark
     look = Look(colour, colour, 1.6, 0.25)
     index = numbers.index[body.name]
 
-    def place(point: Vec) -> Place:
+    def place(point: Vec) -> BodyPoint:
         return numbers.place(Marker(body.name, point))
 
     if shape.kind == "polyline":
@@ -49,7 +49,7 @@ def shape_marks(pen: Pen, body: AnyBody, shape: Shape, colour: str) -> list[Mark
         return [pen.box(index, at, turned.T, size, replace(look, opacity=0.6) if numbers.spatial else look)]
     if shape.kind == "sphere" and numbers.spatial:
         rings = [pen.ring(index, at, axis, sizes[0], Look(colour, "", 0.7)) for axis in turned.T]
-        return [Dot(index, middle.at, sizes[0], look), *rings]
+        return [Disc(index, middle.at, sizes[0], look), *rings]
     if not numbers.spatial:
         ring = pen.ring(index, at, np.array([0.0, 0.0, 1.0]), sizes[0], look)
         return [ring, Line(index, (middle.at, ring.points[0]), replace(look, width=1.0))]

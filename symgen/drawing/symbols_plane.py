@@ -19,7 +19,7 @@ from symgen.drawing.joint_parts import (
     turned_about,
     wheel_marks,
 )
-from symgen.drawing.markers import Numbers, Place, parts
+from symgen.drawing.markers import BodyPoint, PlacedMechanism, parts
 from symgen.drawing.pen import RIGID, Pen, across
 from symgen.drawing.scene import GREY, GROUNDED, Array, Look, Mark
 from symgen.vocabulary.measures import AnyAngle, Component, PointSpeed, Sum
@@ -112,13 +112,13 @@ def _mesh(pen: Pen, joint: Joint) -> list[Mark]:
     return marks
 
 
-def _pivot(numbers: Numbers, body: str, gear: Joint) -> Place | None:
+def _pivot(numbers: PlacedMechanism, body: str, gear: Joint) -> BodyPoint | None:
     carrier = gear.bodies[2] if len(gear.bodies) > 2 else "ground"
     for other in numbers.mechanism.joints:
         if other.kind == "revolute" and set(other.bodies) == {body, carrier}:
             a, b = ends_of(numbers, other)
             return a if a.body == numbers.index[body] else b
-    return Place(numbers.index[body], (0.0, 0.0, 0.0)) if body in numbers.index else None
+    return BodyPoint(numbers.index[body], (0.0, 0.0, 0.0)) if body in numbers.index else None
 
 
 def blade(pen: Pen, joint: Joint) -> list[Mark]:
@@ -151,7 +151,7 @@ def driver(pen: Pen, joint: Joint) -> list[Mark]:
         return pen.arrow(a.body, np.array([start, start + 2.6 * u * along]), DRIVE)
     if turning:
         if not driven:
-            pivot, axis = Place(numbers.index[joint.bodies[-1]], (0.0, 0.0, 0.0)), axis_of(numbers, joint)
+            pivot, axis = BodyPoint(numbers.index[joint.bodies[-1]], (0.0, 0.0, 0.0)), axis_of(numbers, joint)
         else:
             pivot, axis = turned_about(numbers, driven[0], joint.rows)
         return pen.turning(pivot.body, numbers.out(pivot), axis, 1.35, DRIVE)

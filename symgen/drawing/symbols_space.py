@@ -10,7 +10,7 @@ import numpy as np
 from symgen.describe.mechanism import Joint
 from symgen.describe.topology import articulation_of
 from symgen.drawing.joint_parts import GLASS, PITCH, Z, along_of, axis_of, ends_of, grounded, wheel_marks
-from symgen.drawing.markers import Place, parts
+from symgen.drawing.markers import BodyPoint, parts
 from symgen.drawing.pen import RIGID, Pen, across
 from symgen.drawing.scene import COLOURS, GREY, GROUNDED, Array, Line, Look, Mark
 from symgen.drawing.symbols_plane import blade, driver, link, weld
@@ -102,7 +102,7 @@ def _round(pen: Pen, joint: Joint) -> list[Mark]:
     return [plane, ball, *rings]
 
 
-def _floor(pen: Pen, normal: Array, places: list[Place], centre: Place, radius: float) -> Line:
+def _floor(pen: Pen, normal: Array, places: list[BodyPoint], centre: BodyPoint, radius: float) -> Line:
     """Return a part of the plane that holds all of the way."""
     grounded = [p for p in places if p.body == GROUNDED]
     at = pen.numbers.out(grounded[0]) if grounded else np.zeros(3)

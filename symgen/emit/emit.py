@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from symgen.emit.module import PLATFORMS, Code, function, module, render, sentence, templates_digest
+from symgen.emit.module import PLATFORMS, ModulePiece, function, module, render, sentence, templates_digest
 from symgen.emit.names import Names, of_hoisted, of_model, of_observed
 from symgen.emit.parts import PartsLayout, law_modules
 from symgen.emit.printer import ElementAccess, Printer
@@ -14,7 +14,7 @@ from symgen.emit.whole import Places, model_name
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.interpolation import Interpolation
-from symgen.ir.program import DERIVATIVES, FORMAT, SUFFIXES, Block, LawProgram, Layout, ModelProgram
+from symgen.ir.program import DERIVATIVES, FORMAT, SUFFIXES, Block, LawProgram, ModelLayout, ModelProgram
 from symgen.vocabulary.infos import LawInfo
 
 if TYPE_CHECKING:
@@ -184,7 +184,7 @@ def table_names(tables: Sequence[Interpolation], slopes: bool = True) -> list[st
     return [table_name(t.name, what) for t in tables for what in DERIVATIVES[: 3 if t.pieces else 1 + slopes]]
 
 
-def table_codes(tables: Sequence[Interpolation], target: str = "cpu", slopes: bool = True) -> list[Code]:
+def table_codes(tables: Sequence[Interpolation], target: str = "cpu", slopes: bool = True) -> list[ModulePiece]:
     """Return tables: their arrays with the functions that interpolate, and their slopes; see `table_names`."""
     codes = []
     for found in tables:
@@ -200,7 +200,7 @@ def table_codes(tables: Sequence[Interpolation], target: str = "cpu", slopes: bo
             text = render("parts/table.j2", values | {"slope": slopes}).strip("\n")
         also = tuple(table_name(found.name, what) for what in ("slope", "second", "x", "y"))
         libraries = frozenset(("numpy", "math") if found.period else ("numpy",))
-        codes.append(Code(table["value"], text, libraries=libraries, also=also))
+        codes.append(ModulePiece(table["value"], text, libraries=libraries, also=also))
     return codes
 
 
@@ -213,11 +213,11 @@ def array_text(values: Sequence[float]) -> str:
 
 def straight(
     blocks: Sequence[Block],
-    layout: Layout,
+    layout: ModelLayout,
     equations: Equations | SideProgram,
     target: str = "cpu",
     further: Names | None = None,
-) -> list[Code]:
+) -> list[ModulePiece]:
     """Return blocks as functions of straight lines; `further` names stand beside those of q, v and p of `equations`."""
     names = {("q", i): f"{q.name} [{q.unit}]" for i, q in enumerate(equations.coordinates)}
     names |= {("v", i): f"{v.name} [{v.unit}]" for i, v in enumerate(equations.velocities)}

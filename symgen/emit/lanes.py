@@ -7,7 +7,7 @@ from collections.abc import Container
 from dataclasses import replace
 
 from symgen.emit.emit import LiteralLayout, law_header, table_codes, table_names, versions
-from symgen.emit.module import Code, function, module
+from symgen.emit.module import ModulePiece, function, module
 from symgen.emit.parts import Parts, PartsLayout, accept_kind
 from symgen.emit.printer import LaneAccess, Printer
 from symgen.errors import InputError
@@ -98,7 +98,7 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     return module(title, header, codes, known, offsets)
 
 
-def _over_lanes(block: Block, access: LaneAccess, turning: Container[int]) -> Code:
+def _over_lanes(block: Block, access: LaneAccess, turning: Container[int]) -> ModulePiece:
     """Return a block as a loop over lanes."""
     printer, alone = Printer(block, access), block.name == "rhs"
     lines = printer.lines()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from symgen.emit.emit import law_header
-from symgen.emit.module import Code, function, render
+from symgen.emit.module import ModulePiece, function, render
 from symgen.emit.parts import PartsLayout, law_modules
 from symgen.emit.printer import Access, Printer
 from symgen.emit.whole import Places
@@ -139,12 +139,12 @@ class TableLayout(PartsLayout):
         return ["T = tables(w)", *lines], calls, own
 
 
-def print_function(f: data.LoopedFunction) -> Code:
+def print_function(f: data.LoopedFunction) -> ModulePiece:
     """Print statements: loops over elements j, sums, numbers and calls."""
     access, lines = LoopAccess(), list[str]()
     called: set[str] = set()
     for statement in f.statements:
-        if isinstance(statement, data.Call):
+        if isinstance(statement, data.KernelCall):
             result = f"{statement.result} = " if statement.result else ""
             lines.append(f"{result}{statement.function}({', '.join(statement.arguments)})")
             called |= {statement.function, *(n for n in statement.arguments if n.isupper() and n != "T")}

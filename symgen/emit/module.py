@@ -45,7 +45,7 @@ LIBRARIES = frozenset(("math", "numpy"))
 
 
 @dataclass(frozen=True)
-class Code:
+class ModulePiece:
     """A piece of a module: a function, or a table with its functions.
 
     Parameters
@@ -127,7 +127,7 @@ def function(
     *,
     calls: Iterable[str] = (),
     sections: Iterable[str] = (),
-) -> Code:
+) -> ModulePiece:
     """Return a function; its purpose may come from anywhere, and `calls` may name libraries and their functions."""
     first, *more = [harmless(line) for line in sentence(purpose).split("\n")]
     document = [f'"""{first}', *more, '"""'] if more else [f'"""{first}"""']
@@ -135,7 +135,7 @@ def function(
     text = "\n".join([decorator, f"def {name}({arguments}):", *lines])
     libraries = frozenset(call.partition(".")[0] for call in calls) & LIBRARIES
     emitted = frozenset(call for call in calls if call.partition(".")[0] not in LIBRARIES)
-    return Code(name, text, emitted, frozenset(sections), libraries)
+    return ModulePiece(name, text, emitted, frozenset(sections), libraries)
 
 
 def sentence(text: str) -> str:
@@ -156,7 +156,7 @@ Known = Mapping[str, tuple[str, str]]
 def module(
     title: str,
     header: Sequence[str],
-    codes: Sequence[Code],
+    codes: Sequence[ModulePiece],
     known: Known,
     offsets: Mapping[str, tuple[int, str]],
     numba: str = "njit",
@@ -170,7 +170,7 @@ def module(
         First line of its docstring.
     header : sequence of str
         Further lines.
-    codes : sequence of Code
+    codes : sequence of ModulePiece
         What it defines, in this order.
     known : mapping of str to (str, str)
         Names that other modules of the folder define; those that are called are imported.

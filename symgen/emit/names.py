@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from symgen.emit.printer import ElementAccess, Printer
-from symgen.ir.program import STATUS, Block, Entry
+from symgen.ir.program import STATUS, Block, JacobianEntry
 
 if TYPE_CHECKING:
     from symgen.formulate.equations import Equations
@@ -20,14 +20,14 @@ _OF_ROWS = ("residual", "nu", "multipliers", "mask", "pivot", "row_weight")
 _OF_VELOCITIES = ("change", "mass", "gauge")
 
 
-def of_model(equations: Equations, jacobian: Sequence[Entry]) -> Names:
+def of_model(equations: Equations, jacobian: Sequence[JacobianEntry]) -> Names:
     """Return the names of sections of ``w`` that all methods share, and of what is returned at outputs.
 
     Parameters
     ----------
     equations : Equations
         The derived equations.
-    jacobian : sequence of Entry
+    jacobian : sequence of JacobianEntry
         Where entries of D stand.
     """
     rows, speeds = [r.name for r in equations.rows], [v.name for v in equations.velocities]

@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Sequence
 from types import SimpleNamespace
 from typing import Any
 
-from symgen.emit.module import PLATFORMS, Code, Known, function, literal, module, render
+from symgen.emit.module import PLATFORMS, Known, ModulePiece, function, literal, module, render
 from symgen.emit.whole import Places
 from symgen.ir.numerics import NUMBERS
 from symgen.ir.program import COUNTERS, STATUS, Correction, LawCode
@@ -68,7 +68,7 @@ class Parts:
 
     def __init__(self, layout: PartsLayout, correction: Correction) -> None:
         self.layout = layout
-        self.pieces: list[tuple[str, Code]] = []
+        self.pieces: list[tuple[str, ModulePiece]] = []
         self.values: dict[str, Any] = {
             "function": self._function,
             "size": _Names(layout.size),
@@ -87,7 +87,7 @@ class Parts:
         self.pieces[first:] = [(roles.get(code.name, role), code) for _, code in self.pieces[first:]]
 
     @property
-    def codes(self) -> list[Code]:
+    def codes(self) -> list[ModulePiece]:
         """The functions without their roles."""
         return [code for _, code in self.pieces]
 
@@ -135,7 +135,7 @@ _EXPORTS = ("prepare", "rhs", "confirm", "rates", "accept", "geometry", "spread"
 def law_modules(
     law: LawCode,
     layout: PartsLayout,
-    printed: Sequence[tuple[str, Code]],
+    printed: Sequence[tuple[str, ModulePiece]],
     flagged: bool,
     what: str,
     made: str,
@@ -199,7 +199,7 @@ def law_modules(
     return modules
 
 
-def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: bool) -> list[tuple[str, Code]]:
+def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: bool) -> list[tuple[str, ModulePiece]]:
     """Return the functions of a law that are no formulas, with their roles, in the order of their text."""
     form, parts = law.form, Parts(layout, law.correction)
     if "refactor" in names:

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from symgen.emit.text import harmless, table_name
-from symgen.ir.program import Block, Layout, Target, of_table
+from symgen.ir.program import Block, ModelLayout, Target, of_table
 from symgen.vocabulary.functions import ELEMENTARY
 
 _BINARY = {"add": ("+", 1), "sub": ("-", 1), "mul": ("*", 2), "div": ("/", 2), "pow": ("**", 4)}
@@ -26,7 +26,7 @@ _INLINE = 90
 
 
 @dataclass(frozen=True)
-class Lines:
+class BodyLines:
     """The three parts of a straight-line function's body, and the functions that it calls."""
 
     inputs: tuple[str, ...]
@@ -64,7 +64,7 @@ class Access(ABC):
 class ElementAccess(Access):
     """How elements of arrays and scratch sections are written in a target: here, plain indexing."""
 
-    layout: Layout
+    layout: ModelLayout
     names: Mapping[tuple[str, int], str]
 
     def element(self, array: str, index: int) -> str:
@@ -123,7 +123,7 @@ class Printer:
         self.text: dict[int, tuple[str, int]] = {}  # node -> (expression, precedence)
         self.functions: set[str] = set()  # what is called: math's, and others that are emitted
 
-    def lines(self) -> Lines:
+    def lines(self) -> BodyLines:
         """Return the lines of the block."""
         inputs: list[str] = []
         terms: list[str] = []
@@ -152,7 +152,7 @@ class Printer:
             for target, n in self.block.outputs
         )
         flag = None if self.block.flag is None else self.text[self.block.flag][0]
-        return Lines(tuple(inputs), tuple(terms), outputs, flag, frozenset(self.functions))
+        return BodyLines(tuple(inputs), tuple(terms), outputs, flag, frozenset(self.functions))
 
     def comment(self, target: Target) -> str:
         """Return the name of an output as a comment, nothing where it has none."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from symgen.emit.emit import straight, table_codes
-from symgen.emit.module import Code, function, module, templates_digest
+from symgen.emit.module import ModulePiece, function, module, templates_digest
 from symgen.ir.program import FORMAT
 from symgen.lower.side import SideProgram
 
@@ -16,7 +16,7 @@ def emit_side(program: SideProgram) -> str:
     return module(f"{program.blocks[0].purpose}, for model `{program.mechanism}`.", header, codes, {}, {})
 
 
-def _printed(program: SideProgram, place: str, first: int = 0) -> tuple[list[Code], list[str]]:
+def _printed(program: SideProgram, place: str, first: int = 0) -> tuple[list[ModulePiece], list[str]]:
     """Return the functions, and lines that say what stands in each place, from the `first` on."""
     codes = [*table_codes(program.tables), *straight(program.blocks, program.layout, program)]
     formulas = [f"{place.format(i)} {formula}" for i, formula in enumerate(program.formulas, first)]

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from symgen.emit.module import Code, Known, module
+from symgen.emit.module import Known, ModulePiece, module
 from symgen.ir.program import COUNTERS, STATUS
 
 #: Meaning of the sections of ``w``, for headers.
@@ -85,7 +85,7 @@ class Places:
         found |= {name: (i, "counters in iw") for i, name in enumerate(COUNTERS)}
         return found | {name: (at, "parameters of the method in p") for name, at in self.parameters.items()}
 
-    def named(self, code: Code) -> Code:
+    def named(self, code: ModulePiece) -> ModulePiece:
         """Return a function with names in place of the numbers of elements of w and iw, and of the method in p."""
         used = set(code.sections)
 
@@ -114,7 +114,7 @@ class Places:
         self,
         title: str,
         header: Sequence[str],
-        groups: Sequence[Sequence[Code]],
+        groups: Sequence[Sequence[ModulePiece]],
         known: Known,
         offsets: Mapping[str, tuple[int, str]] | None = None,
         **keys: Any,
@@ -139,7 +139,7 @@ def model_name(name: str) -> str:
     return f"{name}_of_model"
 
 
-def with_own_names(groups: Sequence[Sequence[Code]], known: Known) -> list[Code]:
+def with_own_names(groups: Sequence[Sequence[ModulePiece]], known: Known) -> list[ModulePiece]:
     """Return functions of several modules as those of one: where two have the same name, the earlier has another one.
 
     A law has its own `geometry` and `spread` where its metric is not the model's, and its own `rhs` around that of
@@ -153,7 +153,7 @@ def with_own_names(groups: Sequence[Sequence[Code]], known: Known) -> list[Code]
         Names that the model defines.
     """
     last = {name: i for i, group in enumerate(groups) for code in group for name in code.names}
-    before, codes = set[str](), list[Code]()
+    before, codes = set[str](), list[ModulePiece]()
     for i, group in enumerate(groups):
         own = {name for code in group for name in code.names}
         replaced = {name: model_name(name) for name in known.keys() & last.keys() - own - before}
@@ -163,7 +163,7 @@ def with_own_names(groups: Sequence[Sequence[Code]], known: Known) -> list[Code]
     return codes
 
 
-def _renamed(code: Code, names: Mapping[str, str]) -> Code:
+def _renamed(code: ModulePiece, names: Mapping[str, str]) -> ModulePiece:
     """Return a function with other names for itself and for what it calls."""
     text = re.sub(r"\b(\w+)(?=\()", lambda match: names.get(match[0], match[0]), code.text)
     calls = frozenset(names.get(name, name) for name in code.calls)

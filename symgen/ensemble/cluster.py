@@ -19,9 +19,9 @@ from symgen.errors import InputError, SimulationError
 if TYPE_CHECKING:
     from distributed import Client
 
-    from symgen.ensemble.plan import Ensemble
-    from symgen.ensemble.starts import Rows
-    from symgen.ensemble.table import Table
+    from symgen.ensemble.row_starts import Rows
+    from symgen.ensemble.sweep_plan import Ensemble
+    from symgen.ensemble.table import RowTable
 
 #: Chunks handed out for every thread of the cluster: enough to keep it busy, few enough for its memory.
 _AHEAD = 4
@@ -72,7 +72,7 @@ def run_chunk(recipe: Recipe, rows: Rows) -> Chunk:
 
 
 def run_there(
-    ensemble: Ensemble, table: Table, client: Client, progress: Callable[[float], None] | None = None
+    ensemble: Ensemble, table: RowTable, client: Client, progress: Callable[[float], None] | None = None
 ) -> bool:
     """Run all chunks that the table does not hold yet on a cluster.
 

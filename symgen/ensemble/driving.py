@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.describe.derived import derived
+from symgen.describe.derived_parameters import derived
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError
 from symgen.runtime.motions import jump_of, names_of_motions
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.ensemble.plan import Ensemble
-    from symgen.ensemble.starts import Rows
+    from symgen.ensemble.row_starts import Rows
+    from symgen.ensemble.sweep_plan import Ensemble
     from symgen.running.inputs import Inputs
     from symgen.runtime.stops import Foreseen
 

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from symgen.compiling.events import compile_events
 from symgen.ensemble.chunks import Chunk, Results
-from symgen.ensemble.device import DeviceRuns, need_of
-from symgen.ensemble.loops import LoopRuns
+from symgen.ensemble.device_runs import DeviceRuns, need_of
+from symgen.ensemble.loop_runs import LoopRuns
 from symgen.ensemble.recipe import Code, Recipe
 from symgen.ensemble.tree_rows import TreeRuns, picks_on_tree
 from symgen.errors import InputError
@@ -26,12 +26,12 @@ from symgen.runtime.integrator import Integrator
 from symgen.runtime.model_arrays import joints_of
 from symgen.runtime.new_state import span_of
 from symgen.runtime.run import RunSpec
-from symgen.runtime.start_records import Asked, Instant
+from symgen.runtime.start_records import Instant, StartConditions
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.measures import Measures
-    from symgen.ensemble.starts import Rows
+    from symgen.ensemble.row_starts import Rows
     from symgen.runtime.compiled import ModelInfo
     from symgen.runtime.events import Watched
 
@@ -58,7 +58,7 @@ class _Prepared:
 
 
 @dataclass
-class Kernel:
+class RowKernel:
     """Runs the chunks of one recipe; threads may share it."""
 
     recipe: Recipe
@@ -91,7 +91,7 @@ class Kernel:
 
     def warm(self) -> None:
         """Compile or load all that runs need, by no runs at all."""
-        from symgen.ensemble.starts import Rows
+        from symgen.ensemble.row_starts import Rows
 
         with self._lock:
             if self._warm:
@@ -140,7 +140,7 @@ class Kernel:
     def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:
         """Close and run selected rows with one compiled model; those with light bodies only where there is no other."""
         info, recipe, now = model.compiled.info, self.recipe, self._described(model, rows)
-        asked = Asked(rows.v, rows.targets, out.summary)
+        asked = StartConditions(rows.v, rows.targets, out.summary)
         if model.assembly.close_all(now, asked, selected, control) < len(selected):
             return False
         self._look_at_sides(info, now.y, selected, out.summary)
@@ -232,16 +232,16 @@ def new_control() -> Integers:
     return np.zeros(e.N_CONTROL, dtype=np.int64)
 
 
-_kernels: dict[str, Kernel] = {}
+_kernels: dict[str, RowKernel] = {}
 _kernels_lock = threading.Lock()
 
 
-def kernel_of(recipe: Recipe) -> Kernel:
+def kernel_of(recipe: Recipe) -> RowKernel:
     """Return the kernel of a recipe, the same one as long as it is among the last few."""
     with _kernels_lock:
         found = _kernels.get(recipe.digest)
         if found is None:
             while len(_kernels) >= 4:
                 del _kernels[next(iter(_kernels))]
-            found = _kernels[recipe.digest] = Kernel(recipe)
+            found = _kernels[recipe.digest] = RowKernel(recipe)
     return found

@@ -12,7 +12,7 @@ from symgen.ir.program import LANES, lane_bases
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.records import Chunk, Kept, Span, State, Tableau
+    from symgen.runtime.records import Kept, RowChunk, Span, State, TableauRecord
     from symgen.runtime.run import RunSpec
 
 
@@ -32,9 +32,9 @@ def check_lanes(integrator: str, spec: RunSpec) -> None:
 def run_in_lanes(
     compiled: CompiledModel,
     observed: tuple[Any, ...],
-    scheme: Tableau,
+    scheme: TableauRecord,
     span: Span,
-    chunk: Chunk,
+    chunk: RowChunk,
     state: State,
     kept: Kept,
 ) -> int:

@@ -15,8 +15,8 @@ from symgen.runtime import abi
 from symgen.runtime.ensemble_abi import RUNS_DONE
 
 if TYPE_CHECKING:
-    from symgen.ensemble.plan import Ensemble
-    from symgen.ensemble.table import Table
+    from symgen.ensemble.sweep_plan import Ensemble
+    from symgen.ensemble.table import RowTable
 
 #: How often progress is shown while no chunk ends [s].
 _BEAT = 0.1
@@ -25,7 +25,7 @@ _AHEAD = 3
 
 
 def run_here(
-    ensemble: Ensemble, table: Table, jobs: int | None, progress: Callable[[float], None] | None = None
+    ensemble: Ensemble, table: RowTable, jobs: int | None, progress: Callable[[float], None] | None = None
 ) -> bool:
     """Run all chunks that the table does not hold yet.
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from symgen.compiling.side import compile_side
 from symgen.describe.columns import PREFIX
 from symgen.describe.outputs import TABLES
-from symgen.ensemble.quantities import Quantity
+from symgen.ensemble.row_quantities import RowQuantity
 from symgen.result.acting import Acting, Seat
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
@@ -40,10 +40,10 @@ NAME, PURPOSE = "measured", "what is kept of the runs of sweeps"
 _REACTIONS = {"reactions": e.REACTION, "body_reactions": e.BODY_REACTION, "magnitudes": e.MAGNITUDE}
 
 
-def measurable(mechanism: Mechanism, info: ModelInfo) -> dict[str, tuple[Quantity, ...]]:
-    """Return the quantities of each table that no loop leaves; `Quantity.column` is their place there."""
-    found: dict[str, tuple[Quantity, ...]] = {
-        table: tuple(Quantity(PREFIX[table] + c.name, c.unit, e.SIDE, i) for i, c in enumerate(columns(mechanism)))
+def measurable(mechanism: Mechanism, info: ModelInfo) -> dict[str, tuple[RowQuantity, ...]]:
+    """Return the quantities of each table that no loop leaves; `RowQuantity.column` is their place there."""
+    found: dict[str, tuple[RowQuantity, ...]] = {
+        table: tuple(RowQuantity(PREFIX[table] + c.name, c.unit, e.SIDE, i) for i, c in enumerate(columns(mechanism)))
         for table, columns in TABLES.items()
     }
     seats = {name: Seat(body, np.zeros((0, 3))) for name, body in _bodies(mechanism).items()}
@@ -52,12 +52,12 @@ def measurable(mechanism: Mechanism, info: ModelInfo) -> dict[str, tuple[Quantit
     for table, labelled in _tables(acting, entries, np.zeros((0, info.m))).items():
         named = zip(labelled.names, labelled.units, strict=True)
         found[table] = tuple(
-            Quantity(PREFIX[table] + n, unit, _REACTIONS[table], i) for i, (n, unit) in enumerate(named)
+            RowQuantity(PREFIX[table] + n, unit, _REACTIONS[table], i) for i, (n, unit) in enumerate(named)
         )
     return found
 
 
-def integrated(mechanism: Mechanism, chosen: Sequence[Quantity]) -> str | None:
+def integrated(mechanism: Mechanism, chosen: Sequence[RowQuantity]) -> str | None:
     """Return the first of some quantities that reads an integral, None where none does."""
     asked = {q.name for q in chosen if q.source == e.SIDE}
     for output in mechanism.outputs:
@@ -115,7 +115,7 @@ class Measures:
         Of the side module.
     length : int
         Numbers that its function writes.
-    reads : tuple of Quantity
+    reads : tuple of RowQuantity
         What loops leave for it.
     places : tuple of int
         Where each of these goes, see `symgen.runtime.measured_rows.Left`.
@@ -128,7 +128,7 @@ class Measures:
     source: str
     metadata: Mapping[str, Any]
     length: int
-    reads: tuple[Quantity, ...]
+    reads: tuple[RowQuantity, ...]
     places: tuple[int, ...]
     joints: Mapping[str, Place]
 
@@ -152,7 +152,7 @@ class Measures:
     def work_out(
         self,
         compiled: CompiledModel,
-        asked: Sequence[Quantity],
+        asked: Sequence[RowQuantity],
         times: Array,
         selected: Integers,
         seen: Array,
@@ -165,7 +165,7 @@ class Measures:
         ----------
         compiled : CompiledModel
             What was run.
-        asked : sequence of Quantity
+        asked : sequence of RowQuantity
             Those that no loop leaves.
         times : Array
             Output times [s].
@@ -220,7 +220,7 @@ class Measures:
         return {_REACTIONS[name]: table.values for name, table in tables.items()}
 
 
-def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequence[Quantity]) -> Measures | None:
+def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequence[RowQuantity]) -> Measures | None:
     """Return how the quantities that no loop leaves are worked out beside a compiled model, None where there are none.
 
     Parameters
@@ -229,7 +229,7 @@ def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequenc
         What is run.
     compiled : CompiledModel
         Its code for a processor.
-    chosen : sequence of Quantity
+    chosen : sequence of RowQuantity
         All that is kept.
 
     Raises
@@ -244,15 +244,15 @@ def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequenc
     formulas = [(q.name, known[q.name]) for q in chosen if q.source == e.SIDE]
     joints = _places(mechanism, formulas) if any(q.source > e.SIDE for q in chosen) else {}
     side = compile_side(mechanism, compiled, NAME, PURPOSE, formulas)
-    reads = [(Quantity(f"y{i}", "", e.STATE, i), e.OF_Y, i) for i in range(info.ny)]
+    reads = [(RowQuantity(f"y{i}", "", e.STATE, i), e.OF_Y, i) for i in range(info.ny)]
     if "ydot" in side.reads:
-        reads += [(Quantity(f"v'{i}", "", e.ACCELERATION, i), e.OF_RATES, info.nq + i) for i in range(info.nv)]
+        reads += [(RowQuantity(f"v'{i}", "", e.ACCELERATION, i), e.OF_RATES, info.nq + i) for i in range(info.nv)]
     if "multipliers" in side.reads or joints:
         at, _ = info.sections["multipliers"]
-        reads += [(Quantity(f"lambda{i}", "", e.MULTIPLIER, i), e.OF_W, at + i) for i in range(info.m)]
+        reads += [(RowQuantity(f"lambda{i}", "", e.MULTIPLIER, i), e.OF_W, at + i) for i in range(info.m)]
     if "winding" in side.reads:
         n, at = abi.N_STATUS, abi.WINDING
-        reads += [(Quantity(f"angle{i}", "", e.STATUS, n + i), e.OF_W, at + i) for i in range(info.windings)]
+        reads += [(RowQuantity(f"angle{i}", "", e.STATUS, n + i), e.OF_W, at + i) for i in range(info.windings)]
     return Measures(
         folder=side.path.parent.name,
         stem=side.path.stem,

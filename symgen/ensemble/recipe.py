@@ -20,9 +20,9 @@ from symgen.compiling.straight_model import load_compiled
 from symgen.describe.digest import identity
 from symgen.describe.events import in_words
 from symgen.describe.mechanism import Event, Mechanism
-from symgen.describe.sides import Side
+from symgen.describe.sides import SidedJoint
 from symgen.ensemble.measures import Measures, stored
-from symgen.ensemble.quantities import Quantity
+from symgen.ensemble.row_quantities import RowQuantity
 from symgen.ir.numerics import WARN
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.compiled import CompiledModel
@@ -164,13 +164,13 @@ class Recipe:
         Steps, tolerances, limits and output times.
     method_parameters : mapping
         Values of the method's parameters that differ from the defaults.
-    quantities : tuple of Quantity
+    quantities : tuple of RowQuantity
         What is kept.
     tree : Mechanism or None
         The mechanism with its tree, where runs are in joint coordinates.
     watch : Watch or None
         What rows look for beside their motion.
-    sides : tuple of Side
+    sides : tuple of SidedJoint
         Joints that may hold bodies the wrong way round.
     stops : bool
         Whether runs stop at times that rows bring along.
@@ -189,14 +189,14 @@ class Recipe:
     integrator: str
     spec: RunSpec
     method_parameters: Mapping[str, float]
-    quantities: tuple[Quantity, ...]
+    quantities: tuple[RowQuantity, ...]
     held: Held
     strict: bool
     code: str
     target: str = "cpu"
     tree: Mechanism | None = None
     watch: Watch | None = None
-    sides: tuple[Side, ...] = ()
+    sides: tuple[SidedJoint, ...] = ()
     stops: bool = False
 
     @property
@@ -225,14 +225,14 @@ class Recipe:
         return 0 if self.watch is None else self.watch.width
 
     @property
-    def columns(self) -> tuple[Quantity, ...]:
+    def columns(self) -> tuple[RowQuantity, ...]:
         """What loops leave of a run: the quantities, or those of them that loops know and then what others need."""
         if self.measures is None:
             return self.quantities
         return (*(q for q in self.quantities if q.source < SIDE), *self.measures.reads)
 
     @property
-    def behind(self) -> tuple[Quantity, ...]:
+    def behind(self) -> tuple[RowQuantity, ...]:
         """The quantities that are worked out behind the loops."""
         return tuple(q for q in self.quantities if q.source >= SIDE)
 

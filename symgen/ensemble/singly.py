@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from symgen.ensemble.chunks import Results
     from symgen.ensemble.measures import Measures
     from symgen.ensemble.recipe import Recipe, Watch
-    from symgen.ensemble.starts import Rows
+    from symgen.ensemble.row_starts import Rows
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Watched
     from symgen.runtime.integrator import Integrator

@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike
 from symgen import arguments
 from symgen.ensemble.axes import RUN_SIZE
 from symgen.ensemble.local import run_here
-from symgen.ensemble.plan import Ensemble, make_ensemble
-from symgen.ensemble.study import SAVED, Sweep
-from symgen.ensemble.table import FolderTable, Table, check_folder
+from symgen.ensemble.sweep_plan import Ensemble, make_ensemble
+from symgen.ensemble.sweep_study import SAVED, Sweep
+from symgen.ensemble.table import FolderTable, RowTable, check_folder
 from symgen.errors import InputError
 from symgen.memory import require, require_disk
 from symgen.result.export import check_path
@@ -100,7 +100,7 @@ def sweep(
         If results cannot be written, or the cluster gives up.
     """
     from symgen.api import load
-    from symgen.ensemble.device import check_target
+    from symgen.ensemble.device_runs import check_target
 
     check_target(target, scheduler)
     jobs = None if jobs is None else arguments.whole("jobs", jobs, 1, MOST_JOBS)
@@ -121,7 +121,9 @@ def sweep(
     ensemble = make_ensemble(load(model), changed(settings, changes), varied["vary"], varied["runs"], kept, target)
     _check_room(ensemble, path, folder)
     table = (
-        Table(*ensemble.sizes) if folder is None else FolderTable(folder, ensemble.description, ensemble.sizes, resume)
+        RowTable(*ensemble.sizes)
+        if folder is None
+        else FolderTable(folder, ensemble.description, ensemble.sizes, resume)
     )
     with table:
         seconds, interrupted = _run(ensemble, table, jobs, scheduler, progress)
@@ -148,7 +150,7 @@ def _check_room(ensemble: Ensemble, path: Path | None, folder: Path | None) -> N
 
 def _run(
     ensemble: Ensemble,
-    table: Table,
+    table: RowTable,
     jobs: int | None,
     scheduler: str | Client | None,
     progress: Callable[[float, int], None] | None,

@@ -35,7 +35,7 @@ DESCRIPTION, VALUES, SUMMARY, DONE, LOCK = "sweep.json", "values.npy", "summary.
 _LINE = re.compile(rb"(0|[1-9][0-9]{0,9}) [0-9a-f]{32}")
 
 
-class Table:
+class RowTable:
     """Rows of an ensemble, by run.
 
     Parameters
@@ -118,7 +118,7 @@ class Table:
     def close(self) -> None:
         """Let go of files; the arrays stay readable."""
 
-    def __enter__(self) -> Table:
+    def __enter__(self) -> RowTable:
         return self
 
     def __exit__(
@@ -127,7 +127,7 @@ class Table:
         self.close()
 
 
-class FolderTable(Table):
+class FolderTable(RowTable):
     """Rows in the files of a folder, one process at a time.
 
     Parameters

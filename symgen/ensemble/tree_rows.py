@@ -19,9 +19,9 @@ from symgen.runtime.tree_start import TURNED_OVER, Carried
 
 if TYPE_CHECKING:
     from symgen.ensemble.chunks import Results
-    from symgen.ensemble.loops import LoopRuns
-    from symgen.ensemble.quantities import Quantity
-    from symgen.ensemble.starts import Rows
+    from symgen.ensemble.loop_runs import LoopRuns
+    from symgen.ensemble.row_quantities import RowQuantity
+    from symgen.ensemble.row_starts import Rows
     from symgen.runtime.compiled import ModelInfo
 
 Array = NDArray[np.float64]
@@ -31,17 +31,17 @@ Integers = NDArray[np.int64]
 _PLAIN = {e.STATE, e.STATUS, e.ENERGY, e.ENERGY_ERROR}
 
 
-def are_plain(quantities: Sequence[Quantity]) -> bool:
+def are_plain(quantities: Sequence[RowQuantity]) -> bool:
     """Return whether loops leave all of some quantities."""
     return {q.source for q in quantities} <= _PLAIN
 
 
-def picks_on_tree(quantities: Sequence[Quantity], info: ModelInfo, own: ModelInfo) -> Integers:
+def picks_on_tree(quantities: Sequence[RowQuantity], info: ModelInfo, own: ModelInfo) -> Integers:
     """Return (source, column) of each quantity in what the loop of the tree leaves, flat.
 
     Parameters
     ----------
-    quantities : sequence of Quantity
+    quantities : sequence of RowQuantity
         What is kept.
     info, own : ModelInfo
         Of bodies, and of the tree.
@@ -76,7 +76,7 @@ class TreeRuns:
     loop: LoopRuns
 
     def run(self, rows: Rows, starts: Instant, selected: Integers, out: Results, control: Integers) -> bool:
-        """Run selected rows from consistent starts; parameters as for `symgen.ensemble.loops.LoopRuns.run`."""
+        """Run selected rows from consistent starts; parameters as for `symgen.ensemble.loop_runs.LoopRuns.run`."""
         info, own, runs = self.carried.bodies.info, self.loop.compiled.info, len(starts.y)
         scratch = np.zeros((runs, len(self.loop.compiled.scratch())))
         now, count = Instant(np.zeros((runs, own.ny)), np.tile(self.p, (runs, 1)), scratch), len(info.parameters)

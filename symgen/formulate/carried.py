@@ -6,15 +6,15 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Protocol
 
 from symgen.describe.mechanism import SpatialBody
-from symgen.formulate.equations import Driving, MassBlock
+from symgen.formulate.equations import DriverPower, MassBlock
 from symgen.vocabulary.measures import Measure
 
 if TYPE_CHECKING:
-    from symgen.formulate.measures import Model
+    from symgen.formulate.measures import ModelNodes
     from symgen.formulate.of_time import Coordinate
 
 
-class Carried(Protocol):
+class TreeBodies(Protocol):
     """Bodies on a tree of joints.
 
     Rows and forces of a mechanism are derived over the velocities of bodies: of a point of each, and its angular
@@ -76,7 +76,7 @@ class Carried(Protocol):
         """Return what a force at the centre of mass, in ground axes, is on the velocities of bodies."""
         ...
 
-    def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int], Driving | None]:
+    def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int], DriverPower | None]:
         """Return M and f of the state, from forces on the velocities of bodies, inertia apart; the power of drivers."""
         ...
 
@@ -85,7 +85,7 @@ class Carried(Protocol):
         ...
 
 
-def carried_energies(model: Model, forces: list[int]) -> tuple[int, int]:
+def carried_energies(model: ModelNodes, forces: list[int]) -> tuple[int, int]:
     """Return the kinetic energy and gravity's potential of bodies on a tree; adds weights to `forces`.
 
     Energies are those of the bodies' own velocities, not of M: they hold M to account in the balance of a run.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from symgen.formulate.measures import Model
+from symgen.formulate.measures import ModelNodes
 from symgen.formulate.of_time import potential_of
 from symgen.vocabulary.expressions import ZERO
 from symgen.vocabulary.measures import Effort
@@ -36,7 +36,7 @@ class Exertion:
     energy: int
 
 
-def exertion(model: Model, effort: Effort) -> Exertion:
+def exertion(model: ModelNodes, effort: Effort) -> Exertion:
     """Return what an effort exerts."""
     measure = model.motion(effort.measure)
     rate = measure.rate(model.graph, model.velocities)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from symgen.describe.mechanism import Mechanism
 from symgen.formulate.equations import Equations
 from symgen.formulate.formulate import formulate
-from symgen.formulate.measures import Model
+from symgen.formulate.measures import ModelNodes
 from symgen.ir.graph import Graph
 
 #: Room for one frame's record in the numbering of ("record", frame * RECORD + place).
@@ -84,7 +84,7 @@ def derive_element(abstract: Mechanism) -> Element:
         Its abstract mechanism.
     """
     equations = formulate(abstract)
-    model = Model(abstract, equations.graph)  # the same graph: nodes that are there already are found again
+    model = ModelNodes(abstract, equations.graph)  # the same graph: nodes that are there already are found again
     frames: list[FrameRecord] = []
     q = v = 0
     for body in abstract.bodies:

@@ -70,7 +70,7 @@ class Omission:
 
 
 @dataclass(frozen=True)
-class Driving:
+class DriverPower:
     """Power of the drivers of prescribed coordinates.
 
     What these exert against the efforts of rows is no part of it: that is in the power of rows, whose nu holds what
@@ -126,7 +126,7 @@ class Equations(Counted):
         Parameters that may change during a run.
     bodies : tuple of int
         Where joints of a tree carry the bodies: coordinates, velocities and accelerations of these.
-    driving : Driving, optional
+    driving : DriverPower, optional
         Where drivers prescribe coordinates of a tree, their power; no part of `power`.
     metric : tuple of MassBlock
         Where joints of a tree carry the bodies, the identity in the velocities of these, pulled back.
@@ -152,7 +152,7 @@ class Equations(Counted):
     spins: tuple[tuple[int, int], ...] = ()
     inputs: tuple[str, ...] = ()
     bodies: tuple[int, ...] = ()
-    driving: Driving | None = None
+    driving: DriverPower | None = None
     metric: tuple[MassBlock, ...] = ()
 
     def nodes(self, rows: Iterable[ConstraintRow] | None = None) -> dict[str, list[int]]:

@@ -15,7 +15,7 @@ from symgen.errors import finite_numbers
 from symgen.formulate.carried import carried_energies
 from symgen.formulate.efforts import exertion
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission
-from symgen.formulate.measures import Model
+from symgen.formulate.measures import ModelNodes
 from symgen.formulate.of_time import time_function
 from symgen.ir.program import of_table
 from symgen.vocabulary.expressions import ZERO
@@ -43,7 +43,7 @@ def formulate(mechanism: Mechanism) -> Equations:
     """
     mechanism, repeats = without_repeats(mechanism)
     with finite_numbers("mechanism"):
-        model = Model(mechanism)
+        model = ModelNodes(mechanism)
     rows = tuple(_derived(model, joint.name, row) for joint in mechanism.joints for row in joint.rows)
     forces, power, potential = _forces(model)
     driving = None
@@ -84,7 +84,7 @@ def formulate(mechanism: Mechanism) -> Equations:
     )
 
 
-def _bodies(model: Model) -> tuple[int, ...]:
+def _bodies(model: ModelNodes) -> tuple[int, ...]:
     """Return what bodies do that joints of a tree carry: coordinates, velocities, accelerations."""
     if model.tree is None:
         return ()
@@ -94,7 +94,7 @@ def _bodies(model: Model) -> tuple[int, ...]:
     return (*(model.names[n] for n in (*names, *speeds)), *(rates[n] for n in speeds))
 
 
-def _spins(model: Model) -> tuple[tuple[int, int], ...]:
+def _spins(model: ModelNodes) -> tuple[tuple[int, int], ...]:
     """Return where Euler parameters begin in q, and their angular velocities in v."""
     if model.tree is not None:
         return model.tree.spins
@@ -105,7 +105,7 @@ def _spins(model: Model) -> tuple[tuple[int, int], ...]:
     )
 
 
-def _joint_coordinates(model: Model) -> list[JointCoordinate]:
+def _joint_coordinates(model: ModelNodes) -> list[JointCoordinate]:
     found = list[JointCoordinate]()
     for joint in model.mechanism.joints:
         with finite_numbers(f"joints.{joint.name}"):
@@ -119,12 +119,12 @@ def _joint_coordinates(model: Model) -> list[JointCoordinate]:
 # -- constraints -----------------------------------------------------------------------------------------------------
 
 
-def _derived(model: Model, joint: str, row: Row) -> ConstraintRow:
+def _derived(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
     with finite_numbers(f"joints.{joint}"):
         return _row(model, joint, row)
 
 
-def _row(model: Model, joint: str, row: Row) -> ConstraintRow:
+def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
     g = model.graph
     value, slope, curvature = time_function(model, row.value)
     if isinstance(row, Holonomic):
@@ -141,7 +141,7 @@ def _row(model: Model, joint: str, row: Row) -> ConstraintRow:
     )
 
 
-def _size(model: Model, row: Row, entries: Mapping[int, int]) -> int | None:
+def _size(model: ModelNodes, row: Row, entries: Mapping[int, int]) -> int | None:
     """Return the square of a row over the velocities of bodies: translations, or rotations where it is an angle."""
     if model.tree is None or any(i >= model.size for i in entries):
         return None
@@ -156,7 +156,7 @@ def _size(model: Model, row: Row, entries: Mapping[int, int]) -> int | None:
 # -- forces, inertia and energies ------------------------------------------------------------------------------------
 
 
-def _forces(model: Model) -> tuple[list[int], int, int]:
+def _forces(model: ModelNodes) -> tuple[list[int], int, int]:
     """Return f without gravity, the power of its part without potential, and its potential."""
     g = model.graph
     forces, power, potential = [g.zero] * len(model.velocities), g.zero, g.zero
@@ -171,7 +171,7 @@ def _forces(model: Model) -> tuple[list[int], int, int]:
     return forces, power, potential
 
 
-def _inertia(model: Model, forces: list[int]) -> tuple[tuple[MassBlock, ...], int, int]:
+def _inertia(model: ModelNodes, forces: list[int]) -> tuple[tuple[MassBlock, ...], int, int]:
     """Return M, the kinetic energy and gravity's potential; adds weights and gyroscopic terms to `forces`."""
     g = model.graph
     gravity = tuple(model.expression(e) for e in model.mechanism.gravity)
@@ -201,7 +201,7 @@ def _inertia(model: Model, forces: list[int]) -> tuple[tuple[MassBlock, ...], in
     return tuple(sorted(blocks, key=lambda block: block.columns)), kinetic, potential
 
 
-def _turning(model: Model, first: int, tensor: tuple[int, ...], blocks: list[MassBlock], forces: list[int]) -> int:
+def _turning(model: ModelNodes, first: int, tensor: tuple[int, ...], blocks: list[MassBlock], forces: list[int]) -> int:
     """Add the inertia of rotation to M and -omega x (I omega) to f; return the energy of rotation.
 
     Written with differences of the principal entries, so that it vanishes for a body that is alike in all directions.

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from symgen.describe.formulas import Formulas
-from symgen.formulate.carried import Carried
-from symgen.formulate.euler import matrix_of, turning
+from symgen.formulate.carried import TreeBodies
+from symgen.formulate.euler_parameters import matrix_of, turning
 from symgen.formulate.frames import FRAME_SLOTS
-from symgen.formulate.kernels import derive
+from symgen.formulate.measure_kernels import derive
 from symgen.formulate.spatial import SPATIAL_SLOTS
 from symgen.formulate.tree_plane import PlanarTree
 from symgen.formulate.tree_space import SpatialTree
@@ -39,7 +39,7 @@ from symgen.vocabulary.measures import (
 
 
 @dataclass(frozen=True)
-class Derived:
+class DerivedMeasure:
     """A measure in the model: value, row (velocity index -> node) and quadratic velocity term b of s'' = J v' + b."""
 
     value: int
@@ -52,7 +52,7 @@ class Derived:
 
 
 @dataclass
-class Model(Formulas):
+class ModelNodes(Formulas):
     """The mechanism's names resolved to nodes: what every instantiation needs."""
 
     def __post_init__(self) -> None:
@@ -60,12 +60,12 @@ class Model(Formulas):
         self.time = self.names["t"]
         self.spatial = self.mechanism.space == "spatial"
         self.velocities = tuple(self.graph.input("v", i) for i in range(self.size))
-        self.tree: Carried | None = None
+        self.tree: TreeBodies | None = None
         if self.mechanism.topology is not None:
-            tree: Carried = SpatialTree(self) if self.spatial else PlanarTree(self)
+            tree: TreeBodies = SpatialTree(self) if self.spatial else PlanarTree(self)
             self.tree, self.velocities = tree, tree.velocities
             self.names |= tree.names
-        self._memo: dict[object, Derived] = {}
+        self._memo: dict[object, DerivedMeasure] = {}
         self._frames: dict[str, list[int]] = {}
         #: Raw angles of measures that count turns, in the order of their slots in the section ``winding``.
         self.windings: list[int] = []
@@ -168,22 +168,22 @@ class Model(Formulas):
 
     # -- measures ----------------------------------------------------------------------------------------------------
 
-    def measure(self, m: Measure) -> Derived:
+    def measure(self, m: Measure) -> DerivedMeasure:
         """Return value, row and bias of a measure; equal measures are derived once."""
         found = self._memo.get(m)
         if found is None:
             found = self._memo[m] = self._coordinate(m) or self._measure(m)
         return found
 
-    def _coordinate(self, m: Measure) -> Derived | None:
+    def _coordinate(self, m: Measure) -> DerivedMeasure | None:
         """Return a measure that is a coordinate of the state: its rate stands behind the velocities of bodies."""
         if self.tree is None or m not in self.tree.known:
             return None
         g, (coordinate, velocity, sign) = self.graph, self.tree.known[m]
         factor = g.constant(sign)
-        return Derived(g.mul(factor, g.input("q", coordinate)), {self.size + velocity: factor}, g.zero)
+        return DerivedMeasure(g.mul(factor, g.input("q", coordinate)), {self.size + velocity: factor}, g.zero)
 
-    def _measure(self, m: Measure) -> Derived:
+    def _measure(self, m: Measure) -> DerivedMeasure:
         if isinstance(m, Sum):
             return self._sum(m)
         if isinstance(m, Angle):
@@ -195,7 +195,7 @@ class Model(Formulas):
         assert isinstance(kind, str), "measures are tagged by the names of their kernels"
         derived = self._kernel(kind, bodies, constants)
         # the angular velocity is no rate of a measure, so that there is nothing to report as its value
-        return Derived(self.graph.zero, derived.row, derived.bias) if isinstance(m, Spin) else derived
+        return DerivedMeasure(self.graph.zero, derived.row, derived.bias) if isinstance(m, Spin) else derived
 
     def _parts(self, m: Measure) -> tuple[tuple[str, ...], list[int]]:
         """Return the bodies of a measure's frames, and its constants: points, then directions, then numbers."""
@@ -208,14 +208,14 @@ class Model(Formulas):
         turned = [node for x in directions for node in self.direction(x)]
         return tuple(bodies), [*located, *turned, *map(self.expression, numbers)]
 
-    def motion(self, m: Measure | Speed) -> Derived:
+    def motion(self, m: Measure | Speed) -> DerivedMeasure:
         """Return a measure, or a velocity that is no rate of one, whose value is 0."""
         if isinstance(m, PointSpeed | RollingSpeed | BladeSpeed):
             derived = self.speed(m)
-            return Derived(self.graph.zero, derived.row, derived.bias)
+            return DerivedMeasure(self.graph.zero, derived.row, derived.bias)
         return self.measure(m)
 
-    def _sum(self, m: Sum) -> Derived:
+    def _sum(self, m: Sum) -> DerivedMeasure:
         g = self.graph
         value, bias, row = g.zero, g.zero, dict[int, int]()
         for coefficient, part in m.terms:
@@ -224,9 +224,9 @@ class Model(Formulas):
             bias = g.add(bias, g.mul(k, derived.bias))
             for i, node in derived.row.items():
                 row[i] = g.add(row.get(i, g.zero), g.mul(k, node))
-        return Derived(value, {i: n for i, n in row.items() if n != g.zero}, bias)
+        return DerivedMeasure(value, {i: n for i, n in row.items() if n != g.zero}, bias)
 
-    def speed(self, speed: Speed) -> Derived:
+    def speed(self, speed: Speed) -> DerivedMeasure:
         """Return the velocity measure of a nonholonomic row; `value` is the kernel's u = J v."""
         if isinstance(speed, PointSpeed):
             constants = [*self.local(speed.at), *self.direction(speed.along)]
@@ -241,7 +241,7 @@ class Model(Formulas):
             return self._kernel("sphere-speed", bodies, constants)
         return self._kernel("disc-speed", bodies, [*constants, *self.direction(speed.axis)])
 
-    def _turn(self, m: Turning) -> Derived:
+    def _turn(self, m: Turning) -> DerivedMeasure:
         """Return an angle in space, on the branch nearest to the angle that the section ``winding`` remembers.
 
         s = atan2(y, x) of two measures, s' = (x y' - y x') / (x^2 + y^2), and s'' once more by the chain rule.
@@ -266,22 +266,22 @@ class Model(Formulas):
         turns = g.call("floor", g.add(g.div(g.sub(before, angle), g.constant(math.tau)), g.constant(0.5)))
         value = g.add(angle, g.mul(g.constant(math.tau), turns))
         self.windings.append(value)
-        return Derived(value, {i: n for i, n in row.items() if n != g.zero}, bias)
+        return DerivedMeasure(value, {i: n for i, n in row.items() if n != g.zero}, bias)
 
     def place_of_turn(self, m: Measure) -> int:
         """Return where the section ``winding`` remembers an angle: behind those that were derived before."""
         return len(self.windings)
 
-    def _angle(self, m: Angle) -> Derived:
+    def _angle(self, m: Angle) -> DerivedMeasure:
         g, value, row = self.graph, self.graph.zero, dict[int, int]()
         for body, sign in ((m.b, g.one), (m.a, g.constant(-1.0))):
             if body != GROUND:
                 i = self.first[body] + 2
                 value = g.add(value, g.mul(sign, self.names[f"{body}.theta"]))
                 row[i] = g.add(row.get(i, g.zero), sign)
-        return Derived(value, {i: n for i, n in row.items() if n != g.zero}, g.zero)
+        return DerivedMeasure(value, {i: n for i, n in row.items() if n != g.zero}, g.zero)
 
-    def _kernel(self, kind: str, bodies: tuple[str, ...], constants: list[int]) -> Derived:
+    def _kernel(self, kind: str, bodies: tuple[str, ...], constants: list[int]) -> DerivedMeasure:
         slots: dict[str, int] = {}
         for body in bodies:
             slots.setdefault(body, len(slots))
@@ -295,4 +295,4 @@ class Model(Formulas):
                 if nodes[position] != self.graph.zero:
                     row[self.first[body] + offset] = nodes[position]
                 position += 1
-        return Derived(nodes[0], row, nodes[-1])
+        return DerivedMeasure(nodes[0], row, nodes[-1])

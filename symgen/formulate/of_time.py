@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import sympy as sp
 
-from symgen.formulate.equations import Driving
+from symgen.formulate.equations import DriverPower
 from symgen.formulate.translate import NotReal, Translator, to_sympy
 from symgen.ir.derivative import jacobian
 from symgen.vocabulary.expressions import Expr, names
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from symgen.describe.mechanism import Topology
-    from symgen.formulate.measures import Model
+    from symgen.formulate.measures import ModelNodes
     from symgen.ir.graph import Graph
 
 
@@ -29,13 +29,13 @@ def as_symbols(e: Expr, *placeholders: str) -> dict[str, Any]:
     return {n: sp.Symbol(f"x{i}", real=True) for i, n in enumerate(dict.fromkeys([*placeholders, *names(e)]))}
 
 
-def translated(model: Model, symbols: dict[str, Any], expressions: list[Any], **nodes: int) -> list[int]:
+def translated(model: ModelNodes, symbols: dict[str, Any], expressions: list[Any], **nodes: int) -> list[int]:
     """Return the nodes of SymPy expressions over symbols of names; placeholders stand for `nodes`."""
     known = {symbol: nodes[n] if n in nodes else model.names[n] for n, symbol in symbols.items()}
     return Translator(model.graph, known).all(expressions)
 
 
-def time_function(model: Model, e: Expr) -> tuple[int, int, int]:
+def time_function(model: ModelNodes, e: Expr) -> tuple[int, int, int]:
     """Return value, first and second time derivative of a formula of t and parameters."""
     g = model.graph
     if "t" not in names(e):
@@ -53,7 +53,7 @@ def time_function(model: Model, e: Expr) -> tuple[int, int, int]:
         return value, slope, _slope(g, slope, ("t", 0))
 
 
-def potential_of(model: Model, e: Expr, s: int) -> tuple[int, int]:
+def potential_of(model: ModelNodes, e: Expr, s: int) -> tuple[int, int]:
     """Return -dU/ds and U of a formula U of ``s``, which is `s`, and parameters."""
     symbols = as_symbols(e, "s")
     try:
@@ -85,7 +85,7 @@ class Coordinate(NamedTuple):
     acceleration: int
 
 
-def prescribed_coordinates(model: Model, topology: Topology) -> dict[tuple[str, str], Coordinate]:
+def prescribed_coordinates(model: ModelNodes, topology: Topology) -> dict[tuple[str, str], Coordinate]:
     """Return the coordinates that drivers prescribe, by body and label."""
     g, found = model.graph, dict[tuple[str, str], Coordinate]()
     for k, x in enumerate(topology.prescribed):
@@ -100,7 +100,7 @@ def driving_of(
     coordinates: Mapping[int, Coordinate],
     mass: Mapping[tuple[int, int], int],
     forces: Mapping[int, int],
-) -> Driving | None:
+) -> DriverPower | None:
     """Return the power of drivers from their rows of M and f, None where there are none."""
     driven = {i: c for i, c in coordinates.items() if i < 0}
     if not driven:
@@ -111,4 +111,4 @@ def driving_of(
         for (row, j), node in sorted(mass.items()):
             if row == i and j >= 0:
                 found[j] = graph.add(found.get(j, graph.zero), graph.mul(c.rate, node))
-    return Driving(tuple(sorted(found.items())), rest)
+    return DriverPower(tuple(sorted(found.items())), rest)

@@ -13,17 +13,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from symgen.describe.mechanism import Link, SpatialBody
-from symgen.formulate.vectors import Matrix, Triple, Vectors
+from symgen.formulate.vector_algebra import Matrix, Triple, Vectors
 from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from symgen.formulate.measures import Model
+    from symgen.formulate.measures import ModelNodes
 
 
 @dataclass(frozen=True)
-class Motion:
+class BodyVelocity:
     """What a velocity of the state does to the body of its link: turns it about, and moves it along, in its axes."""
 
     about: Triple
@@ -40,7 +40,7 @@ class Placed(Protocol):
     axes: Matrix
     bias: Triple
     whirl: Matrix
-    motions: dict[int, Motion]
+    motions: dict[int, BodyVelocity]
     centre: Triple
     hinge: tuple[Triple, Triple] | None
     children: list[str]
@@ -65,7 +65,7 @@ class Composite:
 
     Parameters
     ----------
-    model : Model
+    model : ModelNodes
         The mechanism.
     placed : mapping of str to Placed
         Its bodies in an order in which each stands behind what carries it, the ground among them.
@@ -75,7 +75,7 @@ class Composite:
         Whether all bodies have mass 1 and inertia 1 in all directions: M is the metric of their velocities then.
     """
 
-    def __init__(self, model: Model, placed: Mapping[str, Placed], forces: list[int], alike: bool = False) -> None:
+    def __init__(self, model: ModelNodes, placed: Mapping[str, Placed], forces: list[int], alike: bool = False) -> None:
         self.model, self.placed, self.forces, self.alike = model, placed, forces, alike
         self.v = Vectors(model.graph)
         self.order = [name for name in placed if name != GROUND]

@@ -19,17 +19,17 @@ from typing import TYPE_CHECKING
 
 from symgen.describe.mechanism import Body, Link, Vec
 from symgen.describe.topology import known_coordinates, labels_of
-from symgen.formulate.equations import Driving, MassBlock, mass_blocks
+from symgen.formulate.equations import DriverPower, MassBlock, mass_blocks
 from symgen.formulate.of_time import Coordinate, driving_of, prescribed_coordinates
-from symgen.formulate.vectors import Pair, PlaneVectors
+from symgen.formulate.vector_algebra import Pair, PlaneVectors
 from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
-    from symgen.formulate.measures import Model
+    from symgen.formulate.measures import ModelNodes
 
 
 @dataclass
-class _Placed:
+class _PlanarPlace:
     """A body where its joint holds it, as nodes.
 
     Attributes
@@ -87,7 +87,7 @@ class PlanarTree:
 
     spins: tuple[tuple[int, int], ...] = ()
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: ModelNodes) -> None:
         self.model, self.graph = model, model.graph
         topology = model.mechanism.topology
         assert topology is not None, "a tree belongs to it"
@@ -95,7 +95,7 @@ class PlanarTree:
         nothing, still = (g.zero, g.zero), (g.one, g.zero)
         ground = Link(GROUND)
         self.placed = {
-            GROUND: _Placed(
+            GROUND: _PlanarPlace(
                 *(ground, nothing, nothing, nothing, still, (), g.zero, g.zero, g.zero, False, nothing, nothing),
                 *({}, {}, nothing, nothing, nothing),
             )
@@ -201,7 +201,7 @@ class PlanarTree:
             before = columns.get(turner, (g.zero, g.zero))
             columns[turner] = self.v.add(before, self.v.perp(arm))
         columns |= slides
-        self.placed[link.body] = _Placed(
+        self.placed[link.body] = _PlanarPlace(
             link,
             at,
             velocity,
@@ -235,7 +235,7 @@ class PlanarTree:
             group = self._next()
             turners, turned, spin = (group,), g.input("q", group), g.input("v", group)
             axes = (g.call("cos", turned), g.call("sin", turned))
-        self.placed[link.body] = _Placed(
+        self.placed[link.body] = _PlanarPlace(
             *(link, at, velocity, nothing, axes, turners, turned, spin, g.zero, False, at, None, dict(slides), slides),
             *(nothing, nothing, nothing),
         )
@@ -247,7 +247,7 @@ class PlanarTree:
         at = [self.model.expression(e) for e in reference]
         return g.sub(com[0], at[0]), g.sub(com[1], at[1])
 
-    def _name(self, body: Body, p: _Placed) -> None:
+    def _name(self, body: Body, p: _PlanarPlace) -> None:
         """Note the coordinates and velocities of a body by their names."""
         rho = self.v.rotate(p.axes, p.centre)
         place = self.v.add(p.at, rho)
@@ -302,7 +302,7 @@ class PlanarTree:
 
     def dynamics(
         self, forces: list[int], alike: bool = False
-    ) -> tuple[tuple[MassBlock, ...], list[int], Driving | None]:
+    ) -> tuple[tuple[MassBlock, ...], list[int], DriverPower | None]:
         """Return M and f of the state, from forces on the velocities of bodies, inertia apart; the power of drivers."""
         g, model = self.graph, self.model
         masses, moments, seconds = dict[str, int](), dict[str, Pair](), dict[str, int]()

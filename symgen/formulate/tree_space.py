@@ -15,15 +15,15 @@ from typing import TYPE_CHECKING
 
 from symgen.describe.mechanism import Articulation, Link, SpatialBody
 from symgen.describe.topology import known_coordinates, labels_of
-from symgen.formulate.equations import Driving, MassBlock, mass_blocks
-from symgen.formulate.euler import composed, half_turn, inverse, matrix_of, parameters_of, turning
+from symgen.formulate.equations import DriverPower, MassBlock, mass_blocks
+from symgen.formulate.euler_parameters import composed, half_turn, inverse, matrix_of, parameters_of, turning
 from symgen.formulate.of_time import Coordinate, driving_of, prescribed_coordinates
-from symgen.formulate.tree_inertia import Composite, Motion
-from symgen.formulate.vectors import Matrix, Triple, Vectors
+from symgen.formulate.tree_inertia import BodyVelocity, Composite
+from symgen.formulate.vector_algebra import Matrix, Triple, Vectors
 from symgen.vocabulary.measures import GROUND, Direction
 
 if TYPE_CHECKING:
-    from symgen.formulate.measures import Model
+    from symgen.formulate.measures import ModelNodes
 
 
 @dataclass
@@ -72,7 +72,7 @@ class _Placed:
     alpha: Triple
     bias: Triple
     whirl: Matrix
-    motions: dict[int, Motion]
+    motions: dict[int, BodyVelocity]
     columns: dict[int, tuple[Triple, Triple]]
     centre: Triple
     euler: Sequence[int]
@@ -83,7 +83,7 @@ class _Placed:
 class SpatialTree:
     """Bodies in space on a tree; see `symgen.formulate.carried.Carried`."""
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: ModelNodes) -> None:
         self.model, self.graph = model, model.graph
         topology = model.mechanism.topology
         assert topology is not None, "a tree belongs to it"
@@ -162,7 +162,7 @@ class SpatialTree:
         assert isinstance(body, SpatialBody), "bodies in space"
         parent.children.append(link.body)
         found = link.articulation
-        motions: dict[int, Motion] = {}
+        motions: dict[int, BodyVelocity] = {}
         rate = gained = v.zero  # of the arm, in the parent's axes; and what is known of that one's rate
         if found is None:
             reference = body.centre_of_mass
@@ -195,7 +195,7 @@ class SpatialTree:
             euler, indices = self._ball()
             axes = _rows(v, matrix_of(g, euler))
             turn = axes if link.parent == GROUND else v.product(v.transposed(parent.axes), axes)
-            motions |= {i: Motion(unit, v.zero) for i, unit in zip(indices, v.units, strict=True)}
+            motions |= {i: BodyVelocity(unit, v.zero) for i, unit in zip(indices, v.units, strict=True)}
         else:
             assert found is not None, "it is no free body"
             turn, quaternion, abouts, twisted = self._turn(found, link)
@@ -211,12 +211,12 @@ class SpatialTree:
                     rate = v.add(rate, v.scale(g.mul(slope, c.rate), axis))
                     gained = v.add(gained, v.scale(g.mul(slope, c.acceleration), axis))
                     along = v.back(turn, v.scale(slope, axis))
-                motions[i] = Motion(about, along)
+                motions[i] = BodyVelocity(about, along)
                 relative = v.add(relative, v.scale(c.rate, about))
                 extra = v.add(extra, v.scale(c.acceleration, about))
             axes = v.product(parent.axes, turn)
             euler = composed(g, parent.euler, quaternion)
-        motions |= {i: Motion(v.zero, v.back(turn, e)) for i, e in directions.items()}
+        motions |= {i: BodyVelocity(v.zero, v.back(turn, e)) for i, e in directions.items()}
         if body.is_point:
             omega = alpha = v.zero
         elif own_turn:
@@ -372,7 +372,7 @@ class SpatialTree:
         """Return nothing: gravity is an acceleration of the ground."""
         return {}
 
-    def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int], Driving | None]:
+    def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int], DriverPower | None]:
         """Return M and f of the state, from forces on the velocities of bodies, inertia apart; the power of drivers."""
         found, size = Composite(self.model, self.placed, forces), self.size
         mass, f = found.mass(), found.force()

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.runtime.blocks import padded
 from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
+from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel

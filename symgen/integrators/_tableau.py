@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.runtime.blocks import padded
 from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
+from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
@@ -107,7 +107,7 @@ class Tableau:
 
     def record(self, adaptive: bool) -> Any:
         """Return the scheme as loops take it, with dense output for adaptive ones."""
-        from symgen.runtime.records import Tableau as Record
+        from symgen.runtime.records import TableauRecord as Record
 
         start, column, value, nodes = self.packed()
         dense, ends = np.zeros(0), any(e[-1] != 0.0 for e in self.errors)

@@ -12,8 +12,8 @@ import numpy as np
 
 from symgen.integrators._tableau import Tableau
 from symgen.integrators.rk4 import KIND as RK4
-from symgen.runtime.blocks import padded
 from symgen.runtime.integrator import Array, Setup, law_functions
+from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel

@@ -175,7 +175,7 @@ class Block:
 
 
 @dataclass(frozen=True)
-class Layout:
+class ModelLayout:
     """Sizes of the model and the sections of the scratch array ``w`` and of ``p``."""
 
     nq: int
@@ -200,7 +200,7 @@ class Layout:
 
 
 @dataclass(frozen=True)
-class Entry:
+class JacobianEntry:
     """A stored entry of D: a constant of the scene, or element `slot` of the section ``jacobian``."""
 
     row: int
@@ -215,9 +215,9 @@ class ModelProgram:
 
     name: str
     digest: str
-    layout: Layout
+    layout: ModelLayout
     blocks: tuple[Block, ...]
-    jacobian: tuple[Entry, ...]
+    jacobian: tuple[JacobianEntry, ...]
     hoisted: int  # numbers kept behind the parameters in p
     order: tuple[int, ...]  # elimination order of the rows
     fill: int  # entries of L that are zero in D D^T
@@ -292,6 +292,6 @@ class LawCode:
 class LawProgram(LawCode):
     """What one method adds in straight code: modules of the emitted folder beside ``model``."""
 
-    layout: Layout
+    layout: ModelLayout
     blocks: tuple[Block, ...]
     degrees: int = 0  # room for columns of a tangent basis

@@ -44,7 +44,7 @@ class Contact(NamedTuple):
         return Joint(scope.name, scope.kind, (self.body,), (height, *slips))
 
 
-class Rolling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class RollingContact(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A round body on a plane of the ground.
 
     Parameters

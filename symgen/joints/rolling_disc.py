@@ -8,12 +8,12 @@ from symgen.describe.fields import Axis
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triad
-from symgen.joints._rolling import Rolling
+from symgen.joints._rolling import RollingContact
 from symgen.vocabulary.expressions import number
 from symgen.vocabulary.measures import Holonomic, RimHeight, Sum
 
 
-class RollingDisc(Rolling, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class RollingDisc(RollingContact, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A thin disc that rolls on a plane of the ground, leaning as it likes; singular where it lies flat. In space only.
 
     Parameters

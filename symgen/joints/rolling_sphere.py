@@ -6,12 +6,12 @@ from typing import ClassVar
 
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
-from symgen.joints._rolling import Rolling
+from symgen.joints._rolling import RollingContact
 from symgen.vocabulary.expressions import call
 from symgen.vocabulary.measures import Component, Holonomic
 
 
-class RollingSphere(Rolling, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class RollingSphere(RollingContact, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A sphere that rolls on a plane of the ground; it may spin about the normal. In space only.
 
     Notes

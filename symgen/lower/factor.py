@@ -50,7 +50,7 @@ def minimum_degree(neighbours: Sequence[frozenset[int]]) -> tuple[tuple[int, ...
 
 
 @dataclass(frozen=True)
-class Factor:
+class FactorNodes:
     """L and the reciprocal pivots of an L D L^T factorisation, as nodes.
 
     `lower[k]` lists (row, node) of column k of L below the diagonal, in the order of elimination.
@@ -89,7 +89,7 @@ def factorise(
     matrix: Mapping[tuple[int, int], int],
     order: Sequence[int],
     reciprocal: Callable[[int, int, int], int],
-) -> Factor:
+) -> FactorNodes:
     """Build the factorisation of a symmetric matrix of nodes.
 
     Parameters
@@ -127,4 +127,4 @@ def factorise(
                 columns[i].add(j)
                 columns[j].add(i)
         lower[k] = tuple(zip(below, factors, strict=True))
-    return Factor(tuple(order), lower, reciprocals, pivots, {k: matrix[k, k] for k in order})
+    return FactorNodes(tuple(order), lower, reciprocals, pivots, {k: matrix[k, k] for k in order})

@@ -7,11 +7,11 @@ from dataclasses import replace
 
 from symgen.formulate.equations import Equations
 from symgen.ir.derivative import jacobian
-from symgen.ir.program import Block, LawProgram, Layout, ModelProgram, Target
-from symgen.lower.factor import Factor
+from symgen.ir.program import Block, LawProgram, ModelLayout, ModelProgram, Target
+from symgen.lower.factor import FactorNodes
 from symgen.lower.hoist import Hoister
-from symgen.lower.record import ARGUMENTS, EQUATIONS, Part, Record, record_form, record_law
-from symgen.lower.scalar import Scalars
+from symgen.lower.record import ARGUMENTS, EQUATIONS, Part, RecordedLaw, record_form, record_law
+from symgen.lower.scalar import ScalarNodes
 from symgen.lower.scalar_values import Outputs, to_status
 from symgen.methods._base import Method
 from symgen.vocabulary.infos import LawInfo
@@ -41,7 +41,7 @@ def lower_law(
         Whether the descriptor form for implicit integrators is added.
     """
     record, names = record_law(method, options, equations.driving is not None), [p.name for p in method.parameters]
-    scalars = Scalars(equations, record.operations, names)
+    scalars = ScalarNodes(equations, record.operations, names)
     scalars.run(range(len(record.operations)))
     hoister = Hoister(scalars.graph, model.layout.parameters + model.hoisted, len(names))
     for part in record.parts:
@@ -79,7 +79,7 @@ def lower_law(
     return LawProgram(info, record.form, closed, correction, layout, tuple(blocks), degrees)
 
 
-def law_block(hoister: Hoister, scalars: Scalars, part: Part) -> Block:
+def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part) -> Block:
     """Return a function of a law as a block."""
     flag = None if part.flag is None else scalars.values[part.flag]
     purpose = part.purpose + ("" if flag is None else "; 1 where a pivot of S is suspicious")
@@ -87,7 +87,7 @@ def law_block(hoister: Hoister, scalars: Scalars, part: Part) -> Block:
     return replace(block, role=part.role)
 
 
-def part_outputs(scalars: Scalars, part: Part) -> Outputs:
+def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
     """Return what a function of a law writes; where M changes with the position, those without the state read it."""
     if scalars.mass_entries and "y" not in ARGUMENTS[part.name]:
         scalars = scalars.with_stored_mass
@@ -97,12 +97,12 @@ def part_outputs(scalars: Scalars, part: Part) -> Outputs:
     return found
 
 
-def _outputs(scalars: Scalars, place: str, index: int) -> Outputs:
+def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:
     """Return where the nodes of a value go."""
     e, value = scalars.equations, scalars.values[index]
     if scalars.operations[index].kind.startswith("keep"):
         return scalars.kept[place]
-    if isinstance(value, Factor):
+    if isinstance(value, FactorNodes):
         return scalars.kept[f"{place}lower"] + scalars.kept[f"{place}reciprocal"]
     if place == "geometry":
         return list(value)
@@ -116,7 +116,9 @@ def _outputs(scalars: Scalars, place: str, index: int) -> Outputs:
     return [(Target(space, first + i), node) for i, node in enumerate(nodes)]
 
 
-def _sections(layout: Layout, record: Record, blocks: list[Block], degrees: int) -> dict[str, tuple[int, int]]:
+def _sections(
+    layout: ModelLayout, record: RecordedLaw, blocks: list[Block], degrees: int
+) -> dict[str, tuple[int, int]]:
     """Return the sections of ``w``: those of the model, and the law's own behind them."""
     sizes = {"nv": layout.nv, "m": layout.m, "degrees": degrees}
     sections, offset = dict(layout.sections), layout.nw
@@ -132,7 +134,7 @@ def _sections(layout: Layout, record: Record, blocks: list[Block], degrees: int)
 
 
 def _form_blocks(
-    hoister: Hoister, law: Scalars, form: Record, unknowns: int
+    hoister: Hoister, law: ScalarNodes, form: RecordedLaw, unknowns: int
 ) -> tuple[list[Block], tuple[tuple[int, int], ...]]:
     """Return the blocks ``residual`` and ``tangent``, and equation and unknown of each number of the latter.
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from symgen.describe.derived import derived
+from symgen.describe.derived_parameters import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.formulate.efforts import exertion
 from symgen.formulate.equations import Equations

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from symgen.formulate.equations import Equations
-from symgen.ir.program import SECTIONS, STATUS, Block, Layout, ModelProgram, Target
+from symgen.ir.program import SECTIONS, STATUS, Block, ModelLayout, ModelProgram, Target
 from symgen.lower.hoist import Hoister
 from symgen.lower.law import law_block
 from symgen.lower.manifold import manifold_blocks
 from symgen.lower.record import record_model
-from symgen.lower.scalar import Scalars
+from symgen.lower.scalar import ScalarNodes
 from symgen.lower.scalar_values import Outputs, to_status
 
 
@@ -23,7 +23,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         Digest of the canonical description, for the emitted header.
     """
     m, record = equations.m, record_model()
-    scalars = Scalars(equations, record.operations)
+    scalars = ScalarNodes(equations, record.operations)
     scalars.run(range(len(record.operations)))
     geometry, spread = record.parts
     factor = scalars.values[geometry.outputs[1][1]]
@@ -40,7 +40,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         if size or name not in ("winding", "mass_entry"):
             sections[name] = (offset, size)
             offset += size
-    layout = Layout(equations.nq, equations.nv, m, len(equations.parameters), sections)
+    layout = ModelLayout(equations.nq, equations.nv, m, len(equations.parameters), sections)
     hoister = Hoister(scalars.graph, layout.parameters)
     blocks = [
         law_block(hoister, scalars, geometry),
@@ -68,7 +68,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
     )
 
 
-def _diagonal(scalars: Scalars) -> Outputs:
+def _diagonal(scalars: ScalarNodes) -> Outputs:
     """Return the diagonal of M; where it changes with the position, that at coordinates and time of 0."""
     equations, g = scalars.equations, scalars.graph
     found = [(Target("mass", j), b.entries[k][k]) for b in equations.mass for k, j in enumerate(b.columns)]
@@ -82,7 +82,7 @@ def _diagonal(scalars: Scalars) -> Outputs:
 # -- blocks of the model ----------------------------------------------------------------------------------------------
 
 
-def measure(hoister: Hoister, scalars: Scalars) -> Block:
+def measure(hoister: Hoister, scalars: ScalarNodes) -> Block:
     """Return the block that measures a state after its geometry."""
     g, equations = hoister.graph, scalars.equations
     outputs: Outputs = []
@@ -100,7 +100,7 @@ def measure(hoister: Hoister, scalars: Scalars) -> Block:
     return hoister.block("measure", purpose, outputs, ("t", "y", "p", "w"))
 
 
-def observe(hoister: Hoister, scalars: Scalars) -> Block:
+def observe(hoister: Hoister, scalars: ScalarNodes) -> Block:
     """Return the block of what is reported at outputs only."""
     g, e = hoister.graph, scalars.equations
     changes = scalars.product(scalars.rows, scalars.section("rates.v", e.nv))

@@ -11,7 +11,7 @@ from typing import assert_never
 
 from symgen.errors import InputError
 from symgen.methods._base import Acceleration, Dense, Descriptor, Iteration, Law, Method, Tangent, multiplier_law
-from symgen.methods._formula import Factor, Operation, Scalar, System, Value, Vector
+from symgen.methods._formula import Factor, FormulaStep, Scalar, System, Value, Vector
 
 #: Groups of equations of a descriptor form: kinematic, dynamic, then up to three rows for each constraint.
 EQUATIONS = ("q", "v", "first", "second", "third")
@@ -50,12 +50,12 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Record:
+class RecordedLaw:
     """A law as formulas.
 
     Parameters
     ----------
-    operations : tuple of Operation
+    operations : tuple of FormulaStep
         What was asked for, in that order.
     parts : tuple of Part
         The functions, in the order of their text.
@@ -65,13 +65,13 @@ class Record:
         How v' is found: ``direct``, ``iterated``, ``dense`` or ``tangent``; of a descriptor form its level.
     """
 
-    operations: tuple[Operation, ...]
+    operations: tuple[FormulaStep, ...]
     parts: tuple[Part, ...]
     sections: tuple[tuple[str, tuple[str, ...]], ...] = ()
     form: str = ""
 
 
-def record_law(method: Method, options: Mapping[str, str], driven: bool = False) -> Record:
+def record_law(method: Method, options: Mapping[str, str], driven: bool = False) -> RecordedLaw:
     """Record what a method asks for: its acceleration law, and its correction where the model's does not do.
 
     `driven` says that drivers prescribe coordinates of a tree: their power is work.
@@ -93,8 +93,10 @@ class _Law:
         self.sections: dict[str, tuple[str, ...]] = {}
         self.form, self.role = "", "acceleration"
 
-    def record(self) -> Record:
-        return Record(tuple(self.system.tape.operations), tuple(self.parts), tuple(self.sections.items()), self.form)
+    def record(self) -> RecordedLaw:
+        return RecordedLaw(
+            tuple(self.system.tape.operations), tuple(self.parts), tuple(self.sections.items()), self.form
+        )
 
     def add(self, name: str, purpose: str, *outputs: tuple[str, Value], flag: Value | None = None) -> None:
         found = tuple((place, value.index) for place, value in outputs)
@@ -283,7 +285,7 @@ def _change(s: System, factor: Factor) -> Vector:
     return s.stored_constraints().transposed(y)
 
 
-def record_model() -> Record:
+def record_model() -> RecordedLaw:
     """Record what all methods share: geometry with the factor that decides rank, and x = -G D^T (D G D^T)^-1 r.
 
     G makes rows of one unit: 1 for translations, 1 / l^2 for rotations, l being the length of the body.
@@ -300,7 +302,7 @@ def record_model() -> Record:
 # -- descriptor forms --------------------------------------------------------------------------------------------------
 
 
-def record_form(method: Method, options: Mapping[str, str], kind: str = "whole", driven: bool = False) -> Record:
+def record_form(method: Method, options: Mapping[str, str], kind: str = "whole", driven: bool = False) -> RecordedLaw:
     """Record a method's descriptor form F(t, y, k) = 0: one part ``residual`` with groups of equations.
 
     Unknowns of a stage are k = (q', v', lambda), and for stabilised index 2 also eta. The equations are ``q' - N (v -
@@ -353,7 +355,7 @@ def record_form(method: Method, options: Mapping[str, str], kind: str = "whole",
         found.append(("power", power))
     written = tuple((g, v.index) for g, v in found)
     part = Part("residual", "F(t, y, k) of the descriptor form, and the power", written, role="form")
-    return Record(tuple(s.tape.operations), (part,), form=form.level)
+    return RecordedLaw(tuple(s.tape.operations), (part,), form=form.level)
 
 
 def _constraints(s: System, form: Descriptor, accelerations: Vector, multipliers: Vector) -> list[Vector]:

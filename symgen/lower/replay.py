@@ -7,7 +7,7 @@ from typing import Any
 
 from symgen.ir.graph import Graph
 from symgen.ir.program import STATUS
-from symgen.methods._formula import Operation
+from symgen.methods._formula import FormulaStep
 
 Nodes = tuple[int, ...]
 
@@ -22,7 +22,7 @@ class Replay:
     ----------
     graph : Graph
         Where nodes are made.
-    operations : tuple of Operation
+    operations : tuple of FormulaStep
         The tape.
     parameters : sequence of str
         Names of the parameters of the method.
@@ -37,7 +37,7 @@ class Replay:
 
     mask: Nodes
 
-    def __init__(self, graph: Graph, operations: tuple[Operation, ...], parameters: Sequence[str] = ()) -> None:
+    def __init__(self, graph: Graph, operations: tuple[FormulaStep, ...], parameters: Sequence[str] = ()) -> None:
         self.graph, self.operations, self.parameters = graph, operations, tuple(parameters)
         self.values: dict[int, Any] = {}
 
@@ -60,23 +60,23 @@ class Replay:
             return function(*operands)
         return tuple(function(*(x[i] if isinstance(x, tuple) else x for x in operands)) for i in range(lengths[0]))
 
-    def _on_constant(self, operation: Operation) -> int:
+    def _on_constant(self, operation: FormulaStep) -> int:
         (value,) = operation.payload
         return self.graph.constant(float(value))
 
-    def _on_parameter(self, operation: Operation) -> int:
+    def _on_parameter(self, operation: FormulaStep) -> int:
         return self.graph.input("parameter", self.parameters.index(str(operation.payload[0])))
 
-    def _on_status(self, operation: Operation) -> int:
+    def _on_status(self, operation: FormulaStep) -> int:
         return self.graph.input("status", STATUS.index(str(operation.payload[0])))
 
-    def _on_sqrt(self, operation: Operation, x: int) -> int:
+    def _on_sqrt(self, operation: FormulaStep, x: int) -> int:
         return self.graph.call("sqrt", x)
 
-    def _on_min(self, operation: Operation, a: int, b: int) -> int:
+    def _on_min(self, operation: FormulaStep, a: int, b: int) -> int:
         return self.graph.call("min", a, b)
 
-    def _on_penalties(self, operation: Operation, penalty: int) -> Nodes:
+    def _on_penalties(self, operation: FormulaStep, penalty: int) -> Nodes:
         g = self.graph
         found: Nodes = self.each(lambda mask, a: g.mul(a, g.call("step", g.one, mask)), self.mask, penalty)
         return found

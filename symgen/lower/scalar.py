@@ -7,21 +7,21 @@ from functools import cached_property
 
 from symgen.ir.numerics import SKIP, SUSPICIOUS, TINY
 from symgen.ir.program import STATUS, Target
-from symgen.lower.factor import Factor, factorise, minimum_degree
+from symgen.lower.factor import FactorNodes, factorise, minimum_degree
 from symgen.lower.replay import Nodes
 from symgen.lower.scalar_mass import OfMass
 from symgen.lower.scalar_values import Outputs, Rows, to_status
-from symgen.methods._formula import Operation
+from symgen.methods._formula import FormulaStep
 
 
-class Scalars(OfMass):
+class ScalarNodes(OfMass):
     """The operations of formulas on nodes of a mechanism's graph.
 
     What they name is in `symgen.lower.scalar_values`, which says what this is made of; here are factorisations, and
     what they say of rank.
     """
 
-    def _on_weighted_body(self, operation: Operation, rank: Factor) -> Factor:
+    def _on_weighted_body(self, operation: FormulaStep, rank: FactorNodes) -> FactorNodes:
         """Return the factor of D W^-1 D^T in the function that decides rank."""
         return self._weighted_beside(rank, self.body.mass_gram(self.rows))
 
@@ -30,14 +30,14 @@ class Scalars(OfMass):
         """Elimination order of the rows; one for S and D D^T, whose pattern is contained in S's."""
         return minimum_degree(self.neighbours(self.rows, self.coupled))[0]
 
-    def _on_schur(self, operation: Operation) -> Factor:
+    def _on_schur(self, operation: FormulaStep) -> FactorNodes:
         """Return the factor of S = D M^-1 D^T; masked rows get a reciprocal pivot of 0, small pivots a flag."""
         return self._masked_factor(self.mass_gram(self.rows))
 
-    def _on_pseudoinverse(self, operation: Operation, matrix: Rows) -> Factor:
+    def _on_pseudoinverse(self, operation: FormulaStep, matrix: Rows) -> FactorNodes:
         return self._masked_factor(self.gram(matrix))
 
-    def _masked_factor(self, matrix: Mapping[tuple[int, int], int]) -> Factor:
+    def _masked_factor(self, matrix: Mapping[tuple[int, int], int]) -> FactorNodes:
         g = self.graph
 
         def reciprocal(row: int, pivot: int, diagonal: int) -> int:
@@ -48,14 +48,14 @@ class Scalars(OfMass):
 
         return factorise(g, matrix, self.order, reciprocal)
 
-    def _on_flag(self, operation: Operation) -> int | None:
+    def _on_flag(self, operation: FormulaStep) -> int | None:
         """Return the node that is true where a pivot of S was suspicious so far."""
         result = None
         for node in self.flags:
             result = node if result is None else self.graph.call("or", result, node)
         return result
 
-    def _on_rank(self, operation: Operation) -> Factor:
+    def _on_rank(self, operation: FormulaStep) -> FactorNodes:
         """Return the factor of D G D^T that decides rank: dependent rows get a reciprocal pivot of 0."""
 
         def reciprocal(row: int, pivot: int, diagonal: int) -> int:
@@ -92,7 +92,7 @@ class Scalars(OfMass):
         g = self.graph
         return g.div(g.one, pivot) if keep == g.one else g.div(keep, g.call("max", pivot, g.constant(TINY)))
 
-    def _weighted(self, matrix: Mapping[tuple[int, int], int], keep: Callable[[int], int]) -> Factor:
+    def _weighted(self, matrix: Mapping[tuple[int, int], int], keep: Callable[[int], int]) -> FactorNodes:
         """Return the factor of D W D^T, of the rows for which `keep` gives 1."""
 
         def reciprocal(row: int, pivot: int, _: int) -> int:
@@ -100,11 +100,11 @@ class Scalars(OfMass):
 
         return factorise(self.graph, matrix, self.order, reciprocal)
 
-    def _weighted_beside(self, rank: Factor, matrix: Mapping[tuple[int, int], int]) -> Factor:
+    def _weighted_beside(self, rank: FactorNodes, matrix: Mapping[tuple[int, int], int]) -> FactorNodes:
         """Return the same in the function that decides rank."""
         return self._weighted(matrix, lambda row: self._decided(row, rank.pivots[row], rank.diagonal[row]))
 
-    def _weighted_apart(self, rank: Factor, gram: Callable[[Rows], dict[tuple[int, int], int]]) -> Factor:
+    def _weighted_apart(self, rank: FactorNodes, gram: Callable[[Rows], dict[tuple[int, int], int]]) -> FactorNodes:
         """Return the same from what ``geometry`` left in w."""
         g, stored = self.graph, self._keep_factor(rank, "lower", "reciprocal")
 
@@ -114,19 +114,19 @@ class Scalars(OfMass):
 
         return self._weighted(gram(self.stored_constraints()), keep)
 
-    def _on_weighted_mass(self, operation: Operation, rank: Factor) -> Factor:
+    def _on_weighted_mass(self, operation: FormulaStep, rank: FactorNodes) -> FactorNodes:
         """Return the factor of D M^-1 D^T without the rows that D D^T leaves out."""
         return self._weighted_apart(rank, self.mass_gram)
 
-    def _on_weighted_identity(self, operation: Operation, rank: Factor) -> Factor:
+    def _on_weighted_identity(self, operation: FormulaStep, rank: FactorNodes) -> FactorNodes:
         return self._weighted_apart(rank, self.gram)
 
-    def _on_weighted_dependent(self, operation: Operation, rank: Factor) -> Factor:
+    def _on_weighted_dependent(self, operation: FormulaStep, rank: FactorNodes) -> FactorNodes:
         """Return the factor of D P D^T in the function that decides rank: what every stage needs is not read back."""
         dependent = self._on_gauged(operation, self.section("dependent", self.equations.nv))
         return self._weighted_beside(rank, self.gram(self.rows, [{j: node} for j, node in enumerate(dependent)]))
 
-    def _on_partition_quality(self, operation: Operation, rank: Factor, factor: Factor) -> int:
+    def _on_partition_quality(self, operation: FormulaStep, rank: FactorNodes, factor: FactorNodes) -> int:
         """Return det(D P D^T) / det(D G D^T): squared cosines between tangent space and independent coordinates."""
         g, quality = self.graph, self.graph.one
         for i in factor.order:
@@ -135,13 +135,13 @@ class Scalars(OfMass):
             quality = g.mul(quality, g.add(ratio, g.sub(g.one, kept)))
         return quality
 
-    def _on_augmented(self, operation: Operation, penalties: Nodes) -> Factor:
+    def _on_augmented(self, operation: FormulaStep, penalties: Nodes) -> FactorNodes:
         return self._augmented(self.rows, penalties)
 
-    def _on_augmented_metric(self, operation: Operation, penalties: Nodes) -> Factor:
+    def _on_augmented_metric(self, operation: FormulaStep, penalties: Nodes) -> FactorNodes:
         return self._augmented(self.stored_constraints(), penalties)
 
-    def _augmented(self, constraints: Rows, penalties: Nodes) -> Factor:
+    def _augmented(self, constraints: Rows, penalties: Nodes) -> FactorNodes:
         """Return the factor of M + D^T a D."""
         g = self.graph
         matrix = dict(self.mass_matrix)
@@ -154,10 +154,10 @@ class Scalars(OfMass):
                         matrix[j, i] = matrix[i, j]
         return self.factorised(matrix)
 
-    def _on_solve(self, operation: Operation, factor: Factor, right: Nodes) -> Nodes:
+    def _on_solve(self, operation: FormulaStep, factor: FactorNodes, right: Nodes) -> Nodes:
         return tuple(factor.solve(self.graph, right))
 
-    def _on_geometry(self, operation: Operation, rank: Factor) -> Outputs:
+    def _on_geometry(self, operation: FormulaStep, rank: FactorNodes) -> Outputs:
         """Return Phi as the residual, its norm, nu, the variable entries of D, relative pivots, and what they decide.
 
         A relative pivot is the squared sine of the angle between a row and those eliminated before it.

@@ -10,13 +10,13 @@ from typing import Self
 
 from symgen.formulate.equations import MassBlock
 from symgen.ir.graph import PARAMETER, Graph
-from symgen.lower.factor import Factor, factorise, minimum_degree
+from symgen.lower.factor import FactorNodes, factorise, minimum_degree
 from symgen.lower.replay import Nodes
-from symgen.lower.scalar_values import Rows, Values
-from symgen.methods._formula import Operation
+from symgen.lower.scalar_values import NodeValues, Rows
+from symgen.methods._formula import FormulaStep
 
 
-class OfMass(Values):
+class OfMass(NodeValues):
     """Operations with M, its inverse and its root, and the diagonal matrix that rank is decided with."""
 
     @cached_property
@@ -50,10 +50,10 @@ class OfMass(Values):
         other.equations = replace(self.equations, mass=mass)
         return other
 
-    def _on_body_entries(self, operation: Operation) -> Nodes:
+    def _on_body_entries(self, operation: FormulaStep) -> Nodes:
         return self.body.mass_entries
 
-    def _on_body_inverse(self, operation: Operation, x: Nodes) -> Nodes:
+    def _on_body_inverse(self, operation: FormulaStep, x: Nodes) -> Nodes:
         body = self.body
         stored = body._with_mass(_replaced(body.equations.mass, body.mass_entries, self.graph, "body_entry"))
         return tuple(stored.mass_factor.solve(self.graph, x))
@@ -65,11 +65,11 @@ class OfMass(Values):
         return {place: node for entries in blocks for place, node in entries.items()}
 
     @cached_property
-    def mass_factor(self) -> Factor:
+    def mass_factor(self) -> FactorNodes:
         """The factor of an M that changes, from the leaves of the tree inwards: nothing is filled in."""
         return self.factorised(self.mass_matrix)
 
-    def factorised(self, matrix: Mapping[tuple[int, int], int]) -> Factor:
+    def factorised(self, matrix: Mapping[tuple[int, int], int]) -> FactorNodes:
         """Return the factor of a matrix of the velocities, eliminated so that little is filled in."""
         near: list[set[int]] = [set() for _ in range(self.equations.nv)]
         for i, j in matrix:
@@ -139,7 +139,7 @@ class OfMass(Values):
                         result[block.columns[i]][block.columns[j]] = node
         return result
 
-    def _on_minv(self, operation: Operation, x: Nodes) -> Nodes:
+    def _on_minv(self, operation: FormulaStep, x: Nodes) -> Nodes:
         g = self.graph
         if self.mass_entries:
             return tuple(self.mass_factor.back(g, self._half(operation.operands[0])))
@@ -156,14 +156,14 @@ class OfMass(Values):
                 result[i] = g.total(g.mul(e, x[j]) for j, e in sorted(self.inverse_mass[i].items()))
         return tuple(result)
 
-    def _on_product(self, operation: Operation, matrix: Rows, x: Nodes) -> Nodes:
+    def _on_product(self, operation: FormulaStep, matrix: Rows, x: Nodes) -> Nodes:
         solved = self.operations[operation.operands[1]]
         if self.mass_entries and matrix is self.rows and solved.kind == "minv":  # D M^-1 u from what S is made of
             half = self._half(solved.operands[0])
             return tuple(self.graph.dot(scaled, half) for scaled in self.row_halves[1])
         return super()._on_product(operation, matrix, x)
 
-    def _on_mass(self, operation: Operation, x: Nodes) -> Nodes:
+    def _on_mass(self, operation: FormulaStep, x: Nodes) -> Nodes:
         g = self.graph
         result = [g.zero] * len(x)
         for block in self.equations.mass:
@@ -171,7 +171,7 @@ class OfMass(Values):
                 result[i] = g.total(g.mul(e, x[j]) for j, e in zip(block.columns, row, strict=True))
         return tuple(result)
 
-    def _on_mass_rate(self, operation: Operation, x: Nodes, v: Nodes) -> Nodes:
+    def _on_mass_rate(self, operation: FormulaStep, x: Nodes, v: Nodes) -> Nodes:
         g, result = self.graph, [self.graph.zero] * self.equations.nv
         if self.mass_entries:
             changes = dict(zip(self.mass_entries, self.along(operation, self.mass_entries, v), strict=True))
@@ -180,11 +180,11 @@ class OfMass(Values):
                     result[i] = g.add(result[i], g.mul(changes[node], x[j]))
         return tuple(result)
 
-    def _on_free_acceleration(self, operation: Operation, f: Nodes) -> Nodes:
+    def _on_free_acceleration(self, operation: FormulaStep, f: Nodes) -> Nodes:
         regular = all(self.graph.value(node) != 0.0 for node in self._diagonal)
         return self._on_minv(operation, f) if regular else (self.graph.zero,) * len(f)
 
-    def _on_gauged(self, operation: Operation, x: Nodes) -> Nodes:
+    def _on_gauged(self, operation: FormulaStep, x: Nodes) -> Nodes:
         return tuple(self.graph.mul(next(iter(self.gauge[j].values())), n) for j, n in enumerate(x))
 
     @cached_property
@@ -197,7 +197,7 @@ class OfMass(Values):
     def _diagonal(self) -> list[int]:
         return [b.entries[i][i] for b in self.equations.mass for i in range(len(b.columns))]
 
-    def _on_inverse_mass_root(self, operation: Operation) -> Rows:
+    def _on_inverse_mass_root(self, operation: FormulaStep) -> Rows:
         """Return L^-T with M = L L^T by rows of the transposed, L^-1; Cholesky's root is the cheapest."""
         rows: list[tuple[tuple[int, int], ...]] = [()] * self.equations.nv
         for block in self.equations.mass:

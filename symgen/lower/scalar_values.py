@@ -9,10 +9,10 @@ from typing import Any, Self
 
 from symgen.formulate.equations import Equations
 from symgen.ir.derivative import jacobian
-from symgen.ir.program import STATUS, Entry, Target
-from symgen.lower.factor import Factor
+from symgen.ir.program import STATUS, JacobianEntry, Target
+from symgen.lower.factor import FactorNodes
 from symgen.lower.replay import Nodes, Replay
-from symgen.methods._formula import Operation
+from symgen.methods._formula import FormulaStep
 
 Outputs = list[tuple[Target, int]]
 #: A sparse matrix: for each row its (column, node) entries in increasing order of column.
@@ -21,7 +21,7 @@ Rows = tuple[tuple[tuple[int, int], ...], ...]
 Weight = Sequence[Mapping[int, int]]
 
 
-class Values(Replay):
+class NodeValues(Replay):
     """What formulas name, as nodes of a mechanism's graph, which is copied.
 
     Parameters
@@ -33,7 +33,7 @@ class Values(Replay):
     def __init__(
         self,
         equations: Equations,
-        operations: tuple[Operation, ...] = (),
+        operations: tuple[FormulaStep, ...] = (),
         parameters: Sequence[str] = (),
         places: Mapping[str, tuple[str, int]] | None = None,
     ) -> None:
@@ -54,7 +54,7 @@ class Values(Replay):
         self.flags: list[int] = []
         self.kept: dict[str, Outputs] = {}
 
-    def following(self, operations: tuple[Operation, ...]) -> Self:
+    def following(self, operations: tuple[FormulaStep, ...]) -> Self:
         """Return the same for another tape, in the same graph."""
         other = copy(self)
         other.operations, other.values = operations, {}
@@ -69,42 +69,42 @@ class Values(Replay):
         space, first = self.places.get(name, (name, 0))
         return tuple(self.graph.input(space, first + i) for i in range(size))
 
-    def _on_quantity(self, operation: Operation) -> Nodes:
+    def _on_quantity(self, operation: FormulaStep) -> Nodes:
         e = self.equations
         name = str(operation.payload[0])
         gamma = tuple(r.gamma for r in e.rows)
         known = {"f": e.forces, "q_rates": e.q_rates, "phi": self.phi, "nu": self.nu, "v": self.v, "gamma": gamma}
         return known[name]
 
-    def _on_section(self, operation: Operation) -> Nodes:
+    def _on_section(self, operation: FormulaStep) -> Nodes:
         return self.section(str(operation.payload[0]), self.size(operation.size))
 
-    def _on_power(self, operation: Operation) -> int:
+    def _on_power(self, operation: FormulaStep) -> int:
         return self.equations.power
 
-    def _on_driving(self, operation: Operation, accelerations: Nodes) -> int:
+    def _on_driving(self, operation: FormulaStep, accelerations: Nodes) -> int:
         g, driving = self.graph, self.equations.driving
         assert driving is not None, "drivers prescribe coordinates"
         return g.add(g.total(g.mul(node, accelerations[j]) for j, node in driving.entries), driving.rest)
 
-    def _on_zeros(self, operation: Operation) -> Nodes:
+    def _on_zeros(self, operation: FormulaStep) -> Nodes:
         return (self.graph.zero,) * self.size(operation.size)
 
-    def _on_holonomic_or(self, operation: Operation, otherwise: Nodes) -> Nodes:
+    def _on_holonomic_or(self, operation: FormulaStep, otherwise: Nodes) -> Nodes:
         rows = zip(self.equations.rows, otherwise, strict=True)
         return tuple(node if row.phi is None else row.phi for row, node in rows)
 
-    def _on_dot(self, operation: Operation, a: Nodes, b: Nodes) -> int:
+    def _on_dot(self, operation: FormulaStep, a: Nodes, b: Nodes) -> int:
         return self.graph.dot(a, b)
 
-    def _on_at_velocity(self, operation: Operation, x: Nodes | int, v: Nodes) -> Any:
+    def _on_at_velocity(self, operation: FormulaStep, x: Nodes | int, v: Nodes) -> Any:
         vector = isinstance(x, tuple)
         found = self.graph.replaced(x if isinstance(x, tuple) else (x,), {("v", i): n for i, n in enumerate(v)})
         return tuple(found) if vector else found[0]
 
     # -- D -------------------------------------------------------------------------------------------------------------
 
-    def _on_constraints(self, operation: Operation) -> Rows:
+    def _on_constraints(self, operation: FormulaStep) -> Rows:
         return self.rows
 
     def product(self, matrix: Rows, x: Nodes) -> Nodes:
@@ -112,10 +112,10 @@ class Values(Replay):
         g = self.graph
         return tuple(g.total(g.mul(e, x[j]) for j, e in row) for row in matrix)
 
-    def _on_product(self, operation: Operation, matrix: Rows, x: Nodes) -> Nodes:
+    def _on_product(self, operation: FormulaStep, matrix: Rows, x: Nodes) -> Nodes:
         return self.product(matrix, x)
 
-    def _on_transposed(self, operation: Operation, matrix: Rows, y: Nodes) -> Nodes:
+    def _on_transposed(self, operation: FormulaStep, matrix: Rows, y: Nodes) -> Nodes:
         g = self.graph
         result = [g.zero] * self.equations.nv
         for row, factor in zip(matrix, y, strict=True):
@@ -123,7 +123,7 @@ class Values(Replay):
                 result[j] = g.add(result[j], g.mul(e, factor))
         return tuple(result)
 
-    def _on_times_transposed(self, operation: Operation, matrix: Rows, other: Rows) -> Rows:
+    def _on_times_transposed(self, operation: FormulaStep, matrix: Rows, other: Rows) -> Rows:
         g, rows = self.graph, []
         for row in matrix:
             own = dict(row)
@@ -132,14 +132,14 @@ class Values(Replay):
         return tuple(rows)
 
     @cached_property
-    def jacobian(self) -> tuple[Entry, ...]:
+    def jacobian(self) -> tuple[JacobianEntry, ...]:
         """The structural entries of D; variable ones get a slot in the section ``jacobian``."""
-        entries: list[Entry] = []
+        entries: list[JacobianEntry] = []
         slot = 0
         for i, row in enumerate(self.rows):
             for j, node in row:
                 constant = self.graph.value(node)
-                entries.append(Entry(i, j, constant, None if constant is not None else slot))
+                entries.append(JacobianEntry(i, j, constant, None if constant is not None else slot))
                 slot += constant is None
         return tuple(entries)
 
@@ -152,10 +152,10 @@ class Values(Replay):
             rows[e.row].append((e.column, node))
         return tuple(map(tuple, rows))
 
-    def _on_stored_constraints(self, operation: Operation) -> Rows:
+    def _on_stored_constraints(self, operation: FormulaStep) -> Rows:
         return self.stored_constraints()
 
-    def _on_constraint_rate_transposed(self, operation: Operation, y: Nodes, v: Nodes) -> Nodes:
+    def _on_constraint_rate_transposed(self, operation: FormulaStep, y: Nodes, v: Nodes) -> Nodes:
         g, rates = self.graph, self.along(operation, [n for row in self.rows for _, n in row], v)
         result = [g.zero] * self.equations.nv
         for row, factor in zip(self.rows, y, strict=True):
@@ -163,7 +163,7 @@ class Values(Replay):
                 result[j] = g.add(result[j], g.mul(next(rates), factor))
         return tuple(result)
 
-    def along(self, operation: Operation, nodes: Sequence[int], v: Nodes) -> Iterator[int]:
+    def along(self, operation: FormulaStep, nodes: Sequence[int], v: Nodes) -> Iterator[int]:
         """Yield the derivatives of nodes that depend on the position along the motion with velocities `v`."""
         g, e = self.graph, self.equations
         rates = self._on_at_velocity(operation, e.q_rates, v)
@@ -222,24 +222,24 @@ class Values(Replay):
                 node = self.graph.input(section, len(written) - 1)
             yield node
 
-    def _keep_factor(self, factor: Factor, lower: str, reciprocal: str) -> Factor:
+    def _keep_factor(self, factor: FactorNodes, lower: str, reciprocal: str) -> FactorNodes:
         entries = iter(list(self._keep(lower, (n for k in factor.order for _, n in factor.lower[k]))))
         columns = {k: tuple((i, next(entries)) for i, _ in factor.lower[k]) for k in factor.order}
         pivots = list(self._keep(reciprocal, (factor.reciprocal[k] for k in factor.order)))
         reciprocals = dict(zip(factor.order, pivots, strict=True))
-        return Factor(factor.order, columns, reciprocals, factor.pivots, factor.diagonal)
+        return FactorNodes(factor.order, columns, reciprocals, factor.pivots, factor.diagonal)
 
-    def _on_keep(self, operation: Operation, x: Nodes) -> Nodes:
+    def _on_keep(self, operation: FormulaStep, x: Nodes) -> Nodes:
         return tuple(self._keep(str(operation.payload[0]), x))
 
-    def _on_keep_constraints(self, operation: Operation, matrix: Rows) -> Rows:
+    def _on_keep_constraints(self, operation: FormulaStep, matrix: Rows) -> Rows:
         nodes = iter(list(self._keep(str(operation.payload[0]), (e for row in matrix for _, e in row))))
         return tuple(tuple((j, next(nodes)) for j, _ in row) for row in matrix)
 
-    def _on_keep_factor(self, operation: Operation, factor: Factor) -> Factor:
+    def _on_keep_factor(self, operation: FormulaStep, factor: FactorNodes) -> FactorNodes:
         return self._keep_factor(factor, *(str(operation.payload[0]),) * 2)
 
-    def _on_stored_factor(self, operation: Operation, factor: Factor) -> Factor:
+    def _on_stored_factor(self, operation: FormulaStep, factor: FactorNodes) -> FactorNodes:
         prefix = str(operation.payload[0])
         return self._keep_factor(factor, f"{prefix}lower", f"{prefix}reciprocal")
 

@@ -9,16 +9,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import ACCELERATIONS, Mechanism
 from symgen.describe.outputs import integrals
-from symgen.describe.printer import to_text
 from symgen.describe.topology import quantities
 from symgen.formulate.efforts import exertion
-from symgen.formulate.measures import Model
+from symgen.formulate.measures import ModelNodes
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.interpolation import Interpolation
-from symgen.ir.program import STATUS, Block, Layout, Target
+from symgen.ir.program import STATUS, Block, ModelLayout, Target
 from symgen.lower.windings import Beside
 from symgen.vocabulary.expressions import Expr, Reading
 from symgen.vocabulary.measures import Driven, Exerted, Integral, Measure
@@ -31,7 +31,7 @@ class SideProgram:
 
     mechanism: str
     blocks: tuple[Block, ...]
-    layout: Layout
+    layout: ModelLayout
     parameters: tuple[Quantity, ...]
     coordinates: tuple[Quantity, ...]
     velocities: tuple[Quantity, ...]
@@ -46,7 +46,7 @@ class SideProgram:
 
 
 @dataclass
-class SideModel(Model):
+class SideModel(ModelNodes):
     """The names of a mechanism as nodes; angles whose turns are counted are those that the model remembers.
 
     Parameters
@@ -212,7 +212,7 @@ def side_program(mechanism: Mechanism, blocks: tuple[Block, ...], beside: Beside
     return SideProgram(
         mechanism=mechanism.name,
         blocks=blocks,
-        layout=Layout(len(coordinates), len(velocities), 0, len(mechanism.parameters), dict(beside.sections)),
+        layout=ModelLayout(len(coordinates), len(velocities), 0, len(mechanism.parameters), dict(beside.sections)),
         parameters=tuple(Quantity(p.name, p.unit) for p in mechanism.parameters),
         coordinates=coordinates,
         velocities=velocities,

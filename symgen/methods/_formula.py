@@ -2,7 +2,7 @@
 
 Nothing is computed while a method writes its law. Every value stands for an operation on a `Tape`, which holds what was
 asked for in the order in which it was asked for. Code for one mechanism replays the tape element by element
-(`symgen.lower.scalar`), code for all mechanisms lays it out as loops (`symgen.lower.looped.loops`).
+(`symgen.lower.scalar`), code for all mechanisms lays it out as loops (`symgen.lower.looped.law_loops`).
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ _Made = TypeVar("_Made", bound="Value")
 
 
 @dataclass(frozen=True)
-class Operation:
+class FormulaStep:
     """One step of a formula.
 
     Parameters
@@ -46,11 +46,11 @@ class Tape:
         Sections of ``w``, and what is kept in them between the functions of a law.
     """
 
-    operations: list[Operation] = field(default_factory=list)
+    operations: list[FormulaStep] = field(default_factory=list)
     stored: list[tuple[str, Value]] = field(default_factory=list)
-    _index: dict[Operation, int] = field(default_factory=dict)
+    _index: dict[FormulaStep, int] = field(default_factory=dict)
 
-    def add(self, operation: Operation) -> int:
+    def add(self, operation: FormulaStep) -> int:
         """Return the index of an operation, appended where it is new."""
         found = self._index.setdefault(operation, len(self.operations))
         if found == len(self.operations):
@@ -59,15 +59,15 @@ class Tape:
 
     def constant(self, value: float) -> Scalar:
         """Return a literal."""
-        return Scalar(self, self.add(Operation("constant", payload=(float(value),))))
+        return Scalar(self, self.add(FormulaStep("constant", payload=(float(value),))))
 
     def named(self, cls: type[_Made], kind: str, *names: str, size: str = "") -> _Made:
         """Return what stands under a name."""
-        return cls(self, self.add(Operation(kind, (), names, size)))
+        return cls(self, self.add(FormulaStep(kind, (), names, size)))
 
     def kept(self, cls: type[_Made], kind: str, section: str, x: Value, size: str = "") -> _Made:
         """Return a value as it is read from a section."""
-        found = cls(self, self.add(Operation(kind, (x.index,), (section,), size)))
+        found = cls(self, self.add(FormulaStep(kind, (x.index,), (section,), size)))
         self.stored.append((section, found))
         return found
 
@@ -93,7 +93,7 @@ class Value:
 
     def made(self, cls: type[_Made], kind: str, *operands: Value, size: str = "") -> _Made:
         """Return what an operation on values gives."""
-        return cls(self.tape, self.tape.add(Operation(kind, tuple(v.index for v in operands), (), size)))
+        return cls(self.tape, self.tape.add(FormulaStep(kind, tuple(v.index for v in operands), (), size)))
 
 
 class Vector(Value):
@@ -360,7 +360,7 @@ class System:
 
     def stored_factor(self, factor: Factor, prefix: str) -> Factor:
         """Return a factor as another function reads it, from ``<prefix>lower`` and ``<prefix>reciprocal``."""
-        return Factor(self.tape, self.tape.add(Operation("stored_factor", (factor.index,), (prefix,))))
+        return Factor(self.tape, self.tape.add(FormulaStep("stored_factor", (factor.index,), (prefix,))))
 
     def stored_constraints(self) -> Matrix:
         """Return D as ``geometry`` left it."""

@@ -22,7 +22,7 @@ _PURE = _COMMUTATIVE | {"fsub", "fdiv", "fneg"}
 _END = 'callbr void asm sideeffect "", "!i"() memory(none) nounwind to label %{next} [label %.never]'
 
 
-class Line(NamedTuple):
+class Instruction(NamedTuple):
     """An instruction, or a label.
 
     Attributes
@@ -43,24 +43,24 @@ class Line(NamedTuple):
     names: tuple[str, ...]
 
     @classmethod
-    def of(cls, text: str) -> Line:
+    def of(cls, text: str) -> Instruction:
         """Take a line of a function apart."""
         names = tuple(_NAME.findall(text))
         defined = _DEFINED.match(text)
         return cls(text, names[0], defined[1], names[1:]) if defined else cls(text, "", "", names)
 
-    def renamed(self, new: Callable[[str], str]) -> Line:
+    def renamed(self, new: Callable[[str], str]) -> Instruction:
         """Return the line with other names for what it wants."""
         names = tuple(map(new, self.names))
         if names == self.names:
             return self
         head, equals, rest = self.text.partition(" = ") if self.own else ("", "", self.text)
         instead = iter(names)
-        return Line(head + equals + _NAME.sub(lambda found: next(instead), rest), self.own, self.does, names)
+        return Instruction(head + equals + _NAME.sub(lambda found: next(instead), rest), self.own, self.does, names)
 
-    def called(self, name: str) -> Line:
+    def called(self, name: str) -> Instruction:
         """Return the line with another name for its result."""
-        return Line(f"  {name} = {self.text.partition(' = ')[2]}", name, self.does, self.names)
+        return Instruction(f"  {name} = {self.text.partition(' = ')[2]}", name, self.does, self.names)
 
 
 def split(module: str, symbol: str, longest: int) -> str | None:
@@ -89,16 +89,16 @@ def split(module: str, symbol: str, longest: int) -> str | None:
     return "\n".join([*lines[: first + 1], *body, *lines[last:], ""])
 
 
-def _without_repetitions(body: list[str]) -> list[Line]:
+def _without_repetitions(body: list[str]) -> list[Instruction]:
     """Return instructions without those that repeat an earlier one, as compilers see it that look at a whole block.
 
     It matters because a product that two sums want is not contracted with either.
     """
-    kept = list[Line]()
+    kept = list[Instruction]()
     first: dict[str, str] = {}  # operation -> its name
     instead: dict[str, str] = {}
     for text in body:
-        line = Line.of(text)
+        line = Instruction.of(text)
         if instead and not instead.keys().isdisjoint(line.names):
             line = line.renamed(lambda name: instead.get(name, name))
         if line.does in _PURE:
@@ -120,10 +120,10 @@ class _Blocks:
     After the first store nothing is read again: what it wrote might be what is read.
     """
 
-    def __init__(self, lines: list[Line], longest: int) -> None:
+    def __init__(self, lines: list[Instruction], longest: int) -> None:
         self.longest = longest
-        self.lines: list[Line] = []
-        self.held: dict[str, Line] = {}  # instructions that are printed where they are wanted
+        self.lines: list[Instruction] = []
+        self.held: dict[str, Instruction] = {}  # instructions that are printed where they are wanted
         self.here: dict[str, str] = {}  # their names in this block
         self.kept: dict[str, str] = {}  # those that hold for all blocks from here on
         self.block = self.length = 0
@@ -141,19 +141,19 @@ class _Blocks:
             if self.length >= self.longest:
                 self._end()
         if self.block:
-            self.lines += [Line.of(".never:"), Line.of("  unreachable")]
+            self.lines += [Instruction.of(".never:"), Instruction.of("  unreachable")]
 
     @staticmethod
-    def _is_pure(line: Line) -> bool:
+    def _is_pure(line: Instruction) -> bool:
         return "@llvm." in line.text or "double @" in line.text or "@symgen.sines" in line.text
 
-    def _waits(self, line: Line, once: bool, stored: bool) -> bool:
+    def _waits(self, line: Instruction, once: bool, stored: bool) -> bool:
         """Whether an instruction is printed where it is wanted."""
         if line.does in ("fmul", "fneg"):
             return once
         return not stored and (line.does == "load" or (line.does == "getelementptr" and line.own in self.reads))
 
-    def _put(self, line: Line) -> None:
+    def _put(self, line: Instruction) -> None:
         """Print an instruction behind those it waits for."""
         if not self.held.keys().isdisjoint(line.names):
             line = line.renamed(lambda name: self._name(name) if name in self.held else name)
@@ -176,4 +176,7 @@ class _Blocks:
         self.block += 1
         self.length = 0
         self.here = dict(self.kept)
-        self.lines += [Line.of(f"  {_END.format(next=f'.block{self.block}')}"), Line.of(f".block{self.block}:")]
+        self.lines += [
+            Instruction.of(f"  {_END.format(next=f'.block{self.block}')}"),
+            Instruction.of(f".block{self.block}:"),
+        ]

@@ -30,12 +30,12 @@ _NUMBERS = {dtype: number for number, dtype in _DTYPES.items()}
 
 def slots(kind: types.Kind) -> Iterator[str]:
     """Yield LLVM's types of the slots that an argument takes."""
-    if isinstance(kind, types.Record):
+    if isinstance(kind, types.RecordType):
         for part in kind:
             yield from slots(part)
     elif isinstance(kind, types.FunctionType):
         yield "ptr"
-    elif isinstance(kind, types.Array):
+    elif isinstance(kind, types.ArrayType):
         yield from ("ptr", *("i64",) * kind.ndim)
     else:
         yield _SLOTS[kind]
@@ -51,14 +51,14 @@ def numbers(kind: types.Kind, value: Any) -> Iterator[int | float]:
     """
     if kind is types.float64:
         yield float(value)
-    elif isinstance(kind, types.Array):
+    elif isinstance(kind, types.ArrayType):
         if not isinstance(value, np.ndarray):
             raise TypeError(f"expected an array {kind}, got {type(value).__name__}")
         if not value.flags.c_contiguous or value.ndim != kind.ndim or value.dtype != _DTYPES[kind.dtype]:
             raise TypeError(f"expected an array {kind}, got one of {value.ndim} dimensions of {value.dtype}")
         yield value.__array_interface__["data"][0]
         yield from value.shape
-    elif isinstance(kind, types.Record):
+    elif isinstance(kind, types.RecordType):
         for part, item in zip(kind, value, strict=True):
             yield from numbers(part, item)
     elif isinstance(kind, types.FunctionType):
@@ -78,13 +78,13 @@ def kind_of(value: Any) -> types.Kind:
     if isinstance(value, float):
         return types.float64
     if isinstance(value, np.ndarray) and value.dtype in _NUMBERS:
-        return types.Array(_NUMBERS[value.dtype], value.ndim)
+        return types.ArrayType(_NUMBERS[value.dtype], value.ndim)
     if isinstance(value, bool | np.bool_):
         return types.boolean
     if isinstance(value, int | np.integer):
         return types.int64
     if isinstance(value, tuple):
-        return types.Record(tuple(map(kind_of, value)), type(value))
+        return types.RecordType(tuple(map(kind_of, value)), type(value))
     raise TypeError(f"compiled functions take numbers, arrays and records of these, no {type(value).__name__}")
 
 

@@ -185,11 +185,11 @@ class _Printer:
             return _literal(e.value)
         if isinstance(e, lang.Variable):
             return _word(e.name), 20
-        if isinstance(e, lang.Element):
+        if isinstance(e, lang.ArrayElement):
             constant = e.array in self.function.tables
             array = self.names[self.function.key, e.array] if constant else _word(e.array)
             return f"{array}[{self.value(e.index)}]", 20
-        if isinstance(e, lang.Call):
+        if isinstance(e, lang.FunctionCall):
             given = (_word(a) if isinstance(a, str) else self.value(a) for a in e.arguments)
             return f"{self.names[e.function.key]}({', '.join(given)})", 20
         if isinstance(e, lang.Logic):
@@ -197,10 +197,10 @@ class _Printer:
             return f"{self.value(e.first, own)} {sign} {self.value(e.second, own + 1)}", own
         if isinstance(e, lang.Choice):
             return f"{self.value(e.test, 4)} ? {self.value(e.chosen, 3)} : {self.value(e.otherwise, 3)}", 2
-        assert isinstance(e, lang.Operation), "emitted functions have no other expressions"
+        assert isinstance(e, lang.ScalarOperation), "emitted functions have no other expressions"
         return self.operation(e)
 
-    def operation(self, e: lang.Operation) -> tuple[str, int]:
+    def operation(self, e: lang.ScalarOperation) -> tuple[str, int]:
         """Return an operation."""
         name, first = e.name, e.arguments[0]
         if name in ("and", "or") and e.type != "bool":

@@ -23,7 +23,7 @@ FUNCTIONS = {
 }
 
 
-class Parameter(msgspec.Struct, frozen=True, gc=False):
+class FunctionParameter(msgspec.Struct, frozen=True, gc=False):
     """An argument of a function: a number, an array of numbers, or of loops a function by its address."""
 
     name: str
@@ -47,7 +47,7 @@ class Variable(msgspec.Struct, frozen=True, gc=False):
     name: str
 
 
-class Element(msgspec.Struct, frozen=True, gc=False):
+class ArrayElement(msgspec.Struct, frozen=True, gc=False):
     """An element of an array; indices count from 0 and are never negative."""
 
     type: Scalar
@@ -55,7 +55,7 @@ class Element(msgspec.Struct, frozen=True, gc=False):
     index: Expression
 
 
-class Operation(msgspec.Struct, frozen=True, gc=False):
+class ScalarOperation(msgspec.Struct, frozen=True, gc=False):
     """An operation on values: arithmetic, a comparison, a mathematical function or a conversion.
 
     Arithmetic: ``add sub mul div floordiv mod pow neg abs min max``; on booleans ``and or not``, without skipping what
@@ -87,7 +87,7 @@ class Choice(msgspec.Struct, frozen=True, gc=False):
     otherwise: Expression
 
 
-class Call(msgspec.Struct, frozen=True, gc=False):
+class FunctionCall(msgspec.Struct, frozen=True, gc=False):
     """A call of another function; arrays are handed on by name."""
 
     type: Scalar
@@ -95,7 +95,7 @@ class Call(msgspec.Struct, frozen=True, gc=False):
     arguments: tuple[Expression | str, ...]
 
 
-class Shape(msgspec.Struct, frozen=True, gc=False):
+class ArrayLength(msgspec.Struct, frozen=True, gc=False):
     """The length of an array along one of its axes."""
 
     array: str
@@ -131,7 +131,9 @@ class Insert(msgspec.Struct, frozen=True, gc=False):
     nothing: bool = False
 
 
-Expression = Constant | Variable | Element | Operation | Logic | Choice | Call | Shape | Invoke | Insert
+Expression = (
+    Constant | Variable | ArrayElement | ScalarOperation | Logic | Choice | FunctionCall | ArrayLength | Invoke | Insert
+)
 
 
 class Assign(msgspec.Struct, frozen=True, gc=False):
@@ -181,14 +183,14 @@ class Leave(msgspec.Struct, frozen=True, gc=False):
     block: int = 0
 
 
-class Block(msgspec.Struct, frozen=True, gc=False):
+class StatementBlock(msgspec.Struct, frozen=True, gc=False):
     """Statements that may be left before their end: those of a function that was copied into its caller."""
 
     number: int
     body: tuple[Statement, ...]
 
 
-class View(msgspec.Struct, frozen=True, gc=False):
+class ArrayView(msgspec.Struct, frozen=True, gc=False):
     """Give a name to elements of an array from one on: so many rows, or what stands behind some of its indices.
 
     Where the type is ``unsigned``, what stands there are numbers of that kind.
@@ -220,10 +222,10 @@ class Return(msgspec.Struct, frozen=True, gc=False):
 class Evaluate(msgspec.Struct, frozen=True, gc=False):
     """A call whose result is not wanted."""
 
-    call: Call | Invoke | Insert
+    call: FunctionCall | Invoke | Insert
 
 
-Statement = Assign | Store | If | While | For | Leave | Return | Evaluate | Block | View | Pick
+Statement = Assign | Store | If | While | For | Leave | Return | Evaluate | StatementBlock | ArrayView | Pick
 
 
 class Function(msgspec.Struct, frozen=True, gc=False):
@@ -233,7 +235,7 @@ class Function(msgspec.Struct, frozen=True, gc=False):
     ----------
     name : str
         As in the source.
-    parameters : tuple of Parameter
+    parameters : tuple of FunctionParameter
         Arguments.
     returned : {"float", "int"}
         Type of the result.
@@ -254,7 +256,7 @@ class Function(msgspec.Struct, frozen=True, gc=False):
     """
 
     name: str
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[FunctionParameter, ...]
     returned: Scalar
     body: tuple[Statement, ...]
     variables: dict[str, Scalar]

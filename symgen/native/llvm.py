@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 
 from symgen.native import language as lang
 from symgen.native import sines
-from symgen.native.llvm_values import INTRINSICS, TYPES, Values, called, literal, slot
+from symgen.native.llvm_values import INTRINSICS, TYPES, ValuePrinter, called, literal, slot
 
 #: The argument of functions for several runs at once that says how many there are.
 COUNT_OF_LANES = "lanes"
@@ -40,7 +40,7 @@ def module(
     texts = []
     for f in functions:
         linkage = "" if f is function else "internal " if is_copied(f) else "available_externally "
-        texts.append(Printer(f, symbol, linkage, together).text())
+        texts.append(FunctionPrinter(f, symbol, linkage, together).text())
     texts.extend(
         sines.definition(n) for n in (sines.width(1), sines.MOST) if any(sines.name(n) in text for text in texts)
     )
@@ -89,7 +89,7 @@ def head(function: lang.Function, name: str, named: bool = True) -> str:
     return f'{TYPES[function.returned]} @"{name}"({", ".join(parts)}) nounwind'
 
 
-def taken(parameter: lang.Parameter) -> list[tuple[str, str]]:
+def taken(parameter: lang.FunctionParameter) -> list[tuple[str, str]]:
     """Return LLVM's types of what a parameter takes, and its names."""
     if parameter.address:
         return [("ptr", parameter.name)]
@@ -98,7 +98,7 @@ def taken(parameter: lang.Parameter) -> list[tuple[str, str]]:
     return [("ptr", parameter.name), *(("i64", f"{parameter.name}.{axis}") for axis in range(parameter.rank))]
 
 
-class Printer(Values):
+class FunctionPrinter(ValuePrinter):
     """Prints one function."""
 
     def __init__(
@@ -165,7 +165,7 @@ class Printer(Values):
                 self.repeat(statement)
             elif isinstance(statement, lang.For):
                 self.count_through(statement)
-            elif isinstance(statement, lang.View):
+            elif isinstance(statement, lang.ArrayView):
                 self.view(statement)
             elif isinstance(statement, lang.Leave):
                 self.leave(statement)
@@ -178,7 +178,7 @@ class Printer(Values):
                 return False
         return True
 
-    def view(self, statement: lang.View) -> None:
+    def view(self, statement: lang.ArrayView) -> None:
         """Give a part of an array a name."""
         data, first = self.base(statement.array), self.value(statement.first)
         if statement.size is None:

@@ -25,7 +25,7 @@ def called(name: str) -> str:
     return f"@llvm.{INTRINSICS[name]}.f64" if name in INTRINSICS else f"@{name}"
 
 
-class Values:
+class ValuePrinter:
     """Prints the expressions of one function.
 
     Attributes
@@ -89,13 +89,13 @@ class Values:
         if isinstance(e, lang.Variable):
             known = self.values.get(e.name)
             return known if known is not None else self.put(f"load {TYPES[e.type]}, ptr {slot(e.name)}")
-        if isinstance(e, lang.Element):
+        if isinstance(e, lang.ArrayElement):
             return self.put(f"load {TYPES[e.type]}, ptr {self.place(e.array, e.index)}")
-        if isinstance(e, lang.Operation):
+        if isinstance(e, lang.ScalarOperation):
             return self.operation(e.type, e.name, e.arguments)
-        if isinstance(e, lang.Call):
+        if isinstance(e, lang.FunctionCall):
             return self.call(e)
-        if isinstance(e, lang.Shape):
+        if isinstance(e, lang.ArrayLength):
             return self.views[e.array][1][e.axis]
         if isinstance(e, lang.Invoke):
             return self.invoke(e)
@@ -224,7 +224,7 @@ class Values:
             for i, angle in enumerate(angles):
                 self.found[name, angle] = self.put(f"extractelement <{n} x double> {found}, i32 {i}")
 
-    def call(self, e: lang.Call) -> str:
+    def call(self, e: lang.FunctionCall) -> str:
         """Print a call of another function."""
         return self.called(f'@"{self.symbol(e.function)}"', e.function.returned, e.arguments)
 

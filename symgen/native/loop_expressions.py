@@ -16,7 +16,7 @@ from symgen.native.read import Reader
 from symgen.native.read_values import Foreign, number
 
 
-class Values(Reader):
+class LoopValues(Reader):
     """Reads expressions, where there are records and arrays of several dimensions.
 
     Parameters
@@ -36,7 +36,7 @@ class Values(Reader):
         function: Any,
         tree: ast.FunctionDef,
         arguments: dict[str, Value],
-        parameters: tuple[lang.Parameter, ...],
+        parameters: tuple[lang.FunctionParameter, ...],
     ) -> None:
         super().__init__(function, tree, parameters)
         self.bound = arguments
@@ -107,9 +107,9 @@ class Values(Reader):
         if isinstance(owner, Record) and node.attr in owner.fields:
             return owner.values[owner.fields.index(node.attr)]
         if isinstance(owner, Array) and node.attr == "shape":
-            return Record(tuple(lang.Shape(owner.name, axis) for axis in range(owner.rank)))
+            return Record(tuple(lang.ArrayLength(owner.name, axis) for axis in range(owner.rank)))
         if isinstance(owner, Array) and node.attr == "size" and owner.rank == 1:
-            return lang.Shape(owner.name)
+            return lang.ArrayLength(owner.name)
         raise Foreign("an attribute", node)
 
     def element(self, node: ast.Subscript) -> Value:
@@ -132,7 +132,7 @@ class Values(Reader):
         nodes = list(node.slice.elts) if isinstance(node.slice, ast.Tuple) else [node.slice]
         indices = [*self.numbers_of(nodes), *(lang.Constant("int", 0),) * (array.rank - given)]
         name = self.array(array.type, array.rank - given)
-        self.pending.append(lang.View(name, array.name, self.at(array, indices, node), None, given))
+        self.pending.append(lang.ArrayView(name, array.name, self.at(array, indices, node), None, given))
         return Array(name, array.type, array.rank - given)
 
     def at(self, array: Array, indices: list[lang.Expression], node: ast.AST) -> lang.Expression:
@@ -143,8 +143,8 @@ class Values(Reader):
             raise Foreign("an index", node)
         at = indices[0]
         for axis, index in enumerate(indices[1:], 1):
-            row = lang.Operation("int", "mul", (at, lang.Shape(array.name, axis)))
-            at = lang.Operation("int", "add", (row, index))
+            row = lang.ScalarOperation("int", "mul", (at, lang.ArrayLength(array.name, axis)))
+            at = lang.ScalarOperation("int", "add", (row, index))
         return at
 
     def one(self, array: Array, part: ast.Slice) -> Array:
@@ -157,8 +157,8 @@ class Values(Reader):
         (at,) = self.numbers_of([part.lower])
         name = self.array(array.type, array.rank)
         for axis in range(1, array.rank):
-            at = lang.Operation("int", "mul", (at, lang.Shape(array.name, axis)))
-        self.pending.append(lang.View(name, array.name, at, lang.Constant("int", 1)))
+            at = lang.ScalarOperation("int", "mul", (at, lang.ArrayLength(array.name, axis)))
+        self.pending.append(lang.ArrayView(name, array.name, at, lang.Constant("int", 1)))
         return Array(name, array.type, array.rank)
 
     def owner(self, node: ast.expr) -> Value:
@@ -183,7 +183,7 @@ class Values(Reader):
             value = self.truth(node.operand)
             if isinstance(value, lang.Constant):
                 return lang.Constant("bool", not value.value)
-            return lang.Operation("bool", "not", (value,))
+            return lang.ScalarOperation("bool", "not", (value,))
         return super().unary(node)
 
     def binary(self, node: ast.BinOp) -> lang.Expression:
@@ -192,11 +192,11 @@ class Values(Reader):
         if left.type == right.type == "int" and not isinstance(right, lang.Constant):
             if isinstance(node.op, ast.FloorDiv | ast.Mod):
                 name = "quotient" if isinstance(node.op, ast.FloorDiv) else "rest"
-                return lang.Operation("int", name, (left, right))
+                return lang.ScalarOperation("int", name, (left, right))
         sign = self.sign(node)
         if sign == "pow" and left.type == "int" and isinstance(right, lang.Constant) and right.value == 2:
             left = self.kept(left, node)
-            return lang.Operation("int", "mul", (left, left))
+            return lang.ScalarOperation("int", "mul", (left, left))
         return self.arithmetic(sign, left, right, node)
 
     def comparison(self, node: ast.Compare) -> lang.Expression:

@@ -17,12 +17,12 @@ NUMBERS: dict[Any, Any] = {kind: number_type for number_type, kind in SCALARS.it
 EXPRESSIONS = (
     lang.Constant,
     lang.Variable,
-    lang.Element,
-    lang.Operation,
+    lang.ArrayElement,
+    lang.ScalarOperation,
     lang.Logic,
     lang.Choice,
-    lang.Call,
-    lang.Shape,
+    lang.FunctionCall,
+    lang.ArrayLength,
     lang.Invoke,
     lang.Insert,
 )
@@ -56,7 +56,7 @@ Value = Any
 NOTHING = Record(())
 
 
-def laid_out(name: str, kind: Any) -> tuple[Value, list[lang.Parameter]]:
+def laid_out(name: str, kind: Any) -> tuple[Value, list[lang.FunctionParameter]]:
     """Return what an argument is, and the parameters that it takes.
 
     Parameters
@@ -72,13 +72,13 @@ def laid_out(name: str, kind: Any) -> tuple[Value, list[lang.Parameter]]:
         If it is none of the types of loops.
     """
     if kind in SCALARS:
-        return lang.Variable(SCALARS[kind], name), [lang.Parameter(name, SCALARS[kind])]
+        return lang.Variable(SCALARS[kind], name), [lang.FunctionParameter(name, SCALARS[kind])]
     if isinstance(kind, types.FunctionType):
-        return Address(name, kind.signature), [lang.Parameter(name, "int", address=True)]
-    if isinstance(kind, types.Array) and kind.ndim <= 3 and kind.dtype in SCALARS:
+        return Address(name, kind.signature), [lang.FunctionParameter(name, "int", address=True)]
+    if isinstance(kind, types.ArrayType) and kind.ndim <= 3 and kind.dtype in SCALARS:
         found = Array(name, SCALARS[kind.dtype], kind.ndim)
-        return found, [lang.Parameter(name, found.type, True, kind.ndim)]
-    if isinstance(kind, types.Record):
+        return found, [lang.FunctionParameter(name, found.type, True, kind.ndim)]
+    if isinstance(kind, types.RecordType):
         names = kind.fields or tuple(str(i) for i in range(len(kind)))
         parts = [laid_out(f"{name}.{field}", part) for field, part in zip(names, kind, strict=True)]
         return Record(tuple(v for v, _ in parts), kind.fields), [p for _, ps in parts for p in ps]
@@ -109,10 +109,10 @@ def handed(kind: Any, value: Value) -> Iterator[lang.Expression | str]:
     Foreign
         If it is none of the type.
     """
-    if isinstance(value, Record) and isinstance(kind, types.Record) and len(kind) == len(value.values):
+    if isinstance(value, Record) and isinstance(kind, types.RecordType) and len(kind) == len(value.values):
         for part, item in zip(kind, value.values, strict=True):
             yield from handed(part, item)
-    elif isinstance(value, Array) and isinstance(kind, types.Array):
+    elif isinstance(value, Array) and isinstance(kind, types.ArrayType):
         if SCALARS.get(kind.dtype) != value.type or kind.ndim != value.rank:
             raise Foreign("an array of another kind")
         yield value.name
@@ -124,16 +124,16 @@ def handed(kind: Any, value: Value) -> Iterator[lang.Expression | str]:
         raise Foreign(f"an argument that is no {kind}")
 
 
-def renamed(name: str, value: Value) -> tuple[Value, list[lang.Parameter]]:
+def renamed(name: str, value: Value) -> tuple[Value, list[lang.FunctionParameter]]:
     """Return a value as a function sees it that it is handed to, and the parameters that it takes."""
     if isinstance(value, Record):
         parts = [renamed(f"{name}.{i}", part) for i, part in enumerate(value.values)]
         return Record(tuple(v for v, _ in parts), value.fields), [p for _, ps in parts for p in ps]
     if isinstance(value, Array):
-        return Array(name, value.type, value.rank), [lang.Parameter(name, value.type, True, value.rank)]
+        return Array(name, value.type, value.rank), [lang.FunctionParameter(name, value.type, True, value.rank)]
     if isinstance(value, Address):
-        return Address(name, value.signature), [lang.Parameter(name, "int", address=True)]
-    return lang.Variable(value.type, name), [lang.Parameter(name, value.type)]
+        return Address(name, value.signature), [lang.FunctionParameter(name, "int", address=True)]
+    return lang.Variable(value.type, name), [lang.FunctionParameter(name, value.type)]
 
 
 def is_number(value: Value) -> bool:

@@ -1,8 +1,8 @@
 """From the source of the runtime's loops to the checked language of `symgen.native.language`.
 
 A loop is written in Python with records of arrays and numbers, functions that are known by their address, and parts
-that are copied into it (`symgen.runtime.instances`). All of that is known before anything runs: records, tuples and
-views of arrays exist while the source is read and leave nothing but names of arrays, numbers and addresses. What else
+that are copied into it (`symgen.runtime.loop_instances`). All of that is known before anything runs: records, tuples
+and views of arrays exist while the source is read and leave nothing but names of arrays, numbers and addresses. What else
 stands in a loop is what emitted functions have, read by the same rules.
 
 What is not in this language is `Foreign`: only Numba compiles such a loop.
@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 from symgen.native import language as lang
 from symgen.native import types
-from symgen.native.loop_expressions import Values
+from symgen.native.loop_expressions import LoopValues
 from symgen.native.loop_values import (
     EXPRESSIONS,
     NOTHING,
@@ -66,7 +66,7 @@ class _Copied(NamedTuple):
     result: str
 
 
-class LoopReader(Values):
+class LoopReader(LoopValues):
     """Reads a loop, or a part that loops call.
 
     Parameters
@@ -85,7 +85,7 @@ class LoopReader(Values):
         self,
         function: Any,
         arguments: tuple[Value, ...],
-        parameters: tuple[lang.Parameter, ...],
+        parameters: tuple[lang.FunctionParameter, ...],
         shared: dict[Any, lang.Function],
     ) -> None:
         tree = tree_of(function)
@@ -133,7 +133,7 @@ class LoopReader(Values):
             return self.assignment(ast.copy_location(ast.Assign([node.target], node.value), node))
         if isinstance(node, ast.Expr):
             value = self.value(node.value)
-            return [lang.Evaluate(value)] if isinstance(value, lang.Call | lang.Invoke | lang.Insert) else []
+            return [lang.Evaluate(value)] if isinstance(value, lang.FunctionCall | lang.Invoke | lang.Insert) else []
         return super().statement(node)
 
     def repeat(self, node: ast.While) -> lang.Statement:
@@ -146,7 +146,7 @@ class LoopReader(Values):
         body = self.inner(node.body, loop=True)
         if not before:
             return lang.While(test, body)
-        leave = lang.If(lang.Operation("bool", "not", (test,)), (lang.Leave("break"),), ())
+        leave = lang.If(lang.ScalarOperation("bool", "not", (test,)), (lang.Leave("break"),), ())
         return lang.While(lang.Constant("bool", True), (*before, leave, *body))
 
     def unrolled(self, node: ast.For) -> list[lang.Statement]:
@@ -213,14 +213,14 @@ class LoopReader(Values):
             (number,) = self.numbers_of(node.args)
             number = self.kept(as_type("float", number), node)
             if node.func.attr == "isnan":
-                return lang.Operation("bool", "ne", (number, number))
-            size = lang.Operation("float", "abs", (number,))
-            return lang.Operation("bool", "lt", (size, lang.Constant("float", math.inf)))
+                return lang.ScalarOperation("bool", "ne", (number, number))
+            size = lang.ScalarOperation("float", "abs", (number,))
+            return lang.ScalarOperation("bool", "lt", (size, lang.Constant("float", math.inf)))
         builtin = self.builtin(node.func)
         if builtin == "round" and len(node.args) == 1:
             (value,) = self.numbers_of(node.args)
             if value.type == "float":
-                return lang.Operation("int", "round", (value,))
+                return lang.ScalarOperation("int", "round", (value,))
         if builtin == "bool" and len(node.args) == 1:
             return truth_of(self.expression(node.args[0]))
         if builtin is not None:
@@ -283,12 +283,12 @@ class LoopReader(Values):
             source, first, size = arguments
             view = self.array(source.type)
             size = self.kept(size, node)
-            self.pending.append(lang.View(view, source.name, first, size))
+            self.pending.append(lang.ArrayView(view, source.name, first, size))
             return Array(view, source.type)
-        kinds: list[types.Number | types.Array] = []
+        kinds: list[types.NumberType | types.ArrayType] = []
         for value in arguments:
             if isinstance(value, Array):
-                kinds.append(types.Array(NUMBERS[value.type], value.rank))
+                kinds.append(types.ArrayType(NUMBERS[value.type], value.rank))
             elif isinstance(value, EXPRESSIONS):
                 kinds.append(NUMBERS[value.type])
             else:
@@ -310,7 +310,7 @@ class LoopReader(Values):
             self.shared[key] = reader.function()
         function = self.called[called, parameters] = self.shared[key]  # type: ignore[index]  # what tells it from others
         given = (v.name if isinstance(v, Array | Address) else v for v in leaves(Record(tuple(arguments))))
-        return lang.Call(function.returned, function, tuple(given))
+        return lang.FunctionCall(function.returned, function, tuple(given))
 
     def copy(self, called: Any, arguments: list[Value], node: ast.Call) -> Value:
         """Return what a part gives whose code is copied to where it is called."""
@@ -340,7 +340,7 @@ class LoopReader(Values):
         self.globals, self.locals, self.depth, self.loops = before
         if statements and statements[-1] == lang.Leave("block", copied.block):
             statements = statements[:-1]
-        self.pending += list(statements) if single else [lang.Block(copied.block, statements)]
+        self.pending += list(statements) if single else [lang.StatementBlock(copied.block, statements)]
         if copied.result in self.bound:
             return self.bound[copied.result]
         if copied.result in self.variables:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from symgen.native import language as lang
-from symgen.native.llvm import Printer, declarations
+from symgen.native.llvm import FunctionPrinter, declarations
 from symgen.native.llvm_values import TYPES
 
 
@@ -41,7 +41,7 @@ def loop_module(function: lang.Function, symbol: str) -> str:
     return "\n".join([*texts, *known, *declarations(texts), ""])
 
 
-class LoopPrinter(Printer):
+class LoopPrinter(FunctionPrinter):
     """Prints a loop or a part that is called."""
 
     def __init__(self, function: lang.Function, names: dict[int, str], outermost: bool) -> None:
@@ -55,7 +55,7 @@ class LoopPrinter(Printer):
 
     def other(self, statement: lang.Statement) -> bool:
         """Print a statement that emitted functions do not have; return whether what follows it can be reached."""
-        if isinstance(statement, lang.Block):
+        if isinstance(statement, lang.StatementBlock):
             (end,) = self.labels("end")
             self.blocks[statement.number] = end
             if self.statements(statement.body):

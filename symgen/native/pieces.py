@@ -31,7 +31,7 @@ class Piece:
     """
 
     def __init__(
-        self, name: str, plain: Callable[..., Any], result: types.Number = types.void, writers: str = ""
+        self, name: str, plain: Callable[..., Any], result: types.NumberType = types.void, writers: str = ""
     ) -> None:
         self.name, self.plain, self.result, self.writers = name, plain, result, writers
 
@@ -44,7 +44,7 @@ class Piece:
         """Type for Numba, which compiles the plain form."""
         from numba.core.types import Dispatcher
 
-        from symgen.native.judge import dispatcher
+        from symgen.native.numba_judge import dispatcher
 
         return Dispatcher(dispatcher(self.plain, True))
 
@@ -57,13 +57,13 @@ class Inserted(NamedTuple):
 
 
 @functools.cache
-def inserted(piece: Piece, kinds: tuple[types.Number | types.Array, ...]) -> Inserted:
+def inserted(piece: Piece, kinds: tuple[types.NumberType | types.ArrayType, ...]) -> Inserted:
     """Return the function that a piece is for arguments of some types: numbers, and arrays, taken as addresses."""
     from llvmlite import ir
 
     numbers = {types.float64: ir.DoubleType(), types.int64: ir.IntType(64), types.boolean: ir.IntType(1)}
-    parameters = [numbers[k.dtype].as_pointer() if isinstance(k, types.Array) else numbers[k] for k in kinds]
-    symbol = f"symgen.{piece.name}." + "".join("a" * isinstance(k, types.Array) + repr(k)[0] for k in kinds)
+    parameters = [numbers[k.dtype].as_pointer() if isinstance(k, types.ArrayType) else numbers[k] for k in kinds]
+    symbol = f"symgen.{piece.name}." + "".join("a" * isinstance(k, types.ArrayType) + repr(k)[0] for k in kinds)
     module = ir.Module(symbol)
     nothing = piece.result is types.void
     returned = ir.VoidType() if nothing else numbers[piece.result]

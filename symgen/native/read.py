@@ -40,7 +40,9 @@ def read(function: Any, kinds: tuple[Kind, ...], reading: tuple[object, ...] = (
     a = tree.args
     if a.vararg or a.kwarg or a.kwonlyargs or a.posonlyargs or a.defaults or len(a.args) != len(kinds):
         raise Foreign("arguments other than plain ones", tree)
-    parameters = tuple(lang.Parameter(x.arg, kind, array) for x, (kind, array) in zip(a.args, kinds, strict=True))
+    parameters = tuple(
+        lang.FunctionParameter(x.arg, kind, array) for x, (kind, array) in zip(a.args, kinds, strict=True)
+    )
     return Reader(function, tree, parameters, (*reading, function)).function()
 
 
@@ -71,7 +73,7 @@ class Reader(TableValues):
         self,
         function: Any,
         tree: ast.FunctionDef,
-        parameters: tuple[lang.Parameter, ...],
+        parameters: tuple[lang.FunctionParameter, ...],
         reading: tuple[object, ...] = (),
     ) -> None:
         super().__init__(function, parameters)
@@ -157,7 +159,7 @@ class Reader(TableValues):
             return [lang.Leave("break" if isinstance(node, ast.Break) else "continue")]
         if isinstance(node, ast.Expr):
             call = self.expression(node.value)
-            if isinstance(call, lang.Call | lang.Invoke):
+            if isinstance(call, lang.FunctionCall | lang.Invoke):
                 return [lang.Evaluate(call)]
         if isinstance(node, ast.Pass):
             return []
@@ -200,7 +202,7 @@ class Reader(TableValues):
         own = {x.arg for x in tree.args.args} | {
             n.id for s in body for n in ast.walk(s) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
         }
-        inside = _Renamed(tree.name, own)
+        inside = _OwnNames(tree.name, own)
         if not isinstance(last, ast.Return) or not isinstance(last.value, ast.Tuple):
             raise Foreign("several values of something else than straight code", node)
         given = [ast.Name(inside.of(x.arg), ast.Store()) for x in tree.args.args]
@@ -269,7 +271,7 @@ class Reader(TableValues):
         return lang.For(node.target.id, start, stop, int(step.value), self.inner(node.body, loop=True))
 
 
-class _Renamed(ast.NodeTransformer):
+class _OwnNames(ast.NodeTransformer):
     """Gives the names of a function that others have its statements of to these."""
 
     def __init__(self, function: str, own: set[str]) -> None:

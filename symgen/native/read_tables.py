@@ -17,7 +17,7 @@ import numpy as np
 
 from symgen.native import language as lang
 from symgen.native import types
-from symgen.native.read_values import Foreign, Values, as_type
+from symgen.native.read_values import Foreign, ValueReader, as_type
 
 _ELEMENTS: dict[Any, lang.Scalar] = {types.float64: "float", types.int64: "int", types.uint32: "unsigned"}
 
@@ -29,7 +29,7 @@ class Written(NamedTuple):
     define: Callable[..., Any]
 
 
-class TableValues(Values):
+class TableValues(ValueReader):
     """Reads expressions in which there are tables.
 
     Attributes
@@ -40,7 +40,7 @@ class TableValues(Values):
         Local integers, and whether Numba counts them without sign.
     """
 
-    def __init__(self, function: Any, parameters: tuple[lang.Parameter, ...]) -> None:
+    def __init__(self, function: Any, parameters: tuple[lang.FunctionParameter, ...]) -> None:
         super().__init__(function, parameters)
         self.depth = 0
         self.unsigned: dict[str, bool] = {}
@@ -71,7 +71,7 @@ class TableValues(Values):
             if len(node.args) != 1 or node.keywords:
                 raise Foreign("an integer of other than one value", node)
             value = as_type("int", self.expression(node.args[0]))
-            return value if called is np.int64 else lang.Operation("int", "low", (value,))
+            return value if called is np.int64 else lang.ScalarOperation("int", "low", (value,))
         if isinstance(called, Written) and not node.keywords:
             return self.piece(called, node)
         if any(self.is_unsigned(x) for x in node.args):
@@ -117,7 +117,7 @@ class TableValues(Values):
     def piece(self, called: Written, node: ast.Call) -> lang.Expression:
         """Return what a function gives that is written in LLVM's language."""
         if called.name == "_compiled_bits" and len(node.args) == 1:
-            return lang.Operation("int", "bits", (as_type("float", self.expression(node.args[0])),))
+            return lang.ScalarOperation("int", "bits", (as_type("float", self.expression(node.args[0])),))
         if called.name not in ("_compiled_kernel", "_compiled_code"):
             raise Foreign(f"the function '{called.name}'", node)
         signature, _ = called.define(None, *(None for _ in node.args))
@@ -128,7 +128,7 @@ class TableValues(Values):
 
     def handed(self, kind: Any, node: ast.expr) -> lang.Expression | str:
         """Return what an argument of a function is handed on as that is known by its address."""
-        if not isinstance(kind, types.Array):
+        if not isinstance(kind, types.ArrayType):
             return as_type(_ELEMENTS[kind], self.expression(node))
         if not isinstance(node, ast.Name) or self.arrays.get(node.id) != _ELEMENTS[kind.dtype]:
             raise Foreign("an array of another kind", node)
@@ -146,14 +146,16 @@ class TableValues(Values):
         if name in self.arrays or name in self.variables or name in self.numbers:
             raise Foreign(f"variable '{name}' has two types", node)
         self.arrays[name] = "unsigned"
-        count, start = lang.Shape(owner), f"{name}.start"  # no name of Python's
+        count, start = lang.ArrayLength(owner), f"{name}.start"  # no name of Python's
         self.give(start, "int", node)
-        last = lang.Element("float", owner, lang.Operation("int", "sub", (count, lang.Constant("int", 1))))
+        last = lang.ArrayElement("float", owner, lang.ScalarOperation("int", "sub", (count, lang.Constant("int", 1))))
         first = lang.Variable("int", start)
-        size = lang.Operation("int", "mul", (lang.Operation("int", "sub", (count, first)), lang.Constant("int", 2)))
+        size = lang.ScalarOperation(
+            "int", "mul", (lang.ScalarOperation("int", "sub", (count, first)), lang.Constant("int", 2))
+        )
         return [
-            lang.Assign(start, lang.Operation("int", "bits", (last,))),
-            lang.View(name, owner, first, size, type="unsigned"),
+            lang.Assign(start, lang.ScalarOperation("int", "bits", (last,))),
+            lang.ArrayView(name, owner, first, size, type="unsigned"),
         ]
 
 

@@ -33,7 +33,7 @@ class Foreign(Exception):
         super().__init__(what + (f" (line {node.lineno})" if isinstance(node, ast.stmt | ast.expr) else ""))
 
 
-class Values(ABC):
+class ValueReader(ABC):
     """Reads the expressions of one function.
 
     Attributes
@@ -48,7 +48,7 @@ class Values(ABC):
         Constant arrays and functions that have been met.
     """
 
-    def __init__(self, function: Any, parameters: tuple[lang.Parameter, ...]) -> None:
+    def __init__(self, function: Any, parameters: tuple[lang.FunctionParameter, ...]) -> None:
         self.globals: Mapping[str, Any] = function.py_func.__globals__
         self.locals = frozenset(function.py_func.__code__.co_varnames)
         self.parameters = parameters
@@ -94,7 +94,7 @@ class Values(ABC):
     def element(self, node: ast.Subscript) -> lang.Expression:
         """Return an element of an array."""
         array, index = self.place(node)
-        return lang.Element(self.arrays.get(array, "float"), array, index)
+        return lang.ArrayElement(self.arrays.get(array, "float"), array, index)
 
     def place(self, node: ast.Subscript) -> tuple[str, lang.Expression]:
         """Return array and index of an element."""
@@ -111,13 +111,13 @@ class Values(ABC):
         """Return an operation on one value."""
         value = self.expression(node.operand)
         if isinstance(node.op, ast.Not):
-            return lang.Operation("bool", "not", (truth_of(value),))
+            return lang.ScalarOperation("bool", "not", (truth_of(value),))
         if isinstance(node.op, ast.UAdd) and value.type != "bool":
             return value
         if isinstance(node.op, ast.USub) and value.type != "bool":
             if isinstance(value, lang.Constant):
                 return lang.Constant(value.type, -value.value)
-            return lang.Operation(value.type, "neg", (value,))
+            return lang.ScalarOperation(value.type, "neg", (value,))
         raise Foreign("an operation", node)
 
     def binary(self, node: ast.BinOp) -> lang.Expression:
@@ -136,14 +136,14 @@ class Values(ABC):
         """Return an operation on two values of one type."""
         if sign in ("and", "or"):
             if left.type == right.type != "float":
-                return lang.Operation(left.type, sign, (left, right))
+                return lang.ScalarOperation(left.type, sign, (left, right))
             raise Foreign("an operation on bits", node)
         if sign == "pow":
             return _power(left, right, node)
         kind: lang.Scalar = "float" if "float" in (left.type, right.type) or sign == "div" else "int"
         if sign in ("floordiv", "mod") and (kind != "int" or not isinstance(right, lang.Constant) or right.value <= 0):
             raise Foreign("a division with rest", node)
-        return lang.Operation(kind, sign, (as_type(kind, left), as_type(kind, right)))
+        return lang.ScalarOperation(kind, sign, (as_type(kind, left), as_type(kind, right)))
 
     def comparison(self, node: ast.Compare) -> lang.Expression:
         """Return a comparison of two values."""
@@ -157,7 +157,7 @@ class Values(ABC):
         if sign is None:
             raise Foreign("a comparison", node)
         kind = _common(left, right)
-        return lang.Operation("bool", sign, (as_type(kind, left), as_type(kind, right)))
+        return lang.ScalarOperation("bool", sign, (as_type(kind, left), as_type(kind, right)))
 
     def logic(self, node: ast.BoolOp) -> lang.Expression:
         """Return ``and`` or ``or`` of booleans."""
@@ -200,7 +200,7 @@ class Values(ABC):
             if lang.FUNCTIONS.get(name) != len(node.args):
                 raise Foreign(f"the function 'math.{name}'", node)
             values = tuple(as_type("float", self.expression(x)) for x in node.args)
-            return lang.Operation("int" if name in _INTEGER else "float", f"math.{name}", values)
+            return lang.ScalarOperation("int" if name in _INTEGER else "float", f"math.{name}", values)
         if not isinstance(node.func, ast.Name) or node.func.id in self.variables:
             raise Foreign("a call", node)
         called = self.globals.get(node.func.id)
@@ -215,7 +215,7 @@ class Values(ABC):
         key = (called, kinds)
         if key not in self.called:
             self.called[key] = self.read(called, kinds)
-        return lang.Call(self.called[key].returned, self.called[key], arguments)
+        return lang.FunctionCall(self.called[key].returned, self.called[key], arguments)
 
     def call_builtin(self, name: str, values: list[lang.Expression], node: ast.Call) -> lang.Expression:
         """Return what a function of Python gives."""
@@ -225,12 +225,12 @@ class Values(ABC):
                 kind = _common(first, value)
                 if kind == "bool":
                     raise Foreign("the least of booleans", node)
-                first = lang.Operation(kind, name, (as_type(kind, first), as_type(kind, value)))
+                first = lang.ScalarOperation(kind, name, (as_type(kind, first), as_type(kind, value)))
             return first
         if len(values) == 1:
             (value,) = values
             if name == "abs" and value.type != "bool":
-                return lang.Operation(value.type, "abs", (value,))
+                return lang.ScalarOperation(value.type, "abs", (value,))
             if name in ("float", "int"):
                 return as_type(cast("lang.Scalar", name), value)
         raise Foreign(f"the function '{name}'", node)
@@ -239,7 +239,7 @@ class Values(ABC):
         """Return the length of an array."""
         if not isinstance(node, ast.Name) or not any(p.array and p.name == node.id for p in self.parameters):
             raise Foreign("the length of something else than an argument", node)
-        return lang.Shape(node.id)
+        return lang.ArrayLength(node.id)
 
     def builtin(self, node: ast.expr) -> str | None:
         """Return the name of a function of Python, None for anything else."""
@@ -288,9 +288,9 @@ def _power(base: lang.Expression, exponent: lang.Expression, node: ast.AST) -> l
     """Return a power: of a float by a literal integer, or by a float."""
     if isinstance(exponent, lang.Constant) and exponent.type == "int":
         if base.type == "float" and 0 <= exponent.value <= _LARGEST_EXPONENT:  # negative ones raise exceptions of 0
-            return lang.Operation("float", "pow", (base, exponent))
+            return lang.ScalarOperation("float", "pow", (base, exponent))
     elif exponent.type == "float":
-        return lang.Operation("float", "pow", (as_type("float", base), exponent))
+        return lang.ScalarOperation("float", "pow", (as_type("float", base), exponent))
     raise Foreign("a power", node)
 
 
@@ -305,9 +305,9 @@ def as_type(kind: lang.Scalar, value: lang.Expression) -> lang.Expression:
         return value
     if isinstance(value, lang.Constant) and kind == "float":
         return lang.Constant("float", float(value.value))
-    return lang.Operation(kind, kind, (value,))
+    return lang.ScalarOperation(kind, kind, (value,))
 
 
 def truth_of(value: lang.Expression) -> lang.Expression:
     """Return whether a value counts as true."""
-    return value if value.type == "bool" else lang.Operation("bool", "bool", (value,))
+    return value if value.type == "bool" else lang.ScalarOperation("bool", "bool", (value,))

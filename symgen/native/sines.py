@@ -90,16 +90,16 @@ def _value(statement: lang.Statement) -> lang.Expression:
 
 def _angles(e: lang.Expression | str) -> Iterator[lang.Expression]:
     """Give the arguments of sines and cosines in what is always evaluated, innermost first."""
-    if isinstance(e, lang.Operation | lang.Call):
+    if isinstance(e, lang.ScalarOperation | lang.FunctionCall):
         for argument in e.arguments:
             yield from _angles(argument)
-        if isinstance(e, lang.Operation) and e.name in NAMES:
+        if isinstance(e, lang.ScalarOperation) and e.name in NAMES:
             yield e.arguments[0]
 
 
 def is_simple(e: lang.Expression) -> bool:
     """Whether a value is a sum or product of variables and numbers: other angles are taken one by one."""
-    if isinstance(e, lang.Operation):
+    if isinstance(e, lang.ScalarOperation):
         return e.name in ("add", "sub", "mul", "neg") and all(map(is_simple, e.arguments))
     return isinstance(e, lang.Constant | lang.Variable)
 
@@ -110,7 +110,7 @@ def _ready(e: lang.Expression, known: dict[str, int]) -> int | None:
         return 0
     if isinstance(e, lang.Variable):
         return known.get(e.name)
-    assert isinstance(e, lang.Operation), "a simple value"
+    assert isinstance(e, lang.ScalarOperation), "a simple value"
     parts = [_ready(argument, known) for argument in e.arguments]
     return None if None in parts else max(part for part in parts if part is not None)
 

@@ -13,13 +13,13 @@ from typing import Any
 
 
 @dataclass(frozen=True)
-class Number:
+class NumberType:
     """A number, or nothing."""
 
     name: str
 
-    def __getitem__(self, axes: slice | tuple[slice, ...]) -> Array:
-        return Array(self, len(axes) if isinstance(axes, tuple) else 1)
+    def __getitem__(self, axes: slice | tuple[slice, ...]) -> ArrayType:
+        return ArrayType(self, len(axes) if isinstance(axes, tuple) else 1)
 
     def __call__(self, *arguments: Kind) -> Signature:
         """Return the signature of a function with this result."""
@@ -30,10 +30,10 @@ class Number:
 
 
 @dataclass(frozen=True)
-class Array:
+class ArrayType:
     """A contiguous array of numbers."""
 
-    dtype: Number
+    dtype: NumberType
     ndim: int
 
     def __repr__(self) -> str:
@@ -44,7 +44,7 @@ class Array:
 class Signature:
     """Types of a function's result and arguments."""
 
-    result: Number
+    result: NumberType
     arguments: tuple[Kind, ...]
 
     def __repr__(self) -> str:
@@ -62,7 +62,7 @@ class FunctionType:
 
 
 @dataclass(frozen=True)
-class Record:
+class RecordType:
     """A tuple, with the class of named ones."""
 
     parts: tuple[Kind, ...]
@@ -83,6 +83,6 @@ class Record:
         return f"{self.made.__name__}{self.parts!r}"
 
 
-Kind = Number | Array | FunctionType | Record
+Kind = NumberType | ArrayType | FunctionType | RecordType
 
-float64, int64, uint32, boolean, void = (Number(name) for name in ("float64", "int64", "uint32", "boolean", "void"))
+float64, int64, uint32, boolean, void = (NumberType(name) for name in ("float64", "int64", "uint32", "boolean", "void"))

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.compiling.checked import checked
-from symgen.describe.derived import derived
+from symgen.describe.derived_parameters import derived
 from symgen.describe.evaluate import said
 from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
 from symgen.drawing.scene import Array
 from symgen.native.javascript import HELPERS, javascript
 from symgen.native.read import Foreign
-from symgen.player.formulas import Lines, NotInPages, Script
+from symgen.player.script_formulas import NotInPages, Script, ScriptLines
 from symgen.runtime import abi
 from symgen.runtime.model_arrays import lengths_of
 
@@ -139,7 +139,7 @@ def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
     places = {p.name: f"p[{i}]" for i, p in enumerate(mechanism.parameters)}
     formulas = []
     for name, expression in derived(mechanism.parameters):
-        lines = Lines(places)
+        lines = ScriptLines(places)
         value = lines.result(lines.value(expression, name))
         formulas.append(
             f"if (!given.has({_index(places[name])})) {{ {' '.join(lines.lines)} {places[name]} = {value}; }}"
@@ -152,7 +152,7 @@ def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
         numbers = [repr(float(x)) for x in begun]
         told = f"q: [{', '.join(numbers[:nq])}], v: [{', '.join(numbers[nq:])}]"
         return f"{text}function describe(p) {{ return {{ {told} }}; }}\n"
-    lines = Lines(places)
+    lines = ScriptLines(places)
     q, v = described_start(mechanism, lines)
     own = {h.name: h.value for h in holds_of(mechanism)}
     _held_values(mechanism, own, lines, q, v)
@@ -161,7 +161,7 @@ def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
     return f"{text}function describe(p) {{\n{body}\nreturn {{ q: [{places_of_bodies}], v: [{told}] }};\n}}\n"
 
 
-def _held_values(mechanism: Mechanism, own: Mapping[str, Any], lines: Lines, q: list[Any], v: list[Any]) -> None:
+def _held_values(mechanism: Mechanism, own: Mapping[str, Any], lines: ScriptLines, q: list[Any], v: list[Any]) -> None:
     """Put values that the description holds in the place of described ones; those of joints are left to closing."""
     names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
     speeds = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]

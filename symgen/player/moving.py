@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.drawing.build import build_scene
+from symgen.drawing.mechanism_scene import build_scene
 from symgen.drawing.paper import Drawn, View, on_paper
 from symgen.drawing.pixels import paint
 from symgen.drawing.svg import fitted

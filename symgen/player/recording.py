@@ -21,7 +21,7 @@ LONGEST_KEY = 14
 
 
 @dataclass(frozen=True)
-class Group:
+class PlottedGroup:
     """Columns of one unit that are plotted together, shape (k, n).
 
     Attributes
@@ -79,7 +79,7 @@ class Recording:
         What was run, and how it went.
     status, reason : str
         Of the run.
-    groups : tuple of Group
+    groups : tuple of PlottedGroup
         What can be plotted.
     reactions : Array, shape (k, n, d)
         Force of each joint of `pushed` on its first body, ground axes [N].
@@ -100,7 +100,7 @@ class Recording:
     facts: tuple[tuple[str, str], ...] = ()
     status: str = "ok"
     reason: str = ""
-    groups: tuple[Group, ...] = ()
+    groups: tuple[PlottedGroup, ...] = ()
     reactions: Array | None = None
     pushed: tuple[str, ...] = ()
     pulls: Array | None = None
@@ -108,14 +108,14 @@ class Recording:
     moments: tuple[Moment, ...] = ()
 
 
-def position_groups(mechanism: Mechanism, q: Array) -> list[Group]:
+def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
     """Return positions and angles of the first bodies over time."""
     found = []
     names = [(f"{b.name}.{c}", c) for b in mechanism.bodies for c in b.coordinates]
     for title, unit, wanted in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
         chosen = [i for i, (_, c) in enumerate(names) if c in wanted][:LONGEST_KEY]
         if chosen:
-            found.append(Group(title, unit, tuple(names[i][0] for i in chosen), q[:, chosen]))
+            found.append(PlottedGroup(title, unit, tuple(names[i][0] for i in chosen), q[:, chosen]))
     return found
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from symgen.lower.record import Part, Record, record_law
+from symgen.lower.record import Part, RecordedLaw, record_law
 from symgen.methods import METHODS
-from symgen.methods._formula import Operation, needed
+from symgen.methods._formula import FormulaStep, needed
 from symgen.reading.boxes import (
     Box,
     bracket,
@@ -141,14 +141,14 @@ def law(method: str, options: Mapping[str, str] | None = None, driven: bool = Fa
     chosen = METHODS.get(method, "law")
     complete = chosen.complete_options(options or {})
     record = record_law(chosen, complete, driven)
-    steps = [step for part in record.parts for step in _Reader(record, part).steps()]
+    steps = [step for part in record.parts for step in _LawReader(record, part).steps()]
     return Law(chosen.name, chosen.summary, record.form, complete, tuple(steps))
 
 
-class _Reader:
+class _LawReader:
     """Reads one function of a law; what is used more than once, and what is solved for, has a step of its own."""
 
-    def __init__(self, record: Record, part: Part) -> None:
+    def __init__(self, record: RecordedLaw, part: Part) -> None:
         self.operations, self.part = record.operations, part
         self.result: list[Step] = []
         self.boxes: dict[int, Box] = {}
@@ -186,7 +186,7 @@ class _Reader:
     def _add(self, left: Box, right: Box, solved: bool = False) -> None:
         self.result.append(Step(self.part.name, self.part.purpose, left, right, solved))
 
-    def _box(self, operation: Operation) -> Box:
+    def _box(self, operation: FormulaStep) -> Box:
         kind, parts = operation.kind, [self.boxes[i] for i in operation.operands]
         if kind in _SIGNS:
             left, right = parts

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from symgen.reading.html import attribute, fold, small
 
 if TYPE_CHECKING:
-    from symgen.reading.source import Computed
+    from symgen.reading.function_source import Computed
 
 
 def file_listing(text: str, places: Mapping[str, int], joints: Container[str]) -> list[str]:

@@ -17,14 +17,14 @@ from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
 from symgen.player.live import rates_parts
-from symgen.player.page import as_json, rates_script
+from symgen.player.motion_page import as_json, rates_script
 from symgen.reading.boxes import dot, name, row, sign, transposed
+from symgen.reading.function_source import Computed, computed, sections
 from symgen.reading.html import attribute, equation, equations, fold, math, section, short, small, table
 from symgen.reading.law import law
 from symgen.reading.listing import code_listing, file_listing
 from symgen.reading.patterns import of_factor, of_jacobian, picture
 from symgen.reading.sheet import Sheet
-from symgen.reading.source import Computed, computed, sections
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
@@ -50,7 +50,7 @@ def _web(name: str) -> str:
 
 
 @dataclass(frozen=True)
-class Subject:
+class PageSubject:
     """What a page is about.
 
     Attributes
@@ -101,7 +101,7 @@ def check_size(mechanism: Mechanism) -> None:
         raise InputError("inspect: -o", expected, f"{rows} rows and {speeds} velocities", "--json has no such limit")
 
 
-def page(subject: Subject) -> str:
+def page(subject: PageSubject) -> str:
     """Return the page, without the listing of emitted code where it would be larger than `LARGEST`.
 
     What room is left holds the right-hand side as a script calls it.
@@ -126,7 +126,7 @@ def page(subject: Subject) -> str:
 
 
 class _Page:
-    def __init__(self, subject: Subject) -> None:
+    def __init__(self, subject: PageSubject) -> None:
         self.subject, self.e = subject, formulate(subject.mechanism)
         self.sheet = Sheet(subject.mechanism, self.e)
         self.program = lower_model(self.e, digest="")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from symgen.describe.printer import to_text
+from symgen.describe.formula_text import to_text
 from symgen.reading.boxes import Box, bracket, dot, matrix, name, row, sign
 from symgen.reading.structure import structure
 from symgen.reading.typeset import Sum, Typesetter, atom

@@ -10,7 +10,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.repeats import without_repeats
 from symgen.formulate.equations import Equations
 from symgen.formulate.frames import FRAME_SLOTS
-from symgen.formulate.measures import Model
+from symgen.formulate.measures import ModelNodes
 from symgen.formulate.spatial import SPATIAL_SLOTS
 from symgen.ir.graph import Graph
 
@@ -37,7 +37,7 @@ def structure(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
         its rotation matrix; where joints carry the bodies also their places and velocities, such as ``BODY.x``, but
         for those that are coordinates and velocities of the state: of free bodies.
     """
-    model = Model(without_repeats(mechanism)[0])
+    model = ModelNodes(without_repeats(mechanism)[0])
     slots = SPATIAL_SLOTS if model.spatial else FRAME_SLOTS
     named = [(body.name, slot) for body in mechanism.bodies for slot in slots]
     nodes = [node for body in mechanism.bodies for node in model.frame_inputs(body.name)]

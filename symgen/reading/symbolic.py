@@ -14,7 +14,7 @@ from symgen.formulate.equations import Equations
 from symgen.formulate.translate import TO_SYMPY, NotReal, Translator, table_function
 from symgen.ir.graph import Graph
 from symgen.reading.boxes import Box, dot, matrix, name
-from symgen.reading.quantities import input_names
+from symgen.reading.quantity_names import input_names
 from symgen.reading.typeset import Writer
 
 _CONDITIONS = {

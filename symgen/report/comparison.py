@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from symgen.report import words
-from symgen.report.document import Cell, Document, Section, Table
+from symgen.report.document import Document, DocumentTable, Section, TableCell
 from symgen.report.figures import pictures
-from symgen.report.findings import costs, findings
+from symgen.report.finding_pages import costs, findings
 from symgen.report.picture import sketched
-from symgen.report.select import methods, representatives, settings_text
+from symgen.report.row_selection import methods, representatives, settings_text
 from symgen.report.source import beside_the_source
-from symgen.study.comparison.rows import YARDSTICK, Row, Study
-from symgen.study.machine import machine_class, versions
+from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study
+from symgen.study.machine_class import machine_class, versions
 
 _MOODS = {"ok": "good", "unverified": "doubtful", "failed": "bad"}
 _LEAD = (
@@ -90,19 +90,19 @@ def _across(studies: Sequence[Study]) -> Section:
         if method != YARDSTICK
     )
     text = "; ".join(f"{study.mechanism}: {settings_text(study)}" for study in studies)
-    tables = [Table("Error [m].", ("method", *names), errors)]
+    tables = [DocumentTable("Error [m].", ("method", *names), errors)]
     if any(x != words.NONE for row in ratios for x in row[1:]):
-        tables.append(Table(f"Run time as a multiple of that of {YARDSTICK}.", ("method", *names), ratios))
+        tables.append(DocumentTable(f"Run time as a multiple of that of {YARDSTICK}.", ("method", *names), ratios))
     return Section("Side by side", (f"One row a method: {text}.",), tables=tuple(tables))
 
 
-def _error_cell(row: Row | None) -> str | Cell:
+def _error_cell(row: Row | None) -> str | TableCell:
     if row is None:
         return words.NONE
     if row.error is None:
-        return Cell(row.status, _MOODS[row.status])
+        return TableCell(row.status, _MOODS[row.status])
     text = words.number(row.error) + (" *" if row.below_reference else "")
-    return Cell(f"{text} ({row.status})", _MOODS[row.status]) if row.status != "ok" else text
+    return TableCell(f"{text} ({row.status})", _MOODS[row.status]) if row.status != "ok" else text
 
 
 # -- one mechanism -----------------------------------------------------------------------------------------------------
@@ -123,7 +123,7 @@ def _one(study: Study) -> Section:
     )
 
 
-def _summary(study: Study) -> Table:
+def _summary(study: Study) -> DocumentTable:
     headings = (
         *("method", "status", "error [m]", "run time", f"× {YARDSTICK}", "max |Φ|", "max |D v − ν|"),
         *("max |D v' − γ|", "energy error [J]"),
@@ -133,7 +133,7 @@ def _summary(study: Study) -> Table:
         rows.append(
             (
                 row.label,
-                Cell(row.status, _MOODS[row.status]),
+                TableCell(row.status, _MOODS[row.status]),
                 _error_text(row),
                 words.seconds(row.run_seconds),
                 words.ratio(row.cost_ratio),
@@ -148,14 +148,14 @@ def _summary(study: Study) -> Table:
         if any(r.below_reference for r, _ in representatives(study))
         else ()
     )
-    return Table(f"One row a method: {settings_text(study)}.", headings, tuple(rows), words=2, notes=notes)
+    return DocumentTable(f"One row a method: {settings_text(study)}.", headings, tuple(rows), words=2, notes=notes)
 
 
 def _error_text(row: Row) -> str:
     return words.number(row.error) + (" *" if row.below_reference else "")
 
 
-def _cost_table(study: Study) -> tuple[Table, ...]:
+def _cost_table(study: Study) -> tuple[DocumentTable, ...]:
     rows = tuple(
         (method, words.ratio(middle), words.ratio(low), words.ratio(high), str(count))
         for method, middle, low, high, count in costs(study)
@@ -164,10 +164,10 @@ def _cost_table(study: Study) -> tuple[Table, ...]:
         return ()
     headings = ("method", "median", "smallest", "largest", "pairs")
     caption = f"Run time as a multiple of that of {YARDSTICK} with the same integrator and step or tolerance."
-    return (Table(caption, headings, rows),)
+    return (DocumentTable(caption, headings, rows),)
 
 
-def _all_rows(study: Study) -> Table:
+def _all_rows(study: Study) -> DocumentTable:
     headings = (
         *("method", "integrator", "setting", "status", "error [m]", "run time", "spread", f"× {YARDSTICK}"),
         *("evaluations", "iterations", "energy [J]"),
@@ -180,7 +180,12 @@ def _all_rows(study: Study) -> Table:
             both += f" ± {words.ratio(row.cost_ratio_spread)}"
         rows.append(
             (
-                *(row.label, row.integrator, words.setting(row.step, row.rtol), Cell(row.status, _MOODS[row.status])),
+                *(
+                    row.label,
+                    row.integrator,
+                    words.setting(row.step, row.rtol),
+                    TableCell(row.status, _MOODS[row.status]),
+                ),
                 *(_error_text(row), words.seconds(row.run_seconds), words.percent(spread), both),
                 *(str(row.evaluations), str(row.iterations), words.number(row.energy_drift_max)),
             )
@@ -189,7 +194,7 @@ def _all_rows(study: Study) -> Table:
     for row in study.rows:
         notes += [f"{_where(row)}: {row.status}: {words.readable(row.reason)}"] if row.reason else []
     notes += _warnings(study)
-    return Table("Error, run time and counts.", headings, tuple(rows), words=4, notes=tuple(notes))
+    return DocumentTable("Error, run time and counts.", headings, tuple(rows), words=4, notes=tuple(notes))
 
 
 def _where(row: Row) -> str:
@@ -211,7 +216,7 @@ def _warnings(study: Study) -> list[str]:
     return found
 
 
-def _all_violations(study: Study) -> Table:
+def _all_violations(study: Study) -> DocumentTable:
     levels = (("|Φ|", "position"), ("|D v − ν|", "velocity"), ("|D v' − γ|", "acceleration"))
     kinds = (("max", "max"), ("r.m.s.", "rms"), ("final", "final"))
     headings = ("method", "integrator", "setting", *(f"{sign} {kind}" for sign, _ in levels for kind, _ in kinds))
@@ -219,4 +224,4 @@ def _all_violations(study: Study) -> Table:
     for row in study.rows:
         values = [words.number(getattr(row, f"{level}_violation_{kind}")) for _, level in levels for _, kind in kinds]
         rows.append((row.label, row.integrator, words.setting(row.step, row.rtol), *values))
-    return Table("Violations at position, velocity and acceleration level.", headings, tuple(rows), words=3)
+    return DocumentTable("Violations at position, velocity and acceleration level.", headings, tuple(rows), words=3)

@@ -36,7 +36,7 @@ class Picture:
 
 
 @dataclass(frozen=True)
-class Cell:
+class TableCell:
     """A cell of a table that is shown in a way of its own.
 
     Attributes
@@ -52,7 +52,7 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class Table:
+class DocumentTable:
     """A table.
 
     Attributes
@@ -71,7 +71,7 @@ class Table:
 
     caption: str
     headings: tuple[str, ...]
-    rows: tuple[tuple[str | Cell, ...], ...]
+    rows: tuple[tuple[str | TableCell, ...], ...]
     words: int = 1
     notes: tuple[str, ...] = ()
 
@@ -83,7 +83,7 @@ class Section:
     title: str
     text: tuple[str, ...] = ()
     findings: tuple[str, ...] = ()
-    tables: tuple[Table, ...] = ()
+    tables: tuple[DocumentTable, ...] = ()
     pictures: tuple[Picture, ...] = ()
     parts: tuple[Section, ...] = ()
 

@@ -10,8 +10,8 @@ import numpy as np
 from symgen.report import words
 from symgen.report.document import Picture, anchor
 from symgen.report.picture import COLOURS, GREY, below, drawn, style
-from symgen.report.select import line_number, methods, most_accurate, representatives, settings_text
-from symgen.study.comparison.rows import Row, Study, Trace
+from symgen.report.row_selection import line_number, methods, most_accurate, representatives, settings_text
+from symgen.study.comparison.comparison_rows import Row, Study, Trace
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

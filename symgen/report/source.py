@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from symgen.report import words
-from symgen.report.document import Picture, Section, Table
+from symgen.report.document import DocumentTable, Picture, Section
 from symgen.report.picture import GREY, below, drawn, style
-from symgen.report.select import USUAL, line_number
-from symgen.study.comparison.rows import Row, Study
+from symgen.report.row_selection import USUAL, line_number
+from symgen.study.comparison.comparison_rows import Row, Study
 
 #: Methods that the source times against its standard Lagrange method.
 METHODS = ("baumgarte", "augmented-lagrangian", "direct-correction")
@@ -44,7 +44,7 @@ def beside_the_source(studies: list[Study]) -> Section | None:
             step = words.NONE if row is None else f"{words.exact(row.step or 0.0)} s"
             rows.append((name, mechanism, method, words.ratio(theirs), mine, step))
     headings = ("mechanism of the source", "ours", "method", "source", "symgen", "step")
-    table = Table("Run time as a ratio to lagrange.", headings, tuple(rows), words=3)
+    table = DocumentTable("Run time as a ratio to lagrange.", headings, tuple(rows), words=3)
     return Section("Beside the source", _TEXT, tables=(table,), pictures=(_picture(ours),))
 
 

@@ -6,16 +6,16 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from symgen.report import words
-from symgen.report.document import Cell, Document, Section, Table
+from symgen.report.document import Document, DocumentTable, Section, TableCell
 from symgen.report.picture import sketched
 from symgen.report.stress_figures import maps, overview, regions
 from symgen.running.automatic import AUTO
-from symgen.study.machine import machine_class, versions
+from symgen.study.machine_class import machine_class, versions
+from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 from symgen.study.stress.findings import FEW_MODELS, cause, findings
 from symgen.study.stress.map import LEGEND, Map, outcomes_of_models
-from symgen.study.stress.outcome import ACCURATE, OUTCOMES
-from symgen.study.stress.rows import Row, Stress
+from symgen.study.stress.stress_rows import Stress, StressRow
 
 _LEAD = (
     "Every cell is one run of a method with an integrator on a case, compared with a motion from another route: a "
@@ -83,29 +83,29 @@ def _map_section(study: Stress) -> Section:
         for line in shown.lines
     )
     headings = ("method", "integrator", *(family.replace("-", " ") for family in shown.families), "all")
-    table = Table("Accurate cells of those judged.", headings, rows, words=2, notes=(f"{LEGEND}.",))
-    meanings = Table("Outcomes.", ("outcome", "meaning"), tuple((n, _MEANINGS[n]) for n in OUTCOMES), words=2)
-    tables: tuple[Table, ...] = (table, meanings)
+    table = DocumentTable("Accurate cells of those judged.", headings, rows, words=2, notes=(f"{LEGEND}.",))
+    meanings = DocumentTable("Outcomes.", ("outcome", "meaning"), tuple((n, _MEANINGS[n]) for n in OUTCOMES), words=2)
+    tables: tuple[DocumentTable, ...] = (table, meanings)
     pictures = maps(study)
     if len(study.models) > FEW_MODELS:
         tables, pictures = (_models_table(study), *tables), (overview(study), *pictures)
     return Section("Map of methods and cases", tables=tables, pictures=pictures)
 
 
-def _models_table(study: Stress) -> Table:
+def _models_table(study: Stress) -> DocumentTable:
     counted = outcomes_of_models(study.rows)
     rows = tuple(
         ("mechanisms of families" if model == "-" else model, str(sum(n.values())), *(str(n[x]) for x in OUTCOMES))
         for model, n in counted
     )
-    return Table("Outcomes on each model, planes among them.", ("model", "cells", *OUTCOMES), rows)
+    return DocumentTable("Outcomes on each model, planes among them.", ("model", "cells", *OUTCOMES), rows)
 
 
-def _field(text: str) -> str | Cell:
+def _field(text: str) -> str | TableCell:
     share, _, letters = text.partition(" ")
     if not share:
         return words.NONE
-    return text if letters else Cell(text, "good")
+    return text if letters else TableCell(text, "good")
 
 
 def _limits_section(study: Stress) -> list[Section]:
@@ -124,7 +124,7 @@ def _limits_section(study: Stress) -> list[Section]:
         f"its error stays below {ACCURATE:g} m. Methods with their own integrator."
     )
     headings = ("model", "case", "method", "integrator", "stable up to [s]", "accurate up to [s]")
-    return [Section("Largest steps", (text,), tables=(Table("", headings, rows, words=4),))]
+    return [Section("Largest steps", (text,), tables=(DocumentTable("", headings, rows, words=4),))]
 
 
 def _regions_section(study: Stress) -> list[Section]:
@@ -148,7 +148,7 @@ def _trust_section(study: Stress) -> Section:
     if not others:
         text.append("No run of another method reports success with such an error.")
     tables = tuple(
-        Table(caption, _TRUST_HEADINGS, tuple(_trust_row(row) for row in rows), words=5)
+        DocumentTable(caption, _TRUST_HEADINGS, tuple(_trust_row(row) for row in rows), words=5)
         for caption, rows in (("auto.", own), ("Methods that were asked for by name.", others))
         if rows
     )
@@ -158,7 +158,7 @@ def _trust_section(study: Stress) -> Section:
 _TRUST_HEADINGS = ("model", "case", "method", "integrator", "why", "error [m]")
 
 
-def _trust_row(row: Row) -> tuple[str, ...]:
+def _trust_row(row: StressRow) -> tuple[str, ...]:
     case = f"{row.family} {row.case}"
     return row.model, case, row.method, row.integrator, cause(row), words.number(row.error)
 
@@ -166,12 +166,14 @@ def _trust_row(row: Row) -> tuple[str, ...]:
 def _left_out(study: Stress) -> list[Section]:
     tables = []
     if study.unusable:
-        tables.append(Table("Cases without a usable reference.", ("model", "family", "case", "why"), study.unusable, 4))
+        tables.append(
+            DocumentTable("Cases without a usable reference.", ("model", "family", "case", "why"), study.unusable, 4)
+        )
     if study.skipped:
-        tables.append(Table("Families that do not apply.", ("model", "family", "why"), study.skipped, 3))
+        tables.append(DocumentTable("Families that do not apply.", ("model", "family", "why"), study.skipped, 3))
     if study.left_out:
         headings = ("mechanism", "method", "integrator", "why")
-        tables.append(Table("Pairs left out for the time of their compilation.", headings, study.left_out, 4))
+        tables.append(DocumentTable("Pairs left out for the time of their compilation.", headings, study.left_out, 4))
     return [Section("What is not judged", tables=tuple(tables))] if tables else []
 
 
@@ -188,14 +190,16 @@ def _cells_section(study: Stress) -> Section:
     parts = []
     for family in shown.families:
         rows = tuple(_cell_row(row) for row in shown.rows if row.family == family)
-        parts.append(Section(family.replace("-", " ").capitalize(), tables=(Table("", headings, rows, words=6),)))
+        parts.append(
+            Section(family.replace("-", " ").capitalize(), tables=(DocumentTable("", headings, rows, words=6),))
+        )
     return Section("All cells", parts=tuple(parts))
 
 
-def _cell_row(row: Row) -> tuple[str | Cell, ...]:
+def _cell_row(row: StressRow) -> tuple[str | TableCell, ...]:
     status = f"{row.status}: {words.readable(row.reason)}" if row.reason else row.status
     integrator = row.chosen or row.integrator
     return (
-        *(row.model, row.case, row.method, integrator, Cell(row.outcome, _MOODS.get(row.outcome, "bad")), status),
+        *(row.model, row.case, row.method, integrator, TableCell(row.outcome, _MOODS.get(row.outcome, "bad")), status),
         *(words.number(row.error), words.number(row.reference_error), str(row.evaluations)),
     )

@@ -9,14 +9,14 @@ import numpy as np
 
 from symgen.report.document import Picture, anchor
 from symgen.report.picture import GREY, below, drawn
+from symgen.study.stress.cell_outcome import OUTCOMES
 from symgen.study.stress.findings import largest_root
 from symgen.study.stress.map import LETTERS, Entry, Map, plane_lines, plane_rows
-from symgen.study.stress.outcome import OUTCOMES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from symgen.study.stress.rows import Row, Stress
+    from symgen.study.stress.stress_rows import Stress, StressRow
 
 #: Colour of each outcome: light for what is well, told apart with every kind of colour vision; letters say the same.
 COLOURS = {
@@ -133,7 +133,7 @@ def _paint(ax: Any, field: np.ndarray[Any, Any]) -> None:
     ax.tick_params(which="both", length=0)
 
 
-def _legend(figure: Figure, ax: Any, rows: Sequence[Row]) -> None:
+def _legend(figure: Figure, ax: Any, rows: Sequence[StressRow]) -> None:
     from matplotlib.patches import Patch
 
     found = [name for name in OUTCOMES if any(row.outcome == name for row in rows)]
@@ -162,7 +162,7 @@ def regions(study: Stress) -> tuple[Picture, ...]:
 
 
 def _plane(
-    family: str, labels: tuple[str, str], model: str, method: str, integrator: str, rows: Sequence[Row]
+    family: str, labels: tuple[str, str], model: str, method: str, integrator: str, rows: Sequence[StressRow]
 ) -> Picture:
     gains = family == "alpha-beta"
     scale = (rows[0].step or 1.0) if gains else 1.0

@@ -12,7 +12,7 @@ from urllib.parse import quote
 
 from symgen.errors import InputError
 from symgen.files import Content, templates_folder, why, write_all, write_whole
-from symgen.report.document import Cell, Document, Picture, Section, Table
+from symgen.report.document import Document, DocumentTable, Picture, Section, TableCell
 from symgen.result.export import check_path
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ def _templates() -> jinja2.Environment:
         autoescape=True,
     )
     environment.filters["embedded"] = _embedded
-    environment.tests["cell"] = lambda value: isinstance(value, Cell)
+    environment.tests["cell"] = lambda value: isinstance(value, TableCell)
     return environment
 
 
@@ -115,7 +115,7 @@ def markdown(document: Document, folder: str) -> str:
     """Return a document as Markdown with tables, pictures being files in `folder`."""
     lines = [f"# {escaped(document.title)}", ""]
     lines += [x for text in document.lead for x in (escaped(text), "")]
-    lines += _table(Table("", ("made with", ""), document.facts, words=2))
+    lines += _table(DocumentTable("", ("made with", ""), document.facts, words=2))
     if document.command:
         fence = "`" * max(3, 1 + max(map(len, re.findall("`+", document.command)), default=0))
         lines += ["Reproduce with", "", f"{fence}sh", document.command, fence, ""]
@@ -139,9 +139,9 @@ def _section(section: Section, level: int, folder: str) -> list[str]:
     return lines
 
 
-def _table(table: Table) -> list[str]:
-    def row(cells: tuple[str | Cell, ...]) -> str:
-        texts = [cell.text if isinstance(cell, Cell) else cell for cell in cells]
+def _table(table: DocumentTable) -> list[str]:
+    def row(cells: tuple[str | TableCell, ...]) -> str:
+        texts = [cell.text if isinstance(cell, TableCell) else cell for cell in cells]
         return f"| {' | '.join(map(escaped, texts))} |"
 
     marks = ["---" if i < table.words else "---:" for i in range(len(table.headings))]

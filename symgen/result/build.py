@@ -14,10 +14,10 @@ from symgen.describe.evaluate import parameter_values
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
 from symgen.result.measured import Measured
-from symgen.result.parts import Rank, Seconds
 from symgen.result.reactions import Forces, seats
 from symgen.result.result import Result
 from symgen.result.run_data import FAILED
+from symgen.result.run_parts import Rank, Seconds
 from symgen.running.continuation import made_of
 from symgen.running.tree import CarriedOutcome
 from symgen.runtime import abi

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-    from symgen.player.page import Page
+    from symgen.player.motion_page import Page
 
 
 @dataclass(frozen=True, repr=False)

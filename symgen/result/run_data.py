@@ -18,8 +18,8 @@ from symgen.result.tables import MotionTables
 
 if TYPE_CHECKING:
     from symgen.result.measured import Measured
-    from symgen.result.parts import Rank, Seconds
     from symgen.result.reactions import Forces
+    from symgen.result.run_parts import Rank, Seconds
     from symgen.runtime.events import EventRecord
     from symgen.runtime.last_state import LastState
     from symgen.runtime.outcome import Outcome, RankEvent

@@ -15,8 +15,8 @@ from symgen.describe.events import DOES
 from symgen.describe.input_data import are_words_of_data
 from symgen.errors import AssemblyError, InputError
 from symgen.player.live import NONE, Live, live_part
-from symgen.player.page import Page, page
-from symgen.player.recording import LONGEST_KEY, Group, Moment, Recording, position_groups
+from symgen.player.motion_page import Page, page
+from symgen.player.recording import LONGEST_KEY, Moment, PlottedGroup, Recording, position_groups
 from symgen.result.export import DIMENSIONS, SAVED
 from symgen.result.labelled import Array, Labelled
 from symgen.result.saved import checked
@@ -121,18 +121,18 @@ def _reactions(mechanism: Mechanism, table: Labelled) -> tuple[Array | None, tup
     return np.stack([[table[f"{name}.{label}"] for label in labels] for name in owners]).transpose(2, 0, 1), owners
 
 
-def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> list[Group]:
+def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> list[PlottedGroup]:
     """Return what can be plotted: outputs of the file first, then energy, violations and positions of few bodies."""
-    found: list[Group] = []
+    found: list[PlottedGroup] = []
     outputs = tables["outputs"]
     for unit in dict.fromkeys(outputs.units):
         chosen = [i for i, u in enumerate(outputs.units) if u == unit][:LONGEST_KEY]
-        found.append(Group("outputs", unit, tuple(outputs.names[i] for i in chosen), outputs.values[:, chosen]))
+        found.append(PlottedGroup("outputs", unit, tuple(outputs.names[i] for i in chosen), outputs.values[:, chosen]))
     found += position_groups(mechanism, q)
     energy, violations = tables["energy"], tables["violations"]
-    found.append(Group("energy", "J", energy.names[:3], energy.values[:, :3]))
-    found.append(Group("energy error", "J", ("error",), energy.values[:, 3:4], logarithmic=True))
-    found.append(Group("violation", "", violations.names, violations.values, logarithmic=True))
+    found.append(PlottedGroup("energy", "J", energy.names[:3], energy.values[:, :3]))
+    found.append(PlottedGroup("energy error", "J", ("error",), energy.values[:, 3:4], logarithmic=True))
+    found.append(PlottedGroup("violation", "", violations.names, violations.values, logarithmic=True))
     return found
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from symgen.describe.evaluate import parameter_values
-from symgen.describe.inputs import Driven, driven
+from symgen.describe.inputs import DrivenMechanism, driven
 from symgen.describe.mechanism import Mechanism, bounded
 from symgen.errors import InputError
 from symgen.runtime.stops import Stop, stops_of
@@ -30,7 +30,7 @@ class Inputs:
         Parts of the run between jumps of inputs; empty where none jumps.
     words : mapping of str to str or float
         Each input as a text, or as its number.
-    driven : Driven or None
+    driven : DrivenMechanism or None
         The formulas and data of inputs; None where all inputs are numbers.
     """
 
@@ -38,7 +38,7 @@ class Inputs:
     settings: Settings
     stops: tuple[Stop, ...]
     words: Mapping[str, str | float]
-    driven: Driven | None = None
+    driven: DrivenMechanism | None = None
 
 
 def put_inputs(mechanism: Mechanism, settings: Settings, behind: float = 0.0) -> Inputs:

@@ -20,7 +20,7 @@ from symgen.runtime.least_norm import dense_change, iterated_change, sparse_chan
 from symgen.runtime.manifold import stay
 from symgen.runtime.model_arrays import entries_of, joints_of, lengths_of, spins_of, velocity_of
 from symgen.runtime.probe import Ready
-from symgen.runtime.start_records import Asked, Instant, Layout, Work, new_work
+from symgen.runtime.start_records import Instant, Layout, StartConditions, Work, new_work
 from symgen.runtime.starting import close_row, close_rows, follow_nothing, observe_nothing, prepare_rows
 from symgen.runtime.turning import choose_no_turns, choose_turns
 
@@ -119,12 +119,12 @@ class Assembly:
         held, given = self.held, v.copy()
         given[list(held.velocities)] = list(held.velocities.values())
         targets = [*held.coordinates.values(), *held.joints.values(), *held.rates.values()]
-        asked = Asked(given, np.array(targets, dtype=np.float64), np.zeros(e.N_SUMMARY))
+        asked = StartConditions(given, np.array(targets, dtype=np.float64), np.zeros(e.N_SUMMARY))
         now = Instant(y, p, self.compiled.scratch())
         self.close_one(now, asked)
         return now.w, asked.summary
 
-    def close_all(self, now: Instant, asked: Asked, selected: Integers, control: Integers) -> int:
+    def close_all(self, now: Instant, asked: StartConditions, selected: Integers, control: Integers) -> int:
         """Make the selected rows consistent, in compiled code.
 
         Parameters
@@ -144,7 +144,7 @@ class Assembly:
         *functions, observe = (compiled_form(f) for f in self.own)
         joints, work = self.memory()
         of_model, start = ((self.layout, *functions), observe, joints), compiled_form(close_rows)
-        done = int(start(of_model, flat, Asked(*(array.ravel() for array in asked)), work, selected, control))
+        done = int(start(of_model, flat, StartConditions(*(array.ravel() for array in asked)), work, selected, control))
         self._judge(now.w, asked.summary)
         return done
 
@@ -154,7 +154,7 @@ class Assembly:
         functions = model.prepare, law.prepare, model.masses
         compiled_form(prepare_rows)(*functions, self.compiled.scratch(), flat.p, flat.w, runs, selected)
 
-    def close_one(self, now: Instant, asked: Asked) -> int:
+    def close_one(self, now: Instant, asked: StartConditions) -> int:
         """Make one start consistent, in place; return `symgen.runtime.ensemble_abi.ASSEMBLED` or why there is none."""
         joints, work = self.memory()
         with np.errstate(all="ignore"):  # undefined numbers are nan or infinite in compiled code, without a warning

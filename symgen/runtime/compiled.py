@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-class Row(msgspec.Struct, frozen=True):
+class RowInfo(msgspec.Struct, frozen=True):
     """A constraint row."""
 
     name: str
@@ -48,7 +48,7 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     parameters: tuple[Quantity, ...]
     coordinates: tuple[Quantity, ...]
     velocities: tuple[Quantity, ...]
-    rows: tuple[Row, ...]
+    rows: tuple[RowInfo, ...]
     joint_coordinates: tuple[Quantity, ...]
     sections: dict[str, tuple[int, int]]
     jacobian: tuple[tuple[int, int, float | None, int | None], ...]

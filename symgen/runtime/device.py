@@ -20,10 +20,10 @@ from typing import Any, NamedTuple
 
 from numba import config, cuda, float64, int64, types
 
-from symgen.native.judge import type_of
+from symgen.native.numba_judge import type_of
 from symgen.runtime import abi, frame, observe, rows, watch
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.instances import Instances, viewing
+from symgen.runtime.loop_instances import Instances, viewing
 from symgen.runtime.probe import rates_of
 from symgen.runtime.records import SIZES, SPAN, TABLEAU, Kept, Observed, Outputs, State
 from symgen.runtime.redundancy import never
@@ -49,7 +49,7 @@ class Starts(NamedTuple):
     times: Any
 
 
-class Results(NamedTuple):
+class DeviceResults(NamedTuple):
     """What runs leave: outputs and what is observed at them by output, column and run; other numbers by run."""
 
     states: Any
@@ -64,7 +64,7 @@ class Results(NamedTuple):
 #: Types of a kernel's arguments; see `make_kernel`.
 STARTS = types.NamedTuple(Starts(ys=_M, ps=_M, ws=_M, limits=_A, share=_A, metric=_A, picks=_K, times=_A), Starts)
 RESULTS = types.NamedTuple(
-    Results(states=_T, status=_T, accelerations=_T, multipliers=_T, rows=_T, values=_M, summary=_M), Results
+    DeviceResults(states=_T, status=_T, accelerations=_T, multipliers=_T, rows=_T, values=_M, summary=_M), DeviceResults
 )
 SIGNATURE = types.void(type_of(TABLEAU), type_of(SIZES), type_of(SPAN), STARTS, RESULTS)
 

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 _SCHEME, _SPAN = -4, -3
 
 
-class Block:
+class ArgumentBlock:
     """A compiled function with its arguments in one block of memory.
 
     Arrays are referred to by their addresses, so they have to stay where they are; they are kept alive.
@@ -74,7 +74,7 @@ class Block:
             at += 1
 
 
-class Entry(Block):
+class LoopEntry(ArgumentBlock):
     """A compiled loop, an instance of `symgen.runtime.frame.integrate`, with all that it is entered with."""
 
     def __init__(self, function: MachineFunction, signature: types.Signature, arguments: tuple[Any, ...]) -> None:
@@ -108,7 +108,7 @@ class Entry(Block):
         return int(self._ints[RESULT])
 
 
-def entry_of(loop: Any, arguments: tuple[Any, ...]) -> Entry | None:
+def entry_of(loop: Any, arguments: tuple[Any, ...]) -> LoopEntry | None:
     """Return the entry of a loop, None where it has to be called as every function.
 
     Parameters
@@ -118,7 +118,7 @@ def entry_of(loop: Any, arguments: tuple[Any, ...]) -> Entry | None:
     arguments : tuple
         Model, scheme, span, state, outputs.
     """
-    return Entry.of(loop, getattr(loop, "signature", None), arguments)
+    return LoopEntry.of(loop, getattr(loop, "signature", None), arguments)
 
 
 def direct(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable[..., Any]:
@@ -133,7 +133,7 @@ def direct(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable
     *arguments
         Arrays and numbers.
     """
-    block = Block.of(function, kind.signature, arguments)
+    block = ArgumentBlock.of(function, kind.signature, arguments)
     if block is None:
         return lambda *first: function(*first, *arguments[len(first) :])
 

@@ -126,10 +126,10 @@ class Followed(NamedTuple):
     status: Any
 
 
-COURSE = types.Record((*(_I8,) * 11, _F, _F, _K, _A, _A), Course)
-STAND = types.Record((*(_A,) * 4, _K, *(_A,) * 5), Stand)
-FOLLOWED = types.Record((_M,) * 3, Followed)
-_MODEL = types.Record((COURSE, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE))
+COURSE = types.RecordType((*(_I8,) * 11, _F, _F, _K, _A, _A), Course)
+STAND = types.RecordType((*(_A,) * 4, _K, *(_A,) * 5), Stand)
+FOLLOWED = types.RecordType((_M,) * 3, Followed)
+_MODEL = types.RecordType((COURSE, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE))
 
 
 @jit()

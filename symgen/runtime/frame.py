@@ -1,7 +1,7 @@
 """The frame of all loops: outputs, accepted states, error control, where to stop; around the step of a scheme.
 
-Plain Python of which loops are instances (`symgen.runtime.instances`). A scheme gives a meaning to the names below, and
-so does what runs it: a processor, vector lanes, a CUDA device.
+Plain Python of which loops are instances (`symgen.runtime.loop_instances`). A scheme gives a meaning to the names
+below, and so does what runs it: a processor, vector lanes, a CUDA device.
 
 | name | takes | does |
 | --- | --- | --- |
@@ -27,9 +27,9 @@ from typing import Any
 from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
-from symgen.runtime.instances import loop as compiled_loop
-from symgen.runtime.instances import viewing
-from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, Run, Span, System
+from symgen.runtime.loop_instances import loop as compiled_loop
+from symgen.runtime.loop_instances import viewing
+from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, ModelSystem, Run, Span
 from symgen.runtime.redundancy import rows_fell
 from symgen.runtime.scales import settle
 from symgen.runtime.vectors import copied, received
@@ -195,7 +195,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
     Parameters
     ----------
     model : tuple
-        What a `System` is made of: the sizes of the model, then its functions (`symgen.runtime.abi`), 0 in place of
+        Parts of a `ModelSystem`: the sizes of the model, then its functions (`symgen.runtime.abi`), 0 in place of
         those that the scheme does not call.
     scheme : record
         The scheme.
@@ -211,7 +211,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
     int
         How it ended, see `symgen.runtime.abi`.
     """
-    system = System(*model)
+    system = ModelSystem(*model)
     sizes, scheme, outputs = system.sizes, bare(scheme), bare(outputs)
     run, until, times, width = opened(sizes, state), span.until, outputs.times, sizes.width
     clock, control, asked = run.clock, run.control, times.shape[0]
@@ -396,7 +396,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
     return abi.DONE
 
 
-#: The functions of a `System` with their types.
+#: The functions of a `ModelSystem` with their types.
 FUNCTIONS = {
     **{"rhs": abi.RHS, "confirm": abi.RHS, "accept": abi.ACCEPT},
     **{"turn": abi.MOVE, "residual": abi.STAGE, "tangent": abi.STAGE},
@@ -406,7 +406,7 @@ RECIPES: dict[Any, tuple[tuple[Any, ...], dict[str, Any]]] = {}
 
 
 def kinds_of(functions: Iterable[str]) -> tuple[types.Kind, ...]:
-    """Return the types of what a `System` is made of, functions beside ``rhs``, ``confirm`` and ``accept`` by name."""
+    """Return the types of the parts of a `ModelSystem`, functions beside ``rhs``, ``confirm``, ``accept`` by name."""
     called = {"rhs", "confirm", "accept", *functions}
     return SIZES, *(kind if name in called else types.int64 for name, kind in FUNCTIONS.items())
 
@@ -425,7 +425,7 @@ def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) 
     **meanings
         What the names of the frame mean.
     """
-    signature = types.int64(types.Record(kinds_of(functions)), scheme, SPAN, STATE, OUTPUTS)
+    signature = types.int64(types.RecordType(kinds_of(functions)), scheme, SPAN, STATE, OUTPUTS)
     made = compiled_loop(module, name, integrate, signature, **meanings)
     RECIPES[made] = (module, name, scheme, *functions), meanings
     return made

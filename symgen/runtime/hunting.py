@@ -20,9 +20,9 @@ from symgen.runtime import search_records as searching
 from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import LOOK, TRY
 from symgen.runtime.frame import opened as plain_opened
-from symgen.runtime.instances import called
-from symgen.runtime.instances import loop as compiled_loop
-from symgen.runtime.records import OUTPUTS, SPAN, STATE, Run, State, System, record
+from symgen.runtime.loop_instances import called
+from symgen.runtime.loop_instances import loop as compiled_loop
+from symgen.runtime.records import OUTPUTS, SPAN, STATE, ModelSystem, Run, State, record
 from symgen.runtime.vectors import copied
 
 Array = NDArray[np.float64]
@@ -32,13 +32,13 @@ Array = NDArray[np.float64]
 HuntingState = record("HuntingState", *State._fields, "hunt", module=__name__)
 #: A `Run` with what is kept of events.
 HuntingRun = record("HuntingRun", *Run._fields, "hunt", module=__name__)
-#: A `System` with the functions of events: switching functions with their rates, `symgen.runtime.searching.decide`, and
-#: what gives q' and v', ``rhs`` or that of a law which integrates something else than v.
-HuntingSystem = record("HuntingSystem", *System._fields, "happens", "decide", "rates", module=__name__)
+#: A `ModelSystem` with the functions of events: switching functions with their rates, the function
+#: `symgen.runtime.searching.decide`, and what gives q' and v', ``rhs`` or that of a law which integrates something else than v.
+HuntingSystem = record("HuntingSystem", *ModelSystem._fields, "happens", "decide", "rates", module=__name__)
 
 
 #: How compiled loops see what a run keeps.
-HUNTING_STATE = types.Record((*STATE, STATE.parts[0]), HuntingState)
+HUNTING_STATE = types.RecordType((*STATE, STATE.parts[0]), HuntingState)
 
 
 # -- what the frame calls ----------------------------------------------------------------------------------------------
@@ -102,7 +102,7 @@ def notes_at(n: int, width: int, nw: int) -> int:
 
 
 _MEANINGS: dict[str, Any] = {
-    **{"EVENTS": True, "opened": opened, "System": HuntingSystem},
+    **{"EVENTS": True, "opened": opened, "ModelSystem": HuntingSystem},
     **{"happened": happened, "attend": attend, "aimed": aimed},
 }
 _loops: dict[Any, Any] = {}
@@ -121,7 +121,7 @@ def with_events(loop: Any) -> Any:
     if loop not in _loops:
         (module, name, scheme, *functions), meanings = frame.RECIPES[loop]
         kinds = *frame.kinds_of(functions), abi.OBSERVE, abi.DECIDE, abi.RHS
-        signature = types.int64(types.Record(kinds), scheme, SPAN, HUNTING_STATE, OUTPUTS)
+        signature = types.int64(types.RecordType(kinds), scheme, SPAN, HUNTING_STATE, OUTPUTS)
         own = f"{module.rpartition('.')[2]}_{name}"
         _loops[loop] = compiled_loop(__name__, own, frame.integrate, signature, **{**meanings, **_MEANINGS})
     return _loops[loop]

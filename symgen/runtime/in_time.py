@@ -13,7 +13,7 @@ from symgen.describe.evaluate import evaluate
 from symgen.describe.inputs import Jump
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError
-from symgen.runtime.columns import Columns
+from symgen.runtime.array_formulas import Columns
 from symgen.vocabulary.expressions import Call, Expr, Name, Number, names
 
 Array = NDArray[np.float64]

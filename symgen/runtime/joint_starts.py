@@ -76,7 +76,7 @@ class Further(NamedTuple):
 
 
 _I, _A = types.int64[::1], types.float64[::1]
-JOINTS = types.Record((LAYOUT, LAYOUT, _I, *(_A,) * 4), Joints)
+JOINTS = types.RecordType((LAYOUT, LAYOUT, _I, *(_A,) * 4), Joints)
 
 
 def joints_held(info: ModelInfo, base: Layout, values: Sequence[int], rates: Sequence[int], scratch: Array) -> Joints:

@@ -22,8 +22,8 @@ from symgen.runtime import ensemble_abi as e
 from symgen.runtime import watch as watching
 from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import integrate
-from symgen.runtime.instances import Instances
-from symgen.runtime.instances import loop as compiled_loop
+from symgen.runtime.loop_instances import Instances
+from symgen.runtime.loop_instances import loop as compiled_loop
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Outputs, Run, State
 from symgen.runtime.redundancy import FALLEN, never
 from symgen.runtime.row_variants import take
@@ -302,7 +302,7 @@ def room_of_lanes(n: int, stages: int, n_p: int, nw: int, windings: int, n_times
     return LANES * (numbers + n_times * (n + abi.N_STATUS + windings))
 
 
-_MODEL = types.Record((SIZES, LANE_FUNCTION, LANE_FUNCTION, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
+_MODEL = types.RecordType((SIZES, LANE_FUNCTION, LANE_FUNCTION, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
 lane_runs = compiled_loop(
     *(__name__, "lane_runs", run_lanes, types.int64(_MODEL, TABLEAU, SPAN, CHUNK, STATE, KEPT_OF_RUN)),
     integrate=Instances(_MEANINGS).of(integrate),

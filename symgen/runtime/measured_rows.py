@@ -46,7 +46,7 @@ class Left(NamedTuple):
     rates: Any
 
 
-LEFT = types.Record((_A, _K, _C, _I8, _K, _M, _M, _A, _A), Left)
+LEFT = types.RecordType((_A, _K, _C, _I8, _K, _M, _M, _A, _A), Left)
 
 
 @jit()
@@ -66,7 +66,7 @@ def bring(seen: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any
     return reached
 
 
-@jit(_I8(types.Record((LEFT, abi.OBSERVE, abi.MEASURE)), _C, _I8, _C))
+@jit(_I8(types.RecordType((LEFT, abi.OBSERVE, abi.MEASURE)), _C, _I8, _C))
 def measure_rows(model: Any, found: Any, at: int, entries: Any) -> int:
     """Evaluate formulas of a run, and the entries of D that vary, at all outputs of runs.
 

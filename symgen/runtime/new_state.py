@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.runtime import abi
-from symgen.runtime.blocks import padded
 from symgen.runtime.model_arrays import lengths_of
+from symgen.runtime.padding import padded
 from symgen.runtime.records import Outputs, Sizes, Span, State
 
 if TYPE_CHECKING:

@@ -23,7 +23,7 @@ def output(sizes: Any, outputs: Any, k: int, y: Any, w: Any) -> None:
         w[abi.WINDING + i] = outputs.status[k, abi.N_STATUS + i]
 
 
-@jit(_I8(types.Record((SIZES, abi.RHS, abi.RHS, abi.ACCEPT)), OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
+@jit(_I8(types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT)), OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
 def observe_rates(model: Any, outputs: Any, count: int, p: Any, w: Any, iw: Any, observed: Any, room: Any) -> int:
     """Evaluate v' and lambda at outputs.
 

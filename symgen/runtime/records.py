@@ -167,7 +167,7 @@ class Observed(NamedTuple):
     rows: Any
 
 
-class Chunk(NamedTuple):
+class RowChunk(NamedTuple):
     """Rows of an ensemble, and what is kept of them.
 
     Attributes
@@ -218,7 +218,7 @@ class Kept(NamedTuple):
     observed: Any
 
 
-class System(NamedTuple):
+class ModelSystem(NamedTuple):
     """A model as schemes see it: its sizes and its functions, 0 in place of those that the scheme does not call."""
 
     sizes: Any
@@ -233,7 +233,7 @@ class System(NamedTuple):
 # -- schemes -----------------------------------------------------------------------------------------------------------
 
 
-class Tableau(NamedTuple):
+class TableauRecord(NamedTuple):
     """An explicit Runge-Kutta scheme.
 
     Attributes
@@ -271,7 +271,7 @@ class Rotations(NamedTuple):
 
     Attributes
     ----------
-    tableau : Tableau
+    tableau : TableauRecord
         The scheme.
     spins : Array of int64
         Where the angular velocities of bodies begin in v.
@@ -369,16 +369,16 @@ class Projection(NamedTuple):
 KEPT = ("numbers", "plan", "filter_numbers", "filter_plan")
 
 #: How compiled loops see the records.
-SIZES = types.Record((_I,) * len(Sizes._fields), Sizes)
-SPAN = types.Record((_F,) * len(Span._fields), Span)
-STATE = types.Record((_A, _A, _A, _K, _A, _A, _K, *(_A,) * 6), State)
-OUTPUTS = types.Record((_A, _M, _M), Outputs)
-OBSERVED = types.Record((_M,) * 3, Observed)
-KEPT_OF_RUN = types.Record((OUTPUTS, OBSERVED), Kept)
-CHUNK = types.Record((_K, _A, _A, _A, _A, _K, _A, _A, _A, _I, _I, _I, LAYOUT, _A), Chunk)
-TABLEAU = types.Record((_K, _K, _A, _A, _A, _K, _I, _I, _I, _I, _I), Tableau)
-ROTATIONS = types.Record((TABLEAU, _K, _I), Rotations)
-MULTISTEP = types.Record((_A, _A, _K, _I), Multistep)
-STAGES = types.Record((_A, _A, _A, _A, _F, _I, _I, _I, _K, _A, _A, _K, _A, _K), Stages)
-ALPHA = types.Record((_F, _F, _F, _F, _A, _A, _K), Alpha)
-PROJECTION = types.Record((_I, _A, _A, _K, _K, _K), Projection)
+SIZES = types.RecordType((_I,) * len(Sizes._fields), Sizes)
+SPAN = types.RecordType((_F,) * len(Span._fields), Span)
+STATE = types.RecordType((_A, _A, _A, _K, _A, _A, _K, *(_A,) * 6), State)
+OUTPUTS = types.RecordType((_A, _M, _M), Outputs)
+OBSERVED = types.RecordType((_M,) * 3, Observed)
+KEPT_OF_RUN = types.RecordType((OUTPUTS, OBSERVED), Kept)
+CHUNK = types.RecordType((_K, _A, _A, _A, _A, _K, _A, _A, _A, _I, _I, _I, LAYOUT, _A), RowChunk)
+TABLEAU = types.RecordType((_K, _K, _A, _A, _A, _K, _I, _I, _I, _I, _I), TableauRecord)
+ROTATIONS = types.RecordType((TABLEAU, _K, _I), Rotations)
+MULTISTEP = types.RecordType((_A, _A, _K, _I), Multistep)
+STAGES = types.RecordType((_A, _A, _A, _A, _F, _I, _I, _I, _K, _A, _A, _K, _A, _K), Stages)
+ALPHA = types.RecordType((_F, _F, _F, _F, _A, _A, _K), Alpha)
+PROJECTION = types.RecordType((_I, _A, _A, _K, _K, _K), Projection)

@@ -9,7 +9,7 @@ from symgen.runtime import ensemble_abi as e
 from symgen.runtime import search_records as records
 from symgen.runtime.bare import bare, part
 from symgen.runtime.hunting import notes_at
-from symgen.runtime.instances import called
+from symgen.runtime.loop_instances import called
 from symgen.runtime.stopping import ROW, change, due, same
 
 

@@ -15,8 +15,8 @@ from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import store
 from symgen.runtime.hunting import with_events
-from symgen.runtime.instances import called, signature_of
-from symgen.runtime.instances import loop as compiled_loop
+from symgen.runtime.loop_instances import called, signature_of
+from symgen.runtime.loop_instances import loop as compiled_loop
 from symgen.runtime.observe import observe_rates, observe_rows
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, Observed, Outputs
 from symgen.runtime.redundancy import choose_rows
@@ -273,8 +273,8 @@ def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> in
 def rows_loop(name: str, loop: Any, **meanings: Any) -> Any:
     """Return the loop over many runs around one over a single run."""
     args = signature_of(loop).arguments
-    observers = types.Record((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
-    signature = types.int64(types.Record((*args[:1], observers)), *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
+    observers = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
+    signature = types.int64(types.RecordType((*args[:1], observers)), *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
     return compiled_loop(__name__, name, run_rows, signature, integrate=loop, **meanings)
 
 

@@ -13,7 +13,7 @@ from typing import Any
 from symgen.runtime import abi
 from symgen.runtime.bare import part
 from symgen.runtime.exact import exact
-from symgen.runtime.instances import viewing
+from symgen.runtime.loop_instances import viewing
 
 #: Bodies count as at least this part of the longest one: their rounding shall not decide.
 LEAST_LENGTH = 1e-2

@@ -33,7 +33,6 @@ from symgen.runtime.frame import (
     TAKE,
     TRY,
 )
-from symgen.runtime.points import SHORT_OF, aim, arrive, bend, ends_at, face, short
 from symgen.runtime.search_records import (
     ACCEPTED,
     ACTION,
@@ -79,6 +78,7 @@ from symgen.runtime.search_records import (
     WIDTH,
 )
 from symgen.runtime.switching import asked, dip, first_root, is_finite, side_of
+from symgen.runtime.table_points import SHORT_OF, aim, arrive, bend, ends_at, face, short
 from symgen.store.emitted import plain
 
 A = Any

@@ -22,7 +22,7 @@ from symgen.runtime.snapshot import Snapshot, names_kept, with_kept
 if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.entry import Entry
+    from symgen.runtime.entry import LoopEntry
     from symgen.runtime.events import Events, Watched
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.records import Outputs
@@ -89,7 +89,7 @@ class Simulation:
         self.snapshot = Snapshot(state)
         self.state = self.snapshot.state
         self._model: tuple[Any, ...] = self.sizes, *self.setup.functions
-        self._prepared: tuple[Outputs, Entry] | None = None
+        self._prepared: tuple[Outputs, LoopEntry] | None = None
         self._whole = self._model, self.setup.loop
         self._stops: tuple[Stop, ...] = ()
         self._counts, self._clock = memoryview(self.state.control), memoryview(self.state.clock)
@@ -313,7 +313,7 @@ class Simulation:
         return self.outputs(np.zeros(0))
 
     @cached_property
-    def _entry(self) -> Entry | None:
+    def _entry(self) -> LoopEntry | None:
         from symgen.runtime.entry import entry_of
 
         entry = entry_of(self.setup.loop, (self._model, self.scheme, self.span, self.state, self._nothing))

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.runtime import abi
-from symgen.runtime.blocks import padded
+from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
     from symgen.runtime.records import State

@@ -83,7 +83,7 @@ class Instant(NamedTuple):
     w: Any
 
 
-class Asked(NamedTuple):
+class StartConditions(NamedTuple):
     """What is asked of the start of a run, and what is said of it.
 
     Attributes
@@ -154,14 +154,14 @@ def new_work(layout: Layout, nw: int) -> Work:
 
 
 _A, _I = types.float64[::1], types.int64[::1]
-LAYOUT = types.Record((types.float64, *(types.int64,) * 16, _I, _A, *(_I,) * 7, _A, _A), Layout)
-INSTANT = types.Record((_A,) * 3, Instant)
-ASKED = types.Record((_A,) * 3, Asked)
-WORK = types.Record((*(_A,) * 8, _I, _I), Work)
+LAYOUT = types.RecordType((types.float64, *(types.int64,) * 16, _I, _A, *(_I,) * 7, _A, _A), Layout)
+INSTANT = types.RecordType((_A,) * 3, Instant)
+ASKED = types.RecordType((_A,) * 3, StartConditions)
+WORK = types.RecordType((*(_A,) * 8, _I, _I), Work)
 #: solve(spread, layout, now, work): see `symgen.runtime.least_norm`.
 SOLVE = types.FunctionType(types.int64(abi.MOVE, LAYOUT, INSTANT, WORK))
 #: turns(geometry, measure, layout, now, work): see `symgen.runtime.turning`.
 TURNS = types.FunctionType(types.int64(abi.MEASURE, abi.MEASURE, LAYOUT, INSTANT, WORK))
 #: A model as `symgen.runtime.starting.close_row` takes it: its layout, what a `Closing` is made of, the choice of turns
 #: and ``rhs``.
-MODEL = types.Record((LAYOUT, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS))
+MODEL = types.RecordType((LAYOUT, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS))

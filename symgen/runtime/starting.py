@@ -24,11 +24,11 @@ from symgen.runtime.closing import (
 from symgen.runtime.exact import exact
 from symgen.runtime.joint_starts import JOINTS, Further, copied_scratch, fill_further
 from symgen.runtime.scales import extent_of, free_scale, larger, measure_lengths, row_weight, speed_of
-from symgen.runtime.start_records import ASKED, INSTANT, MODEL, WORK, Asked, Closing, Instant
+from symgen.runtime.start_records import ASKED, INSTANT, MODEL, WORK, Closing, Instant, StartConditions
 
 _A, _I = types.float64[::1], types.int64[::1]
 #: A model, its ``observe``, and the joint coordinates that starts hold.
-_HOLDING = types.Record((MODEL, abi.OBSERVE, JOINTS))
+_HOLDING = types.RecordType((MODEL, abi.OBSERVE, JOINTS))
 
 
 @exact(types.int64(_HOLDING, INSTANT, ASKED, WORK), once=True)
@@ -243,7 +243,7 @@ def close_rows(model: Any, all_of_now: Any, all_asked: Any, work: Any, selected:
         r = selected[s]
         now = Instant(part(ys, r * ny, ny), part(ps, r * n_p, n_p), part(ws, r * nw, nw))
         summary = part(rest.summary, r * e.N_SUMMARY, e.N_SUMMARY)
-        asked = Asked(part(rest.given, r * n, n), part(rest.targets, r * h, h), summary)
+        asked = StartConditions(part(rest.given, r * n, n), part(rest.targets, r * h, h), summary)
         close_row(model, now, asked, work)
     return int(selected.shape[0])
 

@@ -16,8 +16,8 @@ from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import bare
-from symgen.runtime.instances import loop as compiled_loop
-from symgen.runtime.instances import signature_of
+from symgen.runtime.loop_instances import loop as compiled_loop
+from symgen.runtime.loop_instances import signature_of
 from symgen.runtime.records import Span
 from symgen.store.jit import jit
 
@@ -55,7 +55,7 @@ class Stops(NamedTuple):
 
 
 _A, _K = types.float64[::1], types.int64[::1]
-STOPS = types.Record((_K, _K, _A, _K, _K, _A), Stops)
+STOPS = types.RecordType((_K, _K, _A, _K, _K, _A), Stops)
 
 
 def due(stops: Any, count: int) -> float:
@@ -151,7 +151,7 @@ def with_stops(loop: Any) -> Any:
     if loop not in _loops:
         name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}"
         signature = signature_of(loop)
-        model = types.Record((*signature.arguments[:1], STOPS, types.FunctionType(signature), e.PREPARE, e.PREPARE))
+        model = types.RecordType((*signature.arguments[:1], STOPS, types.FunctionType(signature), e.PREPARE, e.PREPARE))
         made = compiled_loop(__name__, name, between_stops, types.int64(model, *signature.arguments[1:]), once=True)
         _loops[loop] = globals()[name] = made  # it is known by its name, as all loops are
     return _loops[loop]

@@ -15,7 +15,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 from symgen.describe.evaluate import parameter_values
-from symgen.describe.inputs import Driven, Jump
+from symgen.describe.inputs import DrivenMechanism, Jump
 from symgen.describe.kinks import known_in_time
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.remembered import remembered
@@ -46,13 +46,13 @@ class Stop:
 
 
 def stops_of(
-    driven: Driven, values: Mapping[str, float], until: float, first: float = 0.0, behind: float = 0.0
+    driven: DrivenMechanism, values: Mapping[str, float], until: float, first: float = 0.0, behind: float = 0.0
 ) -> tuple[Stop, ...]:
     """Return the stops of a motion from `first` to `until`, none where nothing jumps.
 
     Parameters
     ----------
-    driven : Driven
+    driven : DrivenMechanism
         What inputs are.
     values : mapping of str to float
         Of all parameters.

@@ -53,9 +53,9 @@ class Carrying(NamedTuple):
 
 
 _I, _A = types.int64[::1], types.float64[::1]
-_CARRYING = types.Record((types.int64, types.int64, *(_I,) * 4), Carrying)
+_CARRYING = types.RecordType((types.int64, types.int64, *(_I,) * 4), Carrying)
 #: A tree with the ``observe`` of bodies, the function that carries its motion to bodies, and where what stands.
-_TREE = types.Record((MODEL, abi.OBSERVE, abi.OBSERVE, _CARRYING))
+_TREE = types.RecordType((MODEL, abi.OBSERVE, abi.OBSERVE, _CARRYING))
 
 
 @exact(types.int64(_TREE, INSTANT, INSTANT, WORK, _A, _A), once=True)

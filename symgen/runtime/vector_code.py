@@ -12,7 +12,7 @@ from typing import Any
 
 from llvmlite import ir
 
-from symgen.runtime.blocks import BLOCK
+from symgen.runtime.padding import BLOCK
 
 _F64, _I32, _I64 = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
 _VECTOR, _INDICES, _PAIR = ir.VectorType(_F64, BLOCK), ir.VectorType(_I64, BLOCK), ir.VectorType(_F64, 2)

@@ -1,6 +1,6 @@
 """Arithmetic on whole states in vectors of eight numbers.
 
-Arrays are as long as `symgen.runtime.blocks` says, filled up with zeros, so no loop has a remainder; and vectors are
+Arrays are as long as `symgen.runtime.padding` says, filled up with zeros, so no loop has a remainder; and vectors are
 written as such, because compilers that have to find them by themselves first ask at run time whether arrays overlap,
 which takes as long as the work on a small state. Processors with shorter vectors do a block in several parts.
 

@@ -20,10 +20,10 @@ from symgen.runtime.events import EventRecord, record_of
 from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.stops import Foreseen, foreseen, merged, stops_of
 from symgen.stepping.advance import Advance
-from symgen.stepping.carried import CarriedBodies
 from symgen.stepping.clock import Clock, Controller
 from symgen.stepping.named import Named
-from symgen.stepping.saved import Saved
+from symgen.stepping.saved_state import Saved
+from symgen.stepping.tree_state import CarriedBodies
 from symgen.version import __version__
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from symgen.native import types
 from symgen.native.compiler import by_numba, compiler, interpreted
 from symgen.native.read_tables import Written
 from symgen.store.identity import content, source_stamp
-from symgen.store.jit import Arguments, Entry, MachineFunction, arguments_of, kinds_of, syntax_tree
+from symgen.store.jit import Arguments, CacheEntry, MachineFunction, arguments_of, kinds_of, syntax_tree
 
 if TYPE_CHECKING:
     from symgen.native.language import Function
@@ -64,7 +64,7 @@ class EmittedFunction(MachineFunction):
         """Return the sources and options that machine code depends on."""
         return f"{self.__name__}\n{self.origin.stamp}\n{_together()}"
 
-    def made(self, arguments: Arguments, symbol: str) -> Entry:
+    def made(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source with everything in memory that it calls."""
         from symgen.native.llvm import is_copied, module
         from symgen.native.machine import compiled
@@ -76,7 +76,7 @@ class EmittedFunction(MachineFunction):
         names = {id(value): name for name, value in self.py_func.__globals__.items()}
         called = tuple((names[id(f.source)], _kinds(f)) for f in apart)
         code = compiled(module(function, _symbol, _is_short, _together()), symbol)
-        return Entry(function.returned, called, code)
+        return CacheEntry(function.returned, called, code)
 
 
 def plain(function: _Function) -> _Function:
@@ -148,10 +148,10 @@ def _symbol(function: Function) -> str:
 
 
 def _is_short(function: Function) -> bool:
-    from symgen.native.language import View
+    from symgen.native.language import ArrayView
 
     # of looped code there is machine code already: loops and starts call its functions
-    return len(function.body) <= _SHORT and not any(isinstance(statement, View) for statement in function.body)
+    return len(function.body) <= _SHORT and not any(isinstance(statement, ArrayView) for statement in function.body)
 
 
 @functools.lru_cache(maxsize=4)

@@ -30,13 +30,13 @@ from symgen.native.machine import load, lock, processor
 from symgen.store import private
 from symgen.store.identity import SOURCES, content, digest, file_digest, source_stamp, sources_digest
 from symgen.store.paths import cache_location
-from symgen.store.stats import Clock
+from symgen.store.stats import CompilationClock
 from symgen.store.upkeep import NATIVE
 
 if TYPE_CHECKING:
     from symgen.native.read import Kind
 
-__all__ = ["Entry", "MachineFunction", "RuntimeFunction", "jit", "made", "syntax_tree"]
+__all__ = ["CacheEntry", "MachineFunction", "RuntimeFunction", "jit", "made", "syntax_tree"]
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _FORMAT = "3"
@@ -45,7 +45,7 @@ Arguments = tuple[types.Kind, ...]
 _NUMBERS = {"float": types.float64, "int": types.int64, "bool": types.boolean}
 
 
-class Entry(NamedTuple):
+class CacheEntry(NamedTuple):
     """Machine code in the cache: type of the result, functions called with types of their arguments, object file."""
 
     returned: str
@@ -53,7 +53,7 @@ class Entry(NamedTuple):
     code: bytes
 
 
-class Code(NamedTuple):
+class MachineCode(NamedTuple):
     """Machine code in memory."""
 
     address: int
@@ -84,7 +84,7 @@ class MachineFunction(ABC):
     def __init__(self, function: Any, inlined: bool = False, contracted: bool = True) -> None:
         self.py_func, self.inlined, self.contracted = function, inlined, contracted
         functools.update_wrapper(self, function, updated=())
-        self._codes = dict[Arguments, Code]()
+        self._codes = dict[Arguments, MachineCode]()
         self._callers = dict[Arguments, Callable[..., Any]]()
 
     @abstractmethod
@@ -96,7 +96,7 @@ class MachineFunction(ABC):
         """Return the sources and options that machine code depends on."""
 
     @abstractmethod
-    def made(self, arguments: Arguments, symbol: str) -> Entry:
+    def made(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source with everything in memory that it calls.
 
         Raises
@@ -105,7 +105,7 @@ class MachineFunction(ABC):
             If the function is outside the language.
         """
 
-    def code(self, arguments: Arguments) -> Code:
+    def code(self, arguments: Arguments) -> MachineCode:
         """Return the machine code for arguments of some types.
 
         Raises
@@ -147,14 +147,14 @@ class MachineFunction(ABC):
         name = f"{self.__name__}_{digest(self.key(arguments))[:32]}"
         return f"_ZN6symgen{len(name)}{name}E"  # as of a function in a namespace
 
-    def _loaded(self, arguments: Arguments) -> Code:
+    def _loaded(self, arguments: Arguments) -> MachineCode:
         """Put machine code into memory, from the cache or made anew."""
         from symgen.native.read import Foreign
 
         symbol, key, location = self.symbol(arguments), self.key(arguments), cache_location()
         name = f"{plain_name(self.__qualname__, 60)}-{digest(key)[:32]}{private.SUFFIX}"
         path = location.path / NATIVE / plain_name(self.__module__, 100) / name
-        with Clock() as clock:
+        with CompilationClock() as clock:
             entry = self._kept(path, key) if location.persistent else None
             clock.loaded = entry is not None
             if entry is None:
@@ -170,14 +170,14 @@ class MachineFunction(ABC):
             address = load(entry.code, (symbol,))[symbol]
         if not clock.loaded and compiler() == "explain":
             print(f"{self.__module__}.{self.__name__} compiled in {clock.seconds:.3f} s", file=sys.stderr)
-        return Code(address, types.Signature(_NUMBERS[entry.returned], arguments))
+        return MachineCode(address, types.Signature(_NUMBERS[entry.returned], arguments))
 
-    def _kept(self, path: Path, key: str) -> Entry | None:
+    def _kept(self, path: Path, key: str) -> CacheEntry | None:
         """Return the content of the cache, with everything in memory that it calls."""
         data = private.read(path, key)
         if data is None:
             return None
-        entry = Entry(*marshal.loads(data))
+        entry = CacheEntry(*marshal.loads(data))
         for name, kinds in entry.called:
             self.py_func.__globals__[name].code(arguments_of(kinds))
         return entry
@@ -210,7 +210,7 @@ class RuntimeFunction(MachineFunction):
     def __call__(self, *arguments: Any) -> Any:
         """Call the machine code."""
         if by_numba():
-            from symgen.native.judge import given
+            from symgen.native.numba_judge import given
 
             return self.by_numba(*map(given, arguments))
         if self.signature is None:
@@ -226,7 +226,7 @@ class RuntimeFunction(MachineFunction):
     @property
     def by_numba(self) -> Any:
         """The function as Numba compiles it."""
-        from symgen.native.judge import dispatcher
+        from symgen.native.numba_judge import dispatcher
 
         own = () if self.signature is None else (self.signature,)
         return dispatcher(self.py_func, self.inlined, self.contracted, *own)
@@ -249,7 +249,7 @@ class RuntimeFunction(MachineFunction):
         options = f"{self.contracted} {self._once}"
         return "\n".join((f"{self.__module__}.{self.__qualname__}", options, *meanings, source_stamp(function)))
 
-    def made(self, arguments: Arguments, symbol: str) -> Entry:
+    def made(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
         from symgen.native.loops import read_loop
         from symgen.native.loops_llvm import loop_module
@@ -257,7 +257,7 @@ class RuntimeFunction(MachineFunction):
 
         function = read_loop(self, arguments)
         code = compiled(loop_module(function, symbol), symbol, vectors=not self._once)
-        return Entry(function.returned, (), code)
+        return CacheEntry(function.returned, (), code)
 
 
 def jit(
@@ -325,7 +325,7 @@ def made(text: str, symbol: str) -> bytes:
 def arguments_of(kinds: tuple[Kind, ...]) -> Arguments:
     """Return arguments in types of the language of emitted functions as types of compiled functions."""
     numbers = {**_NUMBERS, "unsigned": types.uint32}
-    return tuple(types.Array(numbers[kind], 1) if array else numbers[kind] for kind, array in kinds)
+    return tuple(types.ArrayType(numbers[kind], 1) if array else numbers[kind] for kind, array in kinds)
 
 
 def kinds_of(arguments: Arguments) -> tuple[Kind, ...]:
@@ -339,9 +339,9 @@ def kinds_of(arguments: Arguments) -> tuple[Kind, ...]:
     names = {number: name for name, number in _NUMBERS.items()} | {types.uint32: "unsigned"}
     found: list[Any] = []
     for kind in arguments:
-        array = isinstance(kind, types.Array)
-        number = kind.dtype if isinstance(kind, types.Array) else kind
-        if number not in names or (isinstance(kind, types.Array) and kind.ndim != 1):
+        array = isinstance(kind, types.ArrayType)
+        number = kind.dtype if isinstance(kind, types.ArrayType) else kind
+        if number not in names or (isinstance(kind, types.ArrayType) and kind.ndim != 1):
             raise InputError("arguments of an emitted function", "numbers and arrays of one dimension", repr(kind))
         found.append((names[number], array))
     return tuple(found)

@@ -35,7 +35,7 @@ def seconds_in_cache() -> float:
     return counters["compile_seconds"] + counters["load_seconds"]
 
 
-class Clock:
+class CompilationClock:
     """Counts one function that is compiled or loaded, and adds the time unless an outer clock is running.
 
     Attributes

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from symgen.describe.builder import MechanismBuilder
-from symgen.player.page import page
+from symgen.player.motion_page import page
 from symgen.player.recording import Recording
 from tests.browser.chromium import Chromium
 

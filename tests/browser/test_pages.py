@@ -127,7 +127,7 @@ def test_near_bars_hide_far_ones_from_either_side(
     tmp_path: Path,
 ) -> None:
     """Two bars that cross, seen from either side: the colour in the middle is that of the nearer one."""
-    from symgen.player.page import page
+    from symgen.player.motion_page import page
     from symgen.player.recording import Recording
 
     crossed = MechanismBuilder("crossed", space="spatial", gravity=(0.0, 0.0, 0.0))
@@ -189,7 +189,7 @@ def test_rates_are_those_of_the_compiled_code(
     multiplication and addition: four times of what that alone changes is allowed beside it.
     """
     from symgen.player.live import live_part
-    from symgen.player.page import page
+    from symgen.player.motion_page import page
     from symgen.player.recording import Recording
 
     mechanism = load(name).mechanism
@@ -350,7 +350,7 @@ def test_frames_with_200_bodies(chromium: Chromium, tmp_path: Path) -> None:
         before = ("ground", f"b{i}") if i == 0 else (f"b{i - 1}", f"b{i}")
         chain.joint(f"j{i}", "revolute", between=before, at=((0.0, 0.0), "a") if i == 0 else ("b", "a"))
     mechanism = chain.build()
-    from symgen.player.page import page
+    from symgen.player.motion_page import page
     from symgen.player.recording import Recording
 
     t = np.linspace(0.0, 10.0, 200)

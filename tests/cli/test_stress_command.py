@@ -7,7 +7,7 @@ import pytest
 
 from symgen.cli import main
 from symgen.study.stress import study as module
-from symgen.study.stress.rows import Row, Stress
+from symgen.study.stress.stress_rows import Stress, StressRow
 
 FEW = ("stress", "pendulum", "--cases", "gravity", "--methods", "lagrange,auto", "--quick", "--jobs", "1")
 
@@ -45,7 +45,7 @@ def test_tables_json_csv_and_reports(cli, tmp_path):
 
 
 def wrong(method):
-    return Row(
+    return StressRow(
         *("four-bar", "gravity", "1 m/s^2", (1.0,), method, "rk4", 1e-3, 1.0, "inaccurate", 0.5, 1e-9, "ok", None),
         *(4000, 1e-12, 1e-12, 0.0, "", "", True),
     )

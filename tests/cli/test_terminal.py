@@ -16,7 +16,7 @@ from rich.console import Console
 from symgen.api import load
 from symgen.cli import COMMANDS, _columns, _tables, group, main
 from symgen.cli import list as list_command
-from symgen.study.comparison.rows import Row, Study
+from symgen.study.comparison.comparison_rows import Row, Study
 
 
 @pytest.fixture
@@ -79,7 +79,7 @@ def test_names_of_the_list_are_whole(narrow: None, capsys: pytest.CaptureFixture
 
 
 def test_columns_go_by_importance_or_into_parts() -> None:
-    columns = [_columns.Column(f"c{k}", ("x" * 20,), weight=k) for k in range(5)]
+    columns = [_columns.TableColumn(f"c{k}", ("x" * 20,), weight=k) for k in range(5)]
     assert [c.heading for c in _columns.fitting(columns, 70)] == ["c0", "c3", "c4"]
     assert [[c.heading for c in part] for part in _columns.in_parts(columns, 70)] == [
         ["c0", "c1", "c2"],

@@ -8,14 +8,14 @@ from hypothesis import strategies as st
 from support.texts import texts
 
 from symgen.describe.evaluate import evaluate
+from symgen.describe.formula_text import to_text
 from symgen.describe.names import CALLABLE
-from symgen.describe.parser import Names, parse
-from symgen.describe.printer import to_text
+from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.tables import Table
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Name, Number
 
-NAMES = Names(
+NAMES = FormulaNames(
     "a formula",
     {"t": "t", "a": "a", "b": "b", "length": "s"},
     {"crank": ("x", "y", "theta", "vx", "vy", "omega")},

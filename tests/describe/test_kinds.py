@@ -7,7 +7,7 @@ import pytest
 from measured import Posed
 
 from symgen.describe import MechanismBuilder
-from symgen.describe.printer import to_text
+from symgen.describe.formula_text import to_text
 from symgen.describe.schema import described
 from symgen.errors import InputError
 from symgen.forces import FORCES

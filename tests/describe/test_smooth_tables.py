@@ -9,7 +9,7 @@ from support.curves import curve
 from symgen.describe.builder import MechanismBuilder
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import evaluate
-from symgen.describe.parser import Names, parse
+from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.tables import Table
 from symgen.describe.toml import to_toml
 from symgen.describe.validate import validate
@@ -61,7 +61,7 @@ def test_a_cubic_table_of_a_cubic_polynomial_is_that_polynomial():
 
 def test_in_formulas_and_on_the_graph():
     table = Table("f", *points(3, 6, False), "cubic")
-    names = Names("a formula", {"a": "a"}, tables={"f": table.function})
+    names = FormulaNames("a formula", {"a": "a"}, tables={"f": table.function})
     tree = parse("2*f(a)", names, "test")
     assert evaluate(tree, {"a": 0.4}, tables={"f": table}) == pytest.approx(2.0 * curve(table.x, table.y, "cubic")(0.4))
     g = Graph()

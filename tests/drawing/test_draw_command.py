@@ -18,7 +18,7 @@ from symgen.describe.validate import validate
 from symgen.drawing import build_scene
 from symgen.drawing.paper import Path as Stroke
 from symgen.drawing.paper import View, axes, on_paper
-from symgen.drawing.scene import Dot, Poses, Solid
+from symgen.drawing.scene import Disc, Poses, Solid
 from symgen.errors import AssemblyError, InputError
 
 #: A four-bar whose links are too short to meet: at best each of the three open gaps is a third of what is missing.
@@ -164,7 +164,7 @@ def test_a_box_and_a_sphere_are_where_the_file_has_them() -> None:
     mechanism = shaped(shapes)
     scene = build_scene(mechanism)
     solid, ball = scene.items[0].marks[:2]
-    assert isinstance(solid, Solid) and isinstance(ball, Dot)
+    assert isinstance(solid, Solid) and isinstance(ball, Disc)
     corners = np.array([p for face in solid.faces for p in face])
     assert corners.min(axis=0) == pytest.approx([-1.0, -0.2, -0.25])
     assert corners.max(axis=0) == pytest.approx([1.0, 0.2, 0.25])

@@ -15,7 +15,7 @@ from symgen.describe.validate import validate
 from symgen.drawing import build_scene, sketch
 from symgen.drawing.outline import hull
 from symgen.drawing.paper import Circle, on_paper
-from symgen.drawing.scene import Dot
+from symgen.drawing.scene import Disc
 from symgen.errors import InputError
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -64,7 +64,7 @@ def test_pins_stand_where_the_bodies_put_them() -> None:
     pin = next(item for item in scene.items if (item.role, item.name) == ("joint", "pin"))
     drawn = next(d for d in on_paper(scene, np.array(q)) if d.item is pin)
     (circle,) = drawn.parts
-    assert isinstance(circle, Circle) and isinstance(pin.marks[0], Dot)
+    assert isinstance(circle, Circle) and isinstance(pin.marks[0], Disc)
     assert (circle.x, circle.y) == pytest.approx((x, y), abs=1e-12)
     # on paper: the pin and the stand are as far apart as lengths and one scale have it, y downwards
     found = groups(sketch(mechanism, q))

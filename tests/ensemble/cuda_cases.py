@@ -122,7 +122,7 @@ def launched(sweep) -> bool:
 def main(out: str, *names: str) -> None:
     """Run the cases for both targets and write ``OUT/CASE.npz``."""
     import symgen
-    from symgen.ensemble.device import DeviceRuns
+    from symgen.ensemble.device_runs import DeviceRuns
 
     dirty_memory()
     as_a_device_asks()

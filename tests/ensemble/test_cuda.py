@@ -17,7 +17,7 @@ import symgen
 from ensemble.cuda_cases import CASES
 from symgen.cli import main
 from symgen.compiling.pipeline import choose_method, generate
-from symgen.ensemble.plan import make_ensemble
+from symgen.ensemble.sweep_plan import make_ensemble
 from symgen.errors import InputError
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import part as elements

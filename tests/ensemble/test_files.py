@@ -13,7 +13,7 @@ import pytest
 import xarray as xr
 
 import symgen
-from symgen.ensemble.table import DONE, FolderTable, Table
+from symgen.ensemble.table import DONE, FolderTable, RowTable
 from symgen.errors import InputError
 
 FEW = {"vary": {"crank_mass": "lin(1, 3, 6)", "crank.omega": [0.0, 2.0]}, "until": 0.05, "quantities": ("q",)}
@@ -241,7 +241,7 @@ def test_two_processes_cannot_write_to_one_folder(tmp_path):
 
 
 def test_a_chunk_is_not_taken_twice():
-    table = Table(4, 1, 1, 2)
+    table = RowTable(4, 1, 1, 2)
     ensemble = symgen.sweep("four-bar", {"crank_mass": [1.0, 2.0]}, until=0.01, quantities=("energy.kinetic",))
     from symgen.ensemble.kernel import Chunk
 

@@ -7,8 +7,8 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.describe.evaluate import evaluate
-from symgen.describe.parser import Names, parse
-from symgen.ensemble.starts import Columns, make_rows
+from symgen.describe.parser import FormulaNames, parse
+from symgen.ensemble.row_starts import Columns, make_rows
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Name
 
@@ -56,7 +56,7 @@ def test_what_is_undefined_inside_stays_undefined_unless_it_is_left_aside():
 )
 def test_an_undefined_condition_counts_for_nothing_where_the_other_one_decides(text, expected):
     values = np.array([-1.0, 0.25, 4.0])
-    formula = parse(text, Names("a formula", {"a": "a"}), "b")
+    formula = parse(text, FormulaNames("a formula", {"a": "a"}), "b")
     np.testing.assert_array_equal(Columns({"a": values}).value(formula), expected)
     for a, x in zip(values, expected, strict=True):
         np.testing.assert_array_equal(Columns({"a": float(a)}).value(formula), x)

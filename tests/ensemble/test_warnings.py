@@ -9,7 +9,7 @@ import pytest
 from support.emitted import mechanism_of
 
 import symgen
-from symgen.ensemble.study import lines_of
+from symgen.ensemble.sweep_study import lines_of
 from symgen.errors import InputError
 from symgen.runtime.stops import foreseen
 
@@ -73,7 +73,7 @@ def test_rows_have_what_single_runs_say_of_singular_positions():
     ["1 if t > 0.3 else 0", "max(0, t - 0.3)", "-sign(b.vx)", "-10*max(0, b.x - 0.2)", "1 if b.x > 0.2 else 0"],
 )
 def test_adaptive_rows_on_a_device_are_refused_where_steps_have_to_end(force, monkeypatch):
-    monkeypatch.setattr("symgen.ensemble.device.check_target", lambda *_: None)
+    monkeypatch.setattr("symgen.ensemble.device_runs.check_target", lambda *_: None)
     with pytest.raises(InputError, match="no jumps and kinks of formulas, at which adaptive steps end"):
         symgen.sweep(pushed(force, m=1.0), {"m": [1.0, 2.0]}, target="cuda", **{**ADAPTIVE, "until": 1.0})
 
@@ -112,12 +112,12 @@ def test_velocities_that_cannot_be_what_they_were_given_as_are_told():
 
 
 def test_outputs_that_a_device_does_not_integrate_do_not_count(monkeypatch):
-    monkeypatch.setattr("symgen.ensemble.device.check_target", lambda *_: None)
+    monkeypatch.setattr("symgen.ensemble.device_runs.check_target", lambda *_: None)
     raw = {"mechanism": {"name": "free"}, "parameters": {"m": 1.0}, "outputs": {"way": "integral(abs(b.vx))"}}
     raw["bodies"] = {"b": {"mass": "m", "inertia": 0.1, "velocity": [1.0, 0.0]}}
     model = symgen.load(mechanism_of(raw))
     with pytest.raises(InputError, match="integral"):
         symgen.sweep(model, {"m": [1.0]}, quantities=("way",), target="cuda", **ADAPTIVE)
-    monkeypatch.setattr("symgen.ensemble.plan.kernel_of", lambda recipe: recipe.spec)  # there is no device
+    monkeypatch.setattr("symgen.ensemble.sweep_plan.kernel_of", lambda recipe: recipe.spec)  # there is no device
     with pytest.raises(AttributeError, match="first"):
         symgen.sweep(model, {"m": [1.0]}, quantities=("b.x",), target="cuda", **ADAPTIVE)

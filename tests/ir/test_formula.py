@@ -14,13 +14,13 @@ import sympy as sp
 from support.emitted import Emitted, mechanism_of
 
 from symgen.api import load
-from symgen.describe.parser import Names, parse
+from symgen.describe.parser import FormulaNames, parse
 from symgen.emit.printer import ElementAccess, Printer
 from symgen.errors import InputError
 from symgen.formulate.translate import Translator, to_sympy
 from symgen.ir.expression import build
 from symgen.ir.graph import Graph
-from symgen.ir.program import Block, Layout, Target
+from symgen.ir.program import Block, ModelLayout, Target
 from symgen.vocabulary.expressions import Expr, Name, Number
 
 #: Formulas of a and b, in which the root is undefined where a is below 0.
@@ -72,7 +72,7 @@ _PLAIN = {
 
 
 def tree(text: str) -> Expr:
-    return parse(text, Names("a formula", {"a": "a", "b": "b"}), "test")
+    return parse(text, FormulaNames("a formula", {"a": "a", "b": "b"}), "test")
 
 
 def meant(e: Expr, values: dict[str, float]) -> Any:
@@ -101,7 +101,7 @@ def meant(e: Expr, values: dict[str, float]) -> Any:
 
 def compiled(graph: Graph, nodes: list[int]) -> Any:
     """The printed code of nodes as emitted functions are compiled."""
-    layout = Layout(2, 0, 0, 0, {"result": (0, len(nodes))})
+    layout = ModelLayout(2, 0, 0, 0, {"result": (0, len(nodes))})
     block = Block("f", "test", graph, tuple((Target("result", i), n) for i, n in enumerate(nodes)), ("y", "w"))
     lines = Printer(block, ElementAccess(layout, {})).lines()
     body = "\n    ".join([*lines.inputs, *lines.terms, *lines.outputs])
@@ -159,14 +159,18 @@ def test_no_operation_is_added_where_nothing_can_be_undefined():
 def test_a_formula_that_is_undefined_everywhere_is_refused():
     x = sp.Symbol("x", real=True)
     with pytest.raises(InputError, match="one that is defined somewhere, got one that is zoo after simplification"):
-        Translator(Graph(), {}).node(to_sympy(parse("1/(x - x)", Names("a formula", {"x": "x"}), "test"), {"x": x}))
+        Translator(Graph(), {}).node(
+            to_sympy(parse("1/(x - x)", FormulaNames("a formula", {"x": "x"}), "test"), {"x": x})
+        )
 
 
 def test_derivatives_are_undefined_where_formulas_are():
     graph = Graph()
     x = sp.Symbol("x", real=True)
     translator = Translator(graph, {x: graph.input("q", 0)})
-    trees = [parse(text, Names("a formula", {"x": "x"}), "test") for text in ("max(0, log(x))", "min(sqrt(x), 2)")]
+    trees = [
+        parse(text, FormulaNames("a formula", {"x": "x"}), "test") for text in ("max(0, log(x))", "min(sqrt(x), 2)")
+    ]
     slopes = [translator.node(sp.diff(to_sympy(e, {"x": x}), x)) for e in trees]
     function, w = compiled(graph, slopes), np.zeros(2)
     function(np.array([-1.0, 0.0]), w)

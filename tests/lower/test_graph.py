@@ -9,7 +9,7 @@ from support.graph_values import node_values
 
 from symgen.emit.printer import ElementAccess, Printer
 from symgen.ir.graph import Graph
-from symgen.ir.program import Block, Layout, Target
+from symgen.ir.program import Block, ModelLayout, Target
 
 X = (0.7, -1.3, 2.1)
 BINARY = ("add", "sub", "mul", "div")
@@ -78,7 +78,7 @@ def test_simplification_keeps_values(steps):
 @given(steps=programs())
 def test_printed_code_is_what_was_built(steps):
     graph, nodes, _ = run(steps)
-    layout = Layout(nq=len(X), nv=0, m=0, parameters=0, sections={"result": (0, len(nodes))})
+    layout = ModelLayout(nq=len(X), nv=0, m=0, parameters=0, sections={"result": (0, len(nodes))})
     block = Block("f", "test", graph, tuple((Target("result", i), n) for i, n in enumerate(nodes)), ("y", "w"))
     lines = Printer(block, ElementAccess(layout, {})).lines()
     w = [0.0] * len(nodes)

@@ -12,7 +12,7 @@ from support.graph_values import node_values
 from symgen.formulate.equations import ConstraintRow, Equations, MassBlock, Quantity
 from symgen.ir.graph import Graph
 from symgen.ir.numerics import SUSPICIOUS
-from symgen.lower.scalar import Scalars
+from symgen.lower.scalar import ScalarNodes
 from symgen.methods._formula import System
 
 
@@ -63,7 +63,7 @@ def laid_out(equations: Equations, formula):
     """What a formula over a system gives, element by element."""
     system = System()
     ends = formula(system)
-    scalars = Scalars(equations, tuple(system.tape.operations))
+    scalars = ScalarNodes(equations, tuple(system.tape.operations))
     scalars.run(range(len(system.tape.operations)))
     return scalars, [scalars.values[end.index] for end in ends]
 

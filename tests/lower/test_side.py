@@ -14,9 +14,9 @@ from symgen import catalogue
 from symgen.api import load
 from symgen.compiling.side import compile_side
 from symgen.describe.context import Context
-from symgen.describe.parser import Names, parse
+from symgen.describe.parser import FormulaNames, parse
 from symgen.formulate.formulate import formulate
-from symgen.formulate.measures import Model as Derivation
+from symgen.formulate.measures import ModelNodes as Derivation
 from symgen.lower.looped.instances import instances
 from symgen.lower.windings import winding_order
 from symgen.native import types
@@ -35,11 +35,11 @@ def entered(function, t, y, p, w, ydot, out):
     return function(t, y, p, w, ydot, out)
 
 
-def names_of(mechanism) -> Names:
+def names_of(mechanism) -> FormulaNames:
     known = Context(
         "test", {p.name: p.value for p in mechanism.parameters}, (), {b.name: b for b in mechanism.bodies}, None
     )
-    return Names("a formula", {n: n for n in (*known.values, "t")}, known.coordinates)
+    return FormulaNames("a formula", {n: n for n in (*known.values, "t")}, known.coordinates)
 
 
 def slider_crank():

@@ -22,10 +22,10 @@ from symgen.native.calls import (
     trampoline,
 )
 from symgen.native.machine import compiled, load
-from symgen.native.types import Array, FunctionType, Record, boolean, float64, int64, uint32, void
+from symgen.native.types import ArrayType, FunctionType, RecordType, boolean, float64, int64, uint32, void
 
 Pair = namedtuple("Pair", "one other")
-RECORD = Record((float64[:, ::1], Record((int64, boolean))), Pair)
+RECORD = RecordType((float64[:, ::1], RecordType((int64, boolean))), Pair)
 #: Returns x plus the first of an array, or its negative.
 TEXT = """
 define double @"symgen.test_calls"(double %x, ptr %a, i64 %n, i1 %sign) {
@@ -48,7 +48,7 @@ def test_types_are_written_as_numba_writes_them():
     assert repr(int64(float64[::1], uint32[:, ::1], FunctionType(void(boolean)))) == (
         "int64(float64[::1], uint32[:, ::1], &void(boolean))"
     )
-    assert RECORD.fields == Pair._fields and Record((int64,)).fields == () and len(RECORD) == 2
+    assert RECORD.fields == Pair._fields and RecordType((int64,)).fields == () and len(RECORD) == 2
 
 
 def test_slots_and_what_is_in_them():
@@ -64,7 +64,7 @@ def test_slots_and_what_is_in_them():
 @pytest.mark.parametrize("value", [None, [1.0], np.zeros(2, int), np.zeros((1, 2)), np.zeros(4)[::2]])
 def test_another_array_is_refused(value):
     with pytest.raises(TypeError, match="expected an array"):
-        list(numbers(Array(float64, 1), value))
+        list(numbers(ArrayType(float64, 1), value))
 
 
 def test_a_call_takes_arguments_apart(address):

@@ -10,7 +10,7 @@ import pytest
 from support import golden
 
 from symgen.ir.program import LANES
-from symgen.native.language import Assign, Return, Shape
+from symgen.native.language import ArrayLength, Assign, Return
 from symgen.native.llvm import is_copied, module
 from symgen.native.machine import optimised
 from symgen.native.read import Foreign, read
@@ -119,7 +119,7 @@ def test_what_is_outside(line, text):
 
 def test_lengths_of_arguments():
     f = of("n = len(z) // 3")
-    assert f.body[0].value.arguments[0] == Shape("z") and isinstance(f.body[1], Return)
+    assert f.body[0].value.arguments[0] == ArrayLength("z") and isinstance(f.body[1], Return)
 
 
 @pytest.mark.slow

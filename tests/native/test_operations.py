@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from symgen.emit.printer import ElementAccess, Printer
 from symgen.ir.graph import FUNCTIONS, Graph
-from symgen.ir.program import Block, Layout, Target
+from symgen.ir.program import Block, ModelLayout, Target
 from symgen.store.modules import load_module
 
 from .twofold import arguments_of, differences, load_twice, uncontracted, written
@@ -83,7 +83,7 @@ _counter = itertools.count()
 def printed(graph: Graph, outputs: list[int], flag: int | None) -> str:
     """Return nodes as an emitted function."""
     block = Block("f", "test", graph, tuple((Target("out", i), n) for i, n in enumerate(outputs)), ("y", "out"), flag)
-    layout = Layout(nq=INPUTS, nv=0, m=0, parameters=0, sections={})
+    layout = ModelLayout(nq=INPUTS, nv=0, m=0, parameters=0, sections={})
     lines = Printer(block, ElementAccess(layout, {})).lines()
     body = [*lines.inputs, *lines.terms, *lines.outputs, f"return {f'int({lines.flag})' if lines.flag else 0}"]
     return "def f(y, out):\n" + "".join(f"    {line}\n" for line in body)

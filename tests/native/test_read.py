@@ -8,7 +8,19 @@ import math
 import numpy as np
 import pytest
 
-from symgen.native.language import Assign, Call, Choice, Constant, Element, For, If, Operation, Return, Store, Variable
+from symgen.native.language import (
+    ArrayElement,
+    Assign,
+    Choice,
+    Constant,
+    For,
+    FunctionCall,
+    If,
+    Return,
+    ScalarOperation,
+    Store,
+    Variable,
+)
 from symgen.native.read import Foreign, read
 
 A, F, N = ("float", True), ("float", False), ("int", False)
@@ -53,9 +65,9 @@ def test_a_straight_function():
     ]
     assert f.returned == "int" and f.variables == {"q": "float"} and f.fixed == {"q"}
     read_, write, end = f.body
-    assert read_ == Assign("q", Element("float", "y", Constant("int", 2)))
-    product = Operation("float", "mul", (Variable("float", "q"), Constant("float", 2.0)))
-    assert write == Store("w", Constant("int", 3), Operation("float", "add", (product, Variable("float", "t"))))
+    assert read_ == Assign("q", ArrayElement("float", "y", Constant("int", 2)))
+    product = ScalarOperation("float", "mul", (Variable("float", "q"), Constant("float", 2.0)))
+    assert write == Store("w", Constant("int", 3), ScalarOperation("float", "add", (product, Variable("float", "t"))))
     assert end == Return(Constant("int", 0))
 
 
@@ -100,7 +112,9 @@ def test_constants_of_the_module_and_tables():
     f = of("def f(y):\n    return X[N] + H\n", A, N=1, H=0.5, X=np.array([1.0, 2.0]))
     assert f.tables == {"X": (1.0, 2.0)} and f.returned == "float"
     assert f.body == (
-        Return(Operation("float", "add", (Element("float", "X", Constant("int", 1)), Constant("float", 0.5)))),
+        Return(
+            ScalarOperation("float", "add", (ArrayElement("float", "X", Constant("int", 1)), Constant("float", 0.5)))
+        ),
     )
 
 
@@ -135,7 +149,7 @@ def test_calls_of_functions_of_the_same_kind():
     f = of("def f(w):\n    measure(w, 3)\n    return measure(w, 4)\n", A, measure=measure)
     assert [g.name for g in f.called] == ["measure"] and f.called[0].source is measure
     (assignment,) = [s for s in f.called[0].body if isinstance(s, Store)]
-    assert isinstance(assignment.value, Call) and assignment.value.type == "float"
+    assert isinstance(assignment.value, FunctionCall) and assignment.value.type == "float"
     assert isinstance(body_of("a = 1.0 if y[0] > 2 else y[1]"), Assign)
     assert isinstance(body_of("a = 1.0 if y[0] > 2 else y[1]").value, Choice)
 

@@ -7,7 +7,7 @@ import pytest
 from support.golden import LOOPED, emitted_looped, written
 
 from symgen.native import types
-from symgen.native.language import Assign, Evaluate, Invoke, Operation, Variable, View
+from symgen.native.language import ArrayView, Assign, Evaluate, Invoke, ScalarOperation, Variable
 from symgen.native.read import Foreign, read
 from symgen.native.read_tables import Written
 from symgen.store.emitted import EmittedFunction
@@ -65,13 +65,13 @@ def test_tables_are_found_and_handed_on():
     f = of("T = tables(w); a = np.int64(T[SIZE]) + T[2]; call(a, T, w, T[3])")
     start, view, number, call = f.body[:4]
     assert isinstance(start, Assign) and start.value.name == "bits"
-    assert isinstance(view, View) and (view.name, view.array, view.type) == ("T", "w", "unsigned")
+    assert isinstance(view, ArrayView) and (view.name, view.array, view.type) == ("T", "w", "unsigned")
     assert isinstance(number, Assign) and f.variables["a"] == "int"
     assert [x.type for x in number.value.arguments] == ["int", "int"]
     assert isinstance(call, Evaluate) and isinstance(call.call, Invoke)
     assert call.call.function == Variable("int", "a") and call.call.arguments[:2] == ("T", "w")
     index = call.call.arguments[2]
-    assert isinstance(index, Operation) and (index.type, index.name) == ("unsigned", "unsigned")
+    assert isinstance(index, ScalarOperation) and (index.type, index.name) == ("unsigned", "unsigned")
 
 
 @pytest.mark.parametrize(

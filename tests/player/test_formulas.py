@@ -7,8 +7,8 @@ import math
 import pytest
 
 from symgen.describe.evaluate import evaluate
-from symgen.describe.parser import Names, parse
-from symgen.player.formulas import Lines, NotInPages
+from symgen.describe.parser import FormulaNames, parse
+from symgen.player.script_formulas import NotInPages, ScriptLines
 
 
 @pytest.mark.parametrize(
@@ -17,8 +17,8 @@ from symgen.player.formulas import Lines, NotInPages
      "abs(-b) + sign(a)", "a if a > b else b*2", "(1 if a < b and b > 0 else 3)*a", "exp(-a) + log(b)", "3.5"],
 )  # fmt: skip
 def test_lines_say_what_the_formula_says(text: str) -> None:
-    expression = parse(text, Names("a formula", {"a": "a", "b": "b"}), "here")
-    lines = Lines({"a": "p[0]", "b": "p[1]"})
+    expression = parse(text, FormulaNames("a formula", {"a": "a", "b": "b"}), "here")
+    lines = ScriptLines({"a": "p[0]", "b": "p[1]"})
     result = lines.result(lines.value(expression, "here"))
     # the lines are read as Python here: choices and names of functions are all that differs
     known = {"p": [0.7, 1.9], "Math": math_of_pages(), "NaN": math.nan}
@@ -45,4 +45,4 @@ def math_of_pages() -> object:
 
 def test_tables_are_not_for_pages() -> None:
     with pytest.raises(NotInPages):
-        Lines({}).apply("table:lift", 1.0)
+        ScriptLines({}).apply("table:lift", 1.0)

@@ -40,7 +40,7 @@ def test_what_a_page_names_is_there(page: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "there"),
     [
-        *((name, True) for name in ("symgen.runtime.frame.loop", "symgen.runtime.blocks.BLOCK")),
+        *((name, True) for name in ("symgen.runtime.frame.loop", "symgen.runtime.padding.BLOCK")),
         *((name, False) for name in ("symgen.runtime.batch", "symgen.runtime.frame.nothing", "nowhere.at.all")),
     ],
 )

@@ -12,7 +12,7 @@ from symgen.cli import main
 from symgen.describe.load import read_raw
 from symgen.describe.validate import validate
 from symgen.formulate.formulate import formulate
-from symgen.reading.document import document as whole_document
+from symgen.reading.latex_document import document as whole_document
 from symgen.reading.law import law
 from symgen.reading.lengths import with_symbols
 

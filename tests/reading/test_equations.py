@@ -13,8 +13,8 @@ from symgen import catalogue
 from symgen.compiling.choose_tree import on_tree
 from symgen.describe import load
 from symgen.errors import InputError
-from symgen.reading import equations as reading
-from symgen.reading.equations import SymbolicEquations
+from symgen.reading import symbolic_equations as reading
+from symgen.reading.symbolic_equations import SymbolicEquations
 
 SMALL = ["four-bar", "driven-four-bar", "slider-crank", "pendulum", "heavy-top", "spherical-double-pendulum"]
 SMALL += ["rolling-disc", "free-rigid-body"]

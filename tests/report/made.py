@@ -1,6 +1,6 @@
 """Studies made by hand: what a report says can then be known without running anything."""
 
-from symgen.study.comparison.rows import Row, Study, Trace, with_ratios
+from symgen.study.comparison.comparison_rows import Row, Study, Trace, with_ratios
 
 
 def row(method, step, error, seconds, **changes):

@@ -15,7 +15,7 @@ from support.pushed import pushed_mass
 import symgen
 from symgen.describe.inputs import Jump
 from symgen.describe.kinks import known_in_time
-from symgen.describe.parser import Names, parse
+from symgen.describe.parser import FormulaNames, parse
 from symgen.ensemble.sweep import sweep
 from symgen.runtime.stops import Stop, merged, times_between
 
@@ -82,7 +82,7 @@ def test_implicit_schemes_see_forces_that_jump(tmp_path: Path, integrator: str, 
 
 
 def test_what_is_compared_too_often_is_left_to_the_steps() -> None:
-    often = Jump(parse("sin(1e7*t)", Names("a formula", {"t": "t"}, {}, {}), "here"))
+    often = Jump(parse("sin(1e7*t)", FormulaNames("a formula", {"t": "t"}, {}, {}), "here"))
     assert times_between([often], symgen.load("pendulum").mechanism, {}, 1.0) == ((), False)
 
 
@@ -165,7 +165,7 @@ def test_which_kinks_are_known() -> None:
 
 
 def _jump(text: str, levels: tuple[float, ...], period: float = 0.0) -> Jump:
-    return Jump(parse(text, Names("a formula", {"w": "w", "t": "t"}, {}, {}), "here"), levels, period=period)
+    return Jump(parse(text, FormulaNames("a formula", {"w": "w", "t": "t"}, {}, {}), "here"), levels, period=period)
 
 
 def test_times_of_kinks() -> None:

@@ -12,13 +12,13 @@ from support.random_closed import make
 
 import symgen
 from symgen.api import load
-from symgen.ensemble.starts import make_rows
+from symgen.ensemble.row_starts import make_rows
 from symgen.errors import AssemblyError, InputError
 from symgen.runtime import decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembler import Assembly
 from symgen.runtime.held import Held
-from symgen.runtime.start_records import Asked, Instant
+from symgen.runtime.start_records import Instant, StartConditions
 
 #: Random mechanisms: seed, space, doubled joint, contradicting velocities.
 CASES = [
@@ -49,7 +49,7 @@ def one_by_one(compiled, rows, p, targets, held):
         state = Instant(np.zeros(compiled.info.ny), p[i].copy(), compiled.scratch())
         state.y[: compiled.info.nq] = rows.q[i]
         summary = np.zeros(e.N_SUMMARY)
-        assembly.close_one(state, Asked(rows.v[i].copy(), targets[i].copy(), summary))
+        assembly.close_one(state, StartConditions(rows.v[i].copy(), targets[i].copy(), summary))
         found.append((*state, summary))
     return tuple(np.stack(part) for part in zip(*found, strict=True))
 
@@ -60,7 +60,7 @@ def all_at_once(compiled, rows, p, targets, held):
     y = np.zeros((count, ny))
     y[:, : compiled.info.nq] = rows.q
     now = Instant(y, p.copy(), np.full((count, len(compiled.scratch())), np.nan))
-    asked = Asked(rows.v, targets, np.zeros((count, e.N_SUMMARY)))
+    asked = StartConditions(rows.v, targets, np.zeros((count, e.N_SUMMARY)))
     assembly = Assembly(compiled, Held(dict.fromkeys(held, 0.0)), ask_light=True)
     control = np.zeros(e.N_CONTROL, dtype=np.int64)
     assert assembly.close_all(now, asked, np.arange(count), control) == count

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from symgen.runtime import points
 from symgen.runtime import search_records as records
+from symgen.runtime import table_points
 from symgen.runtime.exact import plain_form
 from symgen.runtime.frame import TRY
 
@@ -29,9 +29,9 @@ def kept(period: float) -> np.ndarray:
 def aimed(hunt: np.ndarray, s: float, rate: float, second: float, h: float) -> float:
     """The step in place of one of `h` where the argument is s, with its derivatives."""
     columns = hunt[records.N_HEAD :]
-    place = plain_form(points.place_of)(hunt, 1, 0, s, rate)
+    place = plain_form(table_points.place_of)(hunt, 1, 0, s, rate)
     columns[[records.PLACE, records.ARGUMENT_START, records.SLOPE_START, records.CURVE]] = place, s, rate, second
-    plain_form(points.aim)(hunt, 1, h)
+    plain_form(table_points.aim)(hunt, 1, h)
     return float(hunt[TRY])
 
 
@@ -41,9 +41,9 @@ def test_intervals_are_those_of_numpy(period):
     every = [x + k for k in range(-3, 4) for x in LEVELS[:-1]] if period else LEVELS
     for s in (*random.uniform(-1.5, 2.5, 100), *LEVELS):
         for rate in (1.0, -1.0):
-            place = plain_form(points.place_of)(hunt, 1, 0, float(s), rate)
+            place = plain_form(table_points.place_of)(hunt, 1, 0, float(s), rate)
             inside = np.searchsorted(every, s, side="right" if rate > 0.0 else "left") - 1
-            assert plain_form(points.point)(hunt, 1, 0, place) == pytest.approx(
+            assert plain_form(table_points.point)(hunt, 1, 0, place) == pytest.approx(
                 every[inside] if inside >= 0 else -1e300
             )
 
@@ -78,8 +78,8 @@ def test_a_step_to_a_jump_ends_before_it_and_a_short_one_crosses():
     columns = hunt[records.N_HEAD :]
     columns[records.POINTS] = 0.0
     columns[[records.G_START, records.D_START, records.CURVE, records.GRAIN]] = 0.05, -1.0, 0.0, 1e-13
-    plain_form(points.aim)(hunt, 1, 0.1)
+    plain_form(table_points.aim)(hunt, 1, 0.1)
     assert 0.045 < hunt[TRY] < 0.05
     columns[records.G_START] = 1e-9
-    plain_form(points.aim)(hunt, 1, 0.1)
+    plain_form(table_points.aim)(hunt, 1, 0.1)
     assert 1e-9 < hunt[TRY] < 1e-8

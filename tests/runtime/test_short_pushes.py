@@ -12,9 +12,9 @@ import pytest
 from support.checks import assert_same_motion
 
 import symgen
-from symgen.describe.parser import Names, parse
-from symgen.ensemble.plan import make_ensemble
+from symgen.describe.parser import FormulaNames, parse
 from symgen.ensemble.sweep import sweep
+from symgen.ensemble.sweep_plan import make_ensemble
 from symgen.runtime.in_time import InTime, crossings
 from symgen.runtime.stops import foreseen
 from symgen.vocabulary.expressions import Expr
@@ -129,7 +129,7 @@ def test_values_over_times_are_those_at_each(pushed: symgen.Model) -> None:
         "log(t) if t > 1/2 else at",
         "t if t > 1 or log(t) > 0 else 0",
     ):
-        e = parse(text, Names("a formula", {"t": "t", "at": "at"}, {}, {}), "here")
+        e = parse(text, FormulaNames("a formula", {"t": "t", "at": "at"}, {}, {}), "here")
         one_by_one = [formulas.at(e, t) for t in times.tolist()]
         np.testing.assert_array_equal(formulas.over(e, times), one_by_one)
 

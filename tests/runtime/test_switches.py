@@ -15,8 +15,8 @@ import symgen
 from symgen import catalogue
 from symgen.compiling.events import compile_events
 from symgen.describe.kinks import compares_state
-from symgen.ensemble.plan import make_ensemble
 from symgen.ensemble.sweep import sweep
+from symgen.ensemble.sweep_plan import make_ensemble
 from symgen.runtime import abi
 
 #: Two kilograms under 3 N, and what is added between two values, beside an oscillation that has steps of usual length.

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from support.checks import assert_same_motion
 
 from symgen.runtime import vectors
-from symgen.runtime.blocks import BLOCK, padded
+from symgen.runtime.padding import BLOCK, padded
 from symgen.store.jit import jit
 
 Array = NDArray[np.float64]

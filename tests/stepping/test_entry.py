@@ -123,7 +123,7 @@ def test_without_compilation_steps_are_plain_python(tmp_path):
 N, F = types.int64, types.float64
 
 
-@jit(F(F, N, F[::1], types.Record((N[::1], N[::1])), F[:, ::1]))
+@jit(F(F, N, F[::1], types.RecordType((N[::1], N[::1])), F[:, ::1]))
 def mixed(x, n, a, pair, m):
     total = x + n + m.shape[0] * m[1, 2] + pair[0][1] - pair[1].shape[0]
     for i in range(a.shape[0]):

@@ -11,7 +11,7 @@ import pytest
 
 from symgen.errors import InputError
 from symgen.native.types import float64, int64
-from symgen.runtime.kernels import address
+from symgen.runtime.kernel_addresses import address
 from symgen.store import emitted, jit
 from symgen.store.modules import load_module
 from symgen.store.stats import cache_stats

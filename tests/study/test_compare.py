@@ -232,7 +232,7 @@ def test_cost_ratios_are_to_lagrange_with_the_same_setting(study):
 
 
 def test_what_a_ratio_may_vary_by_comes_from_both_runs():
-    from symgen.study.comparison.rows import Row, with_ratios
+    from symgen.study.comparison.comparison_rows import Row, with_ratios
 
     def row(method, shortest, median):
         values = {"error": 0.0, "below_reference": False, "run_seconds_spread": 1.0, "evaluations": 1}

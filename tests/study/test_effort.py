@@ -15,7 +15,7 @@ from symgen.study.references.solvers import OverBudgetError
 from symgen.study.stress import effort, other_route
 from symgen.study.stress.bench import Base
 from symgen.study.stress.cases import CASES
-from symgen.study.stress.cells import LimitTask, ReferenceTask, RunTask, compute
+from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
 from symgen.study.stress.study import pairs, stress
 
 
@@ -64,7 +64,7 @@ def test_what_is_predicted():
 def test_a_prediction_is_below_what_a_run_takes():
     """A damper that decays fast, yet can be integrated: the prediction must not stop a run that could be made."""
     level = CASES.get("damping").levels(Base.of("four-bar"), False)[2]
-    known = compute(ReferenceTask(level))
+    known = compute(CellReference(level))
     assert known["decay"] > 1e4
     found = compute(RunTask(level, "lagrange", "dop853", known))
     plan, _ = plan_of("four-bar", "lagrange", "dop853", until=level.until)
@@ -172,14 +172,14 @@ def test_a_reference_over_its_budget_says_so(monkeypatch):
 @pytest.mark.slow
 def test_two_formulations_take_over_beyond_the_budget(monkeypatch):
     level = CASES.get("gravity").levels(Base.of("slider-crank"), False)[1]
-    best = compute(ReferenceTask(level))
+    best = compute(CellReference(level))
     monkeypatch.setattr("symgen.study.references.motion.BUDGET", 100)
-    found = compute(ReferenceTask(level))
+    found = compute(CellReference(level))
     assert best["how"].startswith("independently derived") and found["how"].startswith("direct-correction with dop853")
     np.testing.assert_allclose(found["q"], best["q"], atol=1e-9)
     longer = CASES.get("duration").levels(Base.of("slider-crank"), False)[1]
     monkeypatch.setattr(other_route, "BUDGET", 100)  # a run is stopped some time after that, the slower one at least
-    failed = compute(ReferenceTask(longer))
+    failed = compute(CellReference(longer))
     assert failed["unusable"].startswith("the reference takes more than 100 evaluations; the reference by ")
     assert "does not come to" in failed["unusable"]
 

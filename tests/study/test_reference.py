@@ -310,10 +310,12 @@ def test_references_see_a_force_between_two_places(solver, tmp_path):
 
 def test_runs_through_singular_positions_differ_between_close_outputs(monkeypatch):
     """Steps longer than from one output to the next would end at the outputs alone, and all runs be the same."""
-    from symgen.study.references import passing
+    from symgen.study.references import singular_passing
 
-    real, steps = passing.march, list[float]()
-    monkeypatch.setattr(passing, "march", lambda e, y, t, step, *rest: steps.append(step) or real(e, y, t, step, *rest))
+    real, steps = singular_passing.march, list[float]()
+    monkeypatch.setattr(
+        singular_passing, "march", lambda e, y, t, step, *rest: steps.append(step) or real(e, y, t, step, *rest)
+    )
     model = symgen.load("n-four-bar:1")
     times = np.linspace(0.0, 0.5, 51)
     found = reference(model.mechanism, {}, *start_of(model), times, solver="scipy-dop853")
@@ -321,6 +323,6 @@ def test_runs_through_singular_positions_differ_between_close_outputs(monkeypatc
         equations = IndependentEquations(model.mechanism, {})
         points = Points.of(model.mechanism, {})
         y = equations.state(*start_of(model))
-        passing.pass_through(equations, y, times, 0.05, points)
+        singular_passing.pass_through(equations, y, times, 0.05, points)
     assert len(steps) >= 2 and max(steps) <= 0.01 * (1.0 + 1e-12) and len(set(steps)) == len(steps)
     assert found.estimated_error < 1e-6

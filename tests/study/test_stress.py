@@ -22,9 +22,9 @@ from symgen.study.references.reference import reference
 from symgen.study.references.stiff import decay
 from symgen.study.stress.bench import Base, Level
 from symgen.study.stress.cases import CASES
-from symgen.study.stress.cells import LimitTask, ReferenceTask, RunTask, compute
+from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
 from symgen.study.stress.findings import largest_root
-from symgen.study.stress.rows import save_csv
+from symgen.study.stress.stress_rows import save_csv
 from symgen.study.stress.study import pairs, stress
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -160,7 +160,7 @@ def test_families_say_why_they_do_not_apply():
 def damped():
     """The four-bar with a stiff damper, its reference, and the fastest decay by the independent equations."""
     level = CASES.get("damping").levels(Base.of("four-bar"), False)[1]
-    known = compute(ReferenceTask(level))
+    known = compute(CellReference(level))
     values = symgen.load(level.mechanism).parameters(level.parameters)
     equations = CompiledEquations(level.mechanism, values)
     y = equations.project(0.0, np.concatenate([known["q"][0], np.zeros(equations.n)]))
@@ -178,7 +178,7 @@ def test_the_largest_step_of_rk4_is_where_its_region_of_stability_ends(damped):
 def test_the_size_of_a_point_on_a_link_is_that_of_its_motion():
     """Else nothing of a pendulum would be within a tenth of its size: the largest step would be that of an error."""
     level = CASES.get("duration").levels(Base.of("pendulum"), True)[0]
-    known = compute(ReferenceTask(level))
+    known = compute(CellReference(level))
     assert known["size"] == pytest.approx(1.0, rel=1e-3)
     found = compute(LimitTask(level, "lagrange", "rk4", known))
     assert found["accurate_step"] < found["stable_step"] and found["stable_step"] > 0.02
@@ -231,7 +231,7 @@ def test_cells_see_a_force_between_two_places(space, tmp_path):
         f'[forces.push]\ntype = "force"\nbody = "a"\nforce = ["6.6 if 0.9996 < a.x < 1.0004 else 0", 0.0{rest}]\n'
     )
     level = Level("flight", "past", (1.0,), symgen.load(path).mechanism, 2.0, 1e-3)
-    known = compute(ReferenceTask(level))
+    known = compute(CellReference(level))
     times, edge, faster = np.linspace(0.0, 2.0, 51), 0.7 - 4e-4, math.sqrt(1.0 + 2.0 * 6.6 * 8e-4)
     expected = np.where(times < edge, 0.3 + times, 1.0 + 4e-4 + faster * (times - edge - (faster - 1.0) / 6.6))
     assert np.abs(np.array(known["q"])[:, 0] - expected).max() < 1e-6

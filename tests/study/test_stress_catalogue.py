@@ -7,13 +7,13 @@ import pytest
 from symgen.report import stress as report
 from symgen.study.stress.findings import FEW_MODELS, cause, findings
 from symgen.study.stress.map import outcomes_of_models, shares_of_models
-from symgen.study.stress.rows import Limit, Row, Stress
+from symgen.study.stress.stress_rows import Limit, Stress, StressRow
 
 MODELS = tuple(f"model-{i}" for i in range(FEW_MODELS + 1))
 
 
 def row(model, method, outcome, error=1e-6, **changes):
-    base = Row(
+    base = StressRow(
         *(model, "stiffness", "1", (1.0,), method, "rk4", 1e-3, 1.0, outcome, error, 1e-9, "ok", None, 4000),
         *(1e-12, 1e-12, 0.0, "", "", True),
     )

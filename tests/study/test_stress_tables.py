@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 
 from benchmarks.stress_tables import main, studied
-from symgen.study.stress.rows import Row, Stress
+from symgen.study.stress.stress_rows import Stress, StressRow
 
 
-def row(model: str, method: str, outcome: str, error: float) -> Row:
-    return Row(
+def row(model: str, method: str, outcome: str, error: float) -> StressRow:
+    return StressRow(
         *(model, "gravity", "1 m/s^2", (1.0,), method, "rk4", 1e-3, 1.0, outcome, error, 1e-9, "ok", None),
         *(4000, 1e-12, 1e-12, 0.0, "", "", True),
     )

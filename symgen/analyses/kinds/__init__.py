@@ -87,7 +87,7 @@ def of_tables(shown: str, drawn: str) -> tuple[Option, ...]:
 
 
 @dataclass(frozen=True)
-class Table:
+class AnalysisTable:
     """A table that a command shows.
 
     Attributes
@@ -113,7 +113,7 @@ class Note:
 
 
 @dataclass(frozen=True)
-class Output:
+class AnalysisOutput:
     """What a command puts out.
 
     Attributes
@@ -131,7 +131,7 @@ class Output:
     """
 
     json: Mapping[str, Any]
-    shown: Iterable[str | Table | Note | Mapping[str, Mapping[str, Any]]]
+    shown: Iterable[str | AnalysisTable | Note | Mapping[str, Mapping[str, Any]]]
     notes: Iterable[str] = ()
     ended: str = ""
     files: Mapping[Path | None, Callable[[Path], object]] = field(default_factory=dict)
@@ -146,8 +146,8 @@ class Analysis:
     methods : tuple of callables
         Functions of a model that become its methods, by their names.
     command : callable
-        (load, settings, arguments of the options) -> `Output`. It calls ``load()`` for the model as soon as it has
-        checked what needs no model; its docstring is the text of the command's help.
+        (load, settings, arguments of the options) -> `AnalysisOutput`. It calls ``load()`` for the model as soon as it
+        has checked what needs no model; its docstring is the text of the command's help.
     options : tuple of Option
         In the order of the help.
     examples : tuple of str
@@ -155,7 +155,7 @@ class Analysis:
     """
 
     methods: tuple[Callable[..., Any], ...]
-    command: Callable[..., Output]
+    command: Callable[..., AnalysisOutput]
     options: tuple[Option, ...]
     examples: tuple[str, ...]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from symgen.analyses.kinds import STATE, Analysis, Option, Output, Table
+from symgen.analyses.kinds import STATE, Analysis, AnalysisOutput, AnalysisTable, Option
 from symgen.analyses.kinds._settings import settings_of
 from symgen.errors import InputError
 from symgen.settings import Settings
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from symgen.analyses.equilibrium import Equilibrium
-    from symgen.analyses.model import Analysed
+    from symgen.analyses.model_methods import Analysed
 
     Array = NDArray[np.float64]
 
@@ -89,7 +89,9 @@ def steady(
     return steady_from(model.mechanism, settings_of("steady", settings, changes), cyclic)
 
 
-def command(load: Callable[[], Analysed], settings: Settings, scan: tuple[str, Array] | None, moving: bool) -> Output:
+def command(
+    load: Callable[[], Analysed], settings: Settings, scan: tuple[str, Array] | None, moving: bool
+) -> AnalysisOutput:
     """Find the equilibrium that the start of MODEL leads to.
 
     The equilibrium near the start is found whatever its stability; from further away a stable one. With --scan the
@@ -104,14 +106,14 @@ def command(load: Callable[[], Analysed], settings: Settings, scan: tuple[str, A
         found = equilibria(model, scan, settings)
     else:
         found = (steady(model, settings) if moving else equilibrium(model, settings),)
-    return Output(
+    return AnalysisOutput(
         {"mechanism": model.mechanism.name, "equilibria": [one.to_dict() for one in found]},
         (item for one in found for item in _shown(one)),
         dict.fromkeys(note for one in found for note in one.notes),
     )
 
 
-def _shown(found: Equilibrium) -> Iterator[str | Table]:
+def _shown(found: Equilibrium) -> Iterator[str | AnalysisTable]:
     squares = ", ".join(f"{x:.6g}" for x in found.omega_squared[:8]) + (", ..." if len(found.omega_squared) > 8 else "")
     yield f"{found.stability}; omega^2 [1/s^2]: {squares or 'nothing can move'}"
     yield f"  {found.iterations} steps, largest force that is not balanced {found.residual:.3g}"
@@ -119,7 +121,9 @@ def _shown(found: Equilibrium) -> Iterator[str | Table]:
         yield f"  reactions are not unique at {', '.join(found.not_unique)}"
     for title, values in (("coordinate", found.q), ("multiplier", found.multipliers)):
         if values:
-            yield Table((title, "value"), [(n, f"{x:.9g}") for n, x in list(values.items())[:MOST]], left=(title,))
+            yield AnalysisTable(
+                (title, "value"), [(n, f"{x:.9g}") for n, x in list(values.items())[:MOST]], left=(title,)
+            )
         if len(values) > MOST:
             yield f"... and {len(values) - MOST} more; --json has all"
 

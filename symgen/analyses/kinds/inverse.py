@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from symgen.analyses.kinds import Analysis, Note, Option, Output, Table, of_motion, of_tables
+from symgen.analyses.kinds import Analysis, AnalysisOutput, AnalysisTable, Note, Option, of_motion, of_tables
 from symgen.analyses.kinds._settings import OF_DRIVEN, OF_MOTIONS, settings_of
 from symgen.errors import InputError
 from symgen.settings import Settings, flag, is_given
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from symgen.analyses.inverse import Inverse
     from symgen.analyses.kinematics import Kinematics
-    from symgen.analyses.model import Analysed
+    from symgen.analyses.model_methods import Analysed
     from symgen.result.result import Result
 
 
@@ -71,7 +71,7 @@ def command(
     quantities: Sequence[str],
     save: Path | None,
     plot: Path | None,
-) -> Output:
+) -> AnalysisOutput:
     """Find the efforts that a motion of MODEL needs: motor torques, forces of actuators.
 
     For example: symgen inverse driven-four-bar --times "lin(0, 1, 361)" --plot torque.svg, or of a recorded run:
@@ -84,7 +84,7 @@ def command(
         raise InputError("--quantity", "--save or --plot, where quantities go", "neither")
     result = inverse(load(), motion, settings, times, actuators, weights)
     result.select(quantities)  # names that are wrong are refused before anything is shown
-    return Output(
+    return AnalysisOutput(
         result.to_json(),
         _shown(result),
         result.notes,
@@ -96,7 +96,7 @@ def command(
     )
 
 
-def _shown(result: Inverse) -> Iterator[str | Table | Note]:
+def _shown(result: Inverse) -> Iterator[str | AnalysisTable | Note]:
     """Yield what sizes each actuator: its largest effort and when, root mean square, peak power and energy."""
     yield f"{result.mechanism}: efforts at {len(result.t)} times"
     columns = {"largest": "max", "rms": "rms", "unit": "unit", "at [s]": "at"}
@@ -105,7 +105,7 @@ def _shown(result: Inverse) -> Iterator[str | Table | Note]:
         (name, *(x if isinstance(x := entry.get(key, ""), str) else f"{x:.6g}" for key in columns.values()))
         for name, entry in result.summary().items()
     ]
-    yield Table(("effort", *columns), rows, left=("effort", "unit"))
+    yield AnalysisTable(("effort", *columns), rows, left=("effort", "unit"))
     if few := result.too_few():
         yield Note(few)
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from symgen.analyses.kinds import Analysis, Option, Output, of_motion, of_tables
+from symgen.analyses.kinds import Analysis, AnalysisOutput, Option, of_motion, of_tables
 from symgen.analyses.kinds._settings import OF_MOTIONS, settings_of
 from symgen.settings import Settings
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from symgen.analyses.kinematics import Kinematics
-    from symgen.analyses.model import Analysed
+    from symgen.analyses.model_methods import Analysed
 
 
 def kinematics(
@@ -59,7 +59,7 @@ def command(
     save: Path | None,
     plot: Path | None,
     curves: Path | None,
-) -> Output:
+) -> AnalysisOutput:
     """Move MODEL, whose freedom is all driven, through any times without integrating.
 
     For example: symgen kinematics driven-four-bar --times "lin(0, 1, 361)" --transmission C --save motion.csv
@@ -68,7 +68,7 @@ def command(
 
     result = kinematics(load(), times, settings, transmission)
     shown = extremes(result.select(quantities or ("q",))) if len(result.t) else {}
-    return Output(
+    return AnalysisOutput(
         result.to_json() | ({"quantities": shown} if quantities else {}),
         (f"{result.mechanism}: {len(result.t)} times, {result.steps} steps", shown),
         result.notes,

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from symgen.analyses.kinds import PLACE, Analysis, Option, Output, Table
+from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option
 from symgen.analyses.kinds._settings import settings_at
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.analyses.linearise import LinearSystem
-    from symgen.analyses.model import Analysed
+    from symgen.analyses.model_methods import Analysed
 
 
 def linearise(
@@ -48,13 +48,13 @@ def linearise(
     AnalysisError
         If no equilibrium is found.
     """
-    from symgen.analyses.places import Place, system_at
+    from symgen.analyses.places import NamedPlace, system_at
 
-    place = Place(model.mechanism, settings_at("linearise", settings, changes, at), at, model.simulate, cyclic)
+    place = NamedPlace(model.mechanism, settings_at("linearise", settings, changes, at), at, model.simulate, cyclic)
     return system_at(place, states, instantaneous, by)
 
 
-def command(load: Callable[[], Analysed], settings: Settings, **further: Any) -> Output:
+def command(load: Callable[[], Analysed], settings: Settings, **further: Any) -> AnalysisOutput:
     """Find the linear system of MODEL about a state of rest or of steady motion.
 
     Inputs are those of the file, outputs its formulas. A motion in which states change is refused. With --by, columns
@@ -62,10 +62,10 @@ def command(load: Callable[[], Analysed], settings: Settings, **further: Any) ->
     """
     model = load()
     found = linearise(model, settings, **further)
-    return Output({"mechanism": model.mechanism.name, **found.to_dict()}, _shown(found), found.notes)
+    return AnalysisOutput({"mechanism": model.mechanism.name, **found.to_dict()}, _shown(found), found.notes)
 
 
-def _shown(found: LinearSystem) -> Iterator[str | Table]:
+def _shown(found: LinearSystem) -> Iterator[str | AnalysisTable]:
     matrices = (
         ("x' = A x", found.states, found.states, found.A),
         ("+ B u", found.states, found.inputs, found.B),
@@ -75,7 +75,7 @@ def _shown(found: LinearSystem) -> Iterator[str | Table]:
     for title, rows, columns, values in matrices:
         if values.size:
             cells = [(name, *(f"{x:.6g}" for x in row)) for name, row in zip(rows, values, strict=True)]
-            yield Table((title, *columns), cells, left=(title,))
+            yield AnalysisTable((title, *columns), cells, left=(title,))
     if found.left_out:
         yield f"outputs left out, as they depend on more than the states: {', '.join(found.left_out)}"
 

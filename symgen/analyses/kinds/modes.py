@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from symgen import arguments
-from symgen.analyses.kinds import PLACE, Analysis, Option, Output, Table
+from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option
 from symgen.analyses.kinds._settings import settings_at
 from symgen.errors import InputError
 from symgen.settings import Settings
@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from symgen.analyses.locus import Locus
-    from symgen.analyses.model import Analysed
+    from symgen.analyses.model_methods import Analysed
     from symgen.analyses.modes import Modes
-    from symgen.player.page import Page
+    from symgen.player.motion_page import Page
 
     Array = NDArray[np.float64]
 
@@ -63,9 +63,9 @@ def modes(
     AnalysisError
         If no equilibrium is found.
     """
-    from symgen.analyses.places import Place, modes_at
+    from symgen.analyses.places import NamedPlace, modes_at
 
-    place = Place(model.mechanism, settings_at("modes", settings, changes, at), at, model.simulate, cyclic)
+    place = NamedPlace(model.mechanism, settings_at("modes", settings, changes, at), at, model.simulate, cyclic)
     return modes_at(place, states, count)
 
 
@@ -126,9 +126,9 @@ def locus(
         As for `modes`.
     """
     from symgen.analyses.locus import locus as locus_of
-    from symgen.analyses.places import Place
+    from symgen.analyses.places import NamedPlace
 
-    place = Place(model.mechanism, settings_at("locus", settings, changes, at), at, model.simulate, cyclic)
+    place = NamedPlace(model.mechanism, settings_at("locus", settings, changes, at), at, model.simulate, cyclic)
     return locus_of(place, over, states)
 
 
@@ -139,7 +139,7 @@ def command(
     over: tuple[str, Array] | None,
     plot: Path | None,
     **place: Any,
-) -> Output:
+) -> AnalysisOutput:
     """Find eigenvalues, frequencies, damping and shapes of MODEL about a state of rest or of steady motion."""
     if plot is not None and over is None:
         raise InputError("--plot", "a root locus, asked for with --over", "no --over")
@@ -149,12 +149,12 @@ def command(
     name = model.mechanism.name
     if over is None:
         found = modes(model, settings, count=count, **place)
-        return Output({"mechanism": name, **found.to_dict()}, _shown(found), found.notes)
+        return AnalysisOutput({"mechanism": name, **found.to_dict()}, _shown(found), found.notes)
     roots = locus(model, over, settings, **place)
-    return Output({"mechanism": name, **roots.to_dict()}, _shown_locus(roots), files={plot: roots.plot})
+    return AnalysisOutput({"mechanism": name, **roots.to_dict()}, _shown_locus(roots), files={plot: roots.plot})
 
 
-def _shown(found: Modes) -> Iterator[str | Table]:
+def _shown(found: Modes) -> Iterator[str | AnalysisTable]:
     freedom, many = found.degrees_of_freedom, len(found.eigenvalues)
     yield (
         f"{freedom} {'degree' if freedom == 1 else 'degrees'} of freedom; "
@@ -169,7 +169,7 @@ def _shown(found: Modes) -> Iterator[str | Table]:
         )
         for k, value in enumerate(found.of_shapes[:MOST])
     ]
-    yield Table(("mode", "eigenvalue [1/s]", "frequency [Hz]", "damping", *tables), rows, left=(*tables,))
+    yield AnalysisTable(("mode", "eigenvalue [1/s]", "frequency [Hz]", "damping", *tables), rows, left=(*tables,))
     if len(found.of_shapes) > MOST:
         yield f"... and {len(found.of_shapes) - MOST} more; --json has all"
 
@@ -186,13 +186,13 @@ def _complex(x: complex) -> str:
     return f"{x.real:.6g}" + (f" +- {abs(x.imag):.6g}i" if x.imag else "")
 
 
-def _shown_locus(found: Locus) -> Iterator[str | Table]:
+def _shown_locus(found: Locus) -> Iterator[str | AnalysisTable]:
     headings = (found.name, *(f"eigenvalue {k + 1} [1/s]" for k in range(found.branches.shape[1])))
     rows = [
         (f"{value:g}", *(f"{x.real:.5g}{x.imag:+.5g}i" if x.imag else f"{x.real:.5g}" for x in row))
         for value, row in zip(found.values, found.branches, strict=True)
     ]
-    yield Table(headings, rows)
+    yield AnalysisTable(headings, rows)
     for crossing in found.crossings:
         becomes = "grows" if crossing.rising else "decays"
         yield f"from {found.name} = {crossing.value:.9g} on {_complex(crossing.eigenvalue)} {becomes}"

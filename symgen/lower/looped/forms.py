@@ -18,7 +18,7 @@ from symgen.ir.derivative import jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, ElementProgram, Target
 from symgen.lower.record import EQUATIONS, record_form
-from symgen.lower.scalar import Scalars
+from symgen.lower.scalar import ScalarNodes
 from symgen.methods._formula import needed
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def lower_form(
     """
     e, record = element.equations, record_form(method, options, instance.kind)
     names = [p.name for p in method.parameters]
-    scalars = Scalars(e, record.operations, names, {})
+    scalars = ScalarNodes(e, record.operations, names, {})
     (part,) = record.parts
     scalars.run(needed((i for _, i in part.outputs), lambda i: record.operations[i].operands))
     g = scalars.graph

@@ -12,7 +12,7 @@ from symgen.ir.graph import Graph
 from symgen.ir.program import Block, ElementProgram, Target
 from symgen.lower.hoist import Hoister
 from symgen.lower.manifold import manifold_blocks
-from symgen.lower.scalar import Scalars
+from symgen.lower.scalar import ScalarNodes
 
 if TYPE_CHECKING:
     from symgen.formulate.elements import Element
@@ -168,7 +168,7 @@ class _Kernel:
         if self.instance.kind != "body":
             return block
         outputs: Outputs = []
-        system = Scalars(self.e)
+        system = ScalarNodes(self.e)
         inputs = {("p", i): block.graph.input("p", i) for i in range(self.constants)}
 
         def moved(node: int) -> int:

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 from symgen.errors import InputError
 from symgen.ir.program import LawCode
+from symgen.lower.looped.law_loops import KINDS, Loops
 from symgen.lower.looped.layout import HEAD
-from symgen.lower.looped.loops import KINDS, Loops
 from symgen.lower.looped.statements import LoopedFunction
-from symgen.lower.record import Record, record_form, record_law
+from symgen.lower.record import RecordedLaw, record_form, record_law
 from symgen.lower.replay import ARITHMETIC
 from symgen.methods._base import Method
 from symgen.methods._formula import needed
@@ -82,7 +82,7 @@ _OF_A_JOINT = frozenset(ARITHMETIC) | {"constant", "min", "dot", "constraints", 
 _OF_A_JOINT |= {"status", "section", "zeros", "gamma", "nu", "phi", "v"}
 
 
-def _strange(record: Record, kinds: frozenset[str], functions: tuple[str, ...]) -> str:
+def _strange(record: RecordedLaw, kinds: frozenset[str], functions: tuple[str, ...]) -> str:
     """Return what a formula asks for that is not among `kinds`, or a function that is not among `functions`."""
     operations = record.operations
     for part in record.parts:

@@ -34,7 +34,7 @@ class RowBlock:
 
 
 @dataclass(frozen=True)
-class Products:
+class ProductTerms:
     """What D W D^T is made of.
 
     Parameters
@@ -54,7 +54,7 @@ class Products:
 
 
 @dataclass(frozen=True)
-class Group:
+class KernelGroup:
     """All instances of one kernel."""
 
     stem: str
@@ -62,7 +62,7 @@ class Group:
     members: tuple[int, ...]  # indices of instances
 
 
-class Shape:
+class LoopedShape:
     """A mechanism as instances of kernels: indices of everything.
 
     Parameters
@@ -84,7 +84,7 @@ class Shape:
         members: dict[str, list[int]] = {}
         for k, stem in enumerate(stems):
             members.setdefault(stem, []).append(k)
-        self.groups = tuple(Group(stem, infos[stem], tuple(found)) for stem, found in members.items())
+        self.groups = tuple(KernelGroup(stem, infos[stem], tuple(found)) for stem, found in members.items())
         self.constant_index: dict[Expr, int] = {}
         self._place_bodies()
         self._place_elements()
@@ -213,7 +213,7 @@ class Shape:
         return found
 
     @cached_property
-    def products(self) -> Products:
+    def products(self) -> ProductTerms:
         """Products of entries that make up D W D^T."""
         constant: list[tuple[int, int, float]] = []
         runs: dict[int, list[int]] = {}
@@ -240,7 +240,7 @@ class Shape:
         single = runs.pop(1, [])
         outer, single = _paired([(single[k], single[k + 1], single[k + 2]) for k in range(0, len(single), 3)])
         runs |= {width: terms for width, terms in ((0, outer), (1, single)) if terms}
-        return Products(tuple(constant), {width: runs[width] for width in sorted(runs)}, slots)
+        return ProductTerms(tuple(constant), {width: runs[width] for width in sorted(runs)}, slots)
 
     @cached_property
     def gram(self) -> Elimination:

@@ -34,7 +34,7 @@ class Assignment:
 
 
 @dataclass(frozen=True)
-class Call:
+class KernelCall:
     """A call of generic code: arguments are names of arrays, sections and constants."""
 
     function: str
@@ -42,7 +42,7 @@ class Call:
     result: str = ""
 
 
-Statement = Assignment | Call
+Statement = Assignment | KernelCall
 
 
 @dataclass(frozen=True)

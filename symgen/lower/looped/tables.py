@@ -10,11 +10,11 @@ from symgen.ir.program import STATUS
 from symgen.lower.looped.forms import FormInfo
 from symgen.lower.looped.law import LoopedLawInfo
 from symgen.lower.looped.layout import GENERIC, HEAD, SECTIONS, STAGES
-from symgen.lower.looped.shape import Group, RowBlock, Shape
+from symgen.lower.looped.shape import KernelGroup, LoopedShape, RowBlock
 
 
 @dataclass(frozen=True)
-class Tables:
+class IndexTables:
     """What generic code reads: numbers, and which functions of kernels their addresses are wanted of.
 
     Parameters
@@ -53,7 +53,7 @@ class Builder:
 
     Parameters
     ----------
-    shape : Shape
+    shape : LoopedShape
         The mechanism.
     law : LoopedLawInfo
         Says which sections the law adds, whose offsets stand behind the head, and which stages it calls.
@@ -63,7 +63,7 @@ class Builder:
         The parts of that form: module and metadata by the module of an element's kernel.
     """
 
-    shape: Shape
+    shape: LoopedShape
     law: LoopedLawInfo
     level: str
     parts: Mapping[str, tuple[str, FormInfo]]
@@ -86,7 +86,7 @@ class Builder:
         self.addresses = length // 2
         self.numbers = [0] * (length + 2 * (len(GENERIC) + len(self.functions)))
 
-    def function(self, group: Group, function: str) -> tuple[str, str] | None:
+    def function(self, group: KernelGroup, function: str) -> tuple[str, str] | None:
         """Return module and name of a function of a group's kernel or of its part of the descriptor form, if any."""
         if function in group.info.functions:
             return group.stem, function
@@ -100,7 +100,7 @@ class Builder:
         rows = {"": 0, "stabilised": 2}.get(self.level, 1)
         return shape.nq + shape.nv + rows * shape.m if self.level else 0
 
-    def tables(self) -> Tables:
+    def tables(self) -> IndexTables:
         """Return the finished tables."""
         shape, head = self.shape, self.head
         head |= {"nq": shape.nq, "nv": shape.nv, "m": shape.m}
@@ -141,13 +141,13 @@ class Builder:
         offset += len(self.numbers) // 2 + 1
         groups = tuple((g.stem, "prepare" in g.info.functions, places[g.stem]) for g in shape.groups)
         numbers, tangent = array("I", self.numbers), tuple(self.tangent)
-        return Tables(numbers, self.functions, self.addresses, sections, offset, groups, self.unknowns, tangent)
+        return IndexTables(numbers, self.functions, self.addresses, sections, offset, groups, self.unknowns, tangent)
 
     def begin(self, name: str) -> None:
         """Let a table begin here."""
         self.head[name] = len(self.numbers)
 
-    def group(self, group: Group) -> int:
+    def group(self, group: KernelGroup) -> int:
         """Write the table of a kernel's instances; return where it begins."""
         shape, info, at = self.shape, group.info, len(self.numbers)
         self.numbers.append(len(group.members))
@@ -168,7 +168,7 @@ class Builder:
             self.numbers += [constants + index[c] for c in instance.constants]
         return at
 
-    def part(self, group: Group, info: FormInfo) -> int:
+    def part(self, group: KernelGroup, info: FormInfo) -> int:
         """Write the table of a group's part of the descriptor form; return where it begins."""
         shape, at = self.shape, len(self.numbers)
         self.numbers.append(len(group.members))

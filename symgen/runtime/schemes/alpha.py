@@ -20,7 +20,7 @@ from typing import Any
 from symgen.runtime import abi, sparse
 from symgen.runtime.bare import part
 from symgen.runtime.frame import DIVERGED, TOO_LARGE, evaluate, loop
-from symgen.runtime.instances import called
+from symgen.runtime.loop_instances import called
 from symgen.runtime.manifold import advance
 from symgen.runtime.records import ALPHA
 from symgen.runtime.redundancy import leave_out_rest

@@ -13,7 +13,7 @@ from typing import Any
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import correct, evaluate, loop, store
-from symgen.runtime.instances import called
+from symgen.runtime.loop_instances import called
 from symgen.runtime.records import TABLEAU
 from symgen.runtime.scales import weights_of, with_work
 from symgen.runtime.vectors import combine, copied, follow, total, weigh

@@ -13,7 +13,7 @@ from typing import Any
 from symgen.runtime import abi, sparse
 from symgen.runtime.bare import part
 from symgen.runtime.frame import DIVERGED, TOO_LARGE, evaluate, loop
-from symgen.runtime.instances import called
+from symgen.runtime.loop_instances import called
 from symgen.runtime.records import STAGES
 from symgen.runtime.redundancy import leave_out_rest
 from symgen.runtime.scales import weights_of, with_work

@@ -12,9 +12,9 @@ from typing import Any
 
 from symgen.runtime import abi
 from symgen.runtime.bare import part
-from symgen.runtime.blocks import padded
 from symgen.runtime.frame import evaluate, loop
 from symgen.runtime.manifold import advance
+from symgen.runtime.padding import padded
 from symgen.runtime.records import ROTATIONS
 from symgen.runtime.vectors import total
 

@@ -17,7 +17,7 @@ from typing import Any
 from symgen.runtime import abi, sparse
 from symgen.runtime.bare import part
 from symgen.runtime.frame import DIVERGED, TOO_LARGE, evaluate, loop
-from symgen.runtime.instances import called
+from symgen.runtime.loop_instances import called
 from symgen.runtime.manifold import advance
 from symgen.runtime.records import PROJECTION
 from symgen.runtime.sparse import multiply, solve, turn_rows

@@ -25,10 +25,10 @@ from symgen.runtime.timing import timed
 from symgen.settings import Settings, default
 from symgen.store.paths import cache_location
 from symgen.study.comparison.combinations import Combinations
-from symgen.study.comparison.measured import measured
-from symgen.study.comparison.rows import Row, Study, Trace, from_entry, save_csv, to_entry, with_ratios
+from symgen.study.comparison.comparison_rows import Row, Study, Trace, from_entry, save_csv, to_entry, with_ratios
+from symgen.study.comparison.measured_runs import measured
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity, mechanism_identity
-from symgen.study.machine import machine_class, versions
+from symgen.study.machine_class import machine_class, versions
 from symgen.study.references.reference import Array, Reference, reference
 from symgen.study.references.solvers import AUTO, check_solver
 from symgen.study.runner import Cell, Status, run_cells

@@ -1,6 +1,6 @@
 """The independently derived equations of a mechanism as numbers, for references.
 
-The formulas are those of `symgen.study.references.formulas`, their numbers come from `sympy.lambdify`, and
+The formulas are those of `symgen.study.references.sympy_formulas`, their numbers come from `sympy.lambdify`, and
 accelerations from a dense solution in which dependent rows do no harm. In space the mass matrix of the rates of Euler
 parameters, which is singular along e, is completed there; with |e| = 1 among the rows Gauss's principle gives the same
 accelerations.
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Body, Mechanism
 from symgen.study.references.curves import curves
-from symgen.study.references.formulas import TENSOR, Formulas
+from symgen.study.references.sympy_formulas import TENSOR, ReferenceFormulas
 
 Array = NDArray[np.float64]
 
@@ -42,7 +42,7 @@ class IndependentEquations:
         self.mechanism = mechanism
         self.parameters = parameters
         self.rank: int | None = None
-        formulas = Formulas(mechanism, self._parameter_symbols())
+        formulas = ReferenceFormulas(mechanism, self._parameter_symbols())
         self.n, self.first = len(formulas.q), formulas.first
         self._weigh()
         rows = formulas.rows()
@@ -195,7 +195,7 @@ class IndependentEquations:
         """Return what stands for each parameter in the formulas: its value."""
         return {name: sp.Float(x) for name, x in self.parameters.items()}
 
-    def _compile(self, formulas: Formulas, outputs: list[Any]) -> Callable[..., Any]:
+    def _compile(self, formulas: ReferenceFormulas, outputs: list[Any]) -> Callable[..., Any]:
         tables: dict[str, Callable[[float], float]] = {}
         for table in self.mechanism.tables:
             tables |= curves(table)

@@ -26,13 +26,13 @@ from symgen.describe.mechanism import Mechanism
 from symgen.errors import SimulationError
 from symgen.result.points import Points
 from symgen.study.references.curves import curves
-from symgen.study.references.formulas import Formulas
 from symgen.study.references.independent import CUTOFF, IndependentEquations
 from symgen.study.references.least_squares import compiled, shortest
-from symgen.study.references.parts import in_parts, longest_of
 from symgen.study.references.reference import Reference
 from symgen.study.references.solvers import OverBudgetError, Scheme, by_steps
 from symgen.study.references.stiff import is_stiff
+from symgen.study.references.sympy_formulas import ReferenceFormulas
+from symgen.study.references.time_parts import in_parts, longest_of
 
 Array = NDArray[np.float64]
 
@@ -147,7 +147,7 @@ class CompiledEquations(IndependentEquations):
     def _parameter_symbols(self) -> dict[str, Any]:
         return {p.name: symbol for p, symbol in zip(self.mechanism.parameters, self.symbols, strict=True)}
 
-    def _compile(self, formulas: Formulas, outputs: list[Any]) -> Callable[..., Any]:
+    def _compile(self, formulas: ReferenceFormulas, outputs: list[Any]) -> Callable[..., Any]:
         """Return the outputs as a compiled function (t, q, v, p, out)."""
         shared, results = sp.cse(outputs, symbols=sp.numbered_symbols("x"), order="canonical")
         names = [*(f"q{i} = q[{i}]" for i in range(self.n)), *(f"v{i} = v[{i}]" for i in range(self.n))]

@@ -4,8 +4,8 @@ A mechanism of the catalogue for which `CLOSED` knows a formula, or an equation 
 other one is integrated by SciPy's DOP853 at a tight tolerance from independently derived equations, projected at each
 output, twice with different tolerances and segments, the difference of the two being the estimated error. Where the
 motion comes near a singular position, constant steps lead through, and two runs whose steps fall differently have to
-agree (`symgen.study.references.passing`); where they do not, the reference says so. Another of SciPy's solvers can be
-asked for, for every mechanism: then schemes, too, are others than symgen's.
+agree (`symgen.study.references.singular_passing`); where they do not, the reference says so. Another of SciPy's
+solvers can be asked for, for every mechanism: then schemes, too, are others than symgen's.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from symgen.errors import InputError
 from symgen.result.agreement import AGREEMENT
 from symgen.result.points import Points
 from symgen.study.references.closed_space import CLOSED_SPACE
-from symgen.study.references.passing import Watch, pass_through
+from symgen.study.references.singular_passing import SingularWatch, pass_through
 from symgen.study.references.solvers import (
     AUTO,
     MOST_CALLS,
@@ -242,7 +242,7 @@ def _integrated(
         fine = in_one_go(equations, y, times, Scheme(name, fine_tolerance, most=MOST_CALLS))
         coarse = in_one_go(equations, y, times, Scheme(name, coarse_tolerance, most=MOST_CALLS))
     else:
-        watch, sizes = Watch(equations, y), list[float]()
+        watch, sizes = SingularWatch(equations, y), list[float]()
 
         def see(size: float, t: float, state: Array) -> None:
             sizes.append(size)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from symgen.arguments import one_of
 from symgen.describe.kinks import compares_state
 from symgen.errors import SimulationError
-from symgen.study.references.parts import in_parts, longest_of
+from symgen.study.references.time_parts import in_parts, longest_of
 
 if TYPE_CHECKING:
     from symgen.study.references.independent import IndependentEquations

@@ -32,12 +32,12 @@ from symgen.running.prepare import assemble, begin, decided
 from symgen.runtime import abi
 from symgen.runtime.outcome import Outcome
 from symgen.settings import Settings, default, told_constant
-from symgen.study.stress import outcome as judged
+from symgen.study.stress import cell_outcome as judged
 from symgen.study.stress.bench import Level
+from symgen.study.stress.cell_outcome import Run, classify, largest_error
+from symgen.study.stress.cell_references import equations_of, reference_of, times_of, without_reference
 from symgen.study.stress.effort import budget_of, further_budget, predicted
 from symgen.study.stress.other_route import EmittedGeometry
-from symgen.study.stress.outcome import Run, classify, largest_error
-from symgen.study.stress.reference import equations_of, reference_of, times_of, without_reference
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
@@ -61,7 +61,7 @@ SCAN, HALVINGS, SMALLEST = 4.0, 7, 4096.0
 
 
 @dataclass(frozen=True)
-class ReferenceTask:
+class CellReference:
     """Compute the motion that a case is compared with."""
 
     level: Level
@@ -69,7 +69,7 @@ class ReferenceTask:
 
 @dataclass(frozen=True)
 class RunTask:
-    """Run a case with a method and an integrator; `reference` is the outcome of its `ReferenceTask`.
+    """Run a case with a method and an integrator; `reference` is the outcome of its `CellReference`.
 
     `limits` are those of a run that watches itself, `coordinates` those of the state.
     """
@@ -87,9 +87,9 @@ class LimitTask(RunTask):
     """Find the largest constant step of a method and an integrator for a case."""
 
 
-def compute(task: ReferenceTask | RunTask) -> Fields:
+def compute(task: CellReference | RunTask) -> Fields:
     """Compute a cell; see the classes of tasks."""
-    if isinstance(task, ReferenceTask):
+    if isinstance(task, CellReference):
         return reference_of(task.level)
     fields: Fields = finite(_limit(task) if isinstance(task, LimitTask) else asdict(_run(task)))
     return fields

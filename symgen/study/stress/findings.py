@@ -7,11 +7,11 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from symgen.running.automatic import AUTO
+from symgen.study.stress.cell_outcome import ACCURATE, DIVERGED, GOOD, OUTCOMES, REFUSED, UNJUDGED, WRONG_BRANCH, counts
 from symgen.study.stress.map import Map, map_rows, plane_rows, shares_of_models
-from symgen.study.stress.outcome import ACCURATE, DIVERGED, GOOD, OUTCOMES, REFUSED, UNJUDGED, WRONG_BRANCH, counts
 
 if TYPE_CHECKING:
-    from symgen.study.stress.rows import Limit, Row, Stress
+    from symgen.study.stress.stress_rows import Limit, Stress, StressRow
 
 #: Methods that hold constraints by forces, and only as closely as these push.
 YIELDING = ("penalty", "augmented-lagrangian", "augmented-hamiltonian")
@@ -118,7 +118,7 @@ def _families(study: Stress) -> Iterator[str]:
         yield f"{_title(family)}: {kept}; {hardest}."
 
 
-def _hardest(rows: Sequence[Row]) -> str:
+def _hardest(rows: Sequence[StressRow]) -> str:
     """Return which case spoils most runs, and how."""
     cases = dict.fromkeys((row.model, row.case) for row in rows)
     shares = {}
@@ -195,7 +195,7 @@ def _penalties(study: Stress) -> Iterator[str]:
         yield f"Penalty of {_line((method, integrator))} on {model}: {_span(own)}{told}."
 
 
-def _span(rows: Sequence[Row]) -> str:
+def _span(rows: Sequence[StressRow]) -> str:
     """Return for which factors runs are accurate, those between them that are not named as well."""
     good = sorted(row.values[0] for row in rows if row.outcome == GOOD)
     if not good:
@@ -207,7 +207,7 @@ def _span(rows: Sequence[Row]) -> str:
     return f"accurate for a = {good[0]:g} to {good[-1]:g}{but}"
 
 
-def _penalties_of_many(rows: Sequence[Row], models: int) -> Iterator[str]:
+def _penalties_of_many(rows: Sequence[StressRow], models: int) -> Iterator[str]:
     for line in dict.fromkeys((row.method, row.integrator) for row in rows):
         own = [row for row in rows if (row.method, row.integrator) == line]
         factors = sorted({row.values[0] for row in own})
@@ -291,7 +291,7 @@ def _trust(study: Stress) -> Iterator[str]:
     yield f"{which} report success with {such} in {share}: {_reasons(others)}."
 
 
-def _reasons(rows: Sequence[Row]) -> str:
+def _reasons(rows: Sequence[StressRow]) -> str:
     found: dict[str, int] = {}
     for row in rows:
         why = cause(row)
@@ -299,7 +299,7 @@ def _reasons(rows: Sequence[Row]) -> str:
     return "; ".join(f"{count} because {why}" for why, count in sorted(found.items(), key=lambda item: -item[1]))
 
 
-def cause(row: Row) -> str:
+def cause(row: StressRow) -> str:
     """Return in words why a run can say ok although its error is large."""
     if row.outcome == WRONG_BRANCH:
         return "another branch was taken at a singular position, where constraints are closed and energy is kept"
@@ -316,7 +316,7 @@ def cause(row: Row) -> str:
     return "the tolerance is kept for each step, and the errors of many steps add up"
 
 
-def explained(row: Row) -> str:
+def explained(row: StressRow) -> str:
     """Return the explanation of a false success as a sentence."""
     error = "not finite" if row.error is None else f"{row.error:.2g} m"
     return f"{_line((row.method, row.integrator))}, {row.family} {row.case}: error {error}; {cause(row)}."

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from symgen.study.stress.outcome import GOOD, OUTCOMES, REFUSED, UNJUDGED, counts
+from symgen.study.stress.cell_outcome import GOOD, OUTCOMES, REFUSED, UNJUDGED, counts
 
 if TYPE_CHECKING:
-    from symgen.study.stress.rows import Row, Stress
+    from symgen.study.stress.stress_rows import Stress, StressRow
 
 #: Letters of outcomes in a map.
 LETTERS = {
@@ -31,11 +31,11 @@ class Entry:
 
     Attributes
     ----------
-    rows : tuple of Row
+    rows : tuple of StressRow
         The cells that it sums up.
     """
 
-    rows: tuple[Row, ...]
+    rows: tuple[StressRow, ...]
 
     @property
     def judged(self) -> int:
@@ -71,7 +71,7 @@ class Map:
 
     lines: tuple[tuple[str, str], ...]
     families: tuple[str, ...]
-    rows: tuple[Row, ...]
+    rows: tuple[StressRow, ...]
 
     @classmethod
     def of(cls, study: Stress) -> Map:
@@ -93,28 +93,28 @@ class Map:
         )
 
 
-def map_rows(rows: Iterable[Row]) -> tuple[Row, ...]:
+def map_rows(rows: Iterable[StressRow]) -> tuple[StressRow, ...]:
     """Return the rows of the map, without those of planes."""
     return tuple(row for row in rows if len(row.values) == 1)
 
 
-def plane_rows(rows: Iterable[Row], family: str) -> tuple[Row, ...]:
+def plane_rows(rows: Iterable[StressRow], family: str) -> tuple[StressRow, ...]:
     """Return the rows of one plane."""
     return tuple(row for row in rows if row.family == family)
 
 
-def plane_lines(rows: Sequence[Row]) -> tuple[tuple[str, str, str], ...]:
+def plane_lines(rows: Sequence[StressRow]) -> tuple[tuple[str, str, str], ...]:
     """Return (model, method, integrator) of the planes among rows, in order."""
     return tuple(dict.fromkeys((row.model, row.method, row.integrator) for row in rows))
 
 
-def outcomes_of_models(rows: Sequence[Row]) -> tuple[tuple[str, dict[str, int]], ...]:
+def outcomes_of_models(rows: Sequence[StressRow]) -> tuple[tuple[str, dict[str, int]], ...]:
     """Return how often each outcome occurs on each model, planes included; ``-`` are mechanisms of families."""
     models = dict.fromkeys(row.model for row in rows)
     return tuple((model, counts([row.outcome for row in rows if row.model == model])) for model in models)
 
 
-def shares_of_models(rows: Sequence[Row]) -> tuple[tuple[str, int, int], ...]:
+def shares_of_models(rows: Sequence[StressRow]) -> tuple[tuple[str, int, int], ...]:
     """Return model, accurate cells and judged cells of the map."""
     found = outcomes_of_models(map_rows(rows))
     return tuple((m, n[GOOD], sum(n.values()) - n[REFUSED] - n[UNJUDGED]) for m, n in found if m != "-")

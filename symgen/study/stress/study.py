@@ -21,10 +21,10 @@ from symgen.study.journal import Journal, Outcome, cell_key, code_identity, mech
 from symgen.study.runner import Cell, Status, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable
 from symgen.study.stress.cases import CASES, Family
-from symgen.study.stress.cells import WATCHED, Limits, LimitTask, ReferenceTask, RunTask, compute
+from symgen.study.stress.cell_references import without_reference
+from symgen.study.stress.cells import WATCHED, CellReference, Limits, LimitTask, RunTask, compute
 from symgen.study.stress.effort import BUDGET, left_out
-from symgen.study.stress.reference import without_reference
-from symgen.study.stress.rows import Limit, Row, Stress
+from symgen.study.stress.stress_rows import Limit, Stress, StressRow
 
 #: Integrators that a method is run with, beside its own default: an explicit adaptive one and an implicit one.
 FURTHER = ("dop853", "radau5")
@@ -35,8 +35,8 @@ LIMITED = ("duration", "stiffness", "damping")
 
 #: Called with what is being done and how far it is.
 Progress = Callable[[str, Status], None]
-Motions = Sequence[tuple[ReferenceTask, Outcome]]
-Task = TypeVar("Task", bound=ReferenceTask | RunTask)
+Motions = Sequence[tuple[CellReference, Outcome]]
+Task = TypeVar("Task", bound=CellReference | RunTask)
 
 
 def pairs(method: str, constant_steps: bool = False) -> tuple[tuple[str, str], ...]:
@@ -199,7 +199,7 @@ class _Study:
 
     def run(self, skipped: tuple[tuple[str, str, str], ...]) -> Stress:
         """Compute references, then runs, then largest steps."""
-        motions, interrupted = self._computed("references", [ReferenceTask(level) for level in self.levels])
+        motions, interrupted = self._computed("references", [CellReference(level) for level in self.levels])
         runs, searches = list[tuple[RunTask, Outcome]](), list[tuple[RunTask, Outcome]]()
         if not interrupted:
             runs, interrupted = self._computed("runs", list(self._runs(motions)))
@@ -255,7 +255,7 @@ class _Study:
         return (level.mechanism.name, *pair) not in [out[:3] for out in self.left_out]
 
 
-def _cell(task: ReferenceTask | RunTask) -> Cell:
+def _cell(task: CellReference | RunTask) -> Cell:
     """Return the cell of a task, its key from everything that the outcome depends on."""
     level, name = task.level, task.level.mechanism.name
     parts: dict[str, Any] = {
@@ -269,7 +269,7 @@ def _cell(task: ReferenceTask | RunTask) -> Cell:
         "closed": level.closed,
     }
     steps = min(level.until / level.step, float(BUDGET))
-    if isinstance(task, ReferenceTask):
+    if isinstance(task, CellReference):
         return Cell(cell_key(**parts), name, task, 1e3 + steps)
     parts |= {"step": level.step, "options": dict(level.options), "watched": level.watched}
     parts |= {"method": task.method, "integrator": task.integrator, "coordinates": task.coordinates}
@@ -278,10 +278,10 @@ def _cell(task: ReferenceTask | RunTask) -> Cell:
     return Cell(cell_key(**parts, limits=asdict(task.limits)), f"{name} {task.method}", task, cost)
 
 
-def _row(task: RunTask, outcome: Outcome) -> Row:
+def _row(task: RunTask, outcome: Outcome) -> StressRow:
     level = task.level
     constant = task.integrator != AUTO and not INTEGRATORS.get(task.integrator).adaptive
-    return Row(
+    return StressRow(
         model=level.model,
         family=level.family,
         case=level.label,

@@ -17,8 +17,8 @@ import numpy as np
 from symgen.arguments import path as argument_path
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import AnyBody
-from symgen.drawing.build import build_scene
-from symgen.drawing.scene import Array, Dot, Item, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
+from symgen.drawing.mechanism_scene import build_scene
+from symgen.drawing.scene import Array, Disc, Item, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
 from symgen.errors import InputError
 from symgen.files import check_writable, write_whole
 from symgen.player.live import Live
@@ -151,7 +151,7 @@ def scene_data(scene: Scene) -> dict[str, Any]:
         look = looks.setdefault(m.look, len(looks))
         if isinstance(m, Line):
             return ["L", look, m.body, int(m.closed), flat(m.points)]
-        if isinstance(m, Dot):
+        if isinstance(m, Disc):
             return ["D", look, m.body, point(m.at), float(f"{m.radius:.6g}"), int(m.mass)]
         if isinstance(m, Tube):
             return ["T", look, m.body, point(m.a), point(m.b), float(f"{m.radius:.6g}")]

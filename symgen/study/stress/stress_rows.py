@@ -8,8 +8,8 @@ from typing import Any, cast
 
 from symgen.files import check_writable, headed, write_csv
 from symgen.result.contract import finite
+from symgen.study.stress.cell_outcome import ACCURATE, counts, false_success
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
-from symgen.study.stress.outcome import ACCURATE, counts, false_success
 
 #: Units of columns that have one.
 UNITS = {
@@ -19,7 +19,7 @@ UNITS = {
 
 
 @dataclass(frozen=True)
-class Row:
+class StressRow:
     """One cell of the map.
 
     Attributes
@@ -35,7 +35,7 @@ class Row:
     until : float
         End [s].
     outcome : str
-        One of `symgen.study.stress.outcome.OUTCOMES`: told by the distance to the reference.
+        One of `symgen.study.stress.cell_outcome.OUTCOMES`: told by the distance to the reference.
     error : float or None
         Largest distance to the reference [m] at the outputs that the run reached.
     reference_error : float or None
@@ -101,7 +101,7 @@ class Stress:
     ----------
     models : tuple of str
         Base models.
-    rows : tuple of Row
+    rows : tuple of StressRow
         Cells of the map and of the planes.
     limits : tuple of Limit
         Largest steps.
@@ -118,7 +118,7 @@ class Stress:
     """
 
     models: tuple[str, ...]
-    rows: tuple[Row, ...]
+    rows: tuple[StressRow, ...]
     limits: tuple[Limit, ...]
     skipped: tuple[tuple[str, str, str], ...]
     unusable: tuple[tuple[str, str, str, str], ...]
@@ -128,7 +128,7 @@ class Stress:
     coordinates: str = "absolute"
 
     @property
-    def false_successes(self) -> tuple[Row, ...]:
+    def false_successes(self) -> tuple[StressRow, ...]:
         """Cells in which a run says ok although its error exceeds 1e-3 m."""
         return tuple(row for row in self.rows if row.false_success)
 
@@ -162,5 +162,5 @@ def save_csv(study: Stress, path: Path, units: bool = False) -> Path:
     """Write the rows of a study to a CSV file, with units if asked for; it appears whole or not at all."""
     check_writable("csv", path)
     rows = [asdict(row) | {"values": " ".join(f"{x!r}" for x in row.values)} for row in study.rows]
-    heading = [headed(f.name, UNITS.get(f.name, "")) if units else f.name for f in fields(Row)]
+    heading = [headed(f.name, UNITS.get(f.name, "")) if units else f.name for f in fields(StressRow)]
     return write_csv(path, heading, [list(row.values()) for row in rows])

@@ -26,10 +26,10 @@ def signature_of(signature: types.Signature) -> Any:
 
 def type_of(kind: types.Kind) -> Any:
     """Return a type as Numba's."""
-    if isinstance(kind, types.Number):
+    if isinstance(kind, types.NumberType):
         return _NUMBERS[kind]
-    if isinstance(kind, types.Array):
-        return numba.types.Array(_NUMBERS[kind.dtype], kind.ndim, "C")
+    if isinstance(kind, types.ArrayType):
+        return numba.types.ArrayType(_NUMBERS[kind.dtype], kind.ndim, "C")
     if isinstance(kind, types.FunctionType):
         return numba.types.FunctionType(signature_of(kind.signature))
     parts = tuple(map(type_of, kind))

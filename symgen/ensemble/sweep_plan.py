@@ -16,7 +16,7 @@ from symgen.compiling.choose_shape import LARGEST_STRAIGHT
 from symgen.compiling.choose_tree import on_tree
 from symgen.compiling.integrals import can_integrate, with_integrals
 from symgen.compiling.pipeline import compile_model
-from symgen.describe.derived import derived
+from symgen.describe.derived_parameters import derived
 from symgen.describe.digest import identity
 from symgen.describe.events import RECORD, RESET, STOP
 from symgen.describe.kinks import discontinuities_of
@@ -27,9 +27,9 @@ from symgen.ensemble.kernel import integrator_of_rows, kernel_of
 from symgen.ensemble.lanes import check_lanes
 from symgen.ensemble.measures import integrated, make_measures, measurable
 from symgen.ensemble.names import Names, Targets, targets_of
-from symgen.ensemble.quantities import choose_quantities
 from symgen.ensemble.recipe import Code, Module, Recipe, Watch, code_identity
-from symgen.ensemble.starts import Rows, make_rows
+from symgen.ensemble.row_quantities import choose_quantities
+from symgen.ensemble.row_starts import Rows, make_rows
 from symgen.ensemble.tree_rows import are_plain
 from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from symgen.api import Model
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Event, Mechanism
-    from symgen.ensemble.quantities import Quantity
+    from symgen.ensemble.row_quantities import RowQuantity
     from symgen.runtime.compiled import CompiledModel
 
 #: A chunk should take about so many seconds, and its arrays no more than so many bytes.
@@ -300,7 +300,7 @@ def _code(
     compiled: CompiledModel,
     target: str,
     joint: bool,
-    kept: Sequence[Quantity],
+    kept: Sequence[RowQuantity],
 ) -> Code:
     """Return what runs take of code for one solver, with how quantities behind the loops are worked out."""
     return Code(

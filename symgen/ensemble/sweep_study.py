@@ -33,7 +33,7 @@ from symgen.version import __version__
 if TYPE_CHECKING:
     import xarray as xr
 
-    from symgen.ensemble.plan import Ensemble
+    from symgen.ensemble.sweep_plan import Ensemble
 
 Array = NDArray[np.float64]
 

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from symgen.errors import SimulationError
 from symgen.result.agreement import agreement
-from symgen.study.references.parts import longest_of
 from symgen.study.references.solvers import Scheme, by_steps
+from symgen.study.references.time_parts import longest_of
 
 if TYPE_CHECKING:
     from symgen.result.points import Points
@@ -41,7 +41,7 @@ def scaled_values(d: Array) -> Array:
     return np.asarray(np.linalg.svd(d / np.where(lengths > 0.0, lengths, 1.0)[:, None], compute_uv=False))
 
 
-class Watch:
+class SingularWatch:
     """Keeps the smallest and the largest of the smallest singular values of D (rows scaled) that a run has met.
 
     Parameters
@@ -77,7 +77,7 @@ class Watch:
 
 
 @dataclass(frozen=True)
-class Passage:
+class SingularPassage:
     """Two runs through singular positions.
 
     Attributes
@@ -108,7 +108,7 @@ def pass_through(
     step: float,
     points: Points,
     phases: tuple[float, ...] = PHASES,
-) -> Passage:
+) -> SingularPassage:
     """Run with different steps until two runs agree well; of all pairs the one that agrees best is returned.
 
     Parameters
@@ -131,7 +131,7 @@ def pass_through(
     step = min(step, longest_of(equations, times) / max(phases))
     if len(times) > 1:  # steps that were longer than from one output to the next would all fall alike
         step = min(step, float(np.median(np.diff(times))) / max(phases))
-    best: Passage | None = None
+    best: SingularPassage | None = None
     for i, phase in enumerate(phases):
         try:
             motion = march(equations, y, times, phase * step)
@@ -141,7 +141,7 @@ def pass_through(
         for other in motions:
             found = agreement(points, other, motion)
             if best is None or found.apart < best.difference:
-                best = Passage(
+                best = SingularPassage(
                     other, found.apart, None if found.parts is None else float(times[found.parts]), i + 1, step
                 )
         motions.append(motion)

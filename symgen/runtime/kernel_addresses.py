@@ -32,8 +32,8 @@ def address(function: Any, machine: ModuleType, signature: types.Signature = KER
         machine.KERNELS.append(function)
         return len(machine.KERNELS) - 1
     if by_numba():
-        from symgen.native import judge
+        from symgen.native import numba_judge
 
-        return judge.address(function, signature)
+        return numba_judge.address(function, signature)
     found: int = function.address(signature)
     return found

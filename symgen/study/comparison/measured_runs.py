@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from symgen.result.judge import judge
 from symgen.runtime import abi
-from symgen.study.comparison.rows import Row, Trace
+from symgen.study.comparison.comparison_rows import Row, Trace
 
 if TYPE_CHECKING:
     from symgen.result.points import Points

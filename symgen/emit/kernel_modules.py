@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from symgen.emit.emit import table_codes
-from symgen.emit.module import Code, function, module
+from symgen.emit.module import ModulePiece, function, module
 from symgen.emit.printer import Access, Printer
 from symgen.formulate.elements import RECORD
 from symgen.ir.program import FORMAT, STATUS, Block, Target
@@ -42,7 +42,7 @@ def _module(
     return module(f"Kernel `{kernel.stem}` of the looped shape.", header, codes, known, {})
 
 
-def _function(block: Block, access: InstanceAccess, stride: int) -> Code:
+def _function(block: Block, access: InstanceAccess, stride: int) -> ModulePiece:
     """Return a block as a loop over instances."""
     access.used.clear()
     lines = Printer(block, access).lines()

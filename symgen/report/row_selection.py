@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from symgen.study.comparison.rows import Row, Study, Trace
+from symgen.study.comparison.comparison_rows import Row, Study, Trace
 
 #: The integrator and the step of the source, by which methods are compared where they have it.
 USUAL = "rk4"

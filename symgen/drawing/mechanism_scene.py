@@ -10,8 +10,8 @@ import numpy as np
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.describe.start import described_start
-from symgen.drawing.efforts import force_item
-from symgen.drawing.markers import Numbers, Place, parts
+from symgen.drawing.force_parts import force_item
+from symgen.drawing.markers import BodyPoint, PlacedMechanism, parts
 from symgen.drawing.outline import outline
 from symgen.drawing.pen import RIGID, Pen
 from symgen.drawing.scene import COLOURS, Array, Item, Look, Mark, Point, Scene, is_spatial, upwards
@@ -60,7 +60,7 @@ def build_scene(
         raise InputError("q", f"{size} coordinates, as {mechanism.name} has", str(rows.shape[-1]))
     rows = rows[:: max(1, len(rows) // 60)]
     spatial = is_spatial(mechanism)
-    numbers = Numbers(mechanism, known, rows)
+    numbers = PlacedMechanism(mechanism, known, rows)
     up = upwards([numbers.number(g) for g in mechanism.gravity], spatial)
     points = _points(numbers)
     unit = _unit(numbers, points)
@@ -82,7 +82,7 @@ def build_scene(
     )
 
 
-def _points(numbers: Numbers) -> dict[str, list[Point]]:
+def _points(numbers: PlacedMechanism) -> dict[str, list[Point]]:
     """Return the points of each body from its centre of mass: those of joints and forces, and those with names."""
     found: dict[str, dict[Point, None]] = {frame.name: {} for frame in numbers.frames}
     names = [frame.name for frame in numbers.frames]
@@ -102,7 +102,7 @@ def _rounded(point: Point) -> Point:
     return (x, y, z)
 
 
-def _unit(numbers: Numbers, points: Mapping[str, list[Point]]) -> float:
+def _unit(numbers: PlacedMechanism, points: Mapping[str, list[Point]]) -> float:
     """Return the size of symbols [m]: small beside the mechanism, and beside what they are drawn on."""
     places = [numbers.now.out(numbers.index[name], own) for name, own in points.items() if own]
     everyone = (*numbers.mechanism.joints, *numbers.mechanism.forces)
@@ -127,7 +127,7 @@ def _body_item(pen: Pen, body: AnyBody, points: list[Point], guided: set[str]) -
     numbers = pen.numbers
     i = numbers.index[body.name]
     colour = COLOURS[i % len(COLOURS)]
-    centre = Place(i, (0.0, 0.0, 0.0))
+    centre = BodyPoint(i, (0.0, 0.0, 0.0))
     shapes = [shape for name, shape in numbers.mechanism.shapes if name == body.name]
     marks: list[Mark]
     if body.is_point and not shapes:
@@ -146,7 +146,7 @@ def _body_item(pen: Pen, body: AnyBody, points: list[Point], guided: set[str]) -
     return Item("body", body.name, "point" if body.is_point else "rigid", tuple(marks), label=(i, (x, y, z)))
 
 
-def _gyration(numbers: Numbers, body: AnyBody) -> Array:
+def _gyration(numbers: PlacedMechanism, body: AnyBody) -> Array:
     """Return half the edges of the box of even density that has a body's mass and moments of inertia [m]."""
     mass = numbers.number(body.mass) or 1.0
     if isinstance(body, SpatialBody):

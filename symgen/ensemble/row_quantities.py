@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Quantity:
+class RowQuantity:
     """A named scalar over time: its unit, and the column of the outputs that it is."""
 
     name: str
@@ -27,35 +27,35 @@ class Quantity:
     column: int
 
 
-def known_quantities(info: ModelInfo) -> tuple[Quantity, ...]:
+def known_quantities(info: ModelInfo) -> tuple[RowQuantity, ...]:
     """Return all quantities that runs of a model can keep, those of bodies first."""
-    found = [Quantity(q.name, q.unit, e.STATE, i) for i, q in enumerate(info.coordinates)]
-    found += [Quantity(v.name, v.unit, e.STATE, info.nq + i) for i, v in enumerate(info.velocities)]
+    found = [RowQuantity(q.name, q.unit, e.STATE, i) for i, q in enumerate(info.coordinates)]
+    found += [RowQuantity(v.name, v.unit, e.STATE, info.nq + i) for i, v in enumerate(info.velocities)]
     for i, v in enumerate(info.velocities):
         body, _, component = v.name.rpartition(".")
-        found.append(Quantity(f"{body}.{ACCELERATIONS[component]}", f"{v.unit}^2", e.ACCELERATION, i))
+        found.append(RowQuantity(f"{body}.{ACCELERATIONS[component]}", f"{v.unit}^2", e.ACCELERATION, i))
     for i, c in enumerate(info.joint_coordinates):
         name = PREFIX["joint_coordinates"] + c.name
-        found.append(Quantity(name, c.unit, e.JOINT, 2 * i))
-        found.append(Quantity(f"{name}.rate", f"{c.unit}/s", e.JOINT, 2 * i + 1))
+        found.append(RowQuantity(name, c.unit, e.JOINT, 2 * i))
+        found.append(RowQuantity(f"{name}.rate", f"{c.unit}/s", e.JOINT, 2 * i + 1))
     for i, row in enumerate(info.rows):
-        found.append(Quantity(PREFIX["lam"] + row.name, multiplier_unit(row.unit), e.MULTIPLIER, i))
+        found.append(RowQuantity(PREFIX["lam"] + row.name, multiplier_unit(row.unit), e.MULTIPLIER, i))
     found += [
-        Quantity("energy.kinetic", "J", e.STATUS, abi.KINETIC),
-        Quantity("energy.potential", "J", e.STATUS, abi.POTENTIAL),
-        Quantity("energy.work", "J", e.STATE, info.work),
-        Quantity("energy.total", "J", e.ENERGY, 0),
-        Quantity("energy.error", "J", e.ENERGY_ERROR, 0),
-        Quantity("violation.position", "m", e.STATUS, abi.PHI),
-        Quantity("violation.velocity", "m/s", e.STATUS, abi.DRIFT),
-        Quantity("smallest_pivot", "1", e.STATUS, abi.PIVOT),
+        RowQuantity("energy.kinetic", "J", e.STATUS, abi.KINETIC),
+        RowQuantity("energy.potential", "J", e.STATUS, abi.POTENTIAL),
+        RowQuantity("energy.work", "J", e.STATE, info.work),
+        RowQuantity("energy.total", "J", e.ENERGY, 0),
+        RowQuantity("energy.error", "J", e.ENERGY_ERROR, 0),
+        RowQuantity("violation.position", "m", e.STATUS, abi.PHI),
+        RowQuantity("violation.velocity", "m/s", e.STATUS, abi.DRIFT),
+        RowQuantity("smallest_pivot", "1", e.STATUS, abi.PIVOT),
     ]
     return tuple(found)
 
 
 def choose_quantities(
-    info: ModelInfo, names: Sequence[str] | None, measurable: Callable[[], Mapping[str, Sequence[Quantity]]]
-) -> tuple[Quantity, ...]:
+    info: ModelInfo, names: Sequence[str] | None, measurable: Callable[[], Mapping[str, Sequence[RowQuantity]]]
+) -> tuple[RowQuantity, ...]:
     """Return the quantities called `names`; coordinates and velocities where None are named.
 
     Parameters
@@ -76,7 +76,7 @@ def choose_quantities(
     """
     known = {q.name: q for q in known_quantities(info)}
     states = [q for q in known.values() if q.source == e.STATE and q.column < info.work]
-    groups: dict[str, list[Quantity]] = {
+    groups: dict[str, list[RowQuantity]] = {
         "q": [q for q in states if q.column < info.nq],
         "v": [q for q in states if q.column >= info.nq],
     }
@@ -87,7 +87,7 @@ def choose_quantities(
     asked = ("q", "v") if names is None else names
     if any(name not in known and name not in groups for name in asked):
         _add(measurable(), known, groups)
-    chosen: dict[str, Quantity] = {}
+    chosen: dict[str, RowQuantity] = {}
     for name in asked:
         if name in known:
             chosen[name] = known[name]
@@ -101,7 +101,7 @@ def choose_quantities(
 
 
 def _add(
-    measurable: Mapping[str, Sequence[Quantity]], known: dict[str, Quantity], groups: dict[str, list[Quantity]]
+    measurable: Mapping[str, Sequence[RowQuantity]], known: dict[str, RowQuantity], groups: dict[str, list[RowQuantity]]
 ) -> None:
     """Add what no loop leaves: each name, its table, and all that names begin with, up to a dot."""
     own = set(groups)

@@ -71,7 +71,7 @@ def let(lines: list[str], text: str) -> Script:
     return Script(lines, name)
 
 
-class Lines:
+class ScriptLines:
     """Numbers of `symgen.describe.numbers` that write down how they are worked out.
 
     Parameters

@@ -18,16 +18,16 @@ from symgen.errors import InputError, SimulationError
 from symgen.ir.program import TARGETS
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.blocks import padded
 from symgen.runtime.new_state import metric_of, share_of, sizes_of
+from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
     from symgen.ensemble.chunks import Results
-    from symgen.ensemble.starts import Rows
+    from symgen.ensemble.row_starts import Rows
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.device import Need
     from symgen.runtime.integrator import Setup
-    from symgen.runtime.records import Span, Tableau
+    from symgen.runtime.records import Span, TableauRecord
     from symgen.runtime.start_records import Instant
 
 Array = NDArray[np.float64]
@@ -107,9 +107,9 @@ def need_of(compiled: CompiledModel, setup: Setup, adaptive: bool, wants: set[in
         If a run needs more memory than a thread of a device can have, or the integrator is of another family.
     """
     from symgen.runtime.device import Need
-    from symgen.runtime.records import Tableau
+    from symgen.runtime.records import TableauRecord
 
-    if not isinstance(setup.scheme, Tableau):
+    if not isinstance(setup.scheme, TableauRecord):
         raise InputError("target 'cuda'", "an explicit Runge-Kutta scheme", "an integrator with a loop of its own")
     info, law = compiled.info, compiled.law
     found = Need(
@@ -152,7 +152,7 @@ class DeviceRuns:
         self,
         compiled: CompiledModel,
         need: Need,
-        scheme: Tableau,
+        scheme: TableauRecord,
         span: Span,
         limits: Array,
         times: Array,
@@ -240,7 +240,7 @@ class DeviceRuns:
         Parameters
         ----------
         rows, starts, selected, out, control
-            As for `symgen.ensemble.loops.LoopRuns.run`.
+            As for `symgen.ensemble.loop_runs.LoopRuns.run`.
 
         Raises
         ------
@@ -273,7 +273,7 @@ class DeviceRuns:
         """Run rows that fit into the device's memory; return their quantities and numbers."""
         from numba import cuda
 
-        from symgen.runtime.device import Results as DeviceResults
+        from symgen.runtime.device import DeviceResults as DeviceResults
         from symgen.runtime.device import Starts, simulated
 
         k = len(ys)

@@ -19,13 +19,13 @@ from symgen.lower.looped.statements import (
     VELOCITIES,
     WORK,
     Assignment,
-    Call,
+    KernelCall,
     LoopedFunction,
     Statement,
 )
-from symgen.lower.record import Part, Record
+from symgen.lower.record import Part, RecordedLaw
 from symgen.lower.replay import ARITHMETIC, Nodes, Replay
-from symgen.methods._formula import Operation, needed
+from symgen.methods._formula import FormulaStep, needed
 
 #: Functions of a law in which the kernels of an evaluation are called first.
 _EVALUATE = ("rhs", "begin")
@@ -50,7 +50,7 @@ class _Factor:
 class Loops(Replay):
     """Lays out one function of a law."""
 
-    def __init__(self, record: Record, part: Part, parameters: tuple[str, ...]) -> None:
+    def __init__(self, record: RecordedLaw, part: Part, parameters: tuple[str, ...]) -> None:
         super().__init__(Graph(), record.operations, parameters)
         self.part, self.vectors = part, _FIRST_VECTOR
         self.sections: dict[str, str] = {}
@@ -148,7 +148,7 @@ class Loops(Replay):
         self.statements.append(Assignment(((*place, node),)))
 
     def _call(self, function: str, *arguments: str, result: str = "") -> None:
-        self.statements.append(Call(function, arguments, result))
+        self.statements.append(KernelCall(function, arguments, result))
 
     def _local(self, node: int) -> int:
         """Return a number as a local one, computed before the loop that reads it."""
@@ -187,27 +187,27 @@ class Loops(Replay):
 
     # -- named values --------------------------------------------------------------------------------------------------
 
-    def _on_quantity(self, operation: Operation) -> Nodes:
+    def _on_quantity(self, operation: FormulaStep) -> Nodes:
         name = str(operation.payload[0])
         return self._leaf({"f": "force"}.get(name, name), operation.size)
 
-    def _on_section(self, operation: Operation) -> Nodes:
+    def _on_section(self, operation: FormulaStep) -> Nodes:
         return self._leaf(str(operation.payload[0]), operation.size)
 
-    def _on_zeros(self, operation: Operation) -> Nodes:
+    def _on_zeros(self, operation: FormulaStep) -> Nodes:
         return (self.graph.zero,)
 
-    def _on_power(self, operation: Operation) -> int:
+    def _on_power(self, operation: FormulaStep) -> int:
         return self.graph.input(STATE, STATUS.index("power"))
 
-    def _nothing(self, operation: Operation, *operands: Any) -> None:
+    def _nothing(self, operation: FormulaStep, *operands: Any) -> None:
         """Leave what is done elsewhere: D and its factorisation stand in their places when a function begins."""
 
     _on_flag = _on_rank = _on_constraints = _on_stored_constraints = _on_keep_constraints = _nothing
     #: Of a root of M^-1 only products with its transposed are formed, beside another one.
     _on_times_transposed = _nothing
 
-    def _on_dot(self, operation: Operation, a: Nodes, b: Nodes) -> int:
+    def _on_dot(self, operation: FormulaStep, a: Nodes, b: Nodes) -> int:
         node = self.graph.mul(a[0], b[0])
         if node == self.graph.zero:
             return node
@@ -219,7 +219,7 @@ class Loops(Replay):
 
     # -- products ------------------------------------------------------------------------------------------------------
 
-    def _times(self, operation: Operation, *operands: Any, helper: str) -> Nodes:
+    def _times(self, operation: FormulaStep, *operands: Any, helper: str) -> Nodes:
         x: Nodes = operands[-1]
         if x[0] == self.graph.zero:
             return x
@@ -228,37 +228,37 @@ class Loops(Replay):
         self._call(helper, "T", "p", "w", source, target)
         return self._leaf(target, operation.size)
 
-    def _on_inverse_mass_root(self, operation: Operation) -> str:
+    def _on_inverse_mass_root(self, operation: FormulaStep) -> str:
         return "root"
 
-    def _on_transposed(self, operation: Operation, matrix: str | None, y: Nodes) -> Nodes:
+    def _on_transposed(self, operation: FormulaStep, matrix: str | None, y: Nodes) -> Nodes:
         return self._times(operation, y, helper="columns_times" if matrix is None else "inverse_mass_times")
 
     _on_product = partialmethod(_times, helper="rows_times")
     _on_mass = partialmethod(_times, helper="mass_times")
     _on_minv = _on_free_acceleration = partialmethod(_times, helper="inverse_mass_times")
 
-    def _on_gauged(self, operation: Operation, x: Nodes) -> Nodes:
+    def _on_gauged(self, operation: FormulaStep, x: Nodes) -> Nodes:
         return (self.graph.mul(self._leaf("gauge", "nv")[0], x[0]),)
 
     # -- factorisations ------------------------------------------------------------------------------------------------
 
-    def _gram(self, operation: Operation, _: None = None, *, matrix: str, section: str) -> _Factor:
+    def _gram(self, operation: FormulaStep, _: None = None, *, matrix: str, section: str) -> _Factor:
         return _Factor(matrix, section)
 
     _on_schur = _on_pseudoinverse = partialmethod(_gram, matrix="schur", section="schur_lower")
     _on_weighted_mass = partialmethod(_gram, matrix="weighted", section="law_lower")
     _on_weighted_identity = partialmethod(_gram, matrix="identity", section="law_lower")
 
-    def _on_augmented(self, operation: Operation, penalties: Nodes | None) -> _Factor:
+    def _on_augmented(self, operation: FormulaStep, penalties: Nodes | None) -> _Factor:
         return _Factor("augmented", "augmented_lower", -1 if penalties is None else penalties[0])
 
     _on_augmented_metric = _on_augmented
 
-    def _on_stored_factor(self, operation: Operation, factor: _Factor) -> _Factor:
+    def _on_stored_factor(self, operation: FormulaStep, factor: _Factor) -> _Factor:
         return replace(factor, section=f"{operation.payload[0]}lower", stored=True)
 
-    def _on_solve(self, operation: Operation, factor: _Factor, right: Nodes) -> Nodes:
+    def _on_solve(self, operation: FormulaStep, factor: _Factor, right: Nodes) -> Nodes:
         if right[0] == self.graph.zero:
             return right
         target = self._new(self.at, operation.size)
@@ -289,10 +289,10 @@ class Loops(Replay):
 
     # -- what is kept --------------------------------------------------------------------------------------------------
 
-    def _on_keep(self, operation: Operation, x: Nodes | None) -> Nodes:
+    def _on_keep(self, operation: FormulaStep, x: Nodes | None) -> Nodes:
         return self._leaf(str(operation.payload[0]), operation.size) if x is None else x
 
-    def _on_keep_factor(self, operation: Operation, factor: None) -> _Factor:
+    def _on_keep_factor(self, operation: FormulaStep, factor: None) -> _Factor:
         matrix = self.operations[operation.operands[0]].kind
         return _Factor(matrix, f"{matrix}_lower", stored=True)
 

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.derived import derived
+from symgen.describe.derived_parameters import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
-from symgen.runtime.columns import Columns
+from symgen.runtime.array_formulas import Columns
 from symgen.vocabulary.expressions import Expr
 
 if TYPE_CHECKING:

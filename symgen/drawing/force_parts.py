@@ -8,9 +8,9 @@ import numpy as np
 
 from symgen.describe.mechanism import Force
 from symgen.drawing.joint_parts import DRIVE, turned_about
-from symgen.drawing.markers import Place, parts
+from symgen.drawing.markers import BodyPoint, parts
 from symgen.drawing.pen import PLAIN, Pen, across
-from symgen.drawing.scene import GROUNDED, INK, Array, Frame, Item, Look, Mark, Poses
+from symgen.drawing.scene import GROUNDED, INK, Array, BodyFrame, Item, Look, Mark, Poses
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import ZERO, Number, names
 from symgen.vocabulary.measures import Angle, Component, Distance, Effort, PointSpeed, Spin, Turn
@@ -62,7 +62,7 @@ def _turning(pen: Pen, force: Force) -> list[Mark]:
     numbers = pen.numbers
     joints = [j for j in numbers.mechanism.joints if set(j.bodies) == set(force.bodies) and numbers.markers(j.rows)]
     body = next((b for b in force.bodies if b in numbers.index and b != "ground"), force.bodies[0])
-    at, axis = Place(numbers.index[body], (0.0, 0.0, 0.0)), np.array([0.0, 0.0, 1.0])
+    at, axis = BodyPoint(numbers.index[body], (0.0, 0.0, 0.0)), np.array([0.0, 0.0, 1.0])
     if joints:
         at, axis = turned_about(numbers, joints[0], force.efforts)
     frame = at.body
@@ -144,7 +144,7 @@ def _probed(pen: Pen, force: Force, body: int) -> list[tuple[Array, Array]]:
         else:
             turn, changed = np.array([angle]), {f"{frame.name}.theta": angle}
         given = np.concatenate([np.zeros(3 if numbers.spatial else 2), turn])
-        turns = Poses([Frame(frame.name, 0, len(given))], given, numbers.spatial).turns[0]
+        turns = Poses([BodyFrame(frame.name, 0, len(given))], given, numbers.spatial).turns[0]
         total = np.zeros(3)
         for effort, measure in _components(force):
             own = numbers.vector(measure.along.vector)

@@ -49,7 +49,7 @@ Row = tuple[Any, dict[int, Any], Any, Any]
 TENSOR = ((0, 3, 4), (3, 1, 5), (4, 5, 2))
 
 
-class Formulas:
+class ReferenceFormulas:
     """Rows and forces of a mechanism.
 
     Parameters

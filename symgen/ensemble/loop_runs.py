@@ -14,7 +14,7 @@ from symgen.runtime import ensemble_abi as e
 from symgen.runtime.hunting import with_events
 from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
 from symgen.runtime.probe import rates_of
-from symgen.runtime.records import Chunk, Kept, Observed
+from symgen.runtime.records import Kept, Observed, RowChunk
 from symgen.runtime.redundancy import room_of_choice
 from symgen.runtime.rows import observe_nothing, variant
 from symgen.runtime.searching import decide
@@ -23,7 +23,7 @@ from symgen.runtime.stopping import with_table
 if TYPE_CHECKING:
     from symgen.ensemble.chunks import Results
     from symgen.ensemble.recipe import Recipe
-    from symgen.ensemble.starts import Rows
+    from symgen.ensemble.row_starts import Rows
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Watched
     from symgen.runtime.integrator import Integrator, Setup
@@ -93,7 +93,7 @@ class LoopRuns:
         places = compiled.layout, np.zeros(room_of_choice(info.m, info.nv) if masked else 0)
         results = out.values.reshape(-1), summary.reshape(-1), out.events.reshape(-1)
         arrays = (selected, *(x.ravel() for x in starts), recipe.limits, self.picks, *results)
-        chunk = Chunk._make((*arrays, *wants, *places))
+        chunk = RowChunk._make((*arrays, *wants, *places))
         room = max(setup.room, 2 * info.ny + kept.observed.rows.shape[1])
         state = new_state(compiled, sizes, setup.memory, room)._replace(control=control)
         observers = sizes, *rates, law.accept, observe
