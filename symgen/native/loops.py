@@ -2,8 +2,8 @@
 
 A loop is written in Python with records of arrays and numbers, functions that are known by their address, and parts
 that are copied into it (`symgen.runtime.loop_instances`). All of that is known before anything runs: records, tuples
-and views of arrays exist while the source is read and leave nothing but names of arrays, numbers and addresses. What else
-stands in a loop is what emitted functions have, read by the same rules.
+and views of arrays exist while the source is read and leave nothing but names of arrays, numbers and addresses.
+Everything else in a loop is what emitted functions have, read by the same rules.
 
 What is not in this language is `Foreign`: only Numba compiles such a loop.
 """

@@ -33,7 +33,8 @@ HuntingState = record("HuntingState", *State._fields, "hunt", module=__name__)
 #: A `Run` with what is kept of events.
 HuntingRun = record("HuntingRun", *Run._fields, "hunt", module=__name__)
 #: A `ModelSystem` with the functions of events: switching functions with their rates, the function
-#: `symgen.runtime.searching.decide`, and what gives q' and v', ``rhs`` or that of a law which integrates something else than v.
+#: `symgen.runtime.searching.decide`, and the rates q' and v': ``rhs``, or a function beside it of a law that integrates
+#: something else than v.
 HuntingSystem = record("HuntingSystem", *ModelSystem._fields, "happens", "decide", "rates", module=__name__)
 
 
