@@ -96,7 +96,7 @@ def test_bad_use_ends_in_a_sentence(cli, words, code, says):
 
 MASS = '''"""Find the mass of a mechanism."""
 
-from symgen.analyses.kinds import Analysis, Option, Output
+from symgen.analyses.kinds import Analysis, Option, AnalysisOutput
 from symgen.analyses.kinds._settings import settings_of
 
 
@@ -113,7 +113,7 @@ def command(load, settings, grams):
     """Find the mass of all bodies of MODEL."""
     model = load()
     found = mass(model, settings) * (1e3 if grams else 1.0)
-    return Output({"mechanism": model.mechanism.name, "mass": found}, (f"{found:.6g}",))
+    return AnalysisOutput({"mechanism": model.mechanism.name, "mass": found}, (f"{found:.6g}",))
 
 
 KIND = Analysis(
