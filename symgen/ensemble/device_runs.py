@@ -273,8 +273,7 @@ class DeviceRuns:
         """Run rows that fit into the device's memory; return their quantities and numbers."""
         from numba import cuda
 
-        from symgen.runtime.device import DeviceResults as DeviceResults
-        from symgen.runtime.device import Starts, simulated
+        from symgen.runtime.device import DeviceResults, Starts, simulated
 
         k = len(ys)
         inputs = [cuda.to_device(np.ascontiguousarray(array.T)) for array in (ys, ps, ws)]

@@ -29,7 +29,7 @@ def type_of(kind: types.Kind) -> Any:
     if isinstance(kind, types.NumberType):
         return _NUMBERS[kind]
     if isinstance(kind, types.ArrayType):
-        return numba.types.ArrayType(_NUMBERS[kind.dtype], kind.ndim, "C")
+        return numba.types.Array(_NUMBERS[kind.dtype], kind.ndim, "C")
     if isinstance(kind, types.FunctionType):
         return numba.types.FunctionType(signature_of(kind.signature))
     parts = tuple(map(type_of, kind))

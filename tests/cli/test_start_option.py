@@ -24,7 +24,10 @@ def test_starts_on_the_command_line(capsys):
         (("--start", "crank.teta=0.5"), "did you mean 'crank.theta'"),
         (("--start", "crank.theta"), "expected NAME=VALUE"),
         (("--start", "crank.theta=x"), "expected a finite number"),
-        (("--start", "crank.theta=0.5", "--start", "arm.theta=1"), "arm.theta = 1 rad cannot be held beside"),
+        (
+            ("--start", "crank.theta=0.5", "--start", "arm.theta=1"),
+            "arm.theta = 1 rad held: joint 'pivot' stays open by",
+        ),
     ):
         assert main(["run", WIPER, *words]) == 2
         said = capsys.readouterr().err

@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 
 from symgen.api import load
 from symgen.describe.builder import MechanismBuilder
-from symgen.result.points import Points
+from symgen.result.points import Points, rotation_matrices
 
 GRAVITY = np.array([0.0, 0.0, -9.81])
 MASSES = (1.0, 0.5)
@@ -100,7 +100,7 @@ def distance(outcome) -> float:
     for k, (i, _) in enumerate(axes.bodies):
         q = outcome.states[:, i : i + 7]
         worst = max(worst, np.abs(q[:, :3] - reference()[:, 3 * k : 3 * k + 3]).max())
-        turned = axes._axes(outcome.states, i + 3)
+        turned = rotation_matrices(q[:, 3:])
         worst = max(worst, 0.5 * np.abs(turned - reference()[:, 6 + 9 * k : 15 + 9 * k].reshape(-1, 3, 3)).max())
     return float(worst)
 
