@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 
 from symgen.errors import InputError, nearest
@@ -33,6 +34,7 @@ def by_numba() -> bool:
     return compiler() == "numba"
 
 
+@functools.cache
 def interpreted() -> bool:
-    """Whether nothing is compiled: ``NUMBA_DISABLE_JIT=1``, as emitted modules read it anywhere."""
+    """Whether nothing is compiled: ``NUMBA_DISABLE_JIT=1``, read once a process as Numba does."""
     return os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")

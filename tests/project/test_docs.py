@@ -109,7 +109,8 @@ def test_every_command_runs(page: Path, tmp_path: Path) -> None:
             words = words[1:]
         own = words[0] == "symgen" or (words[0] == "python" and words[1] in shown and len(words) == 2)
         assert own, f"{name(page)}:{line}: only symgen's own commands and scripts of the page are run: {command}"
-        script, rest = (COMMAND, words[1:]) if words[0] == "symgen" else (shown[words[1]], [])
+        file = f"import runpy\nrunpy.run_path({words[1]!r}, run_name='__main__')"
+        script, rest = (COMMAND, words[1:]) if words[0] == "symgen" else (file, [])
         done = python(script, *rest, cwd=tmp_path, env={**os.environ, **settings})
         assert done.returncode == 0, f"{name(page)}:{line}: {command}\n{done.stderr}"
 
