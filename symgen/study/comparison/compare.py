@@ -242,7 +242,8 @@ class _Work:
                 groups.setdefault(plan.key, {}).setdefault(plan.integrator.name, settings)
         tasks = [CodeTask(self.model.mechanism, tuple(group.values())) for group in groups.values()]
         codes = [Cell(f"{self.model.name} {i}", self.model.name, task) for i, task in enumerate(tasks)]
-        return [self.reference, *codes] if groups else []
+        # the reference comes last: it takes its time in any case, code in the cache none, so that no process is started
+        return [*codes, self.reference] if groups else []
 
     def run(self, show: Callable[[str, float], None]) -> Study:
         """Run all rows, one at a time: those that the journal does not hold."""

@@ -165,6 +165,8 @@ class IndependentEquations:
     def _root(self, q: Array) -> Array:
         """Return R with M^-1 = R R^T, the mass matrix of the rates completed along e."""
         root = np.diag(self.root)
+        if not self._first_e:
+            return root
         for i, block in zip(self._first_e, np.linalg.inv(np.linalg.cholesky(self._inertia(q))), strict=True):
             root[i : i + 4, i : i + 4] = block.T
         return root
