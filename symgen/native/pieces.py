@@ -23,7 +23,7 @@ class Piece:
         Name of the function.
     plain : function
         The plain form.
-    result : Number
+    result : NumberType
         Type of the result.
     writers : str
         Module with a function of the same name that takes a builder and the arguments, arrays as addresses, and

@@ -1,8 +1,8 @@
 """Functions of emitted modules, compiled from their text.
 
 An emitted module is one that Numba could compile: it imports ``njit``, and looped code some of Numba's internals. Here
-`imported` gives these imports another meaning, so that a run loads no Numba; ``SYMGEN_COMPILER=numba`` and
-``NUMBA_DISABLE_JIT=1`` leave them as they are.
+`imported` gives these imports another meaning, so that a run loads no Numba; ``SYMGEN_COMPILER=numba`` leaves them as
+they are, and with ``NUMBA_DISABLE_JIT=1`` the functions stay those of Python.
 """
 
 from __future__ import annotations

@@ -144,14 +144,18 @@ class MachineFunction(ABC):
 
     def symbol(self, arguments: Arguments) -> str:
         """Return the name in machine code, which holds a digest of all that the machine code depends on."""
-        name = f"{self.__name__}_{digest(self.key(arguments))[:32]}"
+        return self._symbol(self.key(arguments))
+
+    def _symbol(self, key: str) -> str:
+        name = f"{self.__name__}_{digest(key)[:32]}"
         return f"_ZN6symgen{len(name)}{name}E"  # as of a function in a namespace
 
     def _loaded(self, arguments: Arguments) -> MachineCode:
         """Put machine code into memory, from the cache or made anew."""
         from symgen.native.read import Foreign
 
-        symbol, key, location = self.symbol(arguments), self.key(arguments), cache_location()
+        key, location = self.key(arguments), cache_location()
+        symbol = self._symbol(key)
         name = f"{plain_name(self.__qualname__, 60)}-{digest(key)[:32]}{private.SUFFIX}"
         path = location.path / NATIVE / plain_name(self.__module__, 100) / name
         with CompilationClock() as clock:
