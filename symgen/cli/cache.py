@@ -27,17 +27,19 @@ def info(as_json: bool) -> int:
 @json_option
 def clear(as_json: bool) -> int:
     """Remove everything that symgen wrote into the cache."""
-    from symgen.store.entries import Entries
+    from symgen.store import upkeep
+    from symgen.store.paths import cache_root
 
-    Entries().clear()
+    upkeep.clear(cache_root())
     return _show(as_json, "cleared; ")
 
 
 def _show(as_json: bool, done: str) -> int:
-    from symgen.store.entries import Entries
+    from symgen.store import upkeep
     from symgen.store.paths import cache_location
 
-    place, held = cache_location(), Entries().info()
+    place = cache_location()
+    held = upkeep.info(place.path)
     if as_json:
         facts = {"path": str(place.path), "persistent": place.persistent, "reason": place.reason}
         write_json(facts | {"entries": held.entries, "compiled": held.compiled, "bytes": held.bytes})

@@ -30,7 +30,7 @@ from symgen.lower.looped.law import LoopedLawInfo, refuse_dense
 from symgen.lower.looped.shape import LoopedShape
 from symgen.lower.looped.tables import Builder, IndexTables
 from symgen.lower.record import record_form
-from symgen.store.entries import Entries, FolderName, Modules
+from symgen.store.entries import Entries, Modules, folder_name
 from symgen.store.modules import load_module
 from symgen.vocabulary.infos import LawInfo
 
@@ -49,7 +49,7 @@ def shared_folder(generator: str) -> str:
     generator : str
         Digest of everything that shapes emitted code.
     """
-    return str(FolderName("looped", generator, FORMAT))
+    return folder_name("looped", generator, FORMAT)
 
 
 def kernel_stems(found: Sequence[Instance]) -> list[str]:

@@ -29,7 +29,7 @@ from symgen.ir.program import FORMAT, SUFFIXES
 from symgen.methods import METHODS
 from symgen.methods._base import Method
 from symgen.runtime.compiled import CompiledModel
-from symgen.store.entries import Entries, FolderName, Modules
+from symgen.store.entries import Entries, Modules, folder_name
 from symgen.store.identity import SOURCES, TEMPLATES, digest, sources_digest
 
 
@@ -100,7 +100,7 @@ def for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = True) ->
 def folder_of(mechanism: Mechanism) -> str:
     """Return the name of the folder that holds everything emitted for `mechanism`; needs no SymPy."""
     text = f"{mechanism_digest(mechanism)} {generator_digest()}"
-    return str(FolderName(mechanism.name, digest(text), FORMAT))
+    return folder_name(mechanism.name, digest(text), FORMAT)
 
 
 @lru_cache(maxsize=1)

@@ -1,4 +1,4 @@
-"""Which compiler makes machine code, as environment variables name it."""
+"""How machine code is made, as environment variables name it."""
 
 from __future__ import annotations
 
@@ -9,14 +9,13 @@ from symgen.errors import InputError, nearest
 
 #: Environment variable: "source", the default, for machine code from the source by symgen's own route; "explain" for
 #: the same with a line on standard error for each function that is compiled; "libm" for the same with sines of the C
-#: library, one by one; "numba" for everything by Numba, without a cache: for judging the other one, and for loops that
-#: are outside its language.
+#: library, one by one.
 COMPILER = "SYMGEN_COMPILER"
-_COMPILERS = ("source", "explain", "libm", "numba")
+_COMPILERS = ("source", "explain", "libm")
 
 
 def compiler() -> str:
-    """Return the compiler that the environment names.
+    """Return the way to machine code that the environment names.
 
     Raises
     ------
@@ -27,11 +26,6 @@ def compiler() -> str:
     if name not in _COMPILERS:
         raise InputError(COMPILER, "one of " + ", ".join(_COMPILERS), f"'{name}'", nearest(name, _COMPILERS))
     return name
-
-
-def by_numba() -> bool:
-    """Whether Numba compiles everything."""
-    return compiler() == "numba"
 
 
 @functools.cache

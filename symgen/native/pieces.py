@@ -1,7 +1,7 @@
 """Functions of the runtime that are written in LLVM's language, such as arithmetic in vectors.
 
 A `Piece` stands in a loop like any function. Machine code has a function that LLVM copies into its caller, written with
-llvmlite when a loop is compiled; plain Python, Numba and CUDA have the plain form.
+llvmlite when a loop is compiled; plain Python and CUDA have the plain form.
 """
 
 from __future__ import annotations
@@ -38,15 +38,6 @@ class Piece:
     def __call__(self, *arguments: Any) -> Any:
         """Call the plain form."""
         return self.plain(*arguments)
-
-    @property
-    def _numba_type_(self) -> Any:
-        """Type for Numba, which compiles the plain form."""
-        from numba.core.types import Dispatcher
-
-        from symgen.native.numba_judge import dispatcher
-
-        return Dispatcher(dispatcher(self.plain, True))
 
 
 class Inserted(NamedTuple):

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 
 from numba import config, cuda, float64, int64, types
 
-from symgen.native.numba_judge import type_of
+from symgen.native import types as native
 from symgen.runtime import abi, frame, observe, rows, watch
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.loop_instances import Instances, viewing
@@ -66,7 +66,19 @@ STARTS = types.NamedTuple(Starts(ys=_M, ps=_M, ws=_M, limits=_A, share=_A, metri
 RESULTS = types.NamedTuple(
     DeviceResults(states=_T, status=_T, accelerations=_T, multipliers=_T, rows=_T, values=_M, summary=_M), DeviceResults
 )
-SIGNATURE = types.void(type_of(TABLEAU), type_of(SIZES), type_of(SPAN), STARTS, RESULTS)
+
+
+def _numbas(kind: native.Kind) -> Any:
+    """Return a number, an array or a record of these as Numba's type."""
+    if isinstance(kind, native.RecordType):
+        return types.BaseTuple.from_types(tuple(map(_numbas, kind)), kind.made if kind.fields else None)
+    if isinstance(kind, native.ArrayType):
+        return types.Array(_numbas(kind.dtype), kind.ndim, "C")
+    assert isinstance(kind, native.NumberType), "kernels take no functions"
+    return getattr(types, kind.name)
+
+
+SIGNATURE = types.void(_numbas(TABLEAU), _numbas(SIZES), _numbas(SPAN), STARTS, RESULTS)
 
 
 def simulated() -> bool:

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from symgen.native import types
 from symgen.native.calls import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, numbers, slots, trampoline
-from symgen.native.compiler import by_numba
 from symgen.store.jit import MachineFunction, made
 
 Array = NDArray[np.float64]
@@ -49,7 +48,7 @@ class ArgumentBlock:
     @classmethod
     def of(cls, function: Any, signature: types.Signature | None, arguments: tuple[Any, ...]) -> Self | None:
         """Return the block of a function, None where it is not one that is compiled here, or takes other arguments."""
-        if not isinstance(function, MachineFunction) or signature is None or by_numba():
+        if not isinstance(function, MachineFunction) or signature is None:
             return None
         if len(signature.arguments) != len(arguments):
             return None

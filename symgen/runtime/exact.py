@@ -47,11 +47,6 @@ class Exact:
         names |= {name: plain_form(names[name]) for name in self.py_func.__code__.co_names if name in names}
         return types.FunctionType(self.py_func.__code__, names, self.py_func.__name__)
 
-    @property
-    def _numba_type_(self) -> Any:
-        """Type for functions that Numba compiles and that call this one."""
-        return self.compiled._numba_type_
-
 
 def exact(signature: Signature | None = None, once: bool = False) -> Callable[[Callable[..., Any]], Any]:
     """Return a decorator that makes a function `Exact`; plain Python where nothing is compiled.

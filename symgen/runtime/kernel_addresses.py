@@ -6,7 +6,7 @@ from types import ModuleType
 from typing import Any
 
 from symgen.native import types
-from symgen.native.compiler import by_numba, interpreted
+from symgen.native.compiler import interpreted
 
 _A = types.float64[::1]
 _T, _I = types.uint32[::1], types.int64
@@ -31,9 +31,5 @@ def address(function: Any, machine: ModuleType, signature: types.Signature = KER
     if interpreted():
         machine.KERNELS.append(function)
         return len(machine.KERNELS) - 1
-    if by_numba():
-        from symgen.native import numba_judge
-
-        return numba_judge.address(function, signature)
     found: int = function.address(signature)
     return found

@@ -1,8 +1,8 @@
 """Functions of emitted modules, compiled from their text.
 
 An emitted module is one that Numba could compile: it imports ``njit``, and looped code some of Numba's internals. Here
-`imported` gives these imports another meaning, so that a run loads no Numba; ``SYMGEN_COMPILER=numba`` leaves them as
-they are, and with ``NUMBA_DISABLE_JIT=1`` the functions stay those of Python.
+`imported` gives these imports another meaning, so that a run loads no Numba; with ``NUMBA_DISABLE_JIT=1`` the functions
+stay those of Python.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
 
 from symgen.native import types
-from symgen.native.compiler import by_numba, compiler, interpreted
+from symgen.native.compiler import compiler, interpreted
 from symgen.native.read_tables import Written
 from symgen.store.identity import content, source_stamp
 from symgen.store.jit import Arguments, CacheEntry, MachineFunction, arguments_of, kinds_of, syntax_tree
@@ -65,14 +65,12 @@ class EmittedFunction(MachineFunction):
         return f"{self.__name__}\n{self.origin.stamp}\n{_together()}"
 
     def made(self, arguments: Arguments, symbol: str) -> CacheEntry:
-        """Return machine code, made from the source with everything in memory that it calls."""
+        """Return machine code, made from the source."""
         from symgen.native.llvm import is_copied, module
         from symgen.native.machine import compiled
 
         function = self.read(arguments)
         apart = [f for f in function.called if not is_copied(f)]
-        for f in apart:
-            _source(f).code(arguments_of(_kinds(f)))
         names = {id(value): name for name, value in self.py_func.__globals__.items()}
         called = tuple((names[id(f.source)], _kinds(f)) for f in apart)
         code = compiled(module(function, _symbol, _is_short, _together()), symbol)
@@ -91,15 +89,10 @@ def plain(function: _Function) -> _Function:
     Returns
     -------
     EmittedFunction
-        Numba's where Numba compiles; the plain function where nothing is compiled.
+        The plain function where nothing is compiled.
     """
     if interpreted():
         return function
-    if by_numba():
-        from numba import njit
-
-        numbas: _Function = njit(error_model="numpy", fastmath={"contract"})(function)
-        return numbas
     compiled: Any = EmittedFunction(function)
     compiled.origin = Origin(source_stamp(function), content(function.__code__.co_filename))
     return cast("_Function", compiled)
@@ -108,7 +101,7 @@ def plain(function: _Function) -> _Function:
 def imported(name: str, *arguments: Any) -> Any:
     """Import for emitted modules, to which Numba's decorators mean functions that are compiled here."""
     names = arguments[2] if len(arguments) > 2 else ()
-    if name.partition(".")[0] != "numba" or "cuda" in names or by_numba():
+    if name.partition(".")[0] != "numba" or "cuda" in names:
         return builtins.__import__(name, *arguments)
     return _INSTEAD
 

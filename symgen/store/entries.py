@@ -1,8 +1,9 @@
-"""Emitted modules in the cache: pairs of ``X.py`` and ``X.json``, in one folder for each model.
+"""What the cache holds: emitted modules, one folder for each model, and files that check themselves.
 
-The Python file is written first and its description last; the description holds a digest of both and of the place where
-they belong. A kill at any moment therefore leaves a valid pair or something that does not count, a bit that was changed
-anywhere makes a miss, and two processes that write the same pair do not disturb each other.
+An emitted module is a pair of ``X.py`` and ``X.json``. The Python file is written first, and its description last,
+which checks itself by a digest of both and of the place where they belong. A kill at any moment therefore leaves a
+valid pair or something that does not count, a bit that was changed anywhere makes a miss, and two processes that write
+the same pair do not disturb each other.
 """
 
 from __future__ import annotations
@@ -10,112 +11,100 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
-from dataclasses import dataclass
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 from symgen.errors import SymgenError
 from symgen.store import private, upkeep
 from symgen.store.identity import digest
-from symgen.store.paths import ENVIRONMENT_VARIABLE, abandon, cache_root, private_folder
-
-FORMAT = 2
+from symgen.store.paths import ENVIRONMENT_VARIABLE, abandon, cache_location, cache_root, private_folder
 
 _STEM = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
-
-
-@dataclass(frozen=True)
-class FolderName:
-    """The name of a model's folder, ``<name>_<digest16>_<format>``, in its parts.
-
-    Attributes
-    ----------
-    name : str
-        The model's name: letters, digits, ``_`` and ``-``, at most 64.
-    digest : str
-        The first 16 hexadecimal digits of the digest of all that the modules are made from.
-    format : int
-        Number of the emitted format.
-    """
-
-    name: str
-    digest: str
-    format: int
-
-    def __str__(self) -> str:
-        text = f"{self.name}_{self.digest[:16]}_{self.format}"
-        if upkeep.MODEL_FOLDER.fullmatch(text) is None:
-            raise ValueError(f"'{text}' is not a folder name of the form '<name>_<digest16>_<format>'")
-        return text
-
-    @classmethod
-    def parse(cls, text: str) -> FolderName | None:
-        """Return the parts of a folder name, or None if it is not one."""
-        found = upkeep.MODEL_FOLDER.fullmatch(text)
-        return cls(found["name"], found["digest"], int(found["format"])) if found else None
-
-
 #: Modules by their stems: source, and what describes it; and the latter alone.
 Modules = Mapping[str, tuple[str, Mapping[str, Any]]]
 Described = dict[str, dict[str, Any]]
 
 
-class Entries:
-    """The emitted modules below one cache folder.
+def cached(place: str, name: str, key: str, make: Callable[[], bytes]) -> bytes:
+    """Return data that follow from a key, from the cache or made anew and kept there.
 
     Parameters
     ----------
-    root : Path, optional
-        The cache folder; by default that of this process.
+    place, name : str
+        Folder below the cache folder, and the beginning of the file's name.
+    key : str
+        Text that holds everything the data depend on.
+    make : callable
+        Makes the data.
     """
+    location = cache_location()
+    if not location.persistent:
+        return make()
+    path = location.path / place / f"{plain_name(name)}-{digest(key)[:32]}{private.SUFFIX}"
+    data = private.read(path, key)
+    if data is None:
+        data = make()
+        with suppress(OSError):
+            upkeep.note_written(location.path, private.write(path, key, data))
+    return data
 
-    def __init__(self, root: Path | None = None) -> None:
-        self.root = cache_root() if root is None else root
+
+def plain_name(name: str, length: int = 60) -> str:
+    """Return the end of a name in characters that file systems know."""
+    return re.sub(r"[^0-9A-Za-z_.-]", "_", name)[-length:]
+
+
+def folder_name(name: str, digest: str, number: int) -> str:
+    """Return the name of a model's folder, ``<name>_<digest16>_<format>``.
+
+    Parameters
+    ----------
+    name : str
+        The model's name: letters, digits, ``_`` and ``-``, at most 64.
+    digest : str
+        Hexadecimal digest of all that the modules are made from, of which 16 digits are taken.
+    number : int
+        Number of the emitted format.
+    """
+    return _checked(f"{name}_{digest[:16]}_{number}")
+
+
+def _checked(folder: str) -> str:
+    if upkeep.MODEL_FOLDER.fullmatch(folder) is None:
+        raise ValueError(f"'{folder}' is not a folder name of the form '<name>_<digest16>_<format>'")
+    return folder
+
+
+class Entries:
+    """The emitted modules in the cache folder of this process."""
+
+    def __init__(self) -> None:
+        self.root = cache_root()
 
     def path(self, folder: str, stem: str) -> Path:
-        """Return where the Python file of an entry is, or would be.
+        """Return the path of the Python file of an entry, ``<stem>.py``, whether it exists or not.
 
         Parameters
         ----------
         folder : str
-            Text of a `FolderName`.
+            From `folder_name`.
         stem : str
             Name of the module, a Python identifier.
-
-        Returns
-        -------
-        Path
-            Path of ``<stem>.py``.
         """
-        if FolderName.parse(folder) is None:
-            raise ValueError(f"'{folder}' is not a folder name of the form '<name>_<digest16>_<format>'")
         if _STEM.fullmatch(stem) is None:
             raise ValueError(f"'{stem}' is not the name of a module")
-        return self.root / upkeep.MODELS / folder / f"{stem}.py"
+        return self.root / upkeep.MODELS / _checked(folder) / f"{stem}.py"
 
     def get(self, folder: str, stem: str) -> dict[str, Any] | None:
-        """Return the description of an entry if the entry is there and whole, and note that it was used.
+        """Return the description of an entry, None where there is no whole one, and note that it was used.
 
-        Parameters
-        ----------
-        folder, stem : str
-            As for `path`.
-
-        Returns
-        -------
-        dict or None
-            What was given to `put`; None if there is no valid entry. An invalid one is made to count no more.
+        Of one that is not whole the description alone is removed: another process may have written the new Python file
+        just now and be about to describe it, and a Python file without description does not count anyway.
         """
         path = self.path(folder, stem)
-        found = _validated(path)
-        metadata = None if found is None else found[1]
-        if metadata is not None:
-            private.touch(path.with_suffix(".json"))
-        else:
-            # The description alone: another process may have written the new Python file just now and be about to
-            # describe it, and a Python file without description does not count anyway.
-            private.remove(path.with_suffix(".json"))
+        text = private.read(path.with_suffix(".json"), _key(path, private.read_own(path)))
+        metadata: dict[str, Any] | None = None if text is None else json.loads(text)
         return metadata
 
     def put(self, folder: str, stem: str, source: str, metadata: Mapping[str, Any]) -> None:
@@ -139,38 +128,26 @@ class Entries:
             If the temporary folder cannot be written either.
         """
         path = self.path(folder, stem)
-        content, text = source.encode(), _text(metadata)
+        content, text = source.encode(), json.dumps(dict(metadata), allow_nan=False, sort_keys=True).encode()
         try:
             self._write(path, content, text)
         except OSError as error:
-            self._abandon(folder, error)
+            self.root = abandon(self.root, _unwritable(self.root, error))
             try:
-                self._write(self.path(folder, stem), content, text)
+                new = self.path(folder, stem)
+                for file in sorted(path.parent.glob("[!.]*")):
+                    if (old := private.read_own(file)) is not None:
+                        private.write_own(new.with_name(file.name), old)
+                self._write(new, content, text)
             except OSError as again:
-                raise self._error(again) from again
+                reason = _unwritable(self.root, again)
+                raise SymgenError(f"{reason}; set {ENVIRONMENT_VARIABLE} to another folder") from again
 
-    def _error(self, error: OSError) -> SymgenError:
-        return SymgenError(f"{_unwritable(self.root, error)}; set {ENVIRONMENT_VARIABLE} to another folder")
-
-    def _write(self, path: Path, content: bytes, text: str) -> None:
-        description = {"format": FORMAT, "sha256": _digest(path, content, text), "metadata": json.loads(text)}
+    def _write(self, path: Path, content: bytes, text: bytes) -> None:
         private_folder(self.root)
         private.write_own(path, content)
-        written = json.dumps(description, allow_nan=False, indent=1, sort_keys=True) + "\n"
-        private.write_own(path.with_suffix(".json"), written.encode())
-        upkeep.note_written(self.root, len(content) + len(written))
-
-    def _abandon(self, folder: str, error: OSError) -> None:
-        """Go on in a temporary folder, with the entries that the model's folder holds already."""
-        old = self.path(folder, "model").parent
-        found = {path: _validated(path) for path in sorted(old.glob("*.py")) if _STEM.fullmatch(path.stem)}
-        self.root = abandon(self.root, _unwritable(self.root, error))
-        try:
-            for path, entry in found.items():
-                if entry is not None:
-                    self._write(self.path(folder, path.stem), entry[0], _text(entry[1]))
-        except OSError as again:
-            raise self._error(again) from again
+        size = private.write(path.with_suffix(".json"), _key(path, content), text)
+        upkeep.note_written(self.root, len(content) + size)
 
     @contextmanager
     def building(self, folder: str) -> Iterator[None]:
@@ -178,14 +155,8 @@ class Entries:
 
         Ask `get` again inside: the process that was first may have made the entry. Where files cannot be locked there
         is no waiting; both then do the work and write the same. Not to be nested for one folder.
-
-        Parameters
-        ----------
-        folder : str
-            As for `path`.
         """
-        self.path(folder, "model")  # refuses a wrong name before it becomes a file
-        lock = upkeep.folder_lock(self.root, folder)
+        lock = upkeep.folder_lock(self.root, _checked(folder))
         try:
             lock.acquire(poll_interval=0.02)
         except (OSError, NotImplementedError):
@@ -197,90 +168,46 @@ class Entries:
             lock.release()
 
     def made(self, folder: str, stem: str, make: Callable[[], tuple[str, dict[str, Any]]]) -> dict[str, Any]:
-        """Return what describes a module, which is made and kept where it is not there; one process makes it.
-
-        Parameters
-        ----------
-        folder, stem : str
-            As for `path`.
-        make : callable
-            Returns the module and what describes it, as `put` takes them.
-        """
+        """Return the description of one module as `built` does; `make` returns its source and description."""
         return self.built(folder, (stem,), lambda _: {stem: make()})[stem]
 
     def built(self, folder: str, stems: Iterable[str], make: Callable[[Callable[[str], bool]], Modules]) -> Described:
-        """Return what describes some modules; where one is not there they are made, by one process, and kept.
+        """Return the descriptions of modules; where one is missing, one process makes and keeps it.
 
         Parameters
         ----------
         folder : str
             As for `path`.
         stems : iterable of str
-            Modules that are wanted.
+            The modules.
         make : callable
-            Is told which of them there are, and returns the others, and modules that they need, as `put` takes them.
+            Takes a function that tells which of them exist; returns the others, and modules that they need, as `put`
+            takes them.
         """
         stems = tuple(stems)
-        found = self._found(folder, stems)
-        if len(found) < len(stems):
+        described = self._whole(folder, stems)
+        if len(described) < len(stems):
             with self.building(folder):
-                found = self._found(folder, stems)  # another process may have made them while this one waited
-                made = make(found.__contains__) if len(found) < len(stems) else {}
+                described = self._whole(folder, stems)  # another process may have made them while this one waited
+                made = make(described.__contains__) if len(described) < len(stems) else {}
                 for stem, (source, metadata) in made.items():
                     self.put(folder, stem, source, metadata)
-                    found[stem] = dict(metadata)
-        return found
+                    described[stem] = dict(metadata)
+        return described
 
-    def _found(self, folder: str, stems: Iterable[str]) -> Described:
-        """Return what describes those modules that are there; one whose own modules are not is not there either."""
-        found = {stem: known for stem in stems if (known := self.get(folder, stem)) is not None}
-        needed = {stem: known.get("modules", ()) for stem, known in found.items()}
-        absent = [stem for stem, parts in needed.items() if any(self.get(folder, part) is None for part in parts)]
-        return {stem: known for stem, known in found.items() if stem not in absent}
-
-    def info(self) -> upkeep.CacheInfo:
-        """Return what the whole cache holds: emitted modules, compiled functions and bytes."""
-        return upkeep.info(self.root)
-
-    def clear(self) -> upkeep.CacheInfo:
-        """Remove all that symgen wrote below the root, except what another process is making; return what is left."""
-        return upkeep.clear(self.root)
-
-    def prune(self, limit: int = upkeep.LIMIT) -> upkeep.CacheInfo:
-        """Remove what was not used for longest until no more than `limit` bytes are left; return what is left."""
-        return upkeep.prune(self.root, limit)
+    def _whole(self, folder: str, stems: Iterable[str]) -> Described:
+        """Return the descriptions of those modules that exist with all modules of their own."""
+        described = {stem: metadata for stem in stems if (metadata := self.get(folder, stem)) is not None}
+        return {
+            stem: metadata
+            for stem, metadata in described.items()
+            if all(self.get(folder, part) is not None for part in metadata.get("modules", ()))
+        }
 
 
-def _text(metadata: Mapping[str, Any]) -> str:
-    """Return metadata as the text that is digested."""
-    return json.dumps(dict(metadata), allow_nan=False, sort_keys=True)
-
-
-def _digest(path: Path, content: bytes, text: str) -> str:
-    """Return the digest of a pair at its place."""
-    return digest(path.parent.name, path.stem, content, text)
-
-
-def _validated(path: Path) -> tuple[bytes, dict[str, Any]] | None:
-    """Return source and metadata of a pair that is whole and in its place."""
-    text = private.read_own(path.with_suffix(".json"))
-    content = private.read_own(path)
-    if text is None or content is None:
-        return None
-    try:
-        description = json.loads(text)
-    except (ValueError, RecursionError):  # a UnicodeDecodeError is a ValueError
-        return None
-    if not isinstance(description, dict) or description.get("format") != FORMAT:
-        return None
-    metadata = description.get("metadata")
-    if not isinstance(metadata, dict):
-        return None
-    try:
-        whole = description.get("sha256") == _digest(path, content, _text(metadata))
-    except ValueError:  # nan or infinity, which is never written
-        return None
-    return (content, metadata) if whole else None
+def _key(path: Path, content: bytes | None) -> str:
+    """Return the key of the description of a module of some content at its place."""
+    return digest(path.parent.name, path.stem, content or b"")
 
 
 def _unwritable(root: Path, error: OSError) -> str:

@@ -13,23 +13,20 @@ import contextlib
 import functools
 import gc
 import marshal
-import re
 import sys
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard, TypeVar, cast
 
 import llvmlite
 
 from symgen.errors import InputError
 from symgen.native import types
 from symgen.native.calls import caller, kind_of
-from symgen.native.compiler import COMPILER, by_numba, compiler, interpreted
+from symgen.native.compiler import compiler, interpreted
 from symgen.native.machine import load, lock, processor
-from symgen.store import private
+from symgen.store.entries import cached, plain_name
 from symgen.store.identity import SOURCES, content, digest, file_digest, source_stamp, sources_digest
-from symgen.store.paths import cache_location
 from symgen.store.stats import CompilationClock
 from symgen.store.upkeep import NATIVE
 
@@ -97,7 +94,7 @@ class MachineFunction(ABC):
 
     @abstractmethod
     def made(self, arguments: Arguments, symbol: str) -> CacheEntry:
-        """Return machine code, made from the source with everything in memory that it calls.
+        """Return machine code, made from the source.
 
         Raises
         ------
@@ -151,40 +148,34 @@ class MachineFunction(ABC):
         return f"_ZN6symgen{len(name)}{name}E"  # as of a function in a namespace
 
     def _loaded(self, arguments: Arguments) -> MachineCode:
-        """Put machine code into memory, from the cache or made anew."""
-        from symgen.native.read import Foreign
-
-        key, location = self.key(arguments), cache_location()
+        """Put machine code into memory, from the cache or made anew, behind all that it calls."""
+        key = self.key(arguments)
         symbol = self._symbol(key)
-        name = f"{plain_name(self.__qualname__, 60)}-{digest(key)[:32]}{private.SUFFIX}"
-        path = location.path / NATIVE / plain_name(self.__module__, 100) / name
         with CompilationClock() as clock:
-            entry = self._kept(path, key) if location.persistent else None
-            clock.loaded = entry is not None
-            if entry is None:
-                try:
-                    with uncollected():
-                        entry = self.made(arguments, symbol)
-                except Foreign as foreign:
-                    own = f"the function '{self.__module__}.{self.__name__}'"
-                    expected = "the language of compiled functions"
-                    raise InputError(own, expected, str(foreign), f"{COMPILER}=numba compiles it") from foreign
-                if location.persistent:
-                    private.write(path, key, marshal.dumps(tuple(entry)))
+            clock.loaded = True
+
+            def make() -> bytes:
+                clock.loaded = False
+                return marshal.dumps(tuple(self._compiled(arguments, symbol)))
+
+            place = f"{NATIVE}/{plain_name(self.__module__, 100)}"
+            entry = CacheEntry(*marshal.loads(cached(place, self.__qualname__, key, make)))
+            for name, kinds in entry.called:
+                self.py_func.__globals__[name].code(arguments_of(kinds))
             address = load(entry.code, (symbol,))[symbol]
         if not clock.loaded and compiler() == "explain":
             print(f"{self.__module__}.{self.__name__} compiled in {clock.seconds:.3f} s", file=sys.stderr)
         return MachineCode(address, types.Signature(_NUMBERS[entry.returned], arguments))
 
-    def _kept(self, path: Path, key: str) -> CacheEntry | None:
-        """Return the content of the cache, with everything in memory that it calls."""
-        data = private.read(path, key)
-        if data is None:
-            return None
-        entry = CacheEntry(*marshal.loads(data))
-        for name, kinds in entry.called:
-            self.py_func.__globals__[name].code(arguments_of(kinds))
-        return entry
+    def _compiled(self, arguments: Arguments, symbol: str) -> CacheEntry:
+        from symgen.native.read import Foreign
+
+        try:
+            with uncollected():
+                return self.made(arguments, symbol)
+        except Foreign as foreign:
+            own = f"the function '{self.__module__}.{self.__name__}'"
+            raise InputError(own, "the language of compiled functions", str(foreign)) from foreign
 
 
 class RuntimeFunction(MachineFunction):
@@ -213,10 +204,6 @@ class RuntimeFunction(MachineFunction):
 
     def __call__(self, *arguments: Any) -> Any:
         """Call the machine code."""
-        if by_numba():
-            from symgen.native.numba_judge import given
-
-            return self.by_numba(*map(given, arguments))
         if self.signature is None:
             return super().__call__(*arguments)
         return self.entry(*arguments)
@@ -226,21 +213,6 @@ class RuntimeFunction(MachineFunction):
         """The machine code of a loop, called with arguments of its signature."""
         assert self.signature is not None, "a loop has a signature"
         return self.caller(self.signature.arguments)
-
-    @property
-    def by_numba(self) -> Any:
-        """The function as Numba compiles it."""
-        from symgen.native.numba_judge import dispatcher
-
-        own = () if self.signature is None else (self.signature,)
-        return dispatcher(self.py_func, self.inlined, self.contracted, *own)
-
-    @property
-    def _numba_type_(self) -> Any:
-        """Type for functions that Numba compiles and that call this one."""
-        from numba.core.types import Dispatcher
-
-        return Dispatcher(self.by_numba)
 
     def tree(self) -> ast.FunctionDef | None:
         """Return the syntax tree of the function, None where its source cannot be had."""
@@ -316,14 +288,8 @@ def made(text: str, symbol: str) -> bytes:
     from symgen.native.machine import compiled
 
     key = "\n".join((text, processor(), _environment()))
-    place = cache_location()
-    path = place.path / NATIVE / plain_name(symbol.rpartition(".")[0], 100) / f"{digest(key)[:32]}{private.SUFFIX}"
-    kept = private.read(path, key)
-    if kept is None:
-        kept = compiled(text, symbol)
-        if place.persistent:
-            private.write(path, key, kept)
-    return kept
+    place = f"{NATIVE}/{plain_name(symbol.rpartition('.')[0], 100)}"
+    return cached(place, symbol, key, lambda: compiled(text, symbol))
 
 
 def arguments_of(kinds: tuple[Kind, ...]) -> Arguments:
@@ -340,15 +306,16 @@ def kinds_of(arguments: Arguments) -> tuple[Kind, ...]:
     InputError
         If the language has no such type.
     """
-    names = {number: name for name, number in _NUMBERS.items()} | {types.uint32: "unsigned"}
-    found: list[Any] = []
-    for kind in arguments:
-        array = isinstance(kind, types.ArrayType)
-        number = kind.dtype if isinstance(kind, types.ArrayType) else kind
-        if number not in names or (isinstance(kind, types.ArrayType) and kind.ndim != 1):
-            raise InputError("arguments of an emitted function", "numbers and arrays of one dimension", repr(kind))
-        found.append((names[number], array))
-    return tuple(found)
+    names: dict[Any, Any] = {number: name for name, number in _NUMBERS.items()} | {types.uint32: "unsigned"}
+    try:
+        return tuple((names[x.dtype], True) if _is_flat(x) else (names[x], False) for x in arguments)
+    except KeyError:
+        expected = "numbers and arrays of one dimension"
+        raise InputError("arguments of an emitted function", expected, repr(arguments)) from None
+
+
+def _is_flat(kind: types.Kind) -> TypeGuard[types.ArrayType]:
+    return isinstance(kind, types.ArrayType) and kind.ndim == 1
 
 
 @functools.cache
@@ -357,20 +324,12 @@ def _environment() -> str:
     return "\n".join((_FORMAT, llvmlite.__version__))
 
 
-def plain_name(name: str, length: int) -> str:
-    """Return the end of a name with characters that file systems know."""
-    return re.sub(r"[^\w.-]", "_", name)[-length:]
-
-
 def _meaning(value: Any) -> str:
     """Return the meaning of a global name: which function it is, or the number."""
     function = getattr(value, "py_func", value)
-    named = hasattr(function, "__qualname__")
-    return f"{function.__module__}.{function.__qualname__}" if named else repr(value) if _is_plain(value) else ""
-
-
-def _is_plain(value: Any) -> bool:
-    return value is None or isinstance(value, int | float | str)
+    if hasattr(function, "__qualname__"):
+        return f"{function.__module__}.{function.__qualname__}"
+    return repr(value) if value is None or isinstance(value, int | float | str) else ""
 
 
 @contextlib.contextmanager

@@ -12,7 +12,6 @@ import dis
 import hashlib
 import importlib.util
 import marshal
-import re
 import sys
 import threading
 from collections.abc import Iterator
@@ -23,8 +22,7 @@ from types import CodeType, ModuleType
 from typing import Any
 
 from symgen.errors import InputError
-from symgen.store import private
-from symgen.store.paths import cache_location
+from symgen.store.entries import cached
 from symgen.store.upkeep import BYTECODE
 
 PACKAGE = "symgen_generated"
@@ -123,24 +121,15 @@ def _read(path: Path) -> _Source:
 
 def _code(path: Path, content: bytes, digest: str) -> CodeType:
     """Translate to byte code, which for a long module takes longer than everything else that loading does."""
-    key = f"{importlib.util.MAGIC_NUMBER.hex()} {sys.version} {path} {digest}"
-    name = hashlib.sha256(key.encode()).hexdigest()[:32]
-    location = cache_location()
-    kept = location.path / BYTECODE / f"{re.sub(r'[^0-9A-Za-z_.-]', '_', path.stem)[-60:]}-{name}{private.SUFFIX}"
-    data = private.read(kept, key) if location.persistent else None
-    if data is not None:
+
+    def translate() -> bytes:
         try:
-            code = marshal.loads(data)
-            if isinstance(code, CodeType):
-                return code
-        except (EOFError, ValueError, TypeError):
-            pass
-    try:
-        code = compile(content, str(path), "exec", dont_inherit=True)
-    except (SyntaxError, ValueError) as error:
-        raise InputError(str(path), "a generated module", f"text that is not Python ({error})") from error
-    if location.persistent:
-        private.write(kept, key, marshal.dumps(code))
+            return marshal.dumps(compile(content, str(path), "exec", dont_inherit=True))
+        except (SyntaxError, ValueError) as error:
+            raise InputError(str(path), "a generated module", f"text that is not Python ({error})") from error
+
+    key = f"{importlib.util.MAGIC_NUMBER.hex()} {sys.version} {path} {digest}"
+    code: CodeType = marshal.loads(cached(BYTECODE, path.stem, key, translate))
     return code
 
 

@@ -79,8 +79,8 @@ def read_own(path: Path) -> bytes | None:
         return None
 
 
-def write(path: Path, key: str, data: bytes) -> bool:
-    """Write data for a key so that a reader finds all of it or the former content.
+def write(path: Path, key: str, data: bytes) -> int:
+    """Write data for a key so that a reader finds all of it or the former content; return the size of the file.
 
     Parameters
     ----------
@@ -91,21 +91,13 @@ def write(path: Path, key: str, data: bytes) -> bool:
     data : bytes
         What to keep.
 
-    Returns
-    -------
-    bool
-        False if it could not be written; nothing is left behind then.
+    Raises
+    ------
+    OSError
+        As for `write_own`.
     """
-    try:
-        write_own(path, _head(key, data) + data)
-    except OSError:
-        return False
-    from symgen.store import upkeep  # which reads and removes through this module
-
-    root = upkeep.root_of(path)
-    if root is not None:
-        upkeep.note_written(root, _HEAD + len(data))
-    return True
+    write_own(path, _head(key, data) + data)
+    return _HEAD + len(data)
 
 
 def write_own(path: Path, content: bytes) -> None:

@@ -1,8 +1,6 @@
 """Size of the cache, and removal: of everything, or of what was not used for longest.
 
-The size is known from a tally: its first line says when everything was last counted and how much there was, every
-further line how much was written since; many lines become one again. Where the sum passes the limit, and once a day,
-the cache is pruned.
+The cache is pruned once a day, and where one process has written a share of the limit since it last was.
 
 Only files that this package writes are ever removed, told by folder and by name, so that a cache folder that was
 pointed at something else by mistake loses nothing. A file that another process removes or writes meanwhile is left to
@@ -14,11 +12,12 @@ from __future__ import annotations
 import os
 import re
 import time
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from symgen.store import private
 from symgen.store.paths import private_folder
@@ -30,18 +29,16 @@ MODELS, NATIVE, BYTECODE, LOCKS = "models", "native", "bytecode", "locks"
 LIMIT = 10**9
 
 # `<name>_<digest16>_<format>`: the digest has a fixed length, so underscores in the name do no harm.
-MODEL_FOLDER = re.compile(
-    r"(?P<name>[A-Za-z0-9][A-Za-z0-9_-]{0,63})_(?P<digest>[0-9a-f]{16})_(?P<format>0|[1-9][0-9]{0,5})"
-)
+MODEL_FOLDER = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}_[0-9a-f]{16}_(0|[1-9][0-9]{0,5})")
 
-_TALLY = "written"
+_PRUNED = "pruned"
 _DAY = 86400.0
-# The tally is read at every write: a day in which much is written must not make writing ever slower.
-_LINES = 200
-# Pruning leaves room: else every entry that is written would mean looking through all the others.
-_SHARE = 0.8
+#: Share of the limit that one process writes between two prunings.
+_SHARE = 0.1
 # A temporary file older than this was left by a process that was killed.
 _ABANDONED = 3600.0
+#: Bytes written by this process into each cache folder since it pruned it.
+_written = Counter[Path]()
 
 
 @dataclass(frozen=True)
@@ -63,37 +60,28 @@ class CacheInfo:
     bytes: int
 
 
-@dataclass(frozen=True)
-class _Item:
-    """What is removed together: its files in the order of removal, when it was last used, and its size."""
+class _Item(NamedTuple):
+    """When files were last used that are removed together, in this order, and their size."""
 
-    files: tuple[Path, ...]
     used: float
+    files: tuple[Path, ...]
     bytes: int
 
 
 def info(root: Path) -> CacheInfo:
-    """Count what is in a cache folder."""
-    models = list(_models(root))
-    native = list(_files(root / NATIVE, private.SUFFIX))
-    others = list(_files(root / BYTECODE, private.SUFFIX))
-    return CacheInfo(len(models), len(native), sum(item.bytes for item in (*models, *native, *others)))
+    """Count the entries of a cache folder."""
+    models = [item for folder in _model_folders(root) for item in _items(folder)]
+    compiled = {folder: list(_items(folder)) for folder in _compiled_folders(root)}
+    native = sum(len(items) for folder, items in compiled.items() if NATIVE in (folder.name, folder.parent.name))
+    size = sum(item.bytes for items in (models, *compiled.values()) for item in items)
+    return CacheInfo(len(models), native, size)
 
 
-def clear(root: Path) -> CacheInfo:
+def clear(root: Path) -> None:
     """Remove all that symgen wrote, except the folders of models that another process is making now.
 
-    The locks, which are empty files, stay: two processes must not hold a lock by the same name on different files.
-
-    Parameters
-    ----------
-    root : Path
-        The cache folder; it stays.
-
-    Returns
-    -------
-    CacheInfo
-        What is left.
+    The cache folder and the locks, which are empty files, stay: two processes must not hold a lock by the same name on
+    different files.
     """
     for folder in _model_folders(root):
         lock = folder_lock(root, folder.name)
@@ -102,99 +90,48 @@ def clear(root: Path) -> CacheInfo:
         except (OSError, NotImplementedError):  # Timeout is an OSError: somebody is at work there
             continue
         try:
-            for item in _pairs(folder):
-                _remove(item)
-            _remove_temporary(folder, 0.0)
-            _remove_folder(folder)
+            _reduce([folder], 0, 0.0)
         finally:
             lock.release()
-    for name in (NATIVE, BYTECODE):
-        for item in _files(root / name, private.SUFFIX):
-            _remove(item)
-        _tidy(root / name, 0.0)
-    for name in (MODELS, NATIVE, BYTECODE):
-        _remove_folder(root / name)
-    private.remove(root / LOCKS / _TALLY)
-    private.remove(root / "pruned")  # of earlier versions
-    return info(root)
+    _reduce(list(_compiled_folders(root)), 0, 0.0)
+    with suppress(OSError):
+        os.rmdir(root / MODELS)
+    private.remove(root / LOCKS / _PRUNED)
 
 
-def prune(root: Path, limit: int = LIMIT) -> CacheInfo:
-    """Remove what was not used for longest until the cache is small enough, and what killed processes left behind.
+def prune(root: Path, limit: int) -> None:
+    """Remove what was not used for longest until so many bytes are left, and what killed processes left behind."""
+    _reduce([*_model_folders(root), *_compiled_folders(root)], limit, _ABANDONED)
 
-    Parameters
-    ----------
-    root : Path
-        The cache folder.
-    limit : int, default 1 GB
-        Bytes that may stay.
 
-    Returns
-    -------
-    CacheInfo
-        What is left.
-    """
-    items = [
-        *_models(root),
-        *_files(root / NATIVE, private.SUFFIX),
-        *_files(root / BYTECODE, private.SUFFIX),
-    ]
+def _reduce(folders: list[Path], limit: int, age: float) -> None:
+    """Remove entries of folders down to a size, temporary files of an age, and folders that are empty."""
+    items = sorted(item for folder in folders for item in _items(folder))
     excess = sum(item.bytes for item in items) - limit
-    for item in sorted(items, key=lambda item: (item.used, item.files)):
+    for item in items:
         if excess <= 0:
             break
-        _remove(item)
+        for path in item.files:
+            private.remove(path)
         excess -= item.bytes
-    for name in (NATIVE, BYTECODE):
-        _tidy(root / name, _ABANDONED)
-    for folder in _model_folders(root):
-        _remove_temporary(folder, _ABANDONED)
-        _remove_folder(folder)
-    return info(root)
+    for folder in folders:
+        with suppress(OSError):
+            for path in _listing(folder):
+                if path.name.startswith(private.TEMPORARY) and time.time() - path.lstat().st_mtime >= age:
+                    private.remove(path)
+            os.rmdir(folder)
 
 
 def note_written(root: Path, size: int) -> None:
-    """Note that an entry of so many bytes was written, and prune if there is too much by now.
-
-    An entry that replaces another counts twice until everything is counted again, and one that another process notes
-    while lines become one may not count until then.
-    """
+    """Note that so many bytes were written into a cache folder, and prune it where that is due."""
+    _written[root] += size
+    pruned = root / LOCKS / _PRUNED
     with suppress(OSError):
-        tally = _tally(root)
-        if tally is None or sum(tally[1:]) + size > LIMIT:
-            _count(root, time.time(), prune(root, LIMIT if tally is None else int(_SHARE * LIMIT)).bytes)
-        elif len(tally) > _LINES:
-            _count(root, tally[0], sum(tally[1:]) + size)
-        else:
-            _append(root, f"{size}\n")
-
-
-def root_of(path: Path) -> Path | None:
-    """Return the cache folder that a file lies in, None where it lies in none."""
-    return next((folder.parent for folder in path.parents if folder.name in (MODELS, NATIVE, BYTECODE)), None)
-
-
-def _tally(root: Path) -> list[int] | None:
-    """Return when the cache was counted, what it held and what was written since; None where it is to be counted."""
-    try:
-        tally = [int(word) for word in (private.read_own(root / LOCKS / _TALLY) or b"").split()]
-        known = len(tally) > 1 and 0 <= time.time() - tally[0] < _DAY and min(tally) >= 0
-    except (ValueError, OverflowError):  # what stands there is no tally
-        return None
-    return tally if known else None
-
-
-def _count(root: Path, when: float, total: int) -> None:
-    private.write_own(root / LOCKS / _TALLY, f"{int(when)} {total}\n".encode())
-
-
-def _append(root: Path, line: str) -> None:
-    """Append with one system call, so that lines of several processes do not mix."""
-    descriptor = os.open(root / LOCKS / _TALLY, os.O_WRONLY | os.O_APPEND | getattr(os, "O_NONBLOCK", 0))
-    try:
-        os.write(descriptor, line.encode())
-    finally:
-        os.close(descriptor)
+        recent = pruned.is_file() and abs(time.time() - pruned.stat().st_mtime) < _DAY
+        if not recent or _written[root] > _SHARE * LIMIT:
+            _written[root] = 0
+            private.write_own(pruned, b"")
+            prune(root, LIMIT)
 
 
 def folder_lock(root: Path, folder: str) -> BaseFileLock:
@@ -211,37 +148,23 @@ def _model_folders(root: Path) -> Iterator[Path]:
             yield folder
 
 
-def _models(root: Path) -> Iterator[_Item]:
-    for folder in _model_folders(root):
-        yield from _pairs(folder)
+def _compiled_folders(root: Path) -> Iterator[Path]:
+    """Yield the folders of machine code and byte code, those below before the folder that they are in."""
+    for name in (NATIVE, BYTECODE):
+        yield from (path for path in _listing(root / name) if path.is_dir() and not path.is_symlink())
+        yield root / name
 
 
-def _pairs(folder: Path) -> Iterator[_Item]:
-    for stem in sorted({path.stem for path in _listing(folder) if path.suffix in (".py", ".json")}):
-        item = _item(folder / f"{stem}.json", folder / f"{stem}.py")
-        if item is not None:
-            yield item
-
-
-def _files(folder: Path, suffix: str) -> Iterator[_Item]:
-    """Give the files with a suffix in a folder and in the folders directly below."""
-    for path in _listing(folder):
-        if path.suffix == suffix:
-            if (item := _item(path)) is not None:
-                yield item
-        elif path.is_dir() and not path.is_symlink():
-            yield from _files(path, suffix)
-
-
-def _item(*files: Path) -> _Item | None:
-    """Give what is known of the files that exist; the first was touched when it was used."""
-    statuses = []
-    for path in files:
-        with suppress(OSError):
-            statuses.append(path.lstat())
-    if not statuses:
-        return None
-    return _Item(files, statuses[0].st_mtime, sum(status.st_size for status in statuses))
+def _items(folder: Path) -> Iterator[_Item]:
+    """Yield the entries of a folder; the first file of each was touched when it was used."""
+    suffixes = (".json", ".py") if MODEL_FOLDER.fullmatch(folder.name) else (private.SUFFIX,)
+    for stem in {path.stem for path in _listing(folder) if path.suffix in suffixes}:
+        files, statuses = tuple(folder / f"{stem}{suffix}" for suffix in suffixes), []
+        for path in files:
+            with suppress(OSError):
+                statuses.append(path.lstat())
+        if statuses:
+            yield _Item(statuses[0].st_mtime, files, sum(status.st_size for status in statuses))
 
 
 def _listing(folder: Path) -> list[Path]:
@@ -250,30 +173,3 @@ def _listing(folder: Path) -> list[Path]:
         return sorted(folder.iterdir()) if folder.is_dir() and private_folder(folder) else []
     except OSError:
         return []
-
-
-def _remove(item: _Item) -> None:
-    for path in item.files:
-        private.remove(path)
-
-
-def _tidy(folder: Path, age: float) -> None:
-    """Remove abandoned files in a folder and below, and folders that are empty."""
-    _remove_temporary(folder, age)
-    for path in _listing(folder):
-        if path.is_dir() and not path.is_symlink():
-            _remove_temporary(path, age)
-            _remove_folder(path)
-
-
-def _remove_temporary(folder: Path, age: float) -> None:
-    for path in _listing(folder):
-        if path.name.startswith(private.TEMPORARY):
-            with suppress(OSError):
-                if time.time() - path.lstat().st_mtime >= age:
-                    private.remove(path)
-
-
-def _remove_folder(folder: Path) -> None:
-    with suppress(OSError):
-        os.rmdir(folder)

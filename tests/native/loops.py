@@ -1,4 +1,4 @@
-"""Short runs, run apart, by the compiler that the environment names: what they give, and whether Numba was imported.
+"""Short runs, run apart: what they give, and whether Numba was imported.
 
 python -m native.loops straight pendulum lagrange rk4 four-bar ggl radau5
 """
@@ -30,7 +30,12 @@ def run(model: str, method: str, integrator: str, shape: str) -> dict[str, Any]:
     }
 
 
-if __name__ == "__main__":
-    shape, *words = sys.argv[1:]
+def main(arguments: list[str]) -> None:
+    """Print the numbers of runs."""
+    shape, *words = arguments
     runs = [run(*words[i : i + 3], shape) for i in range(0, len(words), 3)]
     print(json.dumps({"runs": runs, "numba": "numba" in sys.modules}))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

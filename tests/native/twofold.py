@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import builtins
 import os
 import subprocess
 import sys
@@ -17,6 +18,7 @@ from numba.core.dispatcher import Dispatcher
 
 from symgen.native import machine, types
 from symgen.native.compiler import COMPILER
+from symgen.store import emitted
 from symgen.store.emitted import EmittedFunction
 from symgen.store.modules import load_module
 
@@ -45,7 +47,7 @@ def written(folder: Path, *functions: str, head: str = HEAD, name: str = "model"
 
 
 def by(compiler: str) -> Any:
-    """Return a context in which a compiler of `symgen.native.compiler` is used."""
+    """Return a context in which a way of `symgen.native.compiler` is used."""
     return mock.patch.dict(os.environ, {COMPILER: compiler})
 
 
@@ -64,7 +66,7 @@ def uncontracted() -> Iterator[None]:
 def load_twice(path: Path) -> tuple[ModuleType, ModuleType]:
     """Return a module with functions compiled here, and one with functions compiled by Numba."""
     direct = load_module(path)
-    with by("numba"):
+    with mock.patch.object(emitted, "imported", builtins.__import__):
         return direct, load_module(path, f"by_numba.{path.parent.name.replace('.', '_')}.{path.stem}")
 
 

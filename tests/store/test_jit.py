@@ -120,13 +120,6 @@ print(json.dumps([outer.g(1.0), cache_stats()["misses"]]))
         assert [process.wait() for process in running][1:] == [0, 0]
         assert counts(python(RUN, law)) == (4, 0)
 
-    def test_a_loop_by_numba_takes_functions_by_numba_and_leaves_nothing(self, law, cache, python):
-        first = python(RUN, law)
-        kept = compiled(cache)
-        plain = python(RUN, law, SYMGEN_COMPILER="numba")
-        assert counts(plain) == (0, 0) and compiled(cache) == kept == ALL
-        np.testing.assert_allclose(plain["y"], first["y"], rtol=1e-14)
-
     def test_nothing_is_compiled_where_numba_would_not(self, law, cache, python):
         plain = python(RUN, law, NUMBA_DISABLE_JIT="1")
         assert (*counts(plain), plain["status"]) == (0, 0, 0) and compiled(cache) == []
@@ -191,13 +184,11 @@ class TestDecorator:
         assert half(9.0) == 4.5  # compiled for what it is called with
         assert count(next_one, 40) == 42  # compiled by being given
 
-    def test_is_called_and_given_where_numba_compiles(self, cache, monkeypatch):
-        monkeypatch.setenv("SYMGEN_COMPILER", "numba")
-        assert (quarter(8.0), count(next_one, 40)) == (2.0, 42) and compiled(cache) == []
-
     def test_an_error_of_the_reader_comes_at_every_call(self, cache):
         for _ in range(2):
-            with pytest.raises(InputError, match=r"\.wrong': expected the language .* SYMGEN_COMPILER=numba"):
+            with pytest.raises(
+                InputError, match=r"\.wrong': expected the language .*, got an attribute"
+            ):
                 wrong(1.0)
 
     def test_first_calls_from_several_threads(self, cache):
@@ -214,12 +205,12 @@ class TestDecorator:
         assert len(keys) == 3
 
 
-def test_nothing_is_read_from_a_folder_that_others_can_enter(cache, monkeypatch):
+def test_nothing_is_read_from_a_folder_that_others_can_enter(cache):
     again(at_the_top)(1.0)
     folder = next((cache / "native").iterdir())
     folder.chmod(0o750)
-    monkeypatch.setattr(jit.marshal, "loads", lambda *_: pytest.fail("read"))
-    assert again(at_the_top)(1.0) == 2.0
+    before = cache_stats()["misses"]
+    assert again(at_the_top)(1.0) == 2.0 and cache_stats()["misses"] == before + 1
 
 
 class TestMade:

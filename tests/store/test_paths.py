@@ -91,7 +91,7 @@ class TestPrivateFiles:
 
     def test_round_trip(self, path):
         assert private.read(path, "key") is None
-        assert private.write(path, "key", b"data")
+        private.write(path, "key", b"data")
         assert private.read(path, "key") == b"data"
         assert mode(path) == 0o600
         assert mode(path.parent) == mode(path.parent.parent) == 0o700
@@ -123,7 +123,8 @@ class TestPrivateFiles:
         private.write(path, "key", b"data")
         path.parent.chmod(0o755)
         assert private.read(path, "key") is None
-        assert not private.write(path, "key", b"data")
+        with pytest.raises(PermissionError):
+            private.write(path, "key", b"data")
 
     def test_file_of_somebody_else_is_a_miss(self, path):
         if os.geteuid() != 0:
@@ -145,6 +146,7 @@ class TestPrivateFiles:
             raise OSError(28, "No space left on device")
 
         monkeypatch.setattr(os, "replace", full)
-        assert not private.write(path, "key", b"other data")
+        with pytest.raises(OSError, match="No space"):
+            private.write(path, "key", b"other data")
         assert private.read(path, "key") == b"data"
         assert [file.name for file in path.parent.iterdir()] == ["file.bin"]
