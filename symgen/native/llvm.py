@@ -48,6 +48,34 @@ def module(
     return "\n".join([*texts, *declarations(texts), ""])
 
 
+def loop_module(function: lang.Function, symbol: str) -> str:
+    """Return the text of a module that defines a loop, with the parts that it calls.
+
+    Parameters
+    ----------
+    function : Function
+        From `symgen.native.loops`.
+    symbol : str
+        Its name in machine code.
+    """
+    names: dict[int, str] = {id(function): symbol}
+    functions = [function]
+    for each in functions:  # those that it calls follow
+        for part in each.called:
+            if id(part) not in names:
+                names[id(part)] = f"{symbol}.{len(names)}.{part.name}"
+                functions.append(part)
+    texts, inserted = list[str](), dict[str, str]()
+    for each in functions:
+        printer = FunctionPrinter(each, lambda f: names[id(f)], "" if each is function else "internal ", False)
+        texts.append(printer.text())
+        inserted |= printer.inserted
+    lines = [line for text in inserted.values() for line in text.splitlines()]
+    texts += [line for line in lines if not line.startswith("declare ")]
+    declared = dict.fromkeys(line for line in lines if line.startswith("declare "))
+    return "\n".join([*texts, *declared, *declarations(texts), ""])
+
+
 def _reached(
     function: lang.Function, inlined: Callable[[lang.Function], bool]
 ) -> tuple[list[lang.Function], list[lang.Function]]:
@@ -109,6 +137,7 @@ class FunctionPrinter(ValuePrinter):
         groups = sines.groups(function) if together else {}
         self.before = {id(function.body[i]): calls for i, calls in groups.items()}
         self.leaving: list[tuple[str, str]] = []  # labels after `continue` and `break`, innermost last
+        self.blocks: dict[int, str] = {}  # labels behind blocks
 
     def text(self) -> str:
         """Return the definition."""
@@ -116,7 +145,7 @@ class FunctionPrinter(ValuePrinter):
         for name, kind in f.variables.items():
             if name not in f.fixed:
                 self.slots.append(f"  {slot(name)} = alloca {TYPES[kind]}")
-        self.begun()
+        self.take_arguments()
         self.statements(f.body)
         tables = [
             f'@"{self.symbol(f)}.{name}" = private unnamed_addr constant [{len(x)} x double] '
@@ -127,21 +156,16 @@ class FunctionPrinter(ValuePrinter):
         begin = f"define {self.linkage}{head(f, self.symbol(f))}{copied} {{"
         return "\n".join([*tables, begin, ".entry:", *self.slots, *self.lines, "}"])
 
-    def begun(self) -> None:
-        """Print what stands before the statements."""
+    def take_arguments(self) -> None:
+        """Give arguments their names."""
         for p in self.function.parameters:
             if p.array:
                 own, *lengths = (f'%"{name}"' for _, name in taken(p))
                 self.views[p.name] = own, tuple(lengths)
+            elif p.name in self.function.variables:
+                self.lines.append(f'  store {TYPES[p.type]} %"{p.name}", ptr {slot(p.name)}')
             elif not p.address:
-                self.take(p.name, p.type, f'%"{p.name}"')
-
-    def take(self, name: str, kind: lang.Scalar, value: str) -> None:
-        """Give an argument that is a number its name."""
-        if name in self.function.variables:
-            self.lines.append(f"  store {TYPES[kind]} {value}, ptr {slot(name)}")
-        else:
-            self.values[name] = value
+                self.values[p.name] = f'%"{p.name}"'
 
     # -- statements
 
@@ -167,14 +191,19 @@ class FunctionPrinter(ValuePrinter):
                 self.count_through(statement)
             elif isinstance(statement, lang.ArrayView):
                 self.view(statement)
+            elif isinstance(statement, lang.StatementBlock):
+                self.block(statement)
+            elif isinstance(statement, lang.Pick):
+                self.pick(statement)
             elif isinstance(statement, lang.Leave):
-                self.leave(statement)
+                in_block = statement.how == "block"
+                label = self.blocks[statement.block] if in_block else self.leaving[-1][statement.how == "break"]
+                self.jump(label)
                 return False
-            elif isinstance(statement, lang.Return):
-                kind = TYPES[statement.value.type]
-                self.lines.append(f"  ret {kind} {self.value(statement.value)}")
-                return False
-            elif not self.other(statement):
+            else:
+                assert isinstance(statement, lang.Return), "all kinds of statements are known"
+                value = self.value(statement.value)
+                self.lines.append(f"  ret {TYPES[statement.value.type]} {value}")
                 return False
         return True
 
@@ -190,13 +219,19 @@ class FunctionPrinter(ValuePrinter):
         if statement.type == "unsigned":
             self.small.add(statement.name)
 
-    def other(self, statement: lang.Statement) -> bool:
-        """Print a statement that only loops have; return whether what follows it can be reached."""
-        raise TypeError(f"emitted functions have no {type(statement).__name__}")
+    def block(self, statement: lang.StatementBlock) -> None:
+        """Print statements that may be left before their end."""
+        (end,) = self.labels("end")
+        self.blocks[statement.number] = end
+        if self.statements(statement.body):
+            self.jump(end)
+        self.begin(end)
 
-    def leave(self, statement: lang.Leave) -> None:
-        """Print the end of a loop, or of what it repeats."""
-        self.jump(self.leaving[-1][statement.how == "break"])
+    def pick(self, statement: lang.Pick) -> None:
+        """Give one of two arrays a name."""
+        test, (a, m), (b, n) = self.value(statement.test), self.views[statement.chosen], self.views[statement.otherwise]
+        data = self.put(f"select i1 {test}, ptr {a}, ptr {b}")
+        self.views[statement.name] = data, (self.put(f"select i1 {test}, i64 {m[0]}, i64 {n[0]}"),)
 
     def assign(self, name: str, value: str) -> None:
         """Give a variable a value."""

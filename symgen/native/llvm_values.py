@@ -38,6 +38,8 @@ class ValuePrinter:
         Values of variables that need no memory.
     flag : str
         What operations on floats may be.
+    inserted : dict of str to str
+        Functions written in LLVM's language that are called, by their names.
     label : str
         Of the block that is being printed.
     views : dict of str to tuple
@@ -53,7 +55,8 @@ class ValuePrinter:
         self.slots: list[str] = []
         self.values: dict[str, str] = {}
         self.count = 0
-        self.flag = " contract"
+        self.flag = " contract" if getattr(function.source, "contracted", True) else ""
+        self.inserted: dict[str, str] = {}
         self.label = ".entry"
         self.views: dict[str, tuple[str, tuple[str, ...]]] = {}
         self.small = {p.name for p in function.parameters if p.array and p.type == "unsigned"}
@@ -99,6 +102,8 @@ class ValuePrinter:
             return self.views[e.array][1][e.axis]
         if isinstance(e, lang.Invoke):
             return self.invoke(e)
+        if isinstance(e, lang.Insert):
+            return self.insert(e)
         if isinstance(e, lang.Logic):
             return self.decide(e)
         assert isinstance(e, lang.Choice), "all kinds of expressions are known"
@@ -233,6 +238,16 @@ class ValuePrinter:
         if isinstance(e.function, str):
             return self.called(f'%"{e.function}"', e.type, e.arguments)
         return self.called(self.put(f"inttoptr i64 {self.value(e.function)} to ptr"), e.type, e.arguments)
+
+    def insert(self, e: lang.Insert) -> str:
+        """Print a call of a function written in LLVM's language, which takes arrays as addresses alone."""
+        self.inserted[e.symbol] = e.text
+        parts = [self.handed(argument)[0] for argument in e.arguments]
+        text = f'@"{e.symbol}"({", ".join(parts)})'
+        if e.nothing:
+            self.lines.append(f"  call void {text}")
+            return ""
+        return self.put(f"call {TYPES[e.type]} {text}")
 
     def called(self, function: str, returned: lang.Scalar, arguments: tuple[lang.Expression | str, ...]) -> str:
         """Print a call."""

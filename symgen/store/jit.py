@@ -227,8 +227,8 @@ class RuntimeFunction(MachineFunction):
 
     def made(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
+        from symgen.native.llvm import loop_module
         from symgen.native.loops import read_loop
-        from symgen.native.loops_llvm import loop_module
         from symgen.native.machine import compiled
 
         function = read_loop(self, arguments)

@@ -186,9 +186,7 @@ class TestDecorator:
 
     def test_an_error_of_the_reader_comes_at_every_call(self, cache):
         for _ in range(2):
-            with pytest.raises(
-                InputError, match=r"\.wrong': expected the language .*, got an attribute"
-            ):
+            with pytest.raises(InputError, match=r"\.wrong': expected the language .*, got an attribute"):
                 wrong(1.0)
 
     def test_first_calls_from_several_threads(self, cache):
