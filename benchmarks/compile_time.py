@@ -22,7 +22,7 @@ import numpy as np
 from benchmarks.against_gcc import _repeat_emitted
 from benchmarks.trees import Limb, limb_of, mechanism
 from symgen.api import Model
-from symgen.compiling.choose_tree import on_tree, operations
+from symgen.compiling.choices import on_tree, operations
 from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.native import machine
 from symgen.runtime import abi

@@ -18,7 +18,7 @@ import numpy as np
 
 import symgen
 from symgen.api import Model
-from symgen.compiling.choose_tree import on_tree
+from symgen.compiling.choices import on_tree
 from symgen.describe.mechanism import Mechanism
 from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law

@@ -2,7 +2,7 @@
 
 Every line is a process of its own; those of a pair share a cache, in which smaller mechanisms leave what looped code
 shares. Seconds are those of the processor, as the wall's depend on what else the machine does. Constants of
-`symgen.compiling.choose_shape` come from these figures.
+`symgen.compiling.choices` come from these figures.
 """
 
 from __future__ import annotations

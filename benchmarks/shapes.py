@@ -4,7 +4,7 @@ Every line is a process of its own with a cache of its own. ``cold`` finds nothi
 other mechanisms have left. ``--pieces`` compiles mechanisms one after the other on one cache, each with kernels that
 those before it have not, beside straight code of the same. Seconds are those of the processor, as the wall's depend on
 what else the machine does.
-The constants of `symgen.compiling.choose_shape` come from these figures.
+The constants of `symgen.compiling.choices` come from these figures.
 """
 
 from __future__ import annotations

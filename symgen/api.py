@@ -105,7 +105,7 @@ class Model(Analysed):
         InputError
             If there are no such coordinates.
         """
-        from symgen.compiling.choose_tree import on_tree
+        from symgen.compiling.choices import on_tree
         from symgen.reading.symbolic_equations import SymbolicEquations
 
         asked = arguments.one_of("coordinates", coordinates, ("absolute", "joint"))

@@ -26,7 +26,7 @@ import numpy as np
 
 from benchmarks.against_gcc import FLAGS, REPEATS, _repeat_emitted, c_function
 from benchmarks.trees import AXES, GRAVITY, TREES, Array, Limb, mechanism
-from symgen.compiling.choose_tree import on_tree
+from symgen.compiling.choices import on_tree
 from symgen.describe.mechanism import Mechanism
 from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law

@@ -42,7 +42,7 @@ def at_start(model: Model, settings: Settings) -> tuple[Prepared, Mechanism, Met
 def latex_of(name: str, settings: Settings, select: str | None, symbols: bool, whole: bool) -> str:
     """Return the equations as LaTeX: a document, or a part of one."""
     from symgen.api import Model
-    from symgen.compiling.choose_coordinates import choose_coordinates
+    from symgen.compiling.choices import choose_coordinates
     from symgen.describe.load import read_raw
     from symgen.describe.validate import validate
     from symgen.reading.latex_document import document

@@ -171,7 +171,7 @@ def _compiled(
     reported = () if groups else [(o.name, o.unit, to_text(o.value)) for o in mechanism.outputs]
 
     def make() -> tuple[str, dict[str, Any]]:
-        from symgen.emit.side import emit_side
+        from symgen.emit.emit import emit_side
         from symgen.lower.linearised import can_decay, lower_linearised
 
         if groups and not can_decay(mechanism, around):

@@ -8,12 +8,14 @@ The function serves compiled models of both shapes. SymPy and Jinja2 are importe
 from __future__ import annotations
 
 import hashlib
+import inspect
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,8 +23,9 @@ from symgen.compiling.pipeline import folder_of, generator_digest
 from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.outputs import integrals
-from symgen.errors import finite_numbers
+from symgen.errors import InputError, finite_numbers
 from symgen.lower.windings import Beside, winding_order
+from symgen.runtime import abi
 from symgen.runtime.compiled import CompiledModel
 from symgen.store.entries import Entries
 from symgen.store.modules import interpreted, load_module
@@ -136,7 +139,7 @@ def compile_side(
     around, texts = beside(mechanism, compiled), [to_text(e) for _, e in formulas]
 
     def make() -> tuple[str, dict[str, Any]]:
-        from symgen.emit.side import emit_side
+        from symgen.emit.emit import emit_side
         from symgen.lower.side import lower_side
 
         with finite_numbers(purpose):
@@ -146,3 +149,69 @@ def compile_side(
     said = purpose, rates, around, list(integrals(mechanism)), *labels, *texts
     metadata, path = made_beside(mechanism, name, said, make)
     return Side(getattr(load_module(path), name), path, tuple(labels), frozenset(metadata["reads"]))
+
+
+def can_integrate(compiled: CompiledModel) -> bool:
+    """Whether states of a compiled model can hold what outputs integrate: those of methods with momenta cannot."""
+    return not hasattr(compiled.law_module, "rates")
+
+
+def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledModel:
+    """Return a compiled model whose state holds what outputs integrate; as it is where they integrate nothing.
+
+    Raises
+    ------
+    InputError
+        If the method integrates something else than velocities, or numbers that meet in a formula overflow.
+    """
+    found, info, law = integrals(mechanism), compiled.info, compiled.law_module
+    if not found:
+        return compiled
+    if not can_integrate(compiled):
+        expected = "a method that integrates velocities, as an output is an integral"
+        raise InputError(f"method '{compiled.law.method}'", expected, "one that integrates momenta")
+    auxiliary = compiled.law.nw, 1 + len(found)
+    around = beside(mechanism, compiled)
+    around = replace(around, sections={**around.sections, "auxiliary": auxiliary})
+    files = _files(law)
+    stems = {name: file.stem for name, file in sorted(files.items())}
+    texts = [to_text(integral.of) for integral in found]
+    store, folder = Entries(), next(iter(files.values())).parent.name
+    stem = stem_of("integrals", folder_of(mechanism), around, stems, *texts)
+
+    def make() -> tuple[str, dict[str, Any]]:
+        from symgen.emit.emit import emit_integrals
+        from symgen.lower.side import lower_integrands
+
+        with finite_numbers("integrals of outputs"):
+            program = lower_integrands(mechanism, around)
+        return emit_integrals(program, stems, abi.POWER), {}
+
+    store.made(folder, stem, make)
+    return replace(
+        compiled,
+        info=msgspec.structs.replace(info, integrals=len(found), sections=info.sections | {"auxiliary": auxiliary}),
+        law=msgspec.structs.replace(  # the last element of w is looped code's own
+            compiled.law, nw=sum(auxiliary) + 1, modules=tuple(dict.fromkeys((*stems.values(), *compiled.law.modules)))
+        ),
+        law_module=load_module(store.path(folder, stem)),
+    )
+
+
+def _files(law: Any) -> dict[str, Path]:
+    """Return the file that each emitted function of a law is imported from, by the function's name.
+
+    That is the law's own module; where functions were gathered from several modules, as looped code's for implicit
+    integrators are, it is the one that defines the function.
+    """
+    file = getattr(law, "__file__", None)
+    if file is None:
+        return {name: Path(inspect.getfile(interpreted(value))) for name, value in vars(law).items()}
+    package = law.__name__.rpartition(".")[0]
+    return {name: Path(file) for name, value in vars(law).items() if _is_emitted(value, package)}
+
+
+def _is_emitted(value: Any, package: str) -> bool:
+    """Whether it is a function of a module of this package, compiled or not."""
+    function = interpreted(value)
+    return inspect.isfunction(function) and function.__module__.startswith(f"{package}.")

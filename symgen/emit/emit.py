@@ -6,10 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from symgen.emit.module import PLATFORMS, ModulePiece, function, module, render, sentence, templates_digest
-from symgen.emit.names import Names, of_hoisted, of_model, of_observed
 from symgen.emit.parts import PartsLayout, law_modules
-from symgen.emit.printer import ElementAccess, Printer
-from symgen.emit.text import table_name
+from symgen.emit.printer import ElementAccess, Names, Printer, of_hoisted, of_model, of_observed, table_name
 from symgen.emit.whole import Places, model_name
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations
@@ -248,3 +246,51 @@ def _symbols(equations: Equations, kept: Mapping[str, tuple[int, int]]) -> list[
     table += [(f"p[{i}:{j}]", f"numbers computed by {function}", "") for function, (i, j) in kept.items() if i < j]
     table += [(f"row {i}", r.name, r.unit) for i, r in enumerate(equations.rows)]
     return [f"{element:<8} {name}{f' [{unit}]' if unit else ''}" for element, name, unit in table]
+
+
+def emit_side(program: SideProgram) -> str:
+    """Return the source of a module with one function, straight code whatever the shape of the model's."""
+    codes, header = _printed(program, "out[{}]")
+    return module(f"{program.blocks[0].purpose}, for model `{program.mechanism}`.", header, codes, {}, {})
+
+
+def _printed(program: SideProgram, place: str, first: int = 0) -> tuple[list[ModulePiece], list[str]]:
+    """Return the functions, and lines that say what stands in each place, from the `first` on."""
+    codes = [*table_codes(program.tables), *straight(program.blocks, program.layout, program)]
+    formulas = [f"{place.format(i)} {formula}" for i, formula in enumerate(program.formulas, first)]
+    return codes, [f"format {FORMAT}, templates {templates_digest()}", "", *formulas]
+
+
+#: What a law with integrals has in place of its own: arguments, and what is called behind the law's own.
+_FOLLOWED = {
+    "rhs": ("t, y, p, w, iw, ydot", "integrands(t, y, p, w, ydot)"),
+    "confirm": ("t, y, p, w, iw, ydot", "integrands(t, y, p, w, ydot)"),
+    "residual": ("t, y, k, p, w, r", "accumulate(t, y, k, p, w)"),
+}
+
+
+def emit_integrals(program: SideProgram, law: Mapping[str, str], power: int) -> str:
+    """Return the source of a law's module whose right-hand side has rates of integrals behind that of the work.
+
+    Parameters
+    ----------
+    program : SideProgram
+        From `symgen.lower.side.lower_integrands`.
+    law : mapping of str to str
+        Functions of the law, each with the stem of the module in the same folder that it is imported from.
+    power : int
+        Where in ``w`` a residual leaves the rate of the work.
+    """
+    codes, header = _printed(program, "z[{}]' =", 1)
+    exports = [name for name in law if name not in _FOLLOWED]
+    known = {name: (law[name], name) for name in exports}
+    for name, (arguments, more) in _FOLLOWED.items():
+        if name not in law:
+            continue
+        known[f"law_{name}"] = (law[name], name)
+        body = [f"flag = law_{name}({arguments})", more, "return flag"]
+        if name == "residual":
+            body.insert(1, f"w[{program.layout.offset('auxiliary')}] = w[{power}]")
+        calls = f"law_{name}", more.partition("(")[0]
+        codes.append(function(name, arguments, "As the law's, with integrals.", body, calls=calls))
+    return module(f"A law of model `{program.mechanism}`, with integrals.", header, codes, known, {}, exports=exports)

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import jinja2
 
-from symgen.emit.text import harmless
+from symgen.emit.printer import harmless
 from symgen.files import templates_folder
 
 

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections import Counter
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
-from symgen.emit.text import harmless, table_name
-from symgen.ir.program import Block, ModelLayout, Target, of_table
+from symgen.ir.program import STATUS, Block, JacobianEntry, ModelLayout, Target, of_table
 from symgen.vocabulary.functions import ELEMENTARY
+
+if TYPE_CHECKING:
+    from symgen.formulate.equations import Equations
 
 _BINARY = {"add": ("+", 1), "sub": ("-", 1), "mul": ("*", 2), "div": ("/", 2), "pow": ("**", 4)}
 _COMPARE = {"lt": "<", "le": "<=", "gt": ">", "ge": ">="}
@@ -215,3 +218,108 @@ class Printer:
         """Return a node's text, in parentheses where it binds weaker than `level`."""
         text, own = self.text[node]
         return text if own >= level else f"({text})"
+
+
+#: Longest text that is emitted in one piece.
+LONGEST = 200
+
+
+def harmless(text: object) -> str:
+    """Return a text that cannot end the comment or docstring it stands in, nor be read as an escape.
+
+    Line ends and all that is not printable become spaces, double quotes single ones, and backslashes slashes.
+
+    Parameters
+    ----------
+    text : object
+        What a file, a method or an option says of itself.
+    """
+    kept = str(text)[: LONGEST + 1].translate(_SIGNS)
+    if not kept.isprintable():
+        kept = "".join(c if c.isprintable() else " " for c in kept)
+    return kept if len(kept) <= LONGEST else kept[: LONGEST - 3] + "..."
+
+
+_SIGNS = str.maketrans('"\\', "'/")
+
+#: What precedes the name of a table in each of the names that are made of it: no other emitted name begins so.
+_OF_TABLE = {"value": "table_", "slope": "slope_", "second": "second_", "x": "points_", "y": "values_"}
+
+
+def table_name(name: str, what: str = "value") -> str:
+    """Return the emitted name of a table's function, of its derivatives', or of the array of its points or values.
+
+    The table's name follows unchanged, so that names differ wherever those of tables do.
+
+    Parameters
+    ----------
+    name : str
+        A checked identifier.
+    what : {"value", "slope", "second", "x", "y"}
+        Which one.
+    """
+    return _OF_TABLE[what] + name
+
+
+Names = dict[tuple[str, int], str]
+#: Longest formula of parameters that stands as a name.
+LONGEST_FORMULA = 48
+#: Sections of ``w`` with an element for each row, and for each velocity.
+_OF_ROWS = ("residual", "nu", "multipliers", "mask", "pivot", "row_weight")
+_OF_VELOCITIES = ("change", "mass", "gauge")
+
+
+def of_model(equations: Equations, jacobian: Sequence[JacobianEntry]) -> Names:
+    """Return the names of sections of ``w`` that all methods share, and of what is returned at outputs.
+
+    Parameters
+    ----------
+    equations : Equations
+        The derived equations.
+    jacobian : sequence of JacobianEntry
+        Where entries of D stand.
+    """
+    rows, speeds = [r.name for r in equations.rows], [v.name for v in equations.velocities]
+    names: Names = {(section, i): name for section in _OF_ROWS for i, name in enumerate(rows)}
+    names |= {(section, i): name for section in _OF_VELOCITIES for i, name in enumerate(speeds)}
+    names |= {("status", i): name for i, name in enumerate(STATUS)}
+    names |= {("jacobian", e.slot): f"D {rows[e.row]}, {speeds[e.column]}" for e in jacobian if e.slot is not None}
+    state = [q.name for q in (*equations.coordinates, *equations.velocities)]
+    return names | {("ydot", i): f"rate of {name}" for i, name in enumerate((*state, "work"))}
+
+
+def of_observed(equations: Equations) -> Names:
+    """Return the names of what ``observe`` writes."""
+    labels = [row.name for row in equations.rows]
+    labels += [name for c in equations.joint_coordinates for name in (c.name, f"rate of {c.name}")]
+    return {("out", i): name for i, name in enumerate(labels)}
+
+
+@dataclass(frozen=True)
+class _ByName(ElementAccess):
+    """Elements written by their names, where they have some."""
+
+    def read(self, space: str, index: int) -> tuple[str, str]:
+        """Return the name of an input, twice."""
+        name = self.names.get((space, index), "").partition(" [")[0] or f"{space}[{index}]"
+        return name, name
+
+
+def of_hoisted(blocks: Sequence[Block], access: ElementAccess) -> Names:
+    """Return the formulas of numbers that depend on parameters alone, where they are short.
+
+    Parameters
+    ----------
+    blocks : sequence of Block
+        Of one module; ``prepare`` fills those numbers.
+    access : ElementAccess
+        With the names of parameters.
+    """
+    by_name, names = _ByName(access.layout, access.names), Names()
+    for block in blocks:
+        for target, node in block.outputs if block.name == "prepare" else ():
+            printer = Printer(replace(block, outputs=((target, node),)), by_name)
+            terms, (text, _) = printer.lines().terms, printer.text[node]
+            if not terms and len(text) <= LONGEST_FORMULA:
+                names[target.space, target.index] = text
+    return names

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compiling.straight_model import load_compiled
+from symgen.compiling.pipeline import load_compiled
 from symgen.describe.digest import identity
 from symgen.describe.events import in_words
 from symgen.describe.mechanism import Event, Mechanism

@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING, Any
 from msgspec import structs
 from numpy.typing import ArrayLike
 
-from symgen.compiling.choose_shape import LARGEST_STRAIGHT
-from symgen.compiling.choose_tree import on_tree
-from symgen.compiling.integrals import can_integrate, with_integrals
+from symgen.compiling.choices import LARGEST_STRAIGHT, on_tree
 from symgen.compiling.pipeline import compile_model
+from symgen.compiling.side import can_integrate, with_integrals
 from symgen.describe.derived_parameters import derived
 from symgen.describe.digest import identity
 from symgen.describe.events import RECORD, RESET, STOP

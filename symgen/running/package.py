@@ -13,13 +13,12 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 import numpy as np
 
-from symgen.compiling.choose_coordinates import choose_coordinates
-from symgen.compiling.choose_tree import on_tree
+from symgen.compiling.choices import choose_coordinates, on_tree
 from symgen.compiling.pipeline import MethodChoice, choose_method, for_coordinates, generate
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import DOES
 from symgen.emit.module import render
-from symgen.emit.text import harmless
+from symgen.emit.printer import harmless
 from symgen.errors import AssemblyError, InputError
 from symgen.files import Content, check_name, templates_folder, why, write_all
 from symgen.ir.program import COUNTERS, STATUS, SUFFIXES

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.compiling.choose_coordinates import choose_coordinates, weighed
-from symgen.compiling.choose_shape import choose_shape
+from symgen.compiling.choices import choose_coordinates, choose_shape, weighed
 from symgen.compiling.pipeline import MethodChoice, for_masses
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.compiling.integrals import with_integrals
 from symgen.compiling.pipeline import compile_model
+from symgen.compiling.side import with_integrals
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.moved import moved

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.carrying import carrying_of
-from symgen.compiling.choose_tree import on_tree
+from symgen.compiling.choices import on_tree
 from symgen.describe.mechanism import Topology
 from symgen.describe.topology import known_coordinates
 from symgen.lower.windings import winding_order

@@ -23,7 +23,7 @@ from support.random_space import make
 from symgen.compiling.pipeline import MethodChoice, choose_method, generate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.sections import SECTIONS
-from symgen.emit.text import LONGEST, harmless, table_name
+from symgen.emit.printer import LONGEST, harmless, table_name
 from symgen.errors import InputError
 from symgen.methods._base import MethodOption, MethodParameter, MultiplierMethod
 from symgen.store.modules import load_module

@@ -16,8 +16,7 @@ from support.random_mechanisms import descriptions
 from support.random_space import make
 
 from symgen.compiling.looped import compile_looped
-from symgen.compiling.pipeline import choose_method, generator_digest
-from symgen.compiling.straight_model import model_info
+from symgen.compiling.pipeline import choose_method, generator_digest, model_info
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.repeats import without_repeats
 from symgen.formulate.formulate import formulate

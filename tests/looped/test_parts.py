@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from support.checks import RANDOM
 
 from symgen.api import load
-from symgen.compiling.choose_shape import choose_shape
+from symgen.compiling.choices import choose_shape
 from symgen.compiling.looped import generate_looped
 from symgen.compiling.pipeline import MethodChoice, choose_method, compile_model, generator_digest
 from symgen.errors import InputError

@@ -214,7 +214,7 @@ def test_whatever_code_is_generated_with_is_in_the_digest_of_the_generator():
     assert {path.parent.name for path in named} - {"report", "package"} == set(TEMPLATES)
 
 
-@pytest.mark.parametrize("file", ["describe/formulas.py", "lower/looped/kernels.py", "compiling/choose_tree.py"])
+@pytest.mark.parametrize("file", ["describe/formulas.py", "lower/looped/kernels.py", "compiling/choices.py"])
 def test_an_edit_of_a_source_makes_another_generator(file, monkeypatch):
     def edited():
         identity.sources_digest.cache_clear()

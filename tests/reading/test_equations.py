@@ -10,7 +10,7 @@ from support.models import EVERYTHING, ROUGH
 
 import symgen
 from symgen import catalogue
-from symgen.compiling.choose_tree import on_tree
+from symgen.compiling.choices import on_tree
 from symgen.describe import load
 from symgen.errors import InputError
 from symgen.reading import symbolic_equations as reading

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import cache, partial
 from pathlib import Path
 
-from symgen.compiling.choose_tree import on_tree
+from symgen.compiling.choices import on_tree
 from symgen.compiling.looped import generate_looped
 from symgen.compiling.pipeline import MethodChoice, choose_method, generate
 from symgen.describe import load

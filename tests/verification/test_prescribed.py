@@ -12,7 +12,7 @@ import pytest
 
 from benchmarks.mechanisms.toml import text
 from symgen.api import load
-from symgen.compiling.choose_tree import on_tree
+from symgen.compiling.choices import on_tree
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
 from symgen.settings import Settings

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compiling.choose_coordinates import choose_coordinates
+from symgen.compiling.choices import choose_coordinates
 from symgen.compiling.pipeline import for_coordinates
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism

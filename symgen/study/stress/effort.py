@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from symgen.compiling.choose_shape import straight_seconds
+from symgen.compiling.choices import straight_seconds
 from symgen.compiling.pipeline import choose_method
 from symgen.integrators import INTEGRATORS
 from symgen.lower.looped.law import is_loopable

@@ -1,0 +1,237 @@
+"""Automatic choices: coordinates of a run, shape of its code, and the joints that carry bodies in a tree.
+
+*Coordinates.* Joint coordinates have fewer unknowns and rows; both are counted without deriving anything. They exist as
+straight code only, so where loops are better the coordinates are those of bodies.
+
+*Shape.* Straight code is two to four times as fast and has to be compiled for every mechanism, which takes time that
+grows with it; looped code is compiled once for all. A step of an implicit integrator costs about the same in both, as
+most of it is the solution of its equations, and its Jacobian makes straight code longer. ``auto`` takes the shape whose
+compilation and run together are expected to be shorter, as if nothing had been compiled yet: what the cache holds must
+not change the digits of a run. The figures below come from ``benchmarks/shapes.py``; they need not be exact, as the
+shapes differ by factors where the choice matters, and another machine changes all of them alike.
+
+*Trees.* Where a loop is cut matters: `bricard` takes 899 to 1288 operations an evaluation. Trees are derived and
+counted, one joint of a loop cut at a time, until enough operations have been counted: a limit of work, not of time, so
+that the same mechanism has the same tree everywhere. What was chosen is kept beside the emitted code.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from symgen.compiling.pipeline import MethodChoice, for_coordinates
+from symgen.compiling.side import made_beside
+from symgen.describe.mechanism import Mechanism, Topology
+from symgen.describe.topology import loops_of, spanning_tree, state_names, with_joint_coordinates
+from symgen.errors import InputError
+
+
+class Taken(NamedTuple):
+    """The coordinates, or the shape of code, that are taken, and one sentence that says why."""
+
+    name: str
+    reason: str
+
+
+def weighed(choice: MethodChoice, massless: bool) -> MethodChoice:
+    """Return a method with corrections in the metric of the masses, where it leaves the choice.
+
+    The identity in the angles and displacements of joints depends on which joints carry, that of the masses does not.
+    With massless bodies, whose M has no inverse, it is the identity in the velocities of bodies.
+    """
+    if "weight" not in choice.options:
+        return choice
+    return choice.given(weight="body" if massless else "mass")
+
+
+def choose_coordinates(mechanism: Mechanism, coordinates: str, shape: str) -> Taken:
+    """Decide the coordinates of a run, ``absolute`` or ``joint``.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    coordinates : str
+        One of `symgen.settings.COORDINATES`.
+    shape : str
+        The shape of code that was asked for, or that bodies' own coordinates would have.
+
+    Raises
+    ------
+    InputError
+        If joint coordinates and looped code are asked for together.
+    """
+    if coordinates == "absolute":
+        return Taken("absolute", "it was asked for")
+    if coordinates == "joint":
+        if shape == "looped":
+            expected = "absolute ones for code that is not straight: loops, lanes and CUDA have no joint coordinates"
+            raise InputError("coordinates", expected, "joint")
+        return Taken("joint", "it was asked for")
+    if shape == "looped":
+        return Taken("absolute", "loops, lanes and CUDA have no joint coordinates")
+    topology = spanning_tree(mechanism)
+    own = sum(len(body.speeds) for body in mechanism.bodies)
+    rows = sum(len(joint.rows) for joint in mechanism.joints)
+    inside = {*(link.joint for link in topology.links), *(x.driver for x in topology.prescribed)}
+    tree = len(state_names(mechanism, topology)[1])
+    left = sum(len(joint.rows) for joint in mechanism.joints if joint.name not in inside)
+    counts = f"{tree} velocities and {left} rows in joint coordinates, {own} and {rows} in absolute ones"
+    if tree + left < own + rows:
+        return Taken("joint", counts)
+    return Taken("absolute", counts)
+
+
+class ShapeCost(NamedTuple):
+    """What a mechanism costs for each of its coordinates; turns and their kernels make more of one in space.
+
+    Attributes
+    ----------
+    compilation, implicit : float
+        To derive, emit and compile it straight; the same with the Jacobian for implicit integrators [s].
+    straight, looped : float
+        An evaluation in either shape [s].
+    """
+
+    compilation: float
+    implicit: float
+    straight: float
+    looped: float
+
+
+#: Seconds to derive, emit and compile any mechanism straight.
+STRAIGHT_LEAST = 0.3
+EACH = {"planar": ShapeCost(0.011, 0.013, 0.8e-8, 1.8e-8), "spatial": ShapeCost(0.03, 0.036, 2.5e-8, 1.0e-7)}
+#: Seconds to derive and compile what looped code shares, where none of it is there: one figure for 1 to 4, whatever is.
+LOOPED_LEAST = 2.2
+#: Seconds of a looped evaluation whatever the size.
+LOOPED_CALL = 1.0e-7
+#: From this many coordinates on straight code is not considered: eight seconds here, most of a minute at three times as
+#: many, for a mechanism in the plane.
+LARGEST_STRAIGHT = 600
+#: More coordinates are refused where matrices stay dense.
+LARGEST_DENSE = 400
+
+
+def straight_seconds(mechanism: Mechanism, implicit: bool = False) -> float:
+    """Return about how long the straight code of a method takes to derive and compile [s]."""
+    each = EACH[mechanism.space]
+    return STRAIGHT_LEAST + (each.implicit if implicit else each.compilation) * mechanism.body_coordinates
+
+
+def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluations: float) -> Taken:
+    """Decide the shape of a run, ``straight`` or ``looped``.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    choice : MethodChoice
+        The method with its options.
+    shape : str
+        One of `symgen.settings.SHAPES`.
+    evaluations : float
+        Evaluations that are expected.
+
+    Raises
+    ------
+    InputError
+        If there is no such shape, or the method cannot have it at this size.
+    """
+    coordinates, choice = mechanism.body_coordinates, for_coordinates(mechanism, choice)
+    size = f"{coordinates} coordinates, about {evaluations:.2g} evaluations"
+    faster = Taken("straight", f"faster runs outweigh compilation ({size})")
+    straight = coordinates <= LARGEST_STRAIGHT and not _looped_is_sooner(mechanism, choice, evaluations)
+    if shape == "auto" and straight and coordinates <= LARGEST_DENSE:
+        return faster
+    # what only looped code needs is not loaded where straight code is taken
+    from symgen.lower.looped.law import is_loopable, refuse_dense
+
+    dense = not is_loopable(choice.method, choice.options, choice.implicit)
+    if shape == "looped":
+        refuse_dense(choice.method, choice.options, choice.implicit)
+    if dense and coordinates > LARGEST_DENSE:
+        raise InputError(
+            f"method '{choice.method.name}'",
+            f"a mechanism of at most {LARGEST_DENSE} coordinates, as its matrices are dense",
+            f"{coordinates} coordinates",
+        )
+    if shape != "auto":
+        return Taken(shape, "it was asked for")
+    if dense:
+        return Taken("straight", f"{choice.method.name} needs what the looped shape does without")
+    if coordinates > LARGEST_STRAIGHT:
+        return Taken("looped", f"straight code for {coordinates} coordinates would take long to compile")
+    return faster if straight else Taken("looped", f"compilation would outweigh faster runs ({size})")
+
+
+def _looped_is_sooner(mechanism: Mechanism, choice: MethodChoice, evaluations: float) -> bool:
+    """Whether the looped shape is expected to be done sooner, from an empty cache."""
+    each = EACH[mechanism.space]
+    looped = evaluations * (LOOPED_CALL + mechanism.body_coordinates * each.looped)
+    straight = looped if choice.implicit else evaluations * mechanism.body_coordinates * each.straight
+    return looped + LOOPED_LEAST < straight + straight_seconds(mechanism, choice.implicit)
+
+
+#: Operations that are counted before the best tree so far is taken; the first tree is always counted.
+ENOUGH = 12_000
+#: A mechanism whose first tree takes more is not tried again: each count takes a second.
+LARGE = 4_000
+#: Another tree has to save this part to be taken.
+GAIN = 0.01
+
+
+def on_tree(mechanism: Mechanism) -> Mechanism:
+    """Return a mechanism whose state is that of the joints of its tree; those with ``cut = true`` carry nothing."""
+    first = spanning_tree(mechanism, mechanism.cuts)
+    if not loops_of(mechanism, first):
+        return with_joint_coordinates(mechanism, first)
+    text = f'"""Joints that carry nothing where `{mechanism.name}` is a tree."""\n'
+    metadata, _ = made_beside(
+        mechanism, "tree", [sorted(mechanism.cuts)], lambda: (text, {"cut": list(_cheapest(mechanism, first))})
+    )
+    return with_joint_coordinates(mechanism, spanning_tree(mechanism, tuple(metadata["cut"])))
+
+
+def _cheapest(mechanism: Mechanism, first: Topology) -> tuple[str, ...]:
+    """Return the joints that are cut, beside those that follow, for the fewest operations that were found."""
+    best, least = mechanism.cuts, operations(with_joint_coordinates(mechanism, first))
+    counted = least
+    if least > LARGE:
+        return best
+    for loop in loops_of(mechanism, first):
+        cuts = best
+        for joint in loop:
+            if counted > ENOUGH:
+                return best
+            tried = (*cuts, joint)
+            tree = spanning_tree(mechanism, tried)
+            if _free(tree) > _free(first):
+                continue
+            count = operations(with_joint_coordinates(mechanism, tree))
+            counted += count
+            if count < (1.0 - GAIN) * least:
+                best, least = tried, count
+    return best
+
+
+def _free(topology: Topology) -> int:
+    """Return how many bodies no joint carries."""
+    return sum(not link.joint for link in topology.links)
+
+
+def operations(mechanism: Mechanism) -> int:
+    """Return the operations of the right-hand side of `lagrange`, after sharing."""
+    from symgen.formulate.formulate import formulate
+    from symgen.lower.law import part_outputs
+    from symgen.lower.record import record_law
+    from symgen.lower.scalar import ScalarNodes
+    from symgen.methods import METHODS
+
+    method = METHODS.get("lagrange", "")
+    equations = formulate(mechanism)
+    record = record_law(method, method.complete_options({}), equations.driving is not None)
+    scalars = ScalarNodes(equations, record.operations, [p.name for p in method.parameters])
+    scalars.run(range(len(record.operations)))
+    nodes = [node for part in record.parts if part.role == "acceleration" for _, node in part_outputs(scalars, part)]
+    return scalars.graph.operations(nodes)
