@@ -28,6 +28,7 @@ CANARIES = (
     '"',
     "\\",
     "{{ 7*7 }}{% for %}",
+    "__import__('builtins').__setattr__('planted', True)",
     "a\x00b",
     "m" * 3000,
 )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
 from pathlib import Path
 
@@ -12,7 +11,6 @@ import pytest
 import symgen
 from benchmarks.mechanisms.toml import text
 from verification.running import DEFECTS, off, reference
-from verification.running import symgen as command
 
 
 def run(name: str, **settings):
@@ -41,26 +39,6 @@ def test_a_run_that_gets_nowhere_ends_by_itself(name: str, integrator: str) -> N
     assert result.status == "failed" and result.reason
     assert "step" in result.reason
     assert result.t[-1] < 1.0
-
-
-# -- C14: memory -------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        ["sweep", "pendulum", "--vary", "bob.vy=lin(0,1,1000000000)", "--until", "0.02"],
-        ["sweep", "pendulum", "--vary", "bob.vy=lin(0,1,100000)", "--vary", "bob.vx=lin(0,1,100000)", "--until", "1"],
-        ["run", "n-four-bar:1000", "--until", "0.01", "--output-step", "1e-9"],
-        ["run", "pendulum", "--until", "1e9", "--step", "1e-6"],
-    ],
-    ids=["rows", "products", "outputs", "steps"],
-)
-def test_what_does_not_fit_into_memory_is_refused_beforehand(words: list[str], tmp_path: Path) -> None:
-    said = command(words, tmp_path)
-    assert said.code == 2, (said.code, said.err[-500:])
-    assert said.sentence, said.err[-500:]
-    assert re.search(r"memory|[KMGTPE]i?B\b|at most \S+ (runs|steps)", said.err), said.err
 
 
 # -- C16: which rows repeat others -------------------------------------------------------------------------------------

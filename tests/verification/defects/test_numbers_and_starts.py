@@ -96,13 +96,6 @@ def test_a_chain_of_joints_ends_in_a_sentence(tmp_path: Path) -> None:
     assert "expected joints that refer to each other in at most" in said.err
 
 
-def test_a_type_is_echoed_in_printable_words(tmp_path: Path) -> None:
-    text = HEAD + BODY + '[joints.j]\ntype = "a\\nb\\u0085\\u009b2J"\nbetween = ["ground", "b"]\n'
-    said = command(["check", written(tmp_path, text)], tmp_path)
-    assert said.code == 2 and said.sentence, said.err
-    assert said.err.rstrip("\n").isprintable()
-
-
 @pytest.mark.parametrize("lines", ["p{0} = {0}.0\n", "[a.a.a.a{0}]\n"], ids=["parameters", "headers"])
 def test_long_files_take_little_memory(lines: str, tmp_path: Path) -> None:
     text = HEAD + BODY + "[parameters]\n" + "".join(lines.format(i) for i in range(46_000))
