@@ -39,39 +39,6 @@ def trees(model: str):
     return [(stem, ast.parse(source)) for stem, source in sources(model).items()]
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_modules_import_math_numpy_numba_and_their_siblings_only(model):
-    siblings = set(sources(model))
-    for stem, tree in trees(model):
-        for node in ast.walk(tree):
-            if isinstance(node, ast.Import):
-                assert {alias.name for alias in node.names} <= {"math", "numpy"}, stem
-            if isinstance(node, ast.ImportFrom):
-                where = ({"numba"}, siblings if stem != "model" else set())[node.level]
-                assert node.module in where, stem
-        calls = {n.func.id for n in ast.walk(tree) if isinstance(n, ast.Call) and isinstance(n.func, ast.Name)}
-        assert not calls & {"exec", "eval", "open", "compile", "__import__", "getattr"}, stem
-
-
-@pytest.mark.parametrize("model", MODELS)
-def test_nothing_is_imported_that_is_not_used(model):
-    for stem, tree in trees(model):
-        imported = {
-            (alias.asname or alias.name)
-            for node in ast.walk(tree)
-            if isinstance(node, ast.Import | ast.ImportFrom)
-            for alias in node.names
-        }
-        used = {n.id for n in ast.walk(tree) if isinstance(n, ast.Name)}
-        assert imported <= used | handed_on(tree), stem
-
-
-def handed_on(tree: ast.Module) -> set[str]:
-    """The names in ``__all__``: those of a law's module, which defines none itself."""
-    listed = [n.value for n in tree.body if isinstance(n, ast.Assign) and ast.unparse(n.targets[0]) == "__all__"]
-    return {name for value in listed for name in ast.literal_eval(value)}
-
-
 def straight_line(tree: ast.Module) -> list[ast.FunctionDef]:
     """The functions that were printed from blocks; they count their operations, those with loops do not."""
     functions = [n for n in tree.body if isinstance(n, ast.FunctionDef)]

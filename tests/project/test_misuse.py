@@ -421,45 +421,22 @@ def test_every_analysis_takes_settings_and_refuses_others(model, method):
 
 def test_no_function_with_arguments_is_left_out():
     """Every public name that can be called, and every method of a public class that takes something, has rows."""
-    tested = {
-        *("load", "simulate", "compare", "sweep", "Model", "Settings", "MechanismBuilder"),
-        *(
-            "Model.parameters",
-            "Model.compile",
-            "Model.equations_in",
-            "Model.generate",
-            "Model.draw",
-            "Model.assemble",
-            "Model.simulate",
-            "Mechanism.body",
-            "Mechanism.joint_named",
-        ),
-        *("Result.save", "Result.plot", "Result.reaction", "Labelled.row", "Labelled.unit", "Study.save"),
-        *("Sweep.save", "Sweep.reasons", "Model.start"),
-        *(f"SteppedRun.{name}" for name in ("step", "run", "every", "set", "restore")),
-        *(f"MechanismBuilder.{name}" for name in ("run", "parameter", "input", "table", "body", "joint", "force")),
-        *(
-            "MechanismBuilder.output",
-            "MechanismBuilder.event",
-            "Result.columns",
-            "Result.select",
-            "Result.series",
-            "Result.view",
-        ),
+    methods = {
+        "Model": "parameters compile equations_in generate draw assemble simulate start",
+        "Mechanism": "body joint_named",
+        "Result": "save plot reaction columns select series view",
+        "Labelled": "row unit",
+        "Study": "save",
+        "Sweep": "save reasons",
+        "SteppedRun": "step run every set restore",
+        "MechanismBuilder": "run parameter input table body joint force output event",
     }
+    tested = {*"load simulate compare sweep Model Settings MechanismBuilder".split()}
+    tested |= {f"{kind}.{name}" for kind, names in methods.items() for name in names.split()}
     tested |= {f"Model.{method.__name__}" for method in ANALYSIS_METHODS}
     # what only the package makes or calls
-    inner = {
-        "Result",
-        "Labelled",
-        "Study",
-        "Sweep",
-        "SteppedRun",
-        "Mechanism",
-        "Model.compiled",
-        "Model.ready",
-        "Model.initial_state",
-    }
+    inner = {*"Result Labelled Study Sweep SteppedRun Mechanism".split()}
+    inner |= {f"Model.{name}" for name in ("compiled", "ready", "initial_state")}
     found = set()
     for name in symgen.__all__:
         thing = getattr(symgen, name)

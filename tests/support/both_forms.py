@@ -5,13 +5,11 @@
 
 from __future__ import annotations
 
-import json
-import sys
 from dataclasses import replace
 
 import numpy as np
 
-from support.both_shapes import DEEP, models
+from support.both_shapes import off_constraints, report
 from symgen.api import Model
 from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.ir.program import STATUS
@@ -26,12 +24,7 @@ def evaluate(model: Model, method: str, shape: str) -> dict[str, np.ndarray]:
     compiled = compile_model(model.mechanism, replace(choose_method(method, None, True), shape=shape))
     info, law = compiled.info, compiled.law
     values = model.parameters()
-    q, v = model.initial_state(values)
-    y = np.zeros(info.ny)
-    y[: info.nq] = q
-    y[info.nq : -1] = [0.0 if x is None else x for x in v]
-    rng = np.random.default_rng(3)
-    y[:-1] += 0.2 * rng.standard_normal(info.ny - 1)
+    y, rng = off_constraints(model, info, values)
     k = rng.standard_normal(law.unknowns)
     p, w = compiled.parameter_array(values, {}), compiled.scratch()
     compiled.model.prepare(p)
@@ -47,23 +40,5 @@ def evaluate(model: Model, method: str, shape: str) -> dict[str, np.ndarray]:
     return {"residual": residual, "power": w[[STATUS.index("power")]], "jacobian": jacobian}
 
 
-def differences(model: Model, method: str) -> dict[str, float]:
-    """Return the largest difference between the shapes in each quantity, over its size or 1."""
-    straight, looped = (evaluate(model, method, shape) for shape in ("straight", "looped"))
-    return {
-        key: float(np.max(np.abs(straight[key] - looped[key])) / np.max(np.abs(straight[key]), initial=1.0))
-        for key in straight
-    }
-
-
 if __name__ == "__main__":
-    wanted = {word for word in sys.argv[1:] if not word.startswith("-")}
-    left_out = {word[1:] for word in sys.argv[1:]} - wanted
-    results = {}
-    for label, model in models().items():
-        if label in left_out:
-            continue
-        for method in (*METHODS, PROJECTED):
-            if wanted & {label, method} if wanted else label in DEEP or method == METHODS[0]:
-                results[f"{label} {method}"] = differences(model, method)
-    json.dump(results, sys.stdout)
+    report(evaluate, {method: method for method in (*METHODS, PROJECTED)}, lambda method: method == METHODS[0])

@@ -64,18 +64,22 @@ def choices() -> Iterator[tuple[str, dict[str, str]]]:
                 yield name, given
 
 
+def off_constraints(model: Model, info, values) -> tuple[np.ndarray, np.random.Generator]:
+    """Return a state beside the described start, and the generator that made it."""
+    q, v = model.initial_state(values)
+    y, rng = np.zeros(info.ny), np.random.default_rng(3)
+    y[:-1] = [*q, *(0.0 if x is None else x for x in v)]
+    y[:-1] += 0.2 * rng.standard_normal(info.ny - 1)
+    return y, rng
+
+
 def evaluate(model: Model, name: str, options: dict[str, str], shape: str) -> dict[str, np.ndarray]:
     """Return what every function of a compiled model leaves, at a state off the constraints."""
     compiled = model.compile(name, options, shape)
     info, law = compiled.info, compiled.law_module
     known = {p for p, _ in compiled.law.parameters}
     values = model.parameters()
-    q, v = model.initial_state(values)
-    y = np.zeros(info.ny)
-    y[: info.nq] = q
-    y[info.nq : -1] = [0.0 if x is None else x for x in v]
-    rng = np.random.default_rng(3)
-    y[:-1] += 0.2 * rng.standard_normal(info.ny - 1)
+    y, rng = off_constraints(model, info, values)
     p = compiled.parameter_array(values, {k: x for k, x in PENALTY.items() if k in known})
     compiled.model.prepare(p)
     law.prepare(p)
@@ -134,9 +138,8 @@ def evaluate(model: Model, name: str, options: dict[str, str], shape: str) -> di
     return found
 
 
-def differences(model: Model, name: str, options: dict[str, str]) -> dict[str, float]:
+def differences(straight: dict[str, np.ndarray], looped: dict[str, np.ndarray]) -> dict[str, float]:
     """Return the largest difference between the shapes in each quantity, over its size or 1."""
-    straight, looped = (evaluate(model, name, options, shape) for shape in ("straight", "looped"))
     # one row alone has no pivot to be suspicious of, which straight code knows and looped code does not ask
     assert straight.keys() ^ looped.keys() <= {"confirm"}, straight.keys() ^ looped.keys()
     return {
@@ -147,19 +150,34 @@ def differences(model: Model, name: str, options: dict[str, str]) -> dict[str, f
     }
 
 
+def report(evaluated, cases, is_tried) -> None:
+    """Write the differences of cases to standard output; words name mechanisms or methods, `-` leaves out.
+
+    Parameters
+    ----------
+    evaluated : callable
+        Takes a model, a case and a shape; returns arrays by quantity.
+    cases : mapping
+        Cases by label, of which the first word is the method.
+    is_tried : callable
+        Takes names of a mechanism and a case; whether it is tried where no words are given.
+    """
+    wanted = {word for word in sys.argv[1:] if not word.startswith("-")}
+    left_out = {word[1:] for word in sys.argv[1:]} - wanted
+    results = {}
+    for mechanism, model in models().items():
+        for label, case in cases.items():
+            named = wanted & {mechanism, label.split()[0]}
+            if mechanism not in left_out and (named if wanted else mechanism in DEEP or is_tried(case)):
+                shapes = (evaluated(model, case, shape) for shape in ("straight", "looped"))
+                results[f"{mechanism} {label}"] = differences(*shapes)
+    json.dump(results, sys.stdout)
+
+
 #: Mechanisms that every method is tried on; the others see those that every part of the code is in.
 DEEP = ("slider-crank", "everything", "rough", "spatial", "n-four-bar:3")
 FEW = ({"lagrange": {}}, {"direct-correction": {"weight": "mass"}}, {"penalty": {}}, {"mass-orthogonal-projection": {}})
 
 if __name__ == "__main__":
-    wanted = {word for word in sys.argv[1:] if not word.startswith("-")}
-    left_out = {word[1:] for word in sys.argv[1:]} - wanted
-    results = {}
-    for label, model in models().items():
-        if label in left_out:
-            continue
-        for method, options in choices():
-            key = " ".join([label, method, *(f"{k}={x}" for k, x in options.items())])
-            if wanted & {label, method} if wanted else label in DEEP or {method: options} in FEW:
-                results[key] = differences(model, method, options)
-    json.dump(results, sys.stdout)
+    cases = {" ".join([m, *(f"{k}={x}" for k, x in options.items())]): (m, options) for m, options in choices()}
+    report(lambda model, case, shape: evaluate(model, *case, shape), cases, lambda case: {case[0]: case[1]} in FEW)
