@@ -69,12 +69,14 @@ def check_name(where: str, path: Path) -> None:
 
 
 def write_whole(path: Path, content: Content, *, replace: bool = True) -> Path:
-    """Write one file; see `write_all`."""
-    write_all({path: content}, replace=replace)
+    """Write one file; see `write_all`. One that exists is refused where it is not to be replaced."""
+    if not replace and os.path.lexists(path):
+        raise InputError(str(path), "the name of a file that does not exist yet", "one that does")
+    write_all({path: content})
     return path
 
 
-def write_all(files: Mapping[Path, Content], *, replace: bool = True) -> None:
+def write_all(files: Mapping[Path, Content]) -> None:
     """Write files that belong together: all appear, or, where one cannot be written, all stay as they were.
 
     Parameters
@@ -82,15 +84,13 @@ def write_all(files: Mapping[Path, Content], *, replace: bool = True) -> None:
     files : mapping
         Path -> content, or a function that writes it to an open binary file. That file is in memory: libraries do not
         expect that writing fails, and HDF5 then ends the process when it lets go of the file.
-    replace : bool
-        Whether files that exist are replaced.
 
     Raises
     ------
     InputError
-        If one cannot be written, or exists and is not to be replaced. Nothing is left behind.
+        If one cannot be written. Nothing is left behind.
     """
-    siblings, made = dict[Path, Path](), list[Path]()
+    siblings = dict[Path, Path]()
     current = Path()
     try:
         for current, content in files.items():
@@ -102,15 +102,11 @@ def write_all(files: Mapping[Path, Content], *, replace: bool = True) -> None:
                 file.flush()
                 os.fsync(file.fileno())  # a disk that is full, or gone, may say so only now
         for current, sibling in siblings.items():
-            _place(sibling, current, replace)
-            made += [] if replace else [current]
-        made = []
-    except FileExistsError:
-        raise InputError(str(current), "the name of a file that does not exist yet", "one that does") from None
+            os.replace(sibling, current)
     except OSError as error:
         raise InputError(str(current), "a file that can be written", why(error)) from error
     finally:
-        for path in (*siblings.values(), *made):  # what was made before one failed had not been there
+        for path in siblings.values():
             with suppress(OSError):
                 path.unlink()
 
@@ -151,25 +147,11 @@ def _real(path: Path) -> Path:
 
 def _bytes(content: Content) -> bytes | memoryview:
     if callable(content):
-        made = io.BytesIO()
-        content(made)
-        return made.getbuffer()
+        stream = io.BytesIO()
+        content(stream)
+        return stream.getbuffer()
     # words of the command line may hold bytes that are no text
     return content.encode(errors="replace") if isinstance(content, str) else content
-
-
-def _place(sibling: Path, target: Path, replace: bool) -> None:
-    if replace:
-        os.replace(sibling, target)
-        return
-    try:
-        os.link(sibling, target)  # unlike a renaming it fails where there is something of that name
-    except FileExistsError:
-        raise
-    except OSError:  # a file system without links
-        if target.exists():
-            raise FileExistsError(str(target)) from None
-        os.replace(sibling, target)
 
 
 def templates_folder() -> Path:

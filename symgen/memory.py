@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import sys
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -80,20 +79,8 @@ def _of_machine() -> Iterator[float]:
             if line.startswith("MemAvailable:"):
                 yield 1024.0 * int(line.split()[1])
                 return
-    if sys.platform == "win32":
-        yield _of_windows()
-        return
     with suppress(OSError, ValueError, AttributeError):  # all there is, where nothing says what is free
         yield float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
-
-
-def _of_windows() -> float:
-    import ctypes
-
-    # GlobalMemoryStatusEx: two 32-bit numbers, then seven of 64 bits, the second of which is the free memory
-    status = (ctypes.c_uint64 * 8)(8 * 8)
-    getattr(ctypes, "windll").kernel32.GlobalMemoryStatusEx(ctypes.byref(status))  # noqa: B009  # Windows only
-    return float(status[2])
 
 
 def _of_groups() -> Iterator[float]:

@@ -76,11 +76,6 @@ class Needs:
     choice: MethodChoice
     instances: tuple[Instance, ...]
 
-    @classmethod
-    def of(cls, mechanism: Mechanism, choice: MethodChoice) -> Needs:
-        """Return what a mechanism needs for a method."""
-        return cls(mechanism, choice, instances(mechanism))
-
     @cached_property
     def stems(self) -> list[str]:
         """Module of each instance's kernel."""
@@ -191,7 +186,7 @@ def compile_looped(mechanism: Mechanism, choice: MethodChoice, generator: str) -
     """
     refuse_dense(choice.method, choice.options, choice.implicit)
     began, took = time.perf_counter(), 0.0
-    store, folder, needs = Entries(), shared_folder(generator), Needs.of(mechanism, choice)
+    store, folder, needs = Entries(), shared_folder(generator), Needs(mechanism, choice, instances(mechanism))
 
     def make(known: Callable[[str], bool]) -> Modules:
         nonlocal took

@@ -120,7 +120,7 @@ def trampoline(signature: types.Signature, made: Callable[[str, str], bytes]) ->
 @functools.cache
 def _trampoline(returned: str, kinds: tuple[str, ...], made: Callable[[str, str], bytes]) -> Callable[[int], Any]:
     name = "symgen.trampoline." + hashlib.sha256(" ".join((returned, *kinds)).encode()).hexdigest()[:32]
-    address = load(made(text(name, returned, kinds), name), [name])[name]
+    address = load(made(text(name, returned, kinds), name), name)
     return ctypes.CFUNCTYPE(None, ctypes.c_void_p)(address)
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 import functools
 import os
 import threading
-from collections.abc import Iterable
 from typing import Any
 
 import llvmlite.binding as llvm
@@ -103,12 +102,12 @@ def optimised(text: str, vectors: bool = True) -> Any:
     return module
 
 
-def load(code: bytes, symbols: Iterable[str]) -> dict[str, int]:
-    """Put machine code into memory and return the addresses of symbols.
+def load(code: bytes, symbol: str) -> int:
+    """Put machine code into memory and return the address of a symbol.
 
     What it calls must be in memory before: LLVM ends the process where a symbol is missing.
     """
     engine = _engine()
     engine.add_object_file(llvm.ObjectFileRef.from_data(code))
     engine.finalize_object()
-    return {symbol: engine.get_function_address(symbol) for symbol in symbols}
+    return int(engine.get_function_address(symbol))

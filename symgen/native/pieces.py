@@ -9,7 +9,7 @@ from __future__ import annotations
 import functools
 import importlib
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 from symgen.native import types
 
@@ -40,16 +40,9 @@ class Piece:
         return self.plain(*arguments)
 
 
-class Inserted(NamedTuple):
-    """A function in LLVM's language: its name, and its text."""
-
-    symbol: str
-    text: str
-
-
 @functools.cache
-def inserted(piece: Piece, kinds: tuple[types.NumberType | types.ArrayType, ...]) -> Inserted:
-    """Return the function that a piece is for arguments of some types: numbers, and arrays, taken as addresses."""
+def inserted(piece: Piece, kinds: tuple[types.NumberType | types.ArrayType, ...]) -> tuple[str, str]:
+    """Return name and text in LLVM's language of a piece on numbers and arrays of some types, these as addresses."""
     from llvmlite import ir
 
     numbers = {types.float64: ir.DoubleType(), types.int64: ir.IntType(64), types.boolean: ir.IntType(1)}
@@ -68,4 +61,4 @@ def inserted(piece: Piece, kinds: tuple[types.NumberType | types.ArrayType, ...]
     else:
         builder.ret(value)
     lines = str(module).splitlines()
-    return Inserted(symbol, "\n".join(line for line in lines if not line.startswith((";", "target "))))
+    return symbol, "\n".join(line for line in lines if not line.startswith((";", "target ")))

@@ -162,7 +162,7 @@ class MachineFunction(ABC):
             entry = CacheEntry(*marshal.loads(cached(place, self.__qualname__, key, make)))
             for name, kinds in entry.called:
                 self.py_func.__globals__[name].code(arguments_of(kinds))
-            address = load(entry.code, (symbol,))[symbol]
+            address = load(entry.code, symbol)
         if not clock.loaded and compiler() == "explain":
             print(f"{self.__module__}.{self.__name__} compiled in {clock.seconds:.3f} s", file=sys.stderr)
         return MachineCode(address, types.Signature(_NUMBERS[entry.returned], arguments))

@@ -41,7 +41,7 @@ SIGNATURE = float64(float64, float64[::1], boolean)
 
 @pytest.fixture(scope="module")
 def address():
-    return load(compiled(TEXT, "symgen.test_calls"), ["symgen.test_calls"])["symgen.test_calls"]
+    return load(compiled(TEXT, "symgen.test_calls"), "symgen.test_calls")
 
 
 def test_types_are_written_as_numba_writes_them():

@@ -69,7 +69,7 @@ def test_text_is_parsed_optimised_emitted_loaded_and_called(end):
     assert "define double" in module and " br " not in module and " 1.0" not in module, CHANGED + "passes do nothing"
     code = machine.compiled(text, name)
     assert code == machine.compiled(text, name), CHANGED + "an object file is another one each time"
-    address = machine.load(code, [name])[name]
+    address = machine.load(code, name)
     assert address, CHANGED + "what is loaded is not found by its name"
     function = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_void_p)(address)
     assert function(2.0, 3.0, ctypes.addressof(ctypes.c_double(4.0))) == 10.0, CHANGED + "a call gives something else"
@@ -83,7 +83,7 @@ def test_what_is_loaded_may_call_what_was_loaded_before():
         f'define i64 @"{outer}"(i64 %x) {{\n  %y = call i64 @"{inner}"(i64 %x)\n  ret i64 %y\n}}\n',
     }
     for name, text in texts.items():
-        address = machine.load(machine.compiled(text, name), [name])[name]
+        address = machine.load(machine.compiled(text, name), name)
     found = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64)(address)(41)
     assert found == 42, CHANGED + "object files do not find each other's symbols"
 
@@ -100,7 +100,7 @@ def test_vectors_are_written_by_its_builder():
     function = ir.Function(module, kind, "symgen.canary.finite")
     builder = ir.IRBuilder(function.append_basic_block())
     builder.ret(vector_code.finite(builder, *function.args))
-    address = machine.load(machine.compiled(str(module), function.name), [function.name])[function.name]
+    address = machine.load(machine.compiled(str(module), function.name), function.name)
     call = ctypes.CFUNCTYPE(ctypes.c_bool, ctypes.c_int64, ctypes.c_void_p)(address)
     for last, expected in ((1.0, True), (float("nan"), False)):
         array = (ctypes.c_double * 16)(*[0.5] * 15, last)

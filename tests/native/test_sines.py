@@ -39,7 +39,7 @@ declare double @llvm.cos.f64(double)
 {sines.definition(n)}
 """
     symbol = f"try_sines{n}"
-    address = load_code(compiled(text, symbol), [symbol])[symbol]
+    address = load_code(compiled(text, symbol), symbol)
     function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)(address)
 
     def call(angles):

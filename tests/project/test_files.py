@@ -36,23 +36,11 @@ def test_nothing_is_left_whatever_goes_wrong(tmp_path, error):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_file_that_exists_is_kept_where_that_is_asked(tmp_path, monkeypatch):
+def test_a_file_that_exists_is_kept_where_that_is_asked(tmp_path):
     files.write_whole(tmp_path / "a", "first", replace=False)
-    for links in (True, False):
-        if not links:
-            monkeypatch.setattr(os, "link", lambda *a: (_ for _ in ()).throw(OSError(95, "not supported")))
-        with pytest.raises(InputError, match="does not exist yet"):
-            files.write_whole(tmp_path / "a", "second", replace=False)
-        assert (tmp_path / "a").read_text() == "first"
-    files.write_whole(tmp_path / "b", "new", replace=False)  # without links
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["a", "b"]
-
-
-def test_of_files_that_belong_together_none_is_made_where_one_exists(tmp_path):
-    (tmp_path / "b").write_text("kept")
     with pytest.raises(InputError, match="does not exist yet"):
-        files.write_all({tmp_path / "a": "new", tmp_path / "b": "new"}, replace=False)
-    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("b", "kept")]
+        files.write_whole(tmp_path / "a", "second", replace=False)
+    assert (tmp_path / "a").read_text() == "first"
 
 
 def test_a_link_stays_a_link(tmp_path):

@@ -221,7 +221,7 @@ class TestMade:
         code = jit.made(self.TEXT.format(name=name, more=3), name)
         monkeypatch.setattr("symgen.native.machine.compiled", lambda text, symbol: pytest.fail("made twice"))
         assert jit.made(self.TEXT.format(name=name, more=3), name) == code
-        call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64)(load(code, [name])[name])
+        call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64)(load(code, name))
         assert call(39) == 42
         assert len(compiled(cache)) == 1
 
