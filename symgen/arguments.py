@@ -52,23 +52,23 @@ def number(where: str, value: object, *, positive: bool = False) -> float:
     """
     plain = not (isinstance(value, str | bytes) or is_switch(value) or bool(getattr(value, "shape", ())))
     try:
-        found = float(value) if plain else math.nan  # type: ignore[arg-type]  # anything else raises
+        result = float(value) if plain else math.nan  # type: ignore[arg-type]  # anything else raises
     except (TypeError, ValueError, OverflowError):
-        found = math.nan
-    if not math.isfinite(found) or (positive and not found > 0.0):
+        result = math.nan
+    if not math.isfinite(result) or (positive and not result > 0.0):
         raise InputError(where, "a finite number above 0" if positive else "a finite number", shown(value))
-    return found
+    return result
 
 
 def whole(where: str, value: object, least: int, most: int) -> int:
     """Return a whole number between two bounds; 3.0 is one."""
     try:
-        found = number(where, value)
+        result = number(where, value)
     except InputError:
-        found = math.nan
-    if not (found.is_integer() and least <= found <= most):
+        result = math.nan
+    if not (result.is_integer() and least <= result <= most):
         raise InputError(where, f"a whole number from {least} to {most}", shown(value))
-    return int(found)
+    return int(result)
 
 
 def is_switch(value: object) -> bool:
@@ -90,9 +90,9 @@ def text(where: str, value: object, expected: str = "a text") -> str:
     return value
 
 
-def one_of(where: str, value: object, known: Iterable[str]) -> str:
+def one_of(where: str, value: object, candidates: Iterable[str]) -> str:
     """Return one of some words."""
-    words = list(known)
+    words = list(candidates)
     expected = f"one of {', '.join(words)}"
     if text(where, value, expected) not in words:
         raise InputError(where, expected, shown(value), nearest(str(value), words))

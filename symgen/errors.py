@@ -138,9 +138,9 @@ def quoted(text: object, longest: int = LONGEST_QUOTE) -> str:
     return shown if len(shown) <= longest else shown[: longest - 4] + "...'"
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
+def nearest(word: str, candidates: Iterable[str]) -> str:
     """Return the hint ``did you mean 'x'?`` for the closest known word, or the list of known words."""
-    names = sorted(set(known))
+    names = sorted(set(candidates))
     if len(word) <= LONGEST_COMPARED:
         alike = [name for name in names if 2 * min(len(name), len(word)) >= CLOSE * (len(name) + len(word))]
         if len(alike) > MOST_COMPARED:

@@ -47,15 +47,15 @@ class Registry(Generic[T]):
     def _scan(self) -> dict[str, str]:
         """Return kind name -> module name, looking at the folder once."""
         if self._modules is None:
-            found: dict[str, str] = {}
+            modules: dict[str, str] = {}
             for module in pkgutil.iter_modules(importlib.import_module(self.package).__path__):
                 if not module.name.startswith("_"):
-                    found[self._checked(module.name.replace("_", "-"), found)] = module.name
+                    modules[self._checked(module.name.replace("_", "-"), modules)] = module.name
             for alias, target in self.aliases.items():
-                self._checked(alias, found)
-                if target not in found:
+                self._checked(alias, modules)
+                if target not in modules:
                     raise ValueError(f"{self.what} alias '{alias}' stands for '{target}', which does not exist")
-            self._modules = found
+            self._modules = modules
         return self._modules
 
     def _checked(self, name: str, taken: Mapping[str, object]) -> str:
@@ -82,10 +82,10 @@ class Registry(Generic[T]):
         text(where or self.what, name, f"{article} {self.what}")
         resolved = self.aliases.get(name, name)
         if resolved not in self._loaded and resolved not in self._scan():
-            known = (*self.names, *self.aliases)
-            hint = nearest(name, known)
+            names = (*self.names, *self.aliases)
+            hint = nearest(name, names)
             if not hint.startswith("known"):
-                hint += " (known: " + ", ".join(sorted(known)) + ")"
+                hint += " (known: " + ", ".join(sorted(names)) + ")"
             raise InputError(where or self.what, f"{article} {self.what}", quoted(name), hint)
         return resolved
 

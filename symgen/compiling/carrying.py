@@ -20,19 +20,19 @@ def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel,
     """Return where what stands in rows of bodies and of a tree."""
     assert carried.topology is not None, "it was put on a tree"
     info, own = bodies.info, compiled.info
-    known = {x.name: (0, i) for i, x in enumerate((*info.coordinates, *info.velocities))}
+    places = {x.name: (0, i) for i, x in enumerate((*info.coordinates, *info.velocities))}
     for k, x in enumerate(info.joint_coordinates):
-        known |= {x.name: (1, info.m + 2 * k), f"{x.name}.rate": (1, info.m + 2 * k + 1)}
+        places |= {x.name: (1, info.m + 2 * k), f"{x.name}.rate": (1, info.m + 2 * k + 1)}
     names, speeds = state_names(carried, carried.topology)
     turned = {m: abi.WINDING + i for i, m in enumerate(winding_order(mechanism, bodies.shape))}
     gauge = info.sections["gauge"][0]
 
-    def integers(found: Iterable[int]) -> NDArray[np.int64]:
-        return np.array(list(found), dtype=np.int64)
+    def integers(numbers: Iterable[int]) -> NDArray[np.int64]:
+        return np.array(list(numbers), dtype=np.int64)
 
     return Carrying(
         *(own.work, max(info.observed, info.nq + 2 * info.nv)),
-        places=integers(x for name, _ in (*names, *speeds) for x in known[name]),
+        places=integers(x for name, _ in (*names, *speeds) for x in places[name]),
         windings=integers(turned[m] for m in winding_order(carried, "straight")),
         gauges=integers(-1 if j is None else gauge + j for j in _levers(carried, info)),
         spins=integers(first for first, _ in info.spins),
@@ -42,9 +42,9 @@ def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel,
 def _levers(carried: Mechanism, info: ModelInfo) -> list[int | None]:
     """Return the velocity whose length each velocity of a tree has, None for those that are no angles."""
     assert carried.topology is not None, "it has a tree"
-    found = list[int | None]()
+    levers = list[int | None]()
     for link in carried.topology.links:
         alone = msgspec.structs.replace(carried.topology, links=(link,))
         own = [j for j, x in enumerate(info.velocities) if x.name.startswith(f"{link.body}.") and x.unit == "rad/s"]
-        found += [own[0] if unit == "rad/s" else None for _, unit in state_names(carried, alone)[1]]
-    return found
+        levers += [own[0] if unit == "rad/s" else None for _, unit in state_names(carried, alone)[1]]
+    return levers

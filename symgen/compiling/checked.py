@@ -39,14 +39,14 @@ def checked(compiled: CompiledModel, names: Container[str] = NAMES) -> dict[str,
     Foreign
         If one is not in the language, or was left to Python.
     """
-    model, law, found = compiled.model, compiled.law_module, dict[str, Function]()
+    model, law, functions = compiled.model, compiled.law_module, dict[str, Function]()
     for module, table in ((law, _LAW), (model, _MODEL)):
-        kept = [name for name in table if name in names and hasattr(module, name)]
-        found |= {name: _read(getattr(module, name), table[name]) for name in kept}
-    found |= {"prepareModel": _read(model.prepare, PREPARE), "prepareLaw": _read(law.prepare, PREPARE)}
-    if "geometry" in names and "geometry" not in found:
-        found["geometry"] = _read(model.geometry, abi.MEASURE)
-    return found
+        own = [name for name in table if name in names and hasattr(module, name)]
+        functions |= {name: _read(getattr(module, name), table[name]) for name in own}
+    functions |= {"prepareModel": _read(model.prepare, PREPARE), "prepareLaw": _read(law.prepare, PREPARE)}
+    if "geometry" in names and "geometry" not in functions:
+        functions["geometry"] = _read(model.geometry, abi.MEASURE)
+    return functions
 
 
 def _read(function: Any, kind: Any) -> Function:

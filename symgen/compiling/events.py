@@ -60,8 +60,8 @@ def compile_events(
         if event.reset:
             named = [(to_text(quantity), quantity) for quantity, _ in event.reset]
             after = [(f"{label} afterwards", value) for (label, _), (_, value) in zip(named, event.reset, strict=True)]
-            given = compile_side(mechanism, compiled, "reset", "Velocities at an event", [*named, *after])
-            resets[i] = Reset(tuple(label for label, _ in named), given)
+            velocities = compile_side(mechanism, compiled, "reset", "Velocities at an event", [*named, *after])
+            resets[i] = Reset(tuple(label for label, _ in named), velocities)
     return Watched(
         names=tuple(event.name for event in events),
         directions=tuple(_DIRECTIONS[event.direction] for event in events),
@@ -154,12 +154,12 @@ def _carried_masses(
 
 def _products(mechanism: Mechanism, values: Mapping[str, float]) -> list[tuple[int, int, float]]:
     """Return the entries of M beside its diagonal: row, column, value."""
-    found, first = list[tuple[int, int, float]](), 0
+    entries, first = list[tuple[int, int, float]](), 0
     for body in mechanism.bodies:
         if isinstance(body, SpatialBody) and body.inertia is not None:
             for (i, j), entry in zip(((0, 1), (0, 2), (1, 2)), body.inertia[3:], strict=True):
                 value = evaluate(entry, values, f"bodies.{body.name}.inertia")
                 if value != 0.0:
-                    found.append((first + 3 + i, first + 3 + j, value))
+                    entries.append((first + 3 + i, first + 3 + j, value))
         first += len(body.speeds)
-    return found
+    return entries

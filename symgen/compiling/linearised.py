@@ -47,10 +47,10 @@ class Evaluated:
     def by(self, group: str, space: str) -> Array:
         """Return the derivatives of a group by ``t``, ``q``, ``v``, ``a``, ``lam`` or ``p``, shape (values, size)."""
         first, size = self.form.places[group]
-        found = np.zeros((size, self.form.widths[space]))
+        derivatives = np.zeros((size, self.form.widths[space]))
         entries, rows, columns = self.form.entries(group, space)
-        found[rows - first, columns] = self.out[self.form.values + entries]
-        return found
+        derivatives[rows - first, columns] = self.out[self.form.values + entries]
+        return derivatives
 
 
 @dataclass(frozen=True)
@@ -90,13 +90,13 @@ class DescriptorForm:
 
     @cached_property
     def _split(self) -> dict[tuple[str, str], tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]]:
-        found = {}
+        places = {}
         for group, (first, size) in self.places.items():
             inside = (self.pattern[:, 0] >= first) & (self.pattern[:, 0] < first + size)
             for k, space in enumerate(BY):
                 entries = np.flatnonzero(inside & (self.pattern[:, 1] == k))
-                found[group, space] = entries, self.pattern[entries, 0], self.pattern[entries, 2]
-        return found
+                places[group, space] = entries, self.pattern[entries, 0], self.pattern[entries, 2]
+        return places
 
     def entries(self, group: str, space: str) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
         """Return number, value and index of each derivative of a group by a space."""
@@ -143,9 +143,9 @@ def compile_linearised(mechanism: Mechanism, compiled: CompiledModel, by: tuple[
     InputError
         If numbers that meet in a formula overflow.
     """
-    found = _compiled(mechanism, compiled, by, ())
-    assert found is not None, "the whole form is wanted"
-    return found
+    form = _compiled(mechanism, compiled, by, ())
+    assert form is not None, "the whole form is wanted"
+    return form
 
 
 #: Groups that say how a motion near a state grows or decays.
@@ -180,11 +180,11 @@ def _compiled(
             side, info = lower_linearised(mechanism, by, around, groups)
         return emit_side(side), info.to_dict()
 
-    said = around, by, derived(mechanism.parameters) if by else "", groups, reported
-    known, path = made_beside(mechanism, NAME, said, make)
-    if not known:
+    identity = around, by, derived(mechanism.parameters) if by else "", groups, reported
+    metadata, path = made_beside(mechanism, NAME, identity, make)
+    if not metadata:
         return None
-    info = msgspec.convert(known, LinearisedInfo)
+    info = msgspec.convert(metadata, LinearisedInfo)
     places, first = dict[str, tuple[int, int]](), 0
     functions, at = dict[str, tuple[int, int]](), 0
     for name, _, orders in info.functions:

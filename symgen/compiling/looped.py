@@ -52,10 +52,10 @@ def shared_folder(generator: str) -> str:
     return folder_name("looped", generator, FORMAT)
 
 
-def kernel_stems(found: Sequence[Instance]) -> list[str]:
+def kernel_stems(elements: Sequence[Instance]) -> list[str]:
     """Return the module of each instance's kernel."""
     names: dict[bytes, str] = {}
-    return [names.get(i.key) or names.setdefault(i.key, kernel_stem(i)) for i in found]
+    return [names.get(i.key) or names.setdefault(i.key, kernel_stem(i)) for i in elements]
 
 
 @dataclass(frozen=True)
@@ -84,10 +84,10 @@ class Needs:
     @cached_property
     def elements(self) -> dict[str, Instance]:
         """An instance of each kernel, the first one, by its module."""
-        found: dict[str, Instance] = {}
+        elements: dict[str, Instance] = {}
         for stem, instance in zip(self.stems, self.instances, strict=True):
-            found.setdefault(stem, instance)
-        return found
+            elements.setdefault(stem, instance)
+        return elements
 
     @property
     def law(self) -> str:
@@ -108,12 +108,12 @@ class Needs:
         """All of them."""
         return (_MACHINE, _MODEL, self.law, *self.elements, *self.forms.values())
 
-    def missing(self, known: Callable[[str], bool], generator: str, whole: bool = False) -> Modules:
-        """Derive and emit kernels, the law and the generic code, with metadata, except what is `known`.
+    def missing(self, exists: Callable[[str], bool], generator: str, whole: bool = False) -> Modules:
+        """Derive and emit kernels, the law and the generic code, with metadata, except those that exist.
 
         Parameters
         ----------
-        known : callable
+        exists : callable
             Whether a module need not be emitted.
         generator : str
             Digest for the headers.
@@ -127,11 +127,11 @@ class Needs:
 
         generator, method, options = generator[:16], self.choice.method, self.choice.options
         modules: dict[str, tuple[str, dict[str, Any]]] = {}
-        if not known(_MACHINE):
+        if not exists(_MACHINE):
             modules[_MACHINE] = emit_machine(generator), {}
-        if not known(_MODEL):
+        if not exists(_MODEL):
             modules[_MODEL] = emit_shared_model(generator), {}
-        if not known(self.law):
+        if not exists(self.law):
             law = lower_looped(method, options)
             sources = emit_looped_law(law, generator, method.summary, method.reference, whole)
             *shared, _ = sources
@@ -140,26 +140,26 @@ class Needs:
             modules[self.law] = sources[self.law], info.to_dict()
         for name, instance in self.elements.items():
             form = self.forms.get(name)
-            if known(name) and (form is None or known(form)):
+            if exists(name) and (form is None or exists(form)):
                 continue
             from symgen.formulate.elements import derive_element
 
             element = derive_element(instance.abstract)
             kernel = lower_kernel(element, instance)
-            if not known(name):
+            if not exists(name):
                 modules[name] = emit_kernel(kernel, generator), msgspec.to_builtins(kernel.info)
-            if form is not None and not known(form):
+            if form is not None and not exists(form):
                 part = lower_form(element, instance, method, options, form)
                 modules[form] = emit_form(part, kernel.info, generator), msgspec.to_builtins(part.info)
         return modules
 
-    def laid_out(self, known: Mapping[str, Mapping[str, Any]]) -> tuple[LoopedShape, IndexTables, LawInfo]:
+    def laid_out(self, metadata: Mapping[str, Mapping[str, Any]]) -> tuple[LoopedShape, IndexTables, LawInfo]:
         """Return the mechanism's indices, its tables and what is known of the law with these, from all metadata."""
         choice = self.choice
-        infos = {stem: msgspec.convert(known[stem], KernelInfo) for stem in self.elements}
-        law = msgspec.convert(known[self.law], LoopedLawInfo)
+        infos = {stem: msgspec.convert(metadata[stem], KernelInfo) for stem in self.elements}
+        law = msgspec.convert(metadata[self.law], LoopedLawInfo)
         shape = LoopedShape(self.instances, self.stems, infos, len(self.mechanism.parameters))
-        parts = {stem: (form, msgspec.convert(known[form], FormInfo)) for stem, form in self.forms.items()}
+        parts = {stem: (form, msgspec.convert(metadata[form], FormInfo)) for stem, form in self.forms.items()}
         level = record_form(choice.method, choice.options).form if choice.implicit else ""
         tables = Builder(shape, law, level, parts).tables()
         sizes = {"nw": tables.nw, "unknowns": tables.unknowns, "level": level, "tangent": tables.tangent}
@@ -188,15 +188,15 @@ def compile_looped(mechanism: Mechanism, choice: MethodChoice, generator: str) -
     began, took = time.perf_counter(), 0.0
     store, folder, needs = Entries(), shared_folder(generator), Needs(mechanism, choice, instances(mechanism))
 
-    def make(known: Callable[[str], bool]) -> Modules:
+    def make(exists: Callable[[str], bool]) -> Modules:
         nonlocal took
         emitting = time.perf_counter()
-        modules = needs.missing(known, generator)
+        modules = needs.missing(exists, generator)
         took = time.perf_counter() - emitting
         return modules
 
-    known = store.built(folder, needs.modules, make)
-    shape, tables, law = needs.laid_out(known)
+    metadata = store.built(folder, needs.modules, make)
+    shape, tables, law = needs.laid_out(metadata)
     path = store.path(folder, _MODEL).parent
     kernels = {stem: load_module(path / f"{stem}.py") for stem in (*needs.elements, *needs.forms.values())}
     machine, model = load_module(path / f"{_MACHINE}.py"), load_module(path / f"{_MODEL}.py")
@@ -250,10 +250,10 @@ def generate_looped(
 
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     tables: dict[str, Any] = {}
-    found = instances(mechanism)
+    elements = instances(mechanism)
     for choice in choices:
         refuse_dense(choice.method, choice.options, choice.implicit)
-        needs = Needs(mechanism, choice, found)
+        needs = Needs(mechanism, choice, elements)
         modules |= needs.missing(modules.__contains__, generator, whole)
         _, built, _ = needs.laid_out({stem: modules[stem][1] for stem in needs.modules})
         tables[f"{needs.law}_implicit" if choice.implicit else needs.law] = {

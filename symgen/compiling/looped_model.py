@@ -53,17 +53,17 @@ class LoopedModel(CompiledModel):
         part = w[offset : offset + size]
         part.view(np.uint32)[: len(self.tables.numbers)] = np.frombuffer(self.tables.numbers, dtype=np.uint32)
         augmented = bool(self.tables.numbers[HEAD.index("augmented_factor")])
-        found = [
+        addresses = [
             address(getattr(self.machine, f"{name}_code"), self.machine, GENERIC_CODE)
             if augmented or name != "augment"
             else 0
             for name in GENERIC
         ]
-        found += [address(getattr(self.kernels[stem], name), self.machine) for stem, name in self.tables.functions]
+        addresses += [address(getattr(self.kernels[stem], name), self.machine) for stem, name in self.tables.functions]
         part.view(np.int64)[-1] = offset
         w.view(np.int64)[-1] = offset  # read from the end, where sections of a run may stand behind the tables
         first = self.tables.addresses
-        part.view(np.int64)[first : first + len(found)] = found
+        part.view(np.int64)[first : first + len(addresses)] = addresses
         return self.with_scales(w)
 
 
@@ -83,7 +83,7 @@ def preparation(
 ) -> Callable[[Array], int]:
     """Return the function that fills the numbers behind the parameters in ``p``: interpreted, once a run."""
     numbers = np.frombuffer(tables.numbers, dtype=np.uint32)
-    known = {t.name: t for t in mechanism.tables}
+    tables_by_name = {t.name: t for t in mechanism.tables}
     constant = shape.products.constant
     target = np.array([t for t, _, _ in constant], dtype=np.int64)
     velocity = np.array([v for _, v, _ in constant], dtype=np.int64)
@@ -93,7 +93,7 @@ def preparation(
     def prepare(p: Array) -> int:
         values = {q.name: float(p[i]) for i, q in enumerate(mechanism.parameters)}
         for expression, k in shape.constant_index.items():
-            p[shape.first_constant + k] = evaluate(expression, values, mechanism.name, known)
+            p[shape.first_constant + k] = evaluate(expression, values, mechanism.name, tables_by_name)
         for stem, computes, at in tables.groups:
             if computes:
                 interpreted(kernels[stem].prepare)(0.0, p, p, p, numbers, at, p)

@@ -165,8 +165,8 @@ def generate(
         from symgen.compiling.looped import generate_looped, shared_folder
 
         began = time.perf_counter()
-        found = generate_looped(mechanism, choices, generator_digest(), whole)
-        return Generated(shared_folder(generator_digest()), found, 0.0, time.perf_counter() - began)
+        modules = generate_looped(mechanism, choices, generator_digest(), whole)
+        return Generated(shared_folder(generator_digest()), modules, 0.0, time.perf_counter() - began)
     # numbers that only meet where equations are solved; others have names
     with finite_numbers(f"mechanism '{mechanism.name}'"):
         return _generate_straight(mechanism, choices, target, whole)
@@ -180,8 +180,8 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
     began = time.perf_counter()
     folder, key = folder_of(mechanism), (id(mechanism), target)
     # methods are often generated one after the other; whoever lowers one has the graph, which grows by it, for himself
-    known, before = _latest.pop(key, (None, None))
-    if before is None or known is None or known() is not mechanism:
+    reference, before = _latest.pop(key, (None, None))
+    if before is None or reference is None or reference() is not mechanism:
         _latest.clear()
         before = _without_method(mechanism, target)
     derived = time.perf_counter()
@@ -257,14 +257,14 @@ def compile_model(mechanism: Mechanism, choice: MethodChoice, target: str = "cpu
     folder, took = folder_of(mechanism), [0.0, 0.0]
     model, stem = f"model{SUFFIXES[target]}", f"{choice.stem}{SUFFIXES[target]}"
 
-    def make(known: Callable[[str], bool]) -> Modules:
+    def make(exists: Callable[[str], bool]) -> Modules:
         generated = generate(mechanism, (choice,), choice.shape, target)
         took[:] = generated.derive_seconds, generated.emit_seconds
         return generated.modules
 
-    known = store.built(folder, (model, stem), make)
+    metadata = store.built(folder, (model, stem), make)
     path = store.path(folder, stem).parent
-    loaded = load_compiled(path, stem, known[model], known[stem], took[0], took[1], model)
+    loaded = load_compiled(path, stem, metadata[model], metadata[stem], took[0], took[1], model)
     return replace(loaded, origin=(compile_again, arguments))
 
 
@@ -348,11 +348,11 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
 
 def _alone(program: ModelProgram, rows: int) -> tuple[int, ...]:
     """Return the rows whose pivot is the same everywhere, so that ``geometry`` has nothing to say of it."""
-    said = {
+    pivots = {
         target.index
         for block in program.blocks
         if block.name == "geometry"
         for target, _ in block.outputs
         if target.space == "pivot"
     }
-    return tuple(i for i in range(rows) if i not in said)
+    return tuple(i for i in range(rows) if i not in pivots)

@@ -88,17 +88,17 @@ def beside(mechanism: Mechanism, compiled: CompiledModel) -> Beside:
     return Beside(winding_order(mechanism, compiled.shape), sections, rows)
 
 
-def stem_of(name: str, *said: object) -> str:
+def stem_of(name: str, *identity: object) -> str:
     """Return the stem of a module by all that shapes it, the sources that emit it among that."""
-    text = "\n".join([*map(str, said), generator_digest()])
+    text = "\n".join([*map(str, identity), generator_digest()])
     return f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
 
 
 def made_beside(
-    mechanism: Mechanism, name: str, said: Sequence[object], make: Callable[[], tuple[str, dict[str, Any]]]
+    mechanism: Mechanism, name: str, identity: Sequence[object], make: Callable[[], tuple[str, dict[str, Any]]]
 ) -> tuple[dict[str, Any], Path]:
     """Return what is known of a module beside a model's, by all that shapes it, and its path; made where it is new."""
-    store, folder, stem = Entries(), folder_of(mechanism), stem_of(name, *said)
+    store, folder, stem = Entries(), folder_of(mechanism), stem_of(name, *identity)
     return store.made(folder, stem, make), store.path(folder, stem)
 
 
@@ -146,8 +146,8 @@ def compile_side(
             program = lower_side(mechanism, name, purpose, formulas, around, rates, sizes)
         return emit_side(program), {"reads": list(program.reads)}
 
-    said = purpose, rates, around, list(integrals(mechanism)), *labels, *texts
-    metadata, path = made_beside(mechanism, name, said, make)
+    identity = purpose, rates, around, list(integrals(mechanism)), *labels, *texts
+    metadata, path = made_beside(mechanism, name, identity, make)
     return Side(getattr(load_module(path), name), path, tuple(labels), frozenset(metadata["reads"]))
 
 
@@ -164,18 +164,18 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledMod
     InputError
         If the method integrates something else than velocities, or numbers that meet in a formula overflow.
     """
-    found, info, law = integrals(mechanism), compiled.info, compiled.law_module
-    if not found:
+    formulas, info, law = integrals(mechanism), compiled.info, compiled.law_module
+    if not formulas:
         return compiled
     if not can_integrate(compiled):
         expected = "a method that integrates velocities, as an output is an integral"
         raise InputError(f"method '{compiled.law.method}'", expected, "one that integrates momenta")
-    auxiliary = compiled.law.nw, 1 + len(found)
+    auxiliary = compiled.law.nw, 1 + len(formulas)
     around = beside(mechanism, compiled)
     around = replace(around, sections={**around.sections, "auxiliary": auxiliary})
     files = _files(law)
     stems = {name: file.stem for name, file in sorted(files.items())}
-    texts = [to_text(integral.of) for integral in found]
+    texts = [to_text(integral.of) for integral in formulas]
     store, folder = Entries(), next(iter(files.values())).parent.name
     stem = stem_of("integrals", folder_of(mechanism), around, stems, *texts)
 
@@ -190,7 +190,7 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledMod
     store.made(folder, stem, make)
     return replace(
         compiled,
-        info=msgspec.structs.replace(info, integrals=len(found), sections=info.sections | {"auxiliary": auxiliary}),
+        info=msgspec.structs.replace(info, integrals=len(formulas), sections=info.sections | {"auxiliary": auxiliary}),
         law=msgspec.structs.replace(  # the last element of w is looped code's own
             compiled.law, nw=sum(auxiliary) + 1, modules=tuple(dict.fromkeys((*stems.values(), *compiled.law.modules)))
         ),

@@ -126,9 +126,9 @@ def _guide(program: LawProgram, model: ModelProgram, equations: Equations) -> li
     """Return what the header of a law says to people: notation, use, and the meaning of elements of y and p."""
     info, first = program.info, model.layout.parameters
     own, behind = first + model.hoisted, info.parameter_offset + len(info.parameters)
-    kept = {"the model's `prepare`": (first, own), "`prepare`": (own, info.parameter_offset)}
-    kept["`prepare` too"] = behind, behind + info.hoisted
-    return [*(_USE + _IMPLICIT * bool(info.level)).split("\n"), *_symbols(equations, kept)]
+    computed = {"the model's `prepare`": (first, own), "`prepare`": (own, info.parameter_offset)}
+    computed["`prepare` too"] = behind, behind + info.hoisted
+    return [*(_USE + _IMPLICIT * bool(info.level)).split("\n"), *_symbols(equations, computed)]
 
 
 def versions(digest: str) -> str:
@@ -173,8 +173,8 @@ class LiteralLayout(PartsLayout):
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
         """Return nothing before a function's own lines, and the sections that were asked for."""
-        found, self.sections = self.sections, set()
-        return [], set(), found
+        sections, self.sections = self.sections, set()
+        return [], set(), sections
 
 
 def table_names(tables: Sequence[Interpolation], slopes: bool = True) -> list[str]:
@@ -185,19 +185,19 @@ def table_names(tables: Sequence[Interpolation], slopes: bool = True) -> list[st
 def table_codes(tables: Sequence[Interpolation], target: str = "cpu", slopes: bool = True) -> list[ModulePiece]:
     """Return tables: their arrays with the functions that interpolate, and their slopes; see `table_names`."""
     codes = []
-    for found in tables:
-        x, y = (found.starts, sum(found.pieces, ())) if found.pieces else (found.x, found.y)
-        table: dict[str, Any] = {"name": found.name, "abscissae": list(x), "ordinates": list(y)}
+    for curve in tables:
+        x, y = (curve.starts, sum(curve.pieces, ())) if curve.pieces else (curve.x, curve.y)
+        table: dict[str, Any] = {"name": curve.name, "abscissae": list(x), "ordinates": list(y)}
         table |= {"points": array_text(x), "numbers": array_text(y)}
-        table |= {what: table_name(found.name, what) for what in ("value", "slope", "x", "y")}
+        table |= {what: table_name(curve.name, what) for what in ("value", "slope", "x", "y")}
         values: dict[str, Any] = {"table": table, "cuda": target == "cuda", "decorator": PLATFORMS[target].decorator}
-        if found.pieces:
-            table["second"], table["period"] = table_name(found.name, "second"), found.period
+        if curve.pieces:
+            table["second"], table["period"] = table_name(curve.name, "second"), curve.period
             text = render("curves/pieces.j2", values).strip("\n")
         else:
             text = render("parts/table.j2", values | {"slope": slopes}).strip("\n")
-        also = tuple(table_name(found.name, what) for what in ("slope", "second", "x", "y"))
-        libraries = frozenset(("numpy", "math") if found.period else ("numpy",))
+        also = tuple(table_name(curve.name, what) for what in ("slope", "second", "x", "y"))
+        libraries = frozenset(("numpy", "math") if curve.period else ("numpy",))
         codes.append(ModulePiece(table["value"], text, libraries=libraries, also=also))
     return codes
 
@@ -236,14 +236,14 @@ def straight(
     return codes
 
 
-def _symbols(equations: Equations, kept: Mapping[str, tuple[int, int]]) -> list[str]:
+def _symbols(equations: Equations, computed: Mapping[str, tuple[int, int]]) -> list[str]:
     """Return a line with element, name and unit for everything that has an index, and one on numbers kept in p."""
     nq = equations.nq
     table = [(f"y[{i}]", q.name, q.unit) for i, q in enumerate(equations.coordinates)]
     table += [(f"y[{nq + i}]", v.name, v.unit) for i, v in enumerate(equations.velocities)]
     table.append((f"y[{nq + equations.nv}]", "work of forces without potential and of drivers", "J"))
     table += [(f"p[{i}]", p.name, p.unit) for i, p in enumerate(equations.parameters)]
-    table += [(f"p[{i}:{j}]", f"numbers computed by {function}", "") for function, (i, j) in kept.items() if i < j]
+    table += [(f"p[{i}:{j}]", f"numbers computed by {function}", "") for function, (i, j) in computed.items() if i < j]
     table += [(f"row {i}", r.name, r.unit) for i, r in enumerate(equations.rows)]
     return [f"{element:<8} {name}{f' [{unit}]' if unit else ''}" for element, name, unit in table]
 
@@ -283,14 +283,14 @@ def emit_integrals(program: SideProgram, law: Mapping[str, str], power: int) -> 
     """
     codes, header = _printed(program, "z[{}]' =", 1)
     exports = [name for name in law if name not in _FOLLOWED]
-    known = {name: (law[name], name) for name in exports}
+    origins = {name: (law[name], name) for name in exports}
     for name, (arguments, more) in _FOLLOWED.items():
         if name not in law:
             continue
-        known[f"law_{name}"] = (law[name], name)
+        origins[f"law_{name}"] = (law[name], name)
         body = [f"flag = law_{name}({arguments})", more, "return flag"]
         if name == "residual":
             body.insert(1, f"w[{program.layout.offset('auxiliary')}] = w[{power}]")
         calls = f"law_{name}", more.partition("(")[0]
         codes.append(function(name, arguments, "As the law's, with integrals.", body, calls=calls))
-    return module(f"A law of model `{program.mechanism}`, with integrals.", header, codes, known, {}, exports=exports)
+    return module(f"A law of model `{program.mechanism}`, with integrals.", header, codes, origins, {}, exports=exports)

@@ -38,8 +38,8 @@ def _module(
     codes = [*table_codes(kernel.tables, slopes=slopes), *(_function(b, access, stride) for b in kernel.blocks)]
     stands = f"Functions go through all instances, whose table begins at `at`: how many, then {stride} numbers each."
     header = [f"format {FORMAT}, generator {generator}", about, stands]
-    known = {name.upper(): ("machine", name.upper()) for name in HEAD}
-    return module(f"Kernel `{kernel.stem}` of the looped shape.", header, codes, known, {})
+    origins = {name.upper(): ("machine", name.upper()) for name in HEAD}
+    return module(f"Kernel `{kernel.stem}` of the looped shape.", header, codes, origins, {})
 
 
 def _function(block: Block, access: InstanceAccess, stride: int) -> ModulePiece:

@@ -72,8 +72,8 @@ def emit_looped_law(
     """Return the source of the modules of a law; the last one is its own, as for `symgen.emit.emit.emit_law`."""
     info = law.info
     nothing = function("prepare", "p", "Nothing depends on parameters of the method alone.", ["return 0"])
-    made = f"format {FORMAT}, generator {generator}"
-    known = {name: ("machine", name) for name in (*map(str.upper, HEAD), *_MACHINE)}
+    versions = f"format {FORMAT}, generator {generator}"
+    origins = {name: ("machine", name) for name in (*map(str.upper, HEAD), *_MACHINE)}
     places = {name: len(HEAD) + i for i, (name, _) in enumerate(info.sections)}
     return law_modules(
         law,
@@ -81,10 +81,10 @@ def emit_looped_law(
         [*((f.part.role, print_function(f)) for f in law.functions), ("preparation", nothing)],
         any(f.flagged for f in law.functions),
         "for any mechanism, in the looped shape",
-        made,
-        known | {name: ("model", name) for name in _SHARED} | {"geometry_of_model": ("model", "geometry")},
+        versions,
+        origins | {name: ("model", name) for name in _SHARED} | {"geometry_of_model": ("model", "geometry")},
         f"Method `{info.method}`, for any mechanism, in the looped shape.",
-        law_header(info, summary, reference, made, "parameter {}:"),
+        law_header(info, summary, reference, versions, "parameter {}:"),
         f"law_{info.key}",
         offsets={name: (at, "places in w and T") for name, at in {**_STATUS, **places}.items()},
         places=Places() if whole else None,
@@ -165,9 +165,9 @@ def print_function(f: data.LoopedFunction) -> ModulePiece:
 def _assigned(graph: Graph, statement: data.Assignment, access: LoopAccess) -> list[str]:
     """Print values that are assigned or added up, in a loop where they are general elements."""
     outputs = tuple((Target(space, index), node) for space, index, node in statement.outputs)
-    found = Printer(Block("", "", graph, outputs, ()), access).lines()
-    lines = [*found.terms, *found.outputs]
-    access.functions |= found.functions
+    body = Printer(Block("", "", graph, outputs, ()), access).lines()
+    lines = [*body.terms, *body.outputs]
+    access.functions |= body.functions
     if statement.size:
         lines = [f"for j in range({access.layout.at(statement.size)}):", *(f"    {line}" for line in lines)]
     if statement.driven:

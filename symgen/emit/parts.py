@@ -182,20 +182,20 @@ def law_modules(
     metric = law.correction.metric if law.correction.any else "measured"
     kinds = {"acceleration": law.form, "metric": metric, "correction": metric, "form": law.info.level}
     modules: dict[str, str] = {}
-    found = dict(known)
+    origins = dict(known)
     exported: set[str] = set()
     for role, (label, about) in ROLES.items():
         codes = [code for each, code in pieces if each == role]
         if not codes:
             continue
-        digest = hashlib.sha256(module("", [], codes, found, **keys).encode()).hexdigest()[:16]
+        digest = hashlib.sha256(module("", [], codes, origins, **keys).encode()).hexdigest()[:16]
         name = "_".join((label, *([kinds[role]] if role in kinds else ()), digest)) + suffix
-        modules[name] = module(f"{about}, {what}.", [made], codes, found, **keys)
+        modules[name] = module(f"{about}, {what}.", [made], codes, origins, **keys)
         if role == "acceleration":  # what closes dependent coordinates first is the law's `rhs`
-            found["accelerate"] = (name, "rhs")
-        found |= {each: (name, each) for code in codes for each in code.names}
+            origins["accelerate"] = (name, "rhs")
+        origins |= {each: (name, each) for code in codes for each in code.names}
         exported |= {each for code in codes for each in code.names}
-    modules[stem + suffix] = module(title, header, [], found, {}, exports=exported.intersection(_EXPORTS))
+    modules[stem + suffix] = module(title, header, [], origins, {}, exports=exported.intersection(_EXPORTS))
     return modules
 
 

@@ -234,10 +234,10 @@ def harmless(text: object) -> str:
     text : object
         What a file, a method or an option says of itself.
     """
-    kept = str(text)[: LONGEST + 1].translate(_SIGNS)
-    if not kept.isprintable():
-        kept = "".join(c if c.isprintable() else " " for c in kept)
-    return kept if len(kept) <= LONGEST else kept[: LONGEST - 3] + "..."
+    words = str(text)[: LONGEST + 1].translate(_SIGNS)
+    if not words.isprintable():
+        words = "".join(c if c.isprintable() else " " for c in words)
+    return words if len(words) <= LONGEST else words[: LONGEST - 3] + "..."
 
 
 _SIGNS = str.maketrans('"\\', "'/")

@@ -78,12 +78,12 @@ class Places:
     @property
     def constants(self) -> dict[str, tuple[int, str]]:
         """Number of each name, and the array that it belongs to."""
-        found = {name: (first, "sections of w") for name, (first, _) in self.sections.items()}
+        constants = {name: (first, "sections of w") for name, (first, _) in self.sections.items()}
         if "status" in self.sections:
             first = self.sections["status"][0]
-            found |= {name: (first + i, "numbers in w") for i, name in enumerate(STATUS)}
-        found |= {name: (i, "counters in iw") for i, name in enumerate(COUNTERS)}
-        return found | {name: (at, "parameters of the method in p") for name, at in self.parameters.items()}
+            constants |= {name: (first + i, "numbers in w") for i, name in enumerate(STATUS)}
+        constants |= {name: (i, "counters in iw") for i, name in enumerate(COUNTERS)}
+        return constants | {name: (at, "parameters of the method in p") for name, at in self.parameters.items()}
 
     def named(self, code: ModulePiece) -> ModulePiece:
         """Return a function with names in place of the numbers of elements of w and iw, and of the method in p."""

@@ -56,7 +56,7 @@ class Instruction(NamedTuple):
             return self
         head, equals, rest = self.text.partition(" = ") if self.own else ("", "", self.text)
         instead = iter(names)
-        return Instruction(head + equals + _NAME.sub(lambda found: next(instead), rest), self.own, self.does, names)
+        return Instruction(head + equals + _NAME.sub(lambda match: next(instead), rest), self.own, self.does, names)
 
     def called(self, name: str) -> Instruction:
         """Return the line with another name for its result."""
@@ -77,8 +77,8 @@ def split(module: str, symbol: str, longest: int) -> str | None:
     """
     lines = module.splitlines()
     heads = f'"{symbol}"(', f"@{symbol}("  # LLVM leaves out quotes where a name does without
-    found = (i for i, line in enumerate(lines) if line.startswith("define ") and any(head in line for head in heads))
-    first = next(found, None)
+    matches = (i for i, line in enumerate(lines) if line.startswith("define ") and any(head in line for head in heads))
+    first = next(matches, None)
     if first is None:
         return None
     last = lines.index("}", first)
@@ -94,7 +94,7 @@ def _without_repetitions(body: list[str]) -> list[Instruction]:
 
     It matters because a product that two sums want is not contracted with either.
     """
-    kept = list[Instruction]()
+    instructions = list[Instruction]()
     first: dict[str, str] = {}  # operation -> its name
     instead: dict[str, str] = {}
     for text in body:
@@ -110,8 +110,8 @@ def _without_repetitions(body: list[str]) -> list[Instruction]:
                 instead[line.own] = first[operation]
                 continue
             first[operation] = line.own
-        kept.append(line)
-    return kept
+        instructions.append(line)
+    return instructions
 
 
 class _Blocks:

@@ -103,24 +103,26 @@ def caller(address: int, signature: types.Signature) -> Callable[..., Any]:
     return call
 
 
-def trampoline(signature: types.Signature, made: Callable[[str, str], bytes]) -> Callable[[int], Any]:
+def trampoline(signature: types.Signature, object_file: Callable[[str, str], bytes]) -> Callable[[int], Any]:
     """Return a function that takes the address of a block of slots and calls the function with the arguments there.
 
     Parameters
     ----------
     signature : Signature
         That of the function; its result is a number of eight bytes.
-    made : callable
+    object_file : callable
         Gives the object file of a module in LLVM's language with the function of a name.
     """
     kinds = tuple(slot for kind in signature.arguments for slot in slots(kind))
-    return _trampoline(_SLOTS[signature.result], kinds, made)
+    return _trampoline(_SLOTS[signature.result], kinds, object_file)
 
 
 @functools.cache
-def _trampoline(returned: str, kinds: tuple[str, ...], made: Callable[[str, str], bytes]) -> Callable[[int], Any]:
+def _trampoline(
+    returned: str, kinds: tuple[str, ...], object_file: Callable[[str, str], bytes]
+) -> Callable[[int], Any]:
     name = "symgen.trampoline." + hashlib.sha256(" ".join((returned, *kinds)).encode()).hexdigest()[:32]
-    address = load(made(text(name, returned, kinds), name), name)
+    address = load(object_file(text(name, returned, kinds), name), name)
     return ctypes.CFUNCTYPE(None, ctypes.c_void_p)(address)
 
 

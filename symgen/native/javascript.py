@@ -104,10 +104,10 @@ def javascript(functions: Mapping[str, lang.Function]) -> str:
 
 
 def _free(name: str, taken: Iterable[str]) -> str:
-    known, found, k = set(taken), name, 2
-    while found in known:
-        found, k = f"{name}_{k}", k + 1
-    return found
+    names, free, k = set(taken), name, 2
+    while free in names:
+        free, k = f"{name}_{k}", k + 1
+    return free
 
 
 def _word(name: str) -> str:
@@ -139,8 +139,8 @@ class _Printer:
             f"const {self.names[f.key, name]} = [{', '.join(_literal(x)[0] for x in values)}];"
             for name, values in f.tables.items()
         ]
-        given = {p.name for p in f.parameters}
-        local = [_word(name) for name in f.variables if name not in given and name not in f.fixed]
+        parameters = {p.name for p in f.parameters}
+        local = [_word(name) for name in f.variables if name not in parameters and name not in f.fixed]
         lines = [f"let {', '.join(local)};"] if local else []
         lines += self.lines(f.body)
         head = f"function {self.names[f.key]}({', '.join(_word(p.name) for p in f.parameters)}) {{"
@@ -164,8 +164,8 @@ class _Printer:
         if isinstance(s, lang.Leave):
             return [f"{s.how};"]
         if isinstance(s, lang.If):
-            found = [f"if ({self.value(s.test)}) {{", *self.lines(s.then)]
-            return [*found, *(["} else {", *self.lines(s.otherwise)] if s.otherwise else []), "}"]
+            lines = [f"if ({self.value(s.test)}) {{", *self.lines(s.then)]
+            return [*lines, *(["} else {", *self.lines(s.otherwise)] if s.otherwise else []), "}"]
         if isinstance(s, lang.While):
             return [f"while ({self.value(s.test)}) {{", *self.lines(s.body), "}"]
         assert isinstance(s, lang.For), "all kinds of statements are known"
@@ -190,8 +190,8 @@ class _Printer:
             array = self.names[self.function.key, e.array] if constant else _word(e.array)
             return f"{array}[{self.value(e.index)}]", 20
         if isinstance(e, lang.FunctionCall):
-            given = (_word(a) if isinstance(a, str) else self.value(a) for a in e.arguments)
-            return f"{self.names[e.function.key]}({', '.join(given)})", 20
+            arguments = (_word(a) if isinstance(a, str) else self.value(a) for a in e.arguments)
+            return f"{self.names[e.function.key]}({', '.join(arguments)})", 20
         if isinstance(e, lang.Logic):
             sign, own = _SIGNS[e.name]
             return f"{self.value(e.first, own)} {sign} {self.value(e.second, own + 1)}", own

@@ -103,12 +103,12 @@ def is_copied(function: lang.Function) -> bool:
 def declarations(texts: Iterable[str]) -> list[str]:
     """Return declarations of the mathematical functions that texts call."""
     text = "\n".join(texts)
-    found = []
+    lines = []
     for name, count in {**lang.FUNCTIONS, "round": 1}.items():
         if f"{called(name)}(" in text:
             attributes = "" if name in INTRINSICS else " nounwind memory(read)"
-            found.append(f"declare double {called(name)}({', '.join(['double'] * count)}){attributes}")
-    return found
+            lines.append(f"declare double {called(name)}({', '.join(['double'] * count)}){attributes}")
+    return lines
 
 
 def head(function: lang.Function, name: str, named: bool = True) -> str:

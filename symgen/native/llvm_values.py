@@ -90,8 +90,8 @@ class ValuePrinter:
         if isinstance(e, lang.Constant):
             return literal(e.value) if e.type == "float" else str(int(e.value))
         if isinstance(e, lang.Variable):
-            known = self.values.get(e.name)
-            return known if known is not None else self.put(f"load {TYPES[e.type]}, ptr {slot(e.name)}")
+            value = self.values.get(e.name)
+            return value if value is not None else self.put(f"load {TYPES[e.type]}, ptr {slot(e.name)}")
         if isinstance(e, lang.ArrayElement):
             return self.put(f"load {TYPES[e.type]}, ptr {self.place(e.array, e.index)}")
         if isinstance(e, lang.ScalarOperation):
@@ -193,8 +193,8 @@ class ValuePrinter:
         signs = self.put(f"icmp slt i64 {self.put(f'xor i64 {rest}, {divisor}')}, 0")
         below = self.put(f"and i1 {signs}, {self.put(f'icmp ne i64 {rest}, 0')}")
         other = f"add i64 {rest}, {divisor}" if rest_wanted else f"sub i64 {quotient}, 1"
-        found = self.put(f"select i1 {below}, i64 {self.put(other)}, i64 {rest if rest_wanted else quotient}")
-        return self.put(f"select i1 {none}, i64 0, i64 {found}")
+        result = self.put(f"select i1 {below}, i64 {self.put(other)}, i64 {rest if rest_wanted else quotient}")
+        return self.put(f"select i1 {none}, i64 0, i64 {result}")
 
     def converted(self, before: lang.Scalar, after: str, value: str) -> str:
         """Print a conversion."""

@@ -62,8 +62,8 @@ class LoopValues(Reader):
         value = self.value(node)
         if not is_number(value):
             raise Foreign("something that is no number", node)
-        found: lang.Expression = value
-        return found
+        number: lang.Expression = value
+        return number
 
     def value(self, node: ast.expr) -> Value:
         """Return the value of an expression, which may be a record, an array or a function as well."""
@@ -123,17 +123,17 @@ class LoopValues(Reader):
                 raise Foreign("an index", node)
             if isinstance(owner, Array) and isinstance(node.slice, ast.Slice):
                 return self.one(owner, node.slice)
-            if isinstance(owner, Array) and (given := _indices(node)) < owner.rank:
-                return self.behind(owner, node, given)
+            if isinstance(owner, Array) and (count := _indices(node)) < owner.rank:
+                return self.behind(owner, node, count)
         return super().element(node)
 
-    def behind(self, array: Array, node: ast.Subscript, given: int) -> Array:
+    def behind(self, array: Array, node: ast.Subscript, count: int) -> Array:
         """Return what stands behind some indices, as an array of fewer dimensions."""
         nodes = list(node.slice.elts) if isinstance(node.slice, ast.Tuple) else [node.slice]
-        indices = [*self.numbers_of(nodes), *(lang.Constant("int", 0),) * (array.rank - given)]
-        name = self.array(array.type, array.rank - given)
-        self.pending.append(lang.ArrayView(name, array.name, self.at(array, indices, node), None, given))
-        return Array(name, array.type, array.rank - given)
+        indices = [*self.numbers_of(nodes), *(lang.Constant("int", 0),) * (array.rank - count)]
+        name = self.array(array.type, array.rank - count)
+        self.pending.append(lang.ArrayView(name, array.name, self.at(array, indices, node), None, count))
+        return Array(name, array.type, array.rank - count)
 
     def at(self, array: Array, indices: list[lang.Expression], node: ast.AST) -> lang.Expression:
         """Return where an element stands."""
@@ -204,45 +204,45 @@ class LoopValues(Reader):
         values = self.numbers_of([node.left, *node.comparators])
         if len(values) > 2:
             values = [self.kept(v, node) for v in values]  # none is worked out twice
-        found: lang.Expression | None = None
+        tests: lang.Expression | None = None
         for sign, left, right in zip(node.ops, values, values[1:], strict=False):
             test = self.compared(sign, left, right, node)
-            found = test if found is None else lang.Logic("and", found, test)
-        assert found is not None, "a comparison compares"
-        return found
+            tests = test if tests is None else lang.Logic("and", tests, test)
+        assert tests is not None, "a comparison compares"
+        return tests
 
     def logic(self, node: ast.BoolOp) -> lang.Expression:
         """Return ``and`` or ``or`` of booleans; what is known to be true or false decides what is read at all."""
         deciding = isinstance(node.op, ast.Or)
-        found: list[lang.Expression] = []
+        tests: list[lang.Expression] = []
         for value_node in node.values:
             before = len(self.pending)
             value = self.expression(value_node)
             if value.type != "bool":
                 raise Foreign("'and' or 'or' of numbers", node)
-            if found and len(self.pending) > before:
+            if tests and len(self.pending) > before:
                 behind, self.pending = self.pending[before:], self.pending[:before]
                 name = self.fresh("decided")
                 self.depth += 1
                 self.give(name, "bool", node)
                 self.depth -= 1
-                test = self.joined(found, deciding)
+                test = self.joined(tests, deciding)
                 if not deciding:
                     chosen = lang.If(test, (*behind, lang.Assign(name, value)), (_given(name, False),))
                 else:
                     chosen = lang.If(test, (_given(name, True),), (*behind, lang.Assign(name, value)))
                 self.pending.append(chosen)
-                found = [lang.Variable("bool", name)]
+                tests = [lang.Variable("bool", name)]
                 continue
             if isinstance(value, lang.Constant):
                 if value.value is deciding:
-                    found.append(value)
+                    tests.append(value)
                     break
                 continue
-            found.append(value)
-        if not found:
+            tests.append(value)
+        if not tests:
             return lang.Constant("bool", not deciding)
-        return self.joined(found, deciding)
+        return self.joined(tests, deciding)
 
     def joined(self, values: list[lang.Expression], deciding: bool) -> lang.Expression:
         """Return ``and`` of booleans that False decides, or ``or`` of those that True does."""
@@ -293,8 +293,8 @@ class LoopValues(Reader):
             for before, branch in zip(needed, (first, second), strict=True)
         )
         self.pending.append(lang.If(test, then, otherwise))
-        found = tuple(lang.Variable(value.type, name) for name, value in zip(names, first, strict=True))
-        return Record(found) if isinstance(values[0], Record) else found[0]
+        variables = tuple(lang.Variable(value.type, name) for name, value in zip(names, first, strict=True))
+        return Record(variables) if isinstance(values[0], Record) else variables[0]
 
     def array(self, kind: lang.Scalar, rank: int = 1) -> str:
         """Return the name of a new array."""

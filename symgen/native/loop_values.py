@@ -76,8 +76,8 @@ def laid_out(name: str, kind: Any) -> tuple[Value, list[lang.FunctionParameter]]
     if isinstance(kind, types.FunctionType):
         return Address(name, kind.signature), [lang.FunctionParameter(name, "int", address=True)]
     if isinstance(kind, types.ArrayType) and kind.ndim <= 3 and kind.dtype in SCALARS:
-        found = Array(name, SCALARS[kind.dtype], kind.ndim)
-        return found, [lang.FunctionParameter(name, found.type, True, kind.ndim)]
+        array = Array(name, SCALARS[kind.dtype], kind.ndim)
+        return array, [lang.FunctionParameter(name, array.type, True, kind.ndim)]
     if isinstance(kind, types.RecordType):
         names = kind.fields or tuple(str(i) for i in range(len(kind)))
         parts = [laid_out(f"{name}.{field}", part) for field, part in zip(names, kind, strict=True)]

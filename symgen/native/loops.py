@@ -113,9 +113,9 @@ class LoopReader(LoopValues):
     def statement(self, node: ast.stmt) -> list[lang.Statement]:
         """Return what a statement does, behind what it needs to have been done."""
         outer, self.pending = self.pending, []
-        found = self._statement(node)
-        found, self.pending = [*self.pending, *found], outer
-        return found
+        statements = self._statement(node)
+        statements, self.pending = [*self.pending, *statements], outer
+        return statements
 
     def _statement(self, node: ast.stmt) -> list[lang.Statement]:
         if isinstance(node, ast.Return):
@@ -153,10 +153,10 @@ class LoopReader(LoopValues):
         """Return what is done for each of some values."""
         if node.orelse or any(isinstance(x, ast.Break | ast.Continue) for s in node.body for x in ast.walk(s)):
             raise Foreign("the end of a loop over a tuple", node)
-        found: list[lang.Statement] = []
+        statements: list[lang.Statement] = []
         for value in self.value(node.iter).values:
-            found += [*self.stored(node.target, value), *self.inner(node.body)]
-        return found
+            statements += [*self.stored(node.target, value), *self.inner(node.body)]
+        return statements
 
     def end(self, node: ast.Return) -> list[lang.Statement]:
         """Return the end of the function, or of one that is copied into it."""
@@ -164,17 +164,17 @@ class LoopReader(LoopValues):
             value = lang.Constant("int", 0) if node.value is None else self.expression(node.value)
             self.returned.add(value.type)
             return [lang.Return(value)]
-        copied, found = self.copies[-1], list[lang.Statement]()
+        copied, statements = self.copies[-1], list[lang.Statement]()
         if node.value is not None:
             value = self.value(node.value)
             if is_number(value):
                 self.give(copied.result, value.type, node)
-                found.append(lang.Assign(copied.result, value))
+                statements.append(lang.Assign(copied.result, value))
             else:
                 if copied.result in self.bound or self.depth:
                     raise Foreign("several results that are no numbers", node)
                 self.bound[copied.result] = value
-        return [*found, lang.Leave("block", copied.block)]
+        return [*statements, lang.Leave("block", copied.block)]
 
     def assignment(self, node: ast.Assign) -> list[lang.Statement]:
         """Return what an assignment does; all values are worked out before the first of them is stored."""
@@ -309,8 +309,8 @@ class LoopReader(LoopValues):
             reader = LoopReader(called, inside, parameters, self.shared)
             self.shared[key] = reader.function()
         function = self.called[called, parameters] = self.shared[key]  # type: ignore[index]  # what tells it from others
-        given = (v.name if isinstance(v, Array | Address) else v for v in leaves(Record(tuple(arguments))))
-        return lang.FunctionCall(function.returned, function, tuple(given))
+        leaf_arguments = (v.name if isinstance(v, Array | Address) else v for v in leaves(Record(tuple(arguments))))
+        return lang.FunctionCall(function.returned, function, tuple(leaf_arguments))
 
     def copy(self, called: Any, arguments: list[Value], node: ast.Call) -> Value:
         """Return what a part gives whose code is copied to where it is called."""

@@ -118,19 +118,19 @@ class Reader(TableValues):
 
     def statements(self, nodes: list[ast.stmt]) -> tuple[lang.Statement, ...]:
         """Return what statements do."""
-        found: list[lang.Statement] = []
+        statements: list[lang.Statement] = []
         for node in nodes:
-            found.extend(self.statement(node))
-        return tuple(found)
+            statements.extend(self.statement(node))
+        return tuple(statements)
 
     def inner(self, nodes: list[ast.stmt], loop: bool = False) -> tuple[lang.Statement, ...]:
         """Return what the statements of a branch or of a loop do."""
         self.depth += 1
         self.loops += loop
-        found = self.statements(nodes)
+        statements = self.statements(nodes)
         self.depth -= 1
         self.loops -= loop
-        return found
+        return statements
 
     def statement(self, node: ast.stmt) -> list[lang.Statement]:
         """Return what a statement does."""
@@ -167,7 +167,7 @@ class Reader(TableValues):
 
     def assignment(self, node: ast.Assign) -> list[lang.Statement]:
         """Return what an assignment does; all values are worked out before the first of them is stored."""
-        first, found = node.targets[0], list[lang.Statement]()
+        first, statements = node.targets[0], list[lang.Statement]()
         self.note_signs(node)
         if isinstance(first, ast.Tuple) and isinstance(node.value, ast.Tuple) and len(node.targets) == 1:
             targets, values = first.elts, [self.expression(x) for x in node.value.elts]
@@ -176,15 +176,15 @@ class Reader(TableValues):
             if all(isinstance(v, lang.Constant) for v in values):
                 return [self.store(t, v) for t, v in zip(targets, values, strict=True)]
             for i, value in enumerate(values):
-                values[i] = self.kept_as(f"{len(self.variables)}.{i}", value, found, node)
-            return found + [self.store(t, v) for t, v in zip(targets, values, strict=True)]
+                values[i] = self.kept_as(f"{len(self.variables)}.{i}", value, statements, node)
+            return statements + [self.store(t, v) for t, v in zip(targets, values, strict=True)]
         view = self.view(node) or self.pieces(node)
         if view:
             return view
         value = self.expression(node.value)
         if len(node.targets) > 1 and not isinstance(value, lang.Constant):
-            value = self.kept_as(f"{len(self.variables)}.0", value, found, node)
-        return found + [self.store(target, value) for target in node.targets]
+            value = self.kept_as(f"{len(self.variables)}.0", value, statements, node)
+        return statements + [self.store(target, value) for target in node.targets]
 
     def pieces(self, node: ast.Assign) -> list[lang.Statement]:
         """Return how names are given the values of a function that returns several; empty for any other assignment.
@@ -205,9 +205,9 @@ class Reader(TableValues):
         inside = _OwnNames(tree.name, own)
         if not isinstance(last, ast.Return) or not isinstance(last.value, ast.Tuple):
             raise Foreign("several values of something else than straight code", node)
-        given = [ast.Name(inside.of(x.arg), ast.Store()) for x in tree.args.args]
+        parameters = [ast.Name(inside.of(x.arg), ast.Store()) for x in tree.args.args]
         steps: list[ast.stmt] = [
-            *(ast.Assign([x], v) for x, v in zip(given, call.args, strict=True)),
+            *(ast.Assign([x], v) for x, v in zip(parameters, call.args, strict=True)),
             *map(inside.visit, body),
         ]
         if not all(isinstance(s, ast.Assign) for s in steps):

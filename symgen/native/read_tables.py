@@ -102,8 +102,8 @@ class TableValues(ValueReader):
     def note_sign(self, target: ast.expr, value: ast.expr) -> None:
         """Note whether Numba counts a local integer without sign: of two kinds it would make a third one."""
         if isinstance(target, ast.Name):
-            found = self.is_unsigned(value)
-            if self.unsigned.setdefault(target.id, found) != found:
+            unsigned = self.is_unsigned(value)
+            if self.unsigned.setdefault(target.id, unsigned) != unsigned:
                 raise Foreign(f"variable '{target.id}' has two types", target)
 
     def of_module(self, node: ast.expr) -> Any:

@@ -67,8 +67,8 @@ class ValueReader(ABC):
         method = self._expressions.get(type(node))
         if method is None:
             raise Foreign(f"an expression '{type(node).__name__}'", node)
-        found: lang.Expression = getattr(self, method)(node)
-        return found
+        value: lang.Expression = getattr(self, method)(node)
+        return value
 
     def constant(self, node: ast.Constant) -> lang.Expression:
         """Return a literal."""

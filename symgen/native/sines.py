@@ -50,34 +50,34 @@ def groups(function: lang.Function) -> dict[int, list[tuple[lang.Expression, ...
         By the index of the statement before which they are known and wanted: the angles of each call.
     """
     straight = _straight(function)
-    known: dict[str, int] = {p.name: 0 for p in function.parameters if not p.array and p.name not in function.variables}
+    since: dict[str, int] = {p.name: 0 for p in function.parameters if not p.array and p.name not in function.variables}
     wanted: dict[lang.Expression, int] = {}  # by the statement that wants it first
     for i, statement in enumerate(straight):
         for angle in filter(is_simple, _angles(_value(statement))):
             wanted.setdefault(angle, i)
         if isinstance(statement, lang.Assign) and statement.name in function.fixed:
-            known[statement.name] = i + 1
-    ready = {angle: at for angle in wanted if (at := _ready(angle, known)) is not None}
-    found: dict[int, list[tuple[lang.Expression, ...]]] = {}
+            since[statement.name] = i + 1
+    ready = {angle: at for angle in wanted if (at := _ready(angle, since)) is not None}
+    calls: dict[int, list[tuple[lang.Expression, ...]]] = {}
     waiting = sorted(ready, key=wanted.__getitem__)
     while waiting:
         here = wanted[waiting[0]]
         together = [angle for angle in waiting if ready[angle] <= here]
         waiting = [angle for angle in waiting if ready[angle] > here]
         while len(together) >= FEWEST:
-            found.setdefault(here, []).append(tuple(together[:MOST]))
+            calls.setdefault(here, []).append(tuple(together[:MOST]))
             together = together[MOST:]
-    return found
+    return calls
 
 
 def _straight(function: lang.Function) -> list[lang.Statement]:
     """Return the statements before the first that is not straight."""
-    found: list[lang.Statement] = []
+    statements: list[lang.Statement] = []
     for statement in function.body:
         if not isinstance(statement, lang.Assign | lang.Store | lang.Evaluate):
             break
-        found.append(statement)
-    return found
+        statements.append(statement)
+    return statements
 
 
 def _value(statement: lang.Statement) -> lang.Expression:
@@ -104,14 +104,14 @@ def is_simple(e: lang.Expression) -> bool:
     return isinstance(e, lang.Constant | lang.Variable)
 
 
-def _ready(e: lang.Expression, known: dict[str, int]) -> int | None:
+def _ready(e: lang.Expression, since: dict[str, int]) -> int | None:
     """Return the index of the statement before which a simple value is known, None if a variable of it changes."""
     if isinstance(e, lang.Constant):
         return 0
     if isinstance(e, lang.Variable):
-        return known.get(e.name)
+        return since.get(e.name)
     assert isinstance(e, lang.ScalarOperation), "a simple value"
-    parts = [_ready(argument, known) for argument in e.arguments]
+    parts = [_ready(argument, since) for argument in e.arguments]
     return None if None in parts else max(part for part in parts if part is not None)
 
 
@@ -228,13 +228,13 @@ class _Writer:
 
     def far(self) -> None:
         """Write what is done where an angle is far or no number."""
-        found = {"sin": "undef", "cos": "undef"}
+        vectors = {"sin": "undef", "cos": "undef"}
         for i in range(self.n):
             angle = self.put(f"extractelement {self.float} %x, i32 {i}")
-            for each in found:
+            for each in vectors:
                 value = self.put(f"call double @llvm.{each}.f64(double {angle})")
-                found[each] = self.put(f"insertelement {self.float} {found[each]}, double {value}, i32 {i}")
-        self.returned(found["sin"], found["cos"])
+                vectors[each] = self.put(f"insertelement {self.float} {vectors[each]}, double {value}, i32 {i}")
+        self.returned(vectors["sin"], vectors["cos"])
 
     def text(self) -> str:
         """Return the function."""

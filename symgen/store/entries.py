@@ -189,8 +189,8 @@ class Entries:
         if len(described) < len(stems):
             with self.building(folder):
                 described = self._whole(folder, stems)  # another process may have made them while this one waited
-                made = make(described.__contains__) if len(described) < len(stems) else {}
-                for stem, (source, metadata) in made.items():
+                modules = make(described.__contains__) if len(described) < len(stems) else {}
+                for stem, (source, metadata) in modules.items():
                     self.put(folder, stem, source, metadata)
                     described[stem] = dict(metadata)
         return described

@@ -71,17 +71,17 @@ def content(path: str) -> bytes:
         return "".join(linecache.getlines(path)).encode()
 
 
-def _reached(function: Any, seen: dict[int, Any]) -> Iterable[Any]:
+def _reached(function: Any, functions: dict[int, Any]) -> Iterable[Any]:
     """Give a function and those compiled functions that it names, by themselves or in a module, and so on."""
-    seen[id(function)] = function
+    functions[id(function)] = function
     for name in function.__code__.co_names:
         value = function.__globals__.get(name)
         values = vars(value).values() if isinstance(value, types.ModuleType) and _near(value, function) else (value,)
         for each in values:
             called = getattr(each, "py_func", None)
-            if isinstance(called, types.FunctionType) and id(called) not in seen:
-                _reached(called, seen)
-    return seen.values()
+            if isinstance(called, types.FunctionType) and id(called) not in functions:
+                _reached(called, functions)
+    return functions.values()
 
 
 def _near(module: types.ModuleType, function: Any) -> bool:

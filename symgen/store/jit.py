@@ -359,10 +359,10 @@ def syntax_tree(lines: Sequence[str], function: Any) -> ast.FunctionDef | None:
     rest = range(begin + 1, len(lines))
     end = next((i for i in rest if lines[i][:1].strip() and not lines[i].startswith(")")), len(lines))
     try:
-        found = ast.parse("\n".join(lines[first:end])).body
+        statements = ast.parse("\n".join(lines[first:end])).body
     except SyntaxError:
         return None
-    return found[0] if len(found) == 1 and isinstance(found[0], ast.FunctionDef) else None
+    return statements[0] if len(statements) == 1 and isinstance(statements[0], ast.FunctionDef) else None
 
 
 @functools.lru_cache(maxsize=64)

@@ -92,14 +92,14 @@ def _default_name(path: Path) -> str:
 
 def _closure(path: Path) -> Iterator[_Source]:
     """Give the file and all siblings it needs, those first that are needed by others."""
-    seen: set[Path] = set()
+    visited: set[Path] = set()
 
     def visit(file: Path) -> Iterator[_Source]:
-        seen.add(file)
+        visited.add(file)
         source = _read(file)
         for name in source.siblings:
             sibling = file.with_name(f"{name}.py")
-            if sibling not in seen:
+            if sibling not in visited:
                 yield from visit(sibling)
         yield source
 
@@ -112,11 +112,11 @@ def _read(path: Path) -> _Source:
     except OSError as error:
         raise InputError(str(path), "a generated module", error.strerror or "an unreadable file") from error
     digest = hashlib.sha256(content).hexdigest()
-    known = _known.get((path, digest))
-    if known is None:
+    source = _known.get((path, digest))
+    if source is None:
         code = _code(path, content, digest)
-        known = _known[path, digest] = _Source(path, content, digest, code, tuple(_siblings(code)))
-    return known
+        source = _known[path, digest] = _Source(path, content, digest, code, tuple(_siblings(code)))
+    return source
 
 
 def _code(path: Path, content: bytes, digest: str) -> CodeType:
