@@ -20,7 +20,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from symgen.compiling.pipeline import MethodChoice, for_coordinates
-from symgen.compiling.side import made_beside
+from symgen.compiling.side import module_beside
 from symgen.describe.mechanism import Mechanism, Topology
 from symgen.describe.topology import loops_of, spanning_tree, state_names, with_joint_coordinates
 from symgen.errors import InputError
@@ -187,7 +187,7 @@ def on_tree(mechanism: Mechanism) -> Mechanism:
     if not loops_of(mechanism, first):
         return with_joint_coordinates(mechanism, first)
     text = f'"""Joints that carry nothing where `{mechanism.name}` is a tree."""\n'
-    metadata, _ = made_beside(
+    metadata, _ = module_beside(
         mechanism, "tree", [sorted(mechanism.cuts)], lambda: (text, {"cut": list(_cheapest(mechanism, first))})
     )
     return with_joint_coordinates(mechanism, spanning_tree(mechanism, tuple(metadata["cut"])))

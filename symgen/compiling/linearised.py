@@ -15,7 +15,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compiling.side import beside, made_beside
+from symgen.compiling.side import beside, module_beside
 from symgen.describe.derived_parameters import derived
 from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
@@ -181,7 +181,7 @@ def _compiled(
         return emit_side(side), info.to_dict()
 
     identity = around, by, derived(mechanism.parameters) if by else "", groups, reported
-    metadata, path = made_beside(mechanism, NAME, identity, make)
+    metadata, path = module_beside(mechanism, NAME, identity, make)
     if not metadata:
         return None
     info = msgspec.convert(metadata, LinearisedInfo)

@@ -195,7 +195,7 @@ def compile_looped(mechanism: Mechanism, choice: MethodChoice, generator: str) -
         took = time.perf_counter() - emitting
         return modules
 
-    metadata = store.built(folder, needs.modules, make)
+    metadata = store.descriptions(folder, needs.modules, make)
     shape, tables, law = needs.laid_out(metadata)
     path = store.path(folder, _MODEL).parent
     kernels = {stem: load_module(path / f"{stem}.py") for stem in (*needs.elements, *needs.forms.values())}

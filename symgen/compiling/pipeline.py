@@ -262,7 +262,7 @@ def compile_model(mechanism: Mechanism, choice: MethodChoice, target: str = "cpu
         took[:] = generated.derive_seconds, generated.emit_seconds
         return generated.modules
 
-    metadata = store.built(folder, (model, stem), make)
+    metadata = store.descriptions(folder, (model, stem), make)
     path = store.path(folder, stem).parent
     loaded = load_compiled(path, stem, metadata[model], metadata[stem], took[0], took[1], model)
     return replace(loaded, origin=(compile_again, arguments))

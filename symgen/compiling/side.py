@@ -94,12 +94,12 @@ def stem_of(name: str, *identity: object) -> str:
     return f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
 
 
-def made_beside(
+def module_beside(
     mechanism: Mechanism, name: str, identity: Sequence[object], make: Callable[[], tuple[str, dict[str, Any]]]
 ) -> tuple[dict[str, Any], Path]:
     """Return what is known of a module beside a model's, by all that shapes it, and its path; made where it is new."""
     store, folder, stem = Entries(), folder_of(mechanism), stem_of(name, *identity)
-    return store.made(folder, stem, make), store.path(folder, stem)
+    return store.description(folder, stem, make), store.path(folder, stem)
 
 
 def compile_side(
@@ -147,7 +147,7 @@ def compile_side(
         return emit_side(program), {"reads": list(program.reads)}
 
     identity = purpose, rates, around, list(integrals(mechanism)), *labels, *texts
-    metadata, path = made_beside(mechanism, name, identity, make)
+    metadata, path = module_beside(mechanism, name, identity, make)
     return Side(getattr(load_module(path), name), path, tuple(labels), frozenset(metadata["reads"]))
 
 
@@ -187,7 +187,7 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledMod
             program = lower_integrands(mechanism, around)
         return emit_integrals(program, stems, abi.POWER), {}
 
-    store.made(folder, stem, make)
+    store.description(folder, stem, make)
     return replace(
         compiled,
         info=msgspec.structs.replace(info, integrals=len(formulas), sections=info.sections | {"auxiliary": auxiliary}),

@@ -167,7 +167,7 @@ class LiteralLayout(PartsLayout):
         """Return an element of p."""
         return f"p[{index}]"
 
-    def given(self, place: int) -> str:
+    def own_parameter(self, place: int) -> str:
         """Return the method's parameter in a place among them as an element of p."""
         return self.element(self.program.info.parameter_offset + place)
 

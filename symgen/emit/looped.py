@@ -116,7 +116,7 @@ class TableLayout(PartsLayout):
             self.names.add(name)
         return name
 
-    def given(self, place: int) -> str:
+    def own_parameter(self, place: int) -> str:
         """Return the method's parameter in a place among them."""
         return f"p[{self.at('method_parameters')} + {place}]"
 
@@ -199,7 +199,7 @@ class LoopAccess(Access):
         if space in (data.LOCAL, data.SUM):
             return f"a{index}"
         if space == data.PARAMETER:
-            return self.layout.given(index)
+            return self.layout.own_parameter(index)
         if space == data.STATE:
             self.status.add(STATUS[index])
             return f"w[{STATUS[index].upper()}]"

@@ -38,14 +38,14 @@ class PartsLayout:
         """Return where a section of ``w`` begins."""
         raise KeyError(name)
 
-    def given(self, place: int) -> str:
+    def own_parameter(self, place: int) -> str:
         """Return the method's parameter in a place among them."""
         raise KeyError(place)
 
     def parameter(self, name: str) -> str:
         """Return a parameter of the method, or what is taken where it has none."""
         if name in self.parameters:
-            return self.given(self.parameters.index(name))
+            return self.own_parameter(self.parameters.index(name))
         return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:

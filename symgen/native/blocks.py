@@ -125,7 +125,7 @@ class _Blocks:
         self.lines: list[Instruction] = []
         self.held: dict[str, Instruction] = {}  # instructions that are printed where they are wanted
         self.here: dict[str, str] = {}  # their names in this block
-        self.kept: dict[str, str] = {}  # those that hold for all blocks from here on
+        self.loaded: dict[str, str] = {}  # those that hold for all blocks from here on
         self.block = self.length = 0
         self.reads = {line.names[0] for line in lines if line.does == "load"}  # addresses
         uses = Counter(name for line in lines for name in line.names)
@@ -169,13 +169,13 @@ class _Blocks:
 
     def _read_all(self) -> None:
         """Print all reads, before the first store."""
-        self.kept = {name: self._name(name) for name, line in self.held.items() if line.does == "load"}
+        self.loaded = {name: self._name(name) for name, line in self.held.items() if line.does == "load"}
 
     def _end(self) -> None:
         """End the block."""
         self.block += 1
         self.length = 0
-        self.here = dict(self.kept)
+        self.here = dict(self.loaded)
         self.lines += [
             Instruction.of(f"  {_END.format(next=f'.block{self.block}')}"),
             Instruction.of(f".block{self.block}:"),

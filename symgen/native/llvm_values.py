@@ -30,7 +30,7 @@ class ValuePrinter:
 
     Attributes
     ----------
-    found : dict
+    sines : dict
         Sines and cosines that are known: by their names and angles.
     lines, slots : list of str
         What has been printed, and the memory that it needs.
@@ -50,7 +50,7 @@ class ValuePrinter:
 
     def __init__(self, function: lang.Function, symbol: Callable[[lang.Function], str]) -> None:
         self.function, self.symbol = function, symbol
-        self.found: dict[tuple[str, lang.Expression], str] = {}
+        self.sines: dict[tuple[str, lang.Expression], str] = {}
         self.lines: list[str] = []
         self.slots: list[str] = []
         self.values: dict[str, str] = {}
@@ -121,8 +121,8 @@ class ValuePrinter:
     def operation(self, kind: lang.Scalar, name: str, arguments: tuple[lang.Expression, ...]) -> str:
         """Print an operation."""
         first = arguments[0].type
-        if name in sines.NAMES and sines.is_simple(arguments[0]) and (name, arguments[0]) in self.found:
-            return self.found[name, arguments[0]]
+        if name in sines.NAMES and sines.is_simple(arguments[0]) and (name, arguments[0]) in self.sines:
+            return self.sines[name, arguments[0]]
         if name == "pow" and arguments[1].type == "int":
             exponent = arguments[1]
             assert isinstance(exponent, lang.Constant), "a power with a literal exponent"
@@ -225,9 +225,9 @@ class ValuePrinter:
             vector = self.put(f"insertelement <{n} x double> {vector}, double {value}, i32 {i}")
         pair = self.put(f"call {sines.kind(n)} {sines.name(n)}(<{n} x double> {vector}) nounwind memory(none)")
         for k, name in enumerate(sines.NAMES):
-            found = self.put(f"extractvalue {sines.kind(n)} {pair}, {k}")
+            values_of_both = self.put(f"extractvalue {sines.kind(n)} {pair}, {k}")
             for i, angle in enumerate(angles):
-                self.found[name, angle] = self.put(f"extractelement <{n} x double> {found}, i32 {i}")
+                self.sines[name, angle] = self.put(f"extractelement <{n} x double> {values_of_both}, i32 {i}")
 
     def call(self, e: lang.FunctionCall) -> str:
         """Print a call of another function."""

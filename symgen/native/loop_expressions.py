@@ -43,7 +43,7 @@ class LoopValues(Reader):
         self.pending: list[lang.Statement] = []
         self.count = 0
 
-    def kept(self, value: Value, node: ast.AST) -> Value:
+    def named(self, value: Value, node: ast.AST) -> Value:
         """Return a value that later statements do not change: a number is given a name."""
         if not isinstance(value, EXPRESSIONS) or isinstance(value, lang.Constant):
             return value
@@ -68,7 +68,7 @@ class LoopValues(Reader):
     def value(self, node: ast.expr) -> Value:
         """Return the value of an expression, which may be a record, an array or a function as well."""
         if isinstance(node, ast.Tuple):
-            return Record(tuple(self.kept(v, node) for v in self.several(node.elts)))
+            return Record(tuple(self.named(v, node) for v in self.several(node.elts)))
         if isinstance(node, ast.Name) and node.id in self.bound:
             return self.bound[node.id]
         if isinstance(node, ast.IfExp):
@@ -85,7 +85,7 @@ class LoopValues(Reader):
                 isinstance(v, EXPRESSIONS) and not isinstance(v, lang.Constant) for v in values
             ):
                 behind, self.pending = self.pending[before:], self.pending[:before]
-                values = [self.kept(v, node) for v in values]
+                values = [self.named(v, node) for v in values]
                 self.pending += behind
             values.append(value)
         return values
@@ -195,7 +195,7 @@ class LoopValues(Reader):
                 return lang.ScalarOperation("int", name, (left, right))
         sign = self.sign(node)
         if sign == "pow" and left.type == "int" and isinstance(right, lang.Constant) and right.value == 2:
-            left = self.kept(left, node)
+            left = self.named(left, node)
             return lang.ScalarOperation("int", "mul", (left, left))
         return self.arithmetic(sign, left, right, node)
 
@@ -203,7 +203,7 @@ class LoopValues(Reader):
         """Return one comparison or several in a row."""
         values = self.numbers_of([node.left, *node.comparators])
         if len(values) > 2:
-            values = [self.kept(v, node) for v in values]  # none is worked out twice
+            values = [self.named(v, node) for v in values]  # none is worked out twice
         tests: lang.Expression | None = None
         for sign, left, right in zip(node.ops, values, values[1:], strict=False):
             test = self.compared(sign, left, right, node)

@@ -106,7 +106,7 @@ class LoopReader(LoopValues):
             statements = (*statements, lang.Return(lang.Constant("int", 0)))
         if len(self.returned) != 1:
             raise Foreign("results of different types", self.tree)
-        return self.made_of(statements)
+        return self.typed_function(statements)
 
     # -- statements
 
@@ -180,7 +180,7 @@ class LoopReader(LoopValues):
         """Return what an assignment does; all values are worked out before the first of them is stored."""
         value = self.value(node.value)
         if len(node.targets) > 1:
-            value = self.kept(value, node)
+            value = self.named(value, node)
         return [s for target in node.targets for s in self.stored(target, value)]
 
     def stored(self, target: ast.expr, value: Value) -> list[lang.Statement]:
@@ -211,7 +211,7 @@ class LoopReader(LoopValues):
             if node.func.attr not in ("isfinite", "isnan"):
                 return super().call(node)
             (number,) = self.numbers_of(node.args)
-            number = self.kept(as_type("float", number), node)
+            number = self.named(as_type("float", number), node)
             if node.func.attr == "isnan":
                 return lang.ScalarOperation("bool", "ne", (number, number))
             size = lang.ScalarOperation("float", "abs", (number,))
@@ -234,7 +234,7 @@ class LoopReader(LoopValues):
         if isinstance(called, type) and issubclass(called, tuple) and hasattr(called, "_fields"):
             if len(called._fields) != len(arguments):
                 raise Foreign("a record with other fields", node)
-            return Record(tuple(self.kept(v, node) for v in arguments), called._fields)
+            return Record(tuple(self.named(v, node) for v in arguments), called._fields)
         called = getattr(called, "compiled", called)  # of functions that are interpreted as well
         plain = getattr(called, "py_func", None)
         if not isinstance(plain, python.FunctionType):
@@ -282,7 +282,7 @@ class LoopReader(LoopValues):
         if called.name == "part" and len(arguments) == 3 and isinstance(arguments[0], Array):
             source, first, size = arguments
             view = self.array(source.type)
-            size = self.kept(size, node)
+            size = self.named(size, node)
             self.pending.append(lang.ArrayView(view, source.name, first, size))
             return Array(view, source.type)
         kinds: list[types.NumberType | types.ArrayType] = []

@@ -97,9 +97,9 @@ class Reader(TableValues):
             raise Foreign("paths that return nothing, or different types", self.tree)
         if "bool" in self.returned:
             raise Foreign("a boolean result", self.tree)
-        return self.made_of(statements)
+        return self.typed_function(statements)
 
-    def made_of(self, statements: tuple[lang.Statement, ...]) -> lang.Function:
+    def typed_function(self, statements: tuple[lang.Statement, ...]) -> lang.Function:
         """Return the function that does what has been read, its results being of one type."""
         (returned,) = self.returned
         fixed = {name for name, count in self.assigned.items() if count == 1 and name in self.variables}
@@ -176,14 +176,14 @@ class Reader(TableValues):
             if all(isinstance(v, lang.Constant) for v in values):
                 return [self.store(t, v) for t, v in zip(targets, values, strict=True)]
             for i, value in enumerate(values):
-                values[i] = self.kept_as(f"{len(self.variables)}.{i}", value, statements, node)
+                values[i] = self.named_as(f"{len(self.variables)}.{i}", value, statements, node)
             return statements + [self.store(t, v) for t, v in zip(targets, values, strict=True)]
         view = self.view(node) or self.pieces(node)
         if view:
             return view
         value = self.expression(node.value)
         if len(node.targets) > 1 and not isinstance(value, lang.Constant):
-            value = self.kept_as(f"{len(self.variables)}.0", value, statements, node)
+            value = self.named_as(f"{len(self.variables)}.0", value, statements, node)
         return statements + [self.store(target, value) for target in node.targets]
 
     def pieces(self, node: ast.Assign) -> list[lang.Statement]:
@@ -215,7 +215,7 @@ class Reader(TableValues):
         steps.append(ast.Assign([target], inside.visit(last.value)))
         return list(self.statements([ast.fix_missing_locations(ast.copy_location(s, node)) for s in steps]))
 
-    def kept_as(
+    def named_as(
         self, name: str, value: lang.Expression, before: list[lang.Statement], node: ast.AST
     ) -> lang.Expression:
         """Return a value under a name, which is no name of Python's, so that what follows does not change it."""

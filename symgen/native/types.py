@@ -66,12 +66,12 @@ class RecordType:
     """A tuple, with the class of named ones."""
 
     parts: tuple[Kind, ...]
-    made: Any = tuple
+    constructor: Any = tuple
 
     @property
     def fields(self) -> tuple[str, ...]:
         """Names of its parts, empty where they have none."""
-        return getattr(self.made, "_fields", ())
+        return getattr(self.constructor, "_fields", ())
 
     def __iter__(self) -> Iterator[Kind]:
         return iter(self.parts)
@@ -80,7 +80,7 @@ class RecordType:
         return len(self.parts)
 
     def __repr__(self) -> str:
-        return f"{self.made.__name__}{self.parts!r}"
+        return f"{self.constructor.__name__}{self.parts!r}"
 
 
 Kind = NumberType | ArrayType | FunctionType | RecordType

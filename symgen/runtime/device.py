@@ -71,7 +71,7 @@ RESULTS = types.NamedTuple(
 def _numbas(kind: native.Kind) -> Any:
     """Return a number, an array or a record of these as Numba's type."""
     if isinstance(kind, native.RecordType):
-        return types.BaseTuple.from_types(tuple(map(_numbas, kind)), kind.made if kind.fields else None)
+        return types.BaseTuple.from_types(tuple(map(_numbas, kind)), kind.constructor if kind.fields else None)
     if isinstance(kind, native.ArrayType):
         return types.Array(_numbas(kind.dtype), kind.ndim, "C")
     assert isinstance(kind, native.NumberType), "kernels take no functions"

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from symgen.native import types
 from symgen.native.calls import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, numbers, slots, trampoline
-from symgen.store.jit import MachineFunction, made
+from symgen.store.jit import MachineFunction, object_file
 
 Array = NDArray[np.float64]
 #: Two of a loop's arguments, of the model, scheme, span, state and outputs.
@@ -148,4 +148,4 @@ def direct(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable
 def _layout(signature: types.Signature) -> tuple[Callable[[int], Any], list[int]]:
     """Return the trampoline of functions of a signature, and where the slots of their arguments begin."""
     sizes = (sum(1 for _ in slots(kind)) for kind in signature.arguments)
-    return trampoline(signature, made), list(itertools.accumulate(sizes, initial=FIRST))
+    return trampoline(signature, object_file), list(itertools.accumulate(sizes, initial=FIRST))

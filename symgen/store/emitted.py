@@ -64,7 +64,7 @@ class EmittedFunction(MachineFunction):
         """Return the sources and options that machine code depends on."""
         return f"{self.__name__}\n{self.origin.stamp}\n{_together()}"
 
-    def made(self, arguments: Arguments, symbol: str) -> CacheEntry:
+    def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
         from symgen.native.llvm import is_copied, module
         from symgen.native.machine import compiled

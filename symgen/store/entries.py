@@ -167,11 +167,13 @@ class Entries:
         finally:
             lock.release()
 
-    def made(self, folder: str, stem: str, make: Callable[[], tuple[str, dict[str, Any]]]) -> dict[str, Any]:
-        """Return the description of one module as `built` does; `make` returns its source and description."""
-        return self.built(folder, (stem,), lambda _: {stem: make()})[stem]
+    def description(self, folder: str, stem: str, make: Callable[[], tuple[str, dict[str, Any]]]) -> dict[str, Any]:
+        """Return the description of one module as `descriptions` does; `make` returns its source and description."""
+        return self.descriptions(folder, (stem,), lambda _: {stem: make()})[stem]
 
-    def built(self, folder: str, stems: Iterable[str], make: Callable[[Callable[[str], bool]], Modules]) -> Described:
+    def descriptions(
+        self, folder: str, stems: Iterable[str], make: Callable[[Callable[[str], bool]], Modules]
+    ) -> Described:
         """Return the descriptions of modules; where one is missing, one process makes and keeps it.
 
         Parameters

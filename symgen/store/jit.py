@@ -33,7 +33,7 @@ from symgen.store.upkeep import NATIVE
 if TYPE_CHECKING:
     from symgen.native.read import Kind
 
-__all__ = ["CacheEntry", "MachineFunction", "RuntimeFunction", "jit", "made", "syntax_tree"]
+__all__ = ["CacheEntry", "MachineFunction", "RuntimeFunction", "jit", "object_file", "syntax_tree"]
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _FORMAT = "3"
@@ -93,7 +93,7 @@ class MachineFunction(ABC):
         """Return the sources and options that machine code depends on."""
 
     @abstractmethod
-    def made(self, arguments: Arguments, symbol: str) -> CacheEntry:
+    def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source.
 
         Raises
@@ -172,7 +172,7 @@ class MachineFunction(ABC):
 
         try:
             with uncollected():
-                return self.made(arguments, symbol)
+                return self.compiled_entry(arguments, symbol)
         except Foreign as foreign:
             own = f"the function '{self.__module__}.{self.__name__}'"
             raise InputError(own, "the language of compiled functions", str(foreign)) from foreign
@@ -225,7 +225,7 @@ class RuntimeFunction(MachineFunction):
         options = f"{self.contracted} {self._once}"
         return "\n".join((f"{self.__module__}.{self.__qualname__}", options, *meanings, source_stamp(function)))
 
-    def made(self, arguments: Arguments, symbol: str) -> CacheEntry:
+    def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
         from symgen.native.llvm import loop_module
         from symgen.native.loops import read_loop
@@ -275,7 +275,7 @@ def jit(
     return decorate
 
 
-def made(text: str, symbol: str) -> bytes:
+def object_file(text: str, symbol: str) -> bytes:
     """Return the object file of a module in LLVM's language, from the cache or made anew.
 
     Parameters

@@ -34,7 +34,7 @@ def type_of(kind: types.Kind) -> Any:
         return numba.types.Array(type_of(kind.dtype), kind.ndim, "C")
     if isinstance(kind, types.FunctionType):
         return numba.types.FunctionType(signature_of(kind.signature))
-    return numba.types.BaseTuple.from_types(tuple(map(type_of, kind)), kind.made if kind.fields else None)
+    return numba.types.BaseTuple.from_types(tuple(map(type_of, kind)), kind.constructor if kind.fields else None)
 
 
 @functools.cache

@@ -15,7 +15,7 @@ from symgen.methods import METHODS
 from symgen.native import calls, types
 from symgen.runtime import abi, sparse
 from symgen.runtime.simulation import Simulation
-from symgen.store.jit import jit, made
+from symgen.store.jit import jit, object_file
 
 DEFECTS = Path(__file__).resolve().parents[1] / "data" / "defects"
 LOOSE = {"max_violation": 1.0, "max_energy_error": 1e9}
@@ -134,7 +134,7 @@ def mixed(x, n, a, pair, m):
 
 def test_all_kinds_of_arguments_arrive():
     """A function that uses all parts of its arguments, called with a block that is laid out by hand."""
-    call = calls.trampoline(mixed.signature, made)
+    call = calls.trampoline(mixed.signature, object_file)
     a, b, c, m = np.arange(1.0, 4.0), np.array([5, 6]), np.arange(7), np.arange(12.0).reshape(3, 4)
     flat = [0, 11]
     for array in (a, b, c, m):
