@@ -34,7 +34,7 @@ from symgen.native.loop_values import (
     renamed,
 )
 from symgen.native.pieces import Piece, inserted
-from symgen.native.read import body_of, returns, tree_of
+from symgen.native.read import Renamed, body_of, returns, tree_of
 from symgen.native.read_values import Foreign, as_type, truth_of
 
 
@@ -319,7 +319,7 @@ class LoopReader(LoopValues):
             raise Foreign(f"the function '{called.__name__}'", node)
         own = frozenset(called.py_func.__code__.co_varnames)
         names = {name: self.fresh(name) for name in own}
-        body = [_Renamed(names).visit(statement) for statement in body_of(tree)]
+        body = [Renamed(names).visit(statement) for statement in body_of(tree)]
         assigned = {x.id for s in body for x in ast.walk(s) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
         for x, value in zip(tree.args.args, arguments, strict=True):
             name = names[x.arg]
@@ -346,17 +346,6 @@ class LoopReader(LoopValues):
         if copied.result in self.variables:
             return lang.Variable(self.variables[copied.result], copied.result)
         return NOTHING
-
-
-class _Renamed(ast.NodeTransformer):
-    """Gives local variables other names."""
-
-    def __init__(self, names: dict[str, str]) -> None:
-        self.names = names
-
-    def visit_Name(self, node: ast.Name) -> ast.Name:
-        """Return a name under its other name."""
-        return ast.copy_location(ast.Name(self.names.get(node.id, node.id), node.ctx), node)
 
 
 def _ends_once(body: list[ast.stmt]) -> bool:

@@ -202,10 +202,14 @@ class Reader(TableValues):
         own = {x.arg for x in tree.args.args} | {
             n.id for s in body for n in ast.walk(s) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
         }
-        inside = _OwnNames(tree.name, own)
+        names = {name: f"{tree.name}.{name}" for name in own}  # none of Python's
+        inside = Renamed(names)
+        others = {n.id for s in tree.body for n in ast.walk(s) if isinstance(n, ast.Name)} - own
+        if others:
+            raise Foreign(f"the name '{min(others)}'", node)
         if not isinstance(last, ast.Return) or not isinstance(last.value, ast.Tuple):
             raise Foreign("several values of something else than straight code", node)
-        parameters = [ast.Name(inside.of(x.arg), ast.Store()) for x in tree.args.args]
+        parameters = [ast.Name(names[x.arg], ast.Store()) for x in tree.args.args]
         steps: list[ast.stmt] = [
             *(ast.Assign([x], v) for x, v in zip(parameters, call.args, strict=True)),
             *map(inside.visit, body),
@@ -271,21 +275,15 @@ class Reader(TableValues):
         return lang.For(node.target.id, start, stop, int(step.value), self.inner(node.body, loop=True))
 
 
-class _OwnNames(ast.NodeTransformer):
-    """Gives the names of a function that others have its statements of to these."""
+class Renamed(ast.NodeTransformer):
+    """Gives variables other names."""
 
-    def __init__(self, function: str, own: set[str]) -> None:
-        self.function, self.own = function, own
-
-    def of(self, name: str) -> str:
-        """Return a name of the function as it is called in the other one."""
-        return f"{self.function}.{name}"
+    def __init__(self, names: dict[str, str]) -> None:
+        self.names = names
 
     def visit_Name(self, node: ast.Name) -> ast.Name:
-        """Return a name of its own; it reads no other."""
-        if node.id not in self.own:
-            raise Foreign(f"the name '{node.id}'", node)
-        return ast.copy_location(ast.Name(self.of(node.id), node.ctx), node)
+        """Return a name under its other name."""
+        return ast.copy_location(ast.Name(self.names.get(node.id, node.id), node.ctx), node)
 
 
 def is_inlined(function: Any) -> bool:

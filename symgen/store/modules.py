@@ -71,7 +71,8 @@ def load_module(path: str | Path, qualified_name: str | None = None) -> ModuleTy
         If the file, or a sibling that it imports, is missing or is not Python.
     """
     path = Path(path).absolute()
-    package, _, stem = (qualified_name or _default_name(path)).rpartition(".")
+    default = f"{PACKAGE}.{path.parent.name.replace('.', '_')}.{path.stem}"
+    package, _, stem = (qualified_name or default).rpartition(".")
     if not package:
         raise InputError("qualified_name", "a dotted name such as 'package.module'", f"'{qualified_name}'")
     with _lock:
@@ -84,10 +85,6 @@ def load_module(path: str | Path, qualified_name: str | None = None) -> ModuleTy
         for name, source in sources.items():  # siblings come before those who import them
             module = _execute(f"{package}.{names[name]}", source, stamps[name])
     return module
-
-
-def _default_name(path: Path) -> str:
-    return f"{PACKAGE}.{path.parent.name.replace('.', '_')}.{path.stem}"
 
 
 def _closure(path: Path) -> Iterator[_Source]:
