@@ -15,9 +15,12 @@ from pathlib import Path
 import numpy as np
 from support import processes
 
+from benchmarks.mechanisms.toml import text
 from benchmarks.plain.motion import integrate
 from benchmarks.plain.start import start
 from benchmarks.plain.system import System, read
+from symgen.api import Model, load
+from symgen.store.modules import interpreted
 
 DEFECTS = Path(__file__).resolve().parents[1] / "data" / "defects"
 _COMMAND = "import sys; from symgen.cli import main; sys.exit(main(sys.argv[1:]))"
@@ -94,3 +97,30 @@ def off(result, system: System, q: np.ndarray) -> float:
             four = slice(body.first_q + 3, body.first_q + 7)
             gap[:, four] = np.minimum(gap[:, four], np.abs(theirs[:, four] + q[:, four]).max(axis=1, keepdims=True))
     return float(gap.max())
+
+
+def rates(compiled, start) -> np.ndarray:
+    """Return the rates of a state by emitted code as plain Python."""
+    y, p, w = start.y.copy(), start.p.copy(), start.w.copy()
+    law, ydot, counters = compiled.law_module, np.zeros(compiled.info.ny), np.zeros(64, dtype=np.int64)
+    if interpreted(law.rhs)(0.0, y, p, w, counters, ydot) != 0:
+        interpreted(law.confirm)(0.0, y, p, w, counters, ydot)
+    return ydot
+
+
+def of_bodies(run) -> np.ndarray:
+    """Return coordinates, velocities and accelerations of bodies at the start of a run of joints."""
+    info, start, first_state = run.bodies.info, run.start, run.body_start.y
+    out = np.zeros(info.nq + 2 * info.nv)
+    ydot = rates(run.compiled, start)
+    interpreted(run.compiled.model.bodies)(0.0, start.y.copy(), start.p.copy(), start.w.copy(), ydot, out)
+    for first, _ in info.spins:  # both signs mean the same orientation
+        out[first : first + 4] *= np.sign(out[first : first + 4] @ first_state[first : first + 4])
+    return out
+
+
+def model_of(tables: Mapping, folder: Path) -> Model:
+    """Return the model of a description that is written to a file."""
+    path = folder / "described.toml"
+    path.write_text(text(tables), encoding="utf-8")
+    return load(path)

@@ -5,18 +5,14 @@ The judge is the mechanism in coordinates of bodies, whose rows, multipliers and
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-from benchmarks.mechanisms.toml import text
-from symgen.api import load
 from symgen.compiling.choices import on_tree
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
 from symgen.settings import Settings
-from symgen.store.modules import interpreted
+from verification.running import model_of, of_bodies, rates
 
 #: Starts are closed to 1e-13 or so; accelerations and powers of such mechanisms follow them to some digits less.
 CLOSED, MOVED = 1e-10, 1e-8
@@ -135,35 +131,17 @@ def spatial(flip: bool) -> dict:
     }
 
 
-def rates(compiled, start) -> np.ndarray:
-    y, p, w = start.y.copy(), start.p.copy(), start.w.copy()
-    law, ydot, counters = compiled.law_module, np.zeros(compiled.info.ny), np.zeros(64, dtype=np.int64)
-    if interpreted(law.rhs)(0.0, y, p, w, counters, ydot) != 0:
-        interpreted(law.confirm)(0.0, y, p, w, counters, ydot)
-    return ydot
-
-
-def written(raw: dict, folder: Path):
-    path = folder / "driven.toml"
-    path.write_text(text(raw), encoding="utf-8")
-    return load(path)
-
-
 @pytest.mark.parametrize("flip", [False, True])
 @pytest.mark.parametrize("make", [planar, pytest.param(spatial, marks=pytest.mark.slow)])
 def test_driven_trees_move_as_bodies_with_rows_do(make, flip, tmp_path):
-    model = written(make(flip), tmp_path)
+    model = model_of(make(flip), tmp_path)
     drivers = [joint.name for joint in model.mechanism.joints if joint.kind == "driver"]
     run = prepare(model.mechanism, Settings(method="lagrange", coordinates="joint"), Purpose.STATE).tree
     if not flip:
         assert [x.driver for x in run.topology.prescribed] == drivers
     assert len(run.topology.prescribed) >= 3
-    info, own, start = run.bodies.info, run.compiled.info, run.start
-    in_tree, in_bodies = rates(run.compiled, start), rates(run.bodies, run.body_start)
-    found = np.zeros(info.nq + 2 * info.nv)
-    interpreted(run.compiled.model.bodies)(0.0, start.y.copy(), start.p.copy(), start.w.copy(), in_tree, found)
-    for first, _ in info.spins:  # both signs mean the same orientation
-        found[first : first + 4] *= np.sign(found[first : first + 4] @ run.body_start.y[first : first + 4])
+    info, own = run.bodies.info, run.compiled.info
+    in_tree, in_bodies, found = rates(run.compiled, run.start), rates(run.bodies, run.body_start), of_bodies(run)
     n = info.nq + info.nv
     np.testing.assert_allclose(found[:n], run.body_start.y[:n], rtol=CLOSED, atol=CLOSED)
     expected = in_bodies[info.nq : n]
@@ -180,7 +158,7 @@ def test_driven_trees_move_as_bodies_with_rows_do(make, flip, tmp_path):
     ],
 )
 def test_work_of_motors_balances_the_energy(method, tmp_path):
-    model = written(spatial(False), tmp_path)
+    model = model_of(spatial(False), tmp_path)
     result = model.simulate(method=method, coordinates="joint", until=0.2, step=1e-3, max_energy_error=1e-6)
     assert result.status == "ok"
     other = model.simulate(method="direct-correction", coordinates="absolute", until=0.2, step=1e-3)
@@ -196,7 +174,7 @@ def test_a_state_keeps_one_coordinate(tmp_path):
     raw["joints"] = {name: joint for name, joint in raw["joints"].items() if name in keep}
     raw["joints"]["shoulder_motor"] = driver("shoulder", "0.3 + 0.8*t")
     del raw["forces"]["spring"]
-    carried = on_tree(written(raw, tmp_path).mechanism)
+    carried = on_tree(model_of(raw, tmp_path).mechanism)
     assert carried.topology is not None
     assert [x.driver for x in carried.topology.prescribed] == ["elbow_motor"]
     assert carried.topology.cut == ("shoulder_motor",)
@@ -205,7 +183,7 @@ def test_a_state_keeps_one_coordinate(tmp_path):
 def test_a_second_driver_of_a_coordinate_keeps_its_row(tmp_path):
     raw = planar(False)
     raw["joints"]["again"] = driver("elbow", "0.5 + 0.7*t + 0.3*t**2")
-    model = written(raw, tmp_path)
+    model = model_of(raw, tmp_path)
     carried = on_tree(model.mechanism)
     assert carried.topology is not None
     assert "again" in carried.topology.cut

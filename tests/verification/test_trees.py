@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from benchmarks.mechanisms.draw import draw
-from benchmarks.mechanisms.toml import text
 from benchmarks.plain.start import choose_turns
 from benchmarks.plain.system import read
 from symgen.api import load
@@ -19,9 +18,9 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.topology import spanning_tree
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
-from symgen.running.tree import TreeRun
 from symgen.settings import Settings
 from symgen.store.modules import interpreted
+from verification.running import model_of, of_bodies
 
 SEED = 12
 #: Which of the seed's mechanisms are compared, planar and spatial; 10 is driven against what a joint holds.
@@ -35,29 +34,7 @@ ACCELERATIONS, REDUNDANT = 1e-9, 1e-5
 
 def drawn(index: int, spatial: bool, folder: Path) -> tuple[dict, Mechanism]:
     raw = draw(SEED, index, spatial).raw
-    path = folder / "drawn.toml"
-    path.write_text(text(raw), encoding="utf-8")
-    return raw, load(path).mechanism
-
-
-def rates(compiled, start) -> np.ndarray:
-    y, p, w = start.y.copy(), start.p.copy(), start.w.copy()
-    law, ydot, counters = compiled.law_module, np.zeros(compiled.info.ny), np.zeros(64, dtype=np.int64)
-    if interpreted(law.rhs)(0.0, y, p, w, counters, ydot) != 0:
-        interpreted(law.confirm)(0.0, y, p, w, counters, ydot)
-    return ydot
-
-
-def of_bodies(run: TreeRun) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Coordinates, velocities and accelerations of bodies at the start of a run."""
-    info, start = run.bodies.info, run.start
-    out = np.zeros(info.nq + 2 * info.nv)
-    ydot = rates(run.compiled, start)
-    interpreted(run.compiled.model.bodies)(0.0, start.y.copy(), start.p.copy(), start.w.copy(), ydot, out)
-    q, v, a = out[: info.nq], out[info.nq : info.nq + info.nv], out[info.nq + info.nv :]
-    for first, _ in info.spins:  # both signs mean the same orientation
-        q[first : first + 4] *= np.sign(q[first : first + 4] @ run.body_start.y[first : first + 4])
-    return q, v, a
+    return raw, model_of(raw, folder).mechanism
 
 
 def compare(index: int, spatial: bool, folder: Path) -> None:
@@ -66,8 +43,8 @@ def compare(index: int, spatial: bool, folder: Path) -> None:
 
 def compare_with_plain(raw: dict, mechanism: Mechanism) -> None:
     run = prepare(mechanism, Settings(method="lagrange", coordinates="joint"), Purpose.STATE).tree
-    q, v, a = of_bodies(run)
     info, start = run.bodies.info, run.body_start.y
+    q, v, a = np.split(of_bodies(run), [info.nq, info.nq + info.nv])
     np.testing.assert_allclose(q, start[: info.nq], rtol=0.0, atol=EXACT * 10.0)
     np.testing.assert_allclose(v, start[info.nq : info.nq + info.nv], rtol=EXACT, atol=EXACT * 10.0)
     system = read(raw)
@@ -148,9 +125,7 @@ def test_slides_and_welds_in_the_plane(forward, tmp_path):
             }
         },
     }
-    path = tmp_path / "slide.toml"
-    path.write_text(text(raw), encoding="utf-8")
-    mechanism = load(path).mechanism
+    mechanism = model_of(raw, tmp_path).mechanism
     assert not spanning_tree(mechanism).cut
     assert {link.forward for link in spanning_tree(mechanism).links} == {forward}
     compare_with_plain(raw, mechanism)
@@ -185,9 +160,7 @@ def test_welds_in_space(forward, tmp_path):
         },
     }
     raw["bodies"]["a"]["angular_velocity"] = [0.0, 0.0, 1.3]
-    path = tmp_path / "weld.toml"
-    path.write_text(text(raw), encoding="utf-8")
-    mechanism = load(path).mechanism
+    mechanism = model_of(raw, tmp_path).mechanism
     assert not spanning_tree(mechanism).cut
     compare_with_plain(raw, mechanism)
 
