@@ -31,64 +31,35 @@ for words in json.loads(sys.argv[1]):
     ended.append((code, said.getvalue(), taken))
 print(json.dumps(ended))
 """
+SWEEP, LARGE = "sweep pendulum --until 0.02 --vary bob.vy=", "run n-four-bar:1000 --until 0.01 --output-step 1e-9"
+FREE = r"expected no more than 80% of the free memory, \S+ GB, got "
 ASKED = {
     "an axis": (
-        ["sweep", "pendulum", "--vary", "bob.vy=lin(0,1,1000000000)", "--until", "0.02"],
+        SWEEP + "lin(0,1,1000000000)",
         r"--vary bob.vy: expected lin\(first, last, count\) with no more than 80% of the free memory, \S+ GB, got "
         r"1e\+09 values, about 24 GB",
     ),
-    "a random axis": (
-        ["sweep", "pendulum", "--vary", "bob.vy=uniform(0,1,1e9,7)", "--until", "0.02"],
-        "1e\\+09 values",
-    ),
-    "a logarithmic axis": (["sweep", "pendulum", "--vary", "bob.vy=log(1,2,1e9)", "--until", "0.02"], "1e\\+09 values"),
+    "a random axis": (SWEEP + "uniform(0,1,1e9,7)", "1e\\+09 values"),
+    "a logarithmic axis": (SWEEP + "log(1,2,1e9)", "1e\\+09 values"),
     "a product of axes": (
-        [
-            *(
-                "sweep",
-                "pendulum",
-                "--vary",
-                "bob.vy=lin(0,1,30000)",
-                "--vary",
-                "bob.vx=lin(0,1,30000)",
-                "--until",
-                "0.02",
-            )
-        ],
-        r"sweep: expected no more than 80% of the free memory, \S+ GB, got 9e\+08 runs, about 360 GB",
+        SWEEP + "lin(0,1,30000) --vary bob.vx=lin(0,1,30000)",
+        rf"sweep: {FREE}9e\+08 runs, about 360 GB",
     ),
     "outputs of many runs": (
-        [
-            "sweep",
-            "pendulum",
-            "--vary",
-            "bob.vy=lin(0,1,20000)",
-            "--until",
-            "1",
-            "--output-step",
-            "1e-5",
-            "--quantity",
-            "q",
-        ],
+        SWEEP.replace("0.02", "1") + "lin(0,1,20000) --output-step 1e-5 --quantity q",
         r"got 20000 runs, each with 2 quantities at 100001 times, about 32 GB",
     ),
-    "outputs": (
-        ["run", "n-four-bar:1000", "--until", "0.01", "--output-step", "1e-9"],
-        r"output_step: expected no more than 80% of the free memory, \S+ GB, got 1e\+07 outputs, about \S+ GB",
-    ),
-    "outputs as JSON": (
-        ["run", "n-four-bar:1000", "--until", "0.01", "--output-step", "1e-9", "--json"],
-        "1e\\+07 outputs",
-    ),
+    "outputs": (LARGE, rf"output_step: {FREE}1e\+07 outputs, about \S+ GB"),
+    "outputs as JSON": (LARGE + " --json", "1e\\+07 outputs"),
     "every step of a large mechanism": (
-        ["run", "n-four-bar:1000", "--step", "1e-6", "--until", "1", "--output-step", "1e-6"],
+        "run n-four-bar:1000 --step 1e-6 --until 1 --output-step 1e-6",
         "1e\\+06 outputs",
     ),
     "a file": (
-        ["run", "andrews", "--output-step", "1e-8", "--until", "0.03", "--save", "a.nc"],
-        r"--save: expected no more than 80% of the free memory, \S+ GB, got 3e\+06 outputs of andrews",
+        "run andrews --output-step 1e-8 --until 0.03 --save a.nc",
+        rf"--save: {FREE}3e\+06 outputs of andrews",
     ),
-    "a comparison": (["compare", "four-bar", "--until", "1", "--output-step", "1e-7"], "output_step: expected no more"),
+    "a comparison": ("compare four-bar --until 1 --output-step 1e-7", "output_step: expected no more"),
 }
 
 
@@ -96,7 +67,7 @@ ASKED = {
 def ended(tmp_path_factory):
     """Exit code, message and memory of each command, and what they left behind."""
     folder = tmp_path_factory.mktemp("asked")
-    words = json.dumps([words for words, _ in ASKED.values()])
+    words = json.dumps([words.split() for words, _ in ASKED.values()])
     found = subprocess.run(
         [sys.executable, "-c", SCRIPT, words], capture_output=True, text=True, cwd=folder, timeout=600, check=False
     )

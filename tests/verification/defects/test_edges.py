@@ -65,18 +65,7 @@ def test_a_title_reaches_terminals_and_pages_as_text(tmp_path: Path) -> None:
         said = command(words, tmp_path)
         assert said.code == 0, said.err
         assert not set(said.out + said.err) & {"\x1b", "\x07", "\u202e"}
-    words = [
-        "compare",
-        file,
-        "--methods",
-        "lagrange",
-        "--integrators",
-        "rk4",
-        "--until",
-        "0.01",
-        "-o",
-        tmp_path / "r.md",
-    ]
+    words = ["compare", file, *"--methods lagrange --integrators rk4 --until 0.01 -o".split(), tmp_path / "r.md"]
     said = command(words, tmp_path)
     assert said.code == 0, said.err
     page = (tmp_path / "r.md").read_text(encoding="utf-8")

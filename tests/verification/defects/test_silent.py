@@ -93,17 +93,6 @@ def test_a_homokinetic_joint_that_leans_through_180_degrees_is_no_quiet_success(
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize(("name", "speed"), [("tables_case", 0.05), ("tables_slope", 0.05)])
-def test_tables_keep_to_their_own_names(name: str, speed: float, shape: str) -> None:
-    times = [0.0, 0.1]
-    system, q, v = reference(raw(name), times)
-    result = run(name, shape=shape, until=0.1, times=times, step=1e-3)
-    assert off(result, system, q) < 1e-9
-    assert result.v["b.vx"][-1] == pytest.approx(v[-1, system.names_v.index("b.vx")], abs=1e-9)
-    assert 0.0 < v[-1, system.names_v.index("b.vx")] <= 2 * speed + 1e-12
-
-
-@pytest.mark.parametrize("shape", SHAPES)
 def test_any_names_that_a_file_may_have_keep_apart(shape: str, tmp_path: Path) -> None:
     """Parameters, tables, bodies, joints and forces under names that emitted code uses for things of its own."""
     words = (
@@ -202,12 +191,3 @@ def test_a_start_that_is_closed_a_little_is_a_note_and_no_warning(tmp_path: Path
     noted = " ".join(result.notes)
     assert re.search(r"\b(coupler|rocker|crank)\.(x|y|theta)\b", noted), result.notes
     assert re.search(r"from\s+-?[0-9.]+.*to\s+-?[0-9.]+", noted), result.notes
-
-
-@pytest.mark.parametrize("name", ["wiper", "scissor"])
-def test_mechanisms_of_users_move_as_they_should(name: str) -> None:
-    times = [0.0, 0.1, 0.2]
-    system, q, _ = reference(raw(name), times, 1e-9)
-    result = run(name, until=0.2, times=times, integrator="dop853", rtol=1e-9, atol=1e-11)
-    assert result.ok, result.reason
-    assert off(result, system, q) < 1e-5
