@@ -150,14 +150,14 @@ def _listed(names: Sequence[str]) -> str:
 
 
 #: Where a name that a module does not define itself comes from: the stem of a sibling, and its name there.
-Known = Mapping[str, tuple[str, str]]
+Origins = Mapping[str, tuple[str, str]]
 
 
 def module(
     title: str,
     header: Sequence[str],
     codes: Sequence[ModulePiece],
-    known: Known,
+    origins: Origins,
     offsets: Mapping[str, tuple[int, str]],
     numba: str = "njit",
     exports: Collection[str] = (),
@@ -172,7 +172,7 @@ def module(
         Further lines.
     codes : sequence of ModulePiece
         What it defines, in this order.
-    known : mapping of str to (str, str)
+    origins : mapping of str to (str, str)
         Names that other modules of the folder define; those that are called are imported.
     offsets : mapping of str to (int, str)
         Number and meaning of constants that pieces name: where sections of ``w`` begin, as a rule.
@@ -185,7 +185,7 @@ def module(
     called = frozenset[str]().union(exports, *(code.calls for code in codes)) - own
     imports: dict[str, list[str]] = {}
     for name in sorted(called):
-        stem, there = known[name]
+        stem, there = origins[name]
         imports.setdefault(stem, []).append(name if there == name else f"{there} as {name}")
     sections = frozenset[str]().union(*(code.sections for code in codes))
     libraries = frozenset[str]().union(*(code.libraries for code in codes))

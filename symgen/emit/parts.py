@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Sequence
 from types import SimpleNamespace
 from typing import Any
 
-from symgen.emit.module import PLATFORMS, Known, ModulePiece, function, literal, module, render
+from symgen.emit.module import PLATFORMS, ModulePiece, Origins, function, literal, module, render
 from symgen.emit.whole import Places
 from symgen.ir.numerics import NUMBERS
 from symgen.ir.program import COUNTERS, STATUS, Correction, LawCode
@@ -138,8 +138,8 @@ def law_modules(
     printed: Sequence[tuple[str, ModulePiece]],
     flagged: bool,
     what: str,
-    made: str,
-    known: Known,
+    versions: str,
+    shared_names: Origins,
     title: str,
     header: Sequence[str],
     stem: str,
@@ -162,9 +162,9 @@ def law_modules(
         Its functions that are formulas, each with its role, one of `ROLES`.
     flagged : bool
         Whether one of these says that a pivot is suspicious.
-    what, made : str
+    what, versions : str
         Whose parts they are, and what they were made of, for docstrings.
-    known : mapping of str to (str, str)
+    shared_names : mapping of str to (str, str)
         As for `module`: names of the modules that all laws share.
     title, header, stem : str, sequence of str, str
         Of the law's own module.
@@ -178,11 +178,11 @@ def law_modules(
     pieces = [*printed, *_loops(law, layout, {code.name for _, code in printed}, flagged)]
     if places is not None:
         groups = [[code for each, code in pieces if each == role] for role in ROLES]
-        return {stem + suffix: places.module(title, header, groups, known, **keys)}
+        return {stem + suffix: places.module(title, header, groups, shared_names, **keys)}
     metric = law.correction.metric if law.correction.any else "measured"
     kinds = {"acceleration": law.form, "metric": metric, "correction": metric, "form": law.info.level}
     modules: dict[str, str] = {}
-    origins = dict(known)
+    origins = dict(shared_names)
     exported: set[str] = set()
     for role, (label, about) in ROLES.items():
         codes = [code for each, code in pieces if each == role]
@@ -190,7 +190,7 @@ def law_modules(
             continue
         digest = hashlib.sha256(module("", [], codes, origins, **keys).encode()).hexdigest()[:16]
         name = "_".join((label, *([kinds[role]] if role in kinds else ()), digest)) + suffix
-        modules[name] = module(f"{about}, {what}.", [made], codes, origins, **keys)
+        modules[name] = module(f"{about}, {what}.", [versions], codes, origins, **keys)
         if role == "acceleration":  # what closes dependent coordinates first is the law's `rhs`
             origins["accelerate"] = (name, "rhs")
         origins |= {each: (name, each) for code in codes for each in code.names}

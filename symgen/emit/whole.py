@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from symgen.emit.module import Known, ModulePiece, module
+from symgen.emit.module import ModulePiece, Origins, module
 from symgen.ir.program import COUNTERS, STATUS
 
 #: Meaning of the sections of ``w``, for headers.
@@ -115,7 +115,7 @@ class Places:
         title: str,
         header: Sequence[str],
         groups: Sequence[Sequence[ModulePiece]],
-        known: Known,
+        origins: Origins,
         offsets: Mapping[str, tuple[int, str]] | None = None,
         **keys: Any,
     ) -> str:
@@ -123,15 +123,15 @@ class Places:
 
         Parameters
         ----------
-        title, header, known, offsets, **keys
+        title, header, origins, offsets, **keys
             As for `symgen.emit.module.module`; places that functions have by number need no offset.
         groups : sequence of sequence of Code
             The functions, those of each part of the law together, in the order of their text.
         """
-        codes = [self.named(code) for code in with_own_names(groups, known)]
+        codes = [self.named(code) for code in with_own_names(groups, origins)]
         constants = {**(offsets or {}), **self.constants}
-        known = {**known, **{model_name(name): origin for name, origin in known.items()}}
-        return absolute(module(title, header, codes, known, constants, **keys))
+        origins = {**origins, **{model_name(name): origin for name, origin in origins.items()}}
+        return absolute(module(title, header, codes, origins, constants, **keys))
 
 
 def model_name(name: str) -> str:
@@ -139,7 +139,7 @@ def model_name(name: str) -> str:
     return f"{name}_of_model"
 
 
-def with_own_names(groups: Sequence[Sequence[ModulePiece]], known: Known) -> list[ModulePiece]:
+def with_own_names(groups: Sequence[Sequence[ModulePiece]], origins: Origins) -> list[ModulePiece]:
     """Return functions of several modules as those of one: where two have the same name, the earlier has another one.
 
     A law has its own `geometry` and `spread` where its metric is not the model's, and its own `rhs` around that of
@@ -149,14 +149,14 @@ def with_own_names(groups: Sequence[Sequence[ModulePiece]], known: Known) -> lis
     ----------
     groups : sequence of sequence of Code
         Functions of each module, a module before those that import it.
-    known : mapping of str to (str, str)
+    origins : mapping of str to (str, str)
         Names that the model defines.
     """
     last = {name: i for i, group in enumerate(groups) for code in group for name in code.names}
     before, codes = set[str](), list[ModulePiece]()
     for i, group in enumerate(groups):
         own = {name for code in group for name in code.names}
-        replaced = {name: model_name(name) for name in known.keys() & last.keys() - own - before}
+        replaced = {name: model_name(name) for name in origins.keys() & last.keys() - own - before}
         names = replaced | {name: "accelerate" for name in own if last[name] > i}
         codes += [_renamed(code, names) for code in group]
         before |= own
