@@ -11,7 +11,7 @@ from contextlib import suppress
 from secrets import token_hex
 from typing import TYPE_CHECKING, Any
 
-from symgen.ensemble.chunks import Chunk
+from symgen.ensemble.chunks import Chunk, Rows
 from symgen.ensemble.kernel import kernel_of, new_control
 from symgen.ensemble.recipe import Recipe, code_identity
 from symgen.errors import InputError, SimulationError
@@ -19,7 +19,6 @@ from symgen.errors import InputError, SimulationError
 if TYPE_CHECKING:
     from distributed import Client
 
-    from symgen.ensemble.row_starts import Rows
     from symgen.ensemble.sweep_plan import Ensemble
     from symgen.ensemble.table import RowTable
 
@@ -79,7 +78,7 @@ def run_there(
     Parameters
     ----------
     ensemble, table : Ensemble, Table
-        As for `symgen.ensemble.local.run_here`.
+        As for `symgen.ensemble.sweep.run_here`.
     client : Client
         Of the cluster; stays open.
     progress : callable, optional

@@ -22,8 +22,7 @@ from symgen.runtime.new_state import metric_of, share_of, sizes_of
 from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
-    from symgen.ensemble.chunks import Results
-    from symgen.ensemble.row_starts import Rows
+    from symgen.ensemble.chunks import Results, Rows
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.device import Need
     from symgen.runtime.integrator import Setup

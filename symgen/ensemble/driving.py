@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.ensemble.row_starts import Rows
+    from symgen.ensemble.chunks import Rows
     from symgen.ensemble.sweep_plan import Ensemble
     from symgen.running.inputs import Inputs
     from symgen.runtime.stops import Foreseen

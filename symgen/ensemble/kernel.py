@@ -11,11 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.events import compile_events
-from symgen.ensemble.chunks import Chunk, Results
+from symgen.ensemble.chunks import Chunk, Results, Rows
 from symgen.ensemble.device_runs import DeviceRuns, need_of
-from symgen.ensemble.loop_runs import LoopRuns
+from symgen.ensemble.loop_runs import LoopRuns, TreeRuns
 from symgen.ensemble.recipe import Code, Recipe
-from symgen.ensemble.tree_rows import TreeRuns, picks_on_tree
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.running.tree import carried_of
@@ -31,7 +30,6 @@ from symgen.runtime.start_records import Instant, StartConditions
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.measures import Measures
-    from symgen.ensemble.row_starts import Rows
     from symgen.runtime.compiled import ModelInfo
     from symgen.runtime.events import Watched
 
@@ -91,8 +89,6 @@ class RowKernel:
 
     def warm(self) -> None:
         """Compile or load all that runs need, by no runs at all."""
-        from symgen.ensemble.row_starts import Rows
-
         with self._lock:
             if self._warm:
                 return
@@ -196,8 +192,13 @@ class RowKernel:
         watched = None if watch is None else self._watched(recipe.tree or watch.mechanism, own)
         if on_tree is None:
             return LoopRuns(recipe, compiled, integrator, setup, recipe.picks, watched, other)
-        info, picks = compiled.info, picks_on_tree(recipe.quantities, compiled.info, own.info)
-        loop = LoopRuns(recipe, own, integrator, setup, picks, watched, width=info.nq + 2 * info.nv)
+        info, picks = compiled.info, list[tuple[int, int]]()
+        for q in recipe.quantities:  # what bodies do stands behind multipliers, where loops look for joint coordinates
+            of_bodies = q.source == e.STATE and q.column < info.work
+            work = own.info.work - info.work if q.source == e.STATE else 0
+            picks.append((e.JOINT, q.column - own.info.m) if of_bodies else (q.source, q.column + work))
+        flat = np.array(picks, dtype=np.int64).ravel()
+        loop = LoopRuns(recipe, own, integrator, setup, flat, watched, width=info.nq + 2 * info.nv)
         return TreeRuns(on_tree[1], self._parameters(own), loop)
 
     def _watched(self, mechanism: Mechanism, compiled: CompiledModel) -> Watched | None:

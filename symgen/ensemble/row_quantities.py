@@ -1,8 +1,12 @@
-"""Which quantities an ensemble keeps, by the names that results and data frames give them."""
+"""Which quantities an ensemble keeps, and what its parts are called in data sets and tables.
+
+Names are those of results and data frames. What a mechanism names gives way to what all have: a parameter may be called
+``steps``, an output ``end``, and each run has numbers of these names besides.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -14,6 +18,7 @@ from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 
 if TYPE_CHECKING:
+    from symgen.ensemble.axes import Axis
     from symgen.runtime.compiled import ModelInfo
 
 
@@ -112,3 +117,65 @@ def _add(
             heads = {".".join(parts[:i]) for i in range(1, len(parts))}
             for head in sorted({table, *heads} - own):
                 groups.setdefault(head, []).append(q)
+
+
+#: Numbers of every run that data sets hold: name -> (unit, whether it is a whole number).
+NUMBERS: Mapping[str, tuple[str, bool]] = {
+    "end": ("s", False),
+    "steps": ("1", True),
+    "rejected": ("1", True),
+    "evaluations": ("1", True),
+    "iterations": ("1", True),
+    "position_violation_max": ("m", False),
+    "velocity_violation_max": ("m/s", False),
+    "energy_drift_max": ("J", False),
+    "energy_jump": ("J", False),
+    "energy_scale": ("J", False),
+    "smallest_pivot": ("1", False),
+    "rank_event_count": ("1", True),
+    "start_moved": ("m or rad", False),
+    "start_velocities": ("1", True),
+    "redundant_rows": ("1", True),
+    "light": ("1", True),
+}
+#: What numbers are called that have the name of a quantity.
+_NUMBER = {"smallest_pivot": "smallest_pivot_min"}
+_TAKEN = {"run", "time", "status", "reason", "warnings", *NUMBERS, *_NUMBER.values()}
+
+
+def of_number(name: str) -> str:
+    """Return what one of `NUMBERS` is called."""
+    return _NUMBER.get(name, name)
+
+
+def of_quantities(names: Sequence[str], axes: Iterable[Axis]) -> tuple[str, ...]:
+    """Return what quantities are called: an output may have a name that is taken, or that of what varies."""
+    taken = _TAKEN.difference(_NUMBER).union(of_varied(name, axis) for axis in axes for name in axis.values)
+    found = list[str]()
+    for name in names:
+        label = name
+        while label in taken or (label != name and label in names):
+            label = f"output.{label}"
+        found.append(label)
+    return tuple(found)
+
+
+def of_varied(name: str, axis: Axis) -> str:
+    """Return what a name that varies is called: that of its dimension, or where names vary together one like it."""
+    label = axis.dimension if not axis.together else f"{name}(0)" if "." in name else name
+    return f"parameter.{label}" if label in _TAKEN else label
+
+
+def of_dimension(axis: Axis) -> str:
+    """Return what a dimension is called."""
+    return axis.dimension if axis.together else of_varied(next(iter(axis.values)), axis)
+
+
+def event_columns(names: Sequence[str]) -> dict[str, tuple[int, str]]:
+    """Return the numbers that each run leaves of events: name -> (column behind those of every ensemble, unit)."""
+    first = e.N_SUMMARY + e.HEAD_OF_EVENTS
+    return {
+        f"event.{name}.{what}": (first + e.OF_EVENT * i + k, unit)
+        for i, name in enumerate(names)
+        for k, (what, unit) in enumerate(e.EVENT_COLUMNS)
+    }

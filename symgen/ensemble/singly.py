@@ -9,7 +9,7 @@ of this module.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -31,10 +31,9 @@ from symgen.runtime.simulation import Simulation
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.ensemble.chunks import Results
+    from symgen.ensemble.chunks import Results, Rows
     from symgen.ensemble.measures import Measures
     from symgen.ensemble.recipe import Recipe, Watch
-    from symgen.ensemble.row_starts import Rows
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Watched
     from symgen.runtime.integrator import Integrator
@@ -231,12 +230,3 @@ def note_events(row: Array, outcome: Outcome, code: int) -> None:
         row[e.IMPOSSIBLE_EVENT] = numbers[refused[-1].name]
     elif code == abi.UNDEFINED:
         row[e.IMPOSSIBLE_EVENT] = undefined_event(outcome.simulation.state)
-
-
-def event_columns(names: Sequence[str]) -> dict[str, tuple[int, str]]:
-    """Return the numbers that each run leaves of events: name -> (column behind those of every ensemble, unit)."""
-    found = dict[str, tuple[int, str]]()
-    for i, name in enumerate(names):
-        at = e.N_SUMMARY + e.HEAD_OF_EVENTS + e.OF_EVENT * i
-        found |= {f"event.{name}.{what}": (at + k, unit) for k, (what, unit) in enumerate(e.EVENT_COLUMNS)}
-    return found

@@ -22,15 +22,14 @@ from symgen.describe.events import RECORD, RESET, STOP
 from symgen.describe.kinks import discontinuities_of
 from symgen.describe.sides import sides_of
 from symgen.ensemble.axes import Grid, make_grid
+from symgen.ensemble.chunks import Rows, make_rows
 from symgen.ensemble.driving import Driving, read_by_motions
 from symgen.ensemble.kernel import integrator_of_rows, kernel_of
-from symgen.ensemble.lanes import check_lanes
+from symgen.ensemble.loop_runs import PLAIN
 from symgen.ensemble.measures import integrated, make_measures, measurable
 from symgen.ensemble.names import Names, Targets, targets_of
 from symgen.ensemble.recipe import Code, Module, Recipe, Watch, code_identity
 from symgen.ensemble.row_quantities import choose_quantities
-from symgen.ensemble.row_starts import Rows, make_rows
-from symgen.ensemble.tree_rows import are_plain
 from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.running.plan import Plan, Purpose, refuse_events
@@ -237,14 +236,15 @@ def make_ensemble(
         expected = "quantities without integral(...), which are added up by cpu alone"
         raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave --target out, or name others")
     integrator_of_rows(plan.integrator.name, spec)
-    if target == "lanes":
-        check_lanes(plan.integrator.name, spec)
+    if target == "lanes" and spec.adaptive:  # runs side by side take the same steps
+        got, hint = f"'{plan.integrator.name}' with adaptive steps", "integrator.adaptive=false with --step, or rk4"
+        raise InputError("target 'lanes'", "a constant step", got, hint)
     resets = any(event.action == RESET for event in events)
     late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in kept)
     # what Python does something between; and measures behind the loops know the inputs of one part
     measured = driving.changes and any(q.source >= SIDE for q in kept)
     parts = resets or late or measured
-    alone = parts or (joint and not are_plain(kept))
+    alone = parts or (joint and not {q.source for q in kept} <= PLAIN)
     watch = Watch(mechanism, events, ends, alone) if parts or joint or events or looks else None
     # single runs add up all that outputs ask for, which their steps follow, too
     adds = integral is not None or (

@@ -17,9 +17,8 @@ from numpy.typing import NDArray
 
 from symgen.arguments import path as argument_path
 from symgen.arguments import shown, whole
-from symgen.ensemble.labels import NUMBERS, of_dimension, of_number, of_quantities, of_varied
 from symgen.ensemble.names import Names
-from symgen.ensemble.singly import event_columns
+from symgen.ensemble.row_quantities import NUMBERS, event_columns, of_dimension, of_number, of_quantities, of_varied
 from symgen.ensemble.verdicts import NOT_RUN, column, judge_all, warnings_all
 from symgen.errors import InputError, nearest
 from symgen.files import headed, write_csv, write_whole
