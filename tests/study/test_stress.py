@@ -19,7 +19,7 @@ from symgen.result.points import Points
 from symgen.study.journal import Journal
 from symgen.study.references.motion import CompiledEquations, motion
 from symgen.study.references.reference import reference
-from symgen.study.references.stiff import decay
+from symgen.study.references.solvers import fastest_modes
 from symgen.study.stress.bench import Base, Level
 from symgen.study.stress.cases import CASES
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
@@ -90,7 +90,7 @@ def test_a_solver_that_gives_up_costs_its_reference_alone(monkeypatch):
 
 
 def test_the_parallelogram_is_the_catalogue_s():
-    from symgen.study.references.reference import n_four_bar, parallel_cranks
+    from symgen.study.references.closed_forms import n_four_bar, parallel_cranks
 
     times = np.linspace(0.0, 4.0, 41)
     mechanism = symgen.load("n-four-bar:1").mechanism
@@ -164,7 +164,7 @@ def damped():
     values = symgen.load(level.mechanism).parameters(level.parameters)
     equations = CompiledEquations(level.mechanism, values)
     y = equations.project(0.0, np.concatenate([known["q"][0], np.zeros(equations.n)]))
-    return level, known, decay(equations, y)
+    return level, known, fastest_modes(equations, y)[0]
 
 
 @pytest.mark.slow

@@ -25,14 +25,11 @@ from numpy.typing import NDArray
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import SimulationError
 from symgen.result.points import Points
-from symgen.study.references.curves import curves
-from symgen.study.references.independent import CUTOFF, IndependentEquations
+from symgen.study.references.independent import CUTOFF, IndependentEquations, curves
 from symgen.study.references.least_squares import compiled, shortest
 from symgen.study.references.reference import Reference
-from symgen.study.references.solvers import OverBudgetError, Scheme, by_steps
-from symgen.study.references.stiff import is_stiff
+from symgen.study.references.solvers import OverBudgetError, Scheme, by_steps, in_parts, is_stiff, longest_of
 from symgen.study.references.sympy_formulas import ReferenceFormulas
-from symgen.study.references.time_parts import in_parts, longest_of
 
 Array = NDArray[np.float64]
 

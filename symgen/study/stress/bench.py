@@ -152,7 +152,7 @@ class Base:
     @property
     def closed(self) -> str | None:
         """The base's own name if there is a closed form of its motion."""
-        from symgen.study.references.reference import closed_form
+        from symgen.study.references.closed_forms import closed_form
 
         return self.name if closed_form(self.mechanism) is not None else None
 

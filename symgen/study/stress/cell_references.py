@@ -19,8 +19,8 @@ from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
 from symgen.runtime.motions import refuse_jumps
 from symgen.settings import Settings
-from symgen.study.references.reference import closed_form, parallel_cranks
-from symgen.study.references.singular_passing import scaled_values
+from symgen.study.references.closed_forms import closed_form, parallel_cranks
+from symgen.study.references.reference import scaled_values
 from symgen.study.stress.bench import FREE_LENGTH, Level
 from symgen.study.stress.cell_outcome import ACCURATE, TRUSTED
 
