@@ -14,8 +14,7 @@ from symgen.study.machine_class import machine_class, versions
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 from symgen.study.stress.findings import FEW_MODELS, cause, findings
-from symgen.study.stress.map import LEGEND, Map, outcomes_of_models
-from symgen.study.stress.stress_rows import Stress, StressRow
+from symgen.study.stress.stress_rows import LEGEND, Map, Stress, StressRow, outcomes_of_models
 
 _LEAD = (
     "Every cell is one run of a method with an integrator on a case, compared with a motion from another route: a "

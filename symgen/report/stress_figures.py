@@ -11,7 +11,7 @@ from symgen.report.document import Picture, anchor
 from symgen.report.picture import GREY, below, drawn
 from symgen.study.stress.cell_outcome import OUTCOMES
 from symgen.study.stress.findings import largest_root
-from symgen.study.stress.map import LETTERS, Entry, Map, plane_lines, plane_rows
+from symgen.study.stress.stress_rows import LETTERS, Entry, Map, plane_lines, plane_rows
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -21,8 +21,8 @@ from symgen.study.references.motion import CompiledEquations, motion
 from symgen.study.references.reference import reference
 from symgen.study.references.solvers import fastest_modes
 from symgen.study.stress.bench import Base, Level
-from symgen.study.stress.cases import CASES
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
+from symgen.study.stress.families import FAMILIES, levels_of
 from symgen.study.stress.findings import largest_root
 from symgen.study.stress.stress_rows import save_csv
 from symgen.study.stress.study import pairs, stress
@@ -105,14 +105,13 @@ def test_the_parallelogram_is_the_catalogue_s():
 # -- families ----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("family", CASES.names)
+@pytest.mark.parametrize("family", FAMILIES)
 @pytest.mark.parametrize("quick", [True, False])
 def test_families_make_cases(family, quick):
-    kind = CASES.get(family)
-    levels = kind.levels(Base.of("four-bar"), quick)
+    levels = levels_of(family, Base.of("four-bar"), quick)
     assert levels and len({level.label for level in levels}) == len(levels)
     for level in levels:
-        assert level.family == family and len(level.values) == len(kind.axes)
+        assert level.family == family and len(level.values) == (2 if family in ("alpha-beta", "step-stiffness") else 1)
         assert level.until > 0.0 and level.step > 0.0
         known = {p.name for p in level.mechanism.parameters}
         assert set(level.parameters) <= known
@@ -123,7 +122,7 @@ def test_one_compiled_module_serves_all_cases_but_those_with_other_joints():
     from symgen.describe.digest import digest
 
     base = Base.of("four-bar")
-    found = {digest(level.mechanism) for name in CASES.names for level in CASES.get(name).levels(base, False)}
+    found = {digest(level.mechanism) for name in FAMILIES for level in levels_of(name, base, False)}
     assert len(found) == 4
 
 
@@ -159,7 +158,7 @@ def test_families_say_why_they_do_not_apply():
 @pytest.fixture(scope="module")
 def damped():
     """The four-bar with a stiff damper, its reference, and the fastest decay by the independent equations."""
-    level = CASES.get("damping").levels(Base.of("four-bar"), False)[1]
+    level = levels_of("damping", Base.of("four-bar"), False)[1]
     known = compute(CellReference(level))
     values = symgen.load(level.mechanism).parameters(level.parameters)
     equations = CompiledEquations(level.mechanism, values)
@@ -177,7 +176,7 @@ def test_the_largest_step_of_rk4_is_where_its_region_of_stability_ends(damped):
 
 def test_the_size_of_a_point_on_a_link_is_that_of_its_motion():
     """Else nothing of a pendulum would be within a tenth of its size: the largest step would be that of an error."""
-    level = CASES.get("duration").levels(Base.of("pendulum"), True)[0]
+    level = levels_of("duration", Base.of("pendulum"), True)[0]
     known = compute(CellReference(level))
     assert known["size"] == pytest.approx(1.0, rel=1e-3)
     found = compute(LimitTask(level, "lagrange", "rk4", known))
@@ -230,7 +229,7 @@ def test_cells_see_a_force_between_two_places(space, tmp_path):
         f"position = [0.3, 0.0{rest}]\nvelocity = [1.0, 0.0{rest}]\n"
         f'[forces.push]\ntype = "force"\nbody = "a"\nforce = ["6.6 if 0.9996 < a.x < 1.0004 else 0", 0.0{rest}]\n'
     )
-    level = Level("flight", "past", (1.0,), symgen.load(path).mechanism, 2.0, 1e-3)
+    level = Level("past", (1.0,), symgen.load(path).mechanism, 2.0, 1e-3)
     known = compute(CellReference(level))
     times, edge, faster = np.linspace(0.0, 2.0, 51), 0.7 - 4e-4, math.sqrt(1.0 + 2.0 * 6.6 * 8e-4)
     expected = np.where(times < edge, 0.3 + times, 1.0 + 4e-4 + faster * (times - edge - (faster - 1.0) / 6.6))
@@ -240,7 +239,7 @@ def test_cells_see_a_force_between_two_places(space, tmp_path):
 
 
 def test_what_is_too_slow_is_told_without_a_clock():
-    level = CASES.get("duration").levels(Base.of("four-bar"), True)[0]
+    level = levels_of("duration", Base.of("four-bar"), True)[0]
     from dataclasses import replace
 
     known = {"unusable": None, "estimated_error": 0.0, "decay": 0.0, "parameters": {}}

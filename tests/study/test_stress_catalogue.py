@@ -6,8 +6,7 @@ import pytest
 
 from symgen.report import stress as report
 from symgen.study.stress.findings import FEW_MODELS, cause, findings
-from symgen.study.stress.map import outcomes_of_models, shares_of_models
-from symgen.study.stress.stress_rows import Limit, Stress, StressRow
+from symgen.study.stress.stress_rows import Limit, Stress, StressRow, outcomes_of_models, shares_of_models
 
 MODELS = tuple(f"model-{i}" for i in range(FEW_MODELS + 1))
 

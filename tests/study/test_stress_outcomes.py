@@ -10,8 +10,7 @@ from symgen.study.stress import findings as sentences
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES, Run, classify, false_success
 from symgen.study.stress.cells import largest
 from symgen.study.stress.findings import cause, explained, findings, largest_root
-from symgen.study.stress.map import Map
-from symgen.study.stress.stress_rows import Limit, Stress, StressRow
+from symgen.study.stress.stress_rows import Limit, Map, Stress, StressRow
 
 REGULAR = np.ones(11)
 FLAT = np.array([1.0, 0.8, 0.5, 0.3, 0.1, 0.05, 0.2, 0.4, 0.6, 0.8, 1.0])

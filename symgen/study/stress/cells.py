@@ -35,9 +35,8 @@ from symgen.settings import Settings, default, told_constant
 from symgen.study.stress import cell_outcome as judged
 from symgen.study.stress.bench import Level
 from symgen.study.stress.cell_outcome import Run, classify, largest_error
-from symgen.study.stress.cell_references import equations_of, reference_of, times_of, without_reference
+from symgen.study.stress.cell_references import EmittedGeometry, equations_of, reference_of, times_of, without_reference
 from symgen.study.stress.effort import budget_of, further_budget, predicted
-from symgen.study.stress.other_route import EmittedGeometry
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]

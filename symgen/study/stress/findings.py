@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from symgen.running.automatic import AUTO
 from symgen.study.stress.cell_outcome import ACCURATE, DIVERGED, GOOD, OUTCOMES, REFUSED, UNJUDGED, WRONG_BRANCH, counts
-from symgen.study.stress.map import Map, map_rows, plane_rows, shares_of_models
+from symgen.study.stress.stress_rows import Map, map_rows, plane_rows, shares_of_models
 
 if TYPE_CHECKING:
     from symgen.study.stress.stress_rows import Limit, Stress, StressRow

@@ -20,10 +20,10 @@ from symgen.settings import Settings
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity, mechanism_identity
 from symgen.study.runner import Cell, Status, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable
-from symgen.study.stress.cases import CASES, Family
 from symgen.study.stress.cell_references import without_reference
 from symgen.study.stress.cells import WATCHED, CellReference, Limits, LimitTask, RunTask, compute
 from symgen.study.stress.effort import BUDGET, left_out
+from symgen.study.stress.families import FAMILIES, levels_of
 from symgen.study.stress.stress_rows import Limit, Stress, StressRow
 
 #: Integrators that a method is run with, beside its own default: an explicit adaptive one and an implicit one.
@@ -79,7 +79,7 @@ def stress(
     models : sequence of str or path
         Base models: catalogue entries or files; `DEFAULT_MODEL` by default.
     cases : sequence of str
-        Families (`symgen.study.stress.cases.CASES`); all by default.
+        Families (`symgen.study.stress.families.FAMILIES`); all by default.
     methods : sequence of str
         Methods, ``auto`` among them; all and ``auto`` by default.
     quick : bool
@@ -130,7 +130,7 @@ def stress(
         refuse_events("stress", base.mechanism, common)
         refuse_weightless(base.mechanism)
     bases = [base.without_events() for base in bases]
-    chosen = tuple(dict.fromkeys(CASES.canonical(name, "--cases") for name in cases or CASES.names))
+    chosen = tuple(dict.fromkeys(arguments.one_of("--cases", name, FAMILIES) for name in cases or FAMILIES))
     names = tuple(dict.fromkeys(methods or (*METHODS.names, AUTO)))
     for name in names:
         if name != AUTO:
@@ -161,12 +161,11 @@ def _levels(
 ) -> Iterator[Level]:
     for number, base in enumerate(bases):
         for name in families:
-            family: Family = CASES.get(name)
-            if family.own and number > 0:
+            if FAMILIES[name].own and number > 0:
                 continue
-            model = "-" if family.own else base.name
+            model = "-" if FAMILIES[name].own else base.name
             try:
-                for level in family.levels(base, quick):
+                for level in levels_of(name, base, quick):
                     yield replace(level, mechanism=bounded(level.mechanism, max_step), model=model)
             except (NotApplicable, InputError) as why:  # the latter e.g. where the model uses the name of a handle
                 skipped.append((base.name, name, str(why)))
