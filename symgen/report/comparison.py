@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from symgen.report import words
+from symgen.report.comparison_findings import costs, findings, methods, representatives, settings_text
 from symgen.report.document import Document, DocumentTable, Section, TableCell
 from symgen.report.figures import pictures
-from symgen.report.finding_pages import costs, findings
 from symgen.report.picture import sketched
-from symgen.report.row_selection import methods, representatives, settings_text
 from symgen.report.source import beside_the_source
 from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study
 from symgen.study.machine_class import machine_class, versions

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from symgen.report import words
+from symgen.report.comparison_findings import USUAL, line_number
 from symgen.report.document import DocumentTable, Picture, Section
 from symgen.report.picture import GREY, below, drawn, style
-from symgen.report.row_selection import USUAL, line_number
 from symgen.study.comparison.comparison_rows import Row, Study
 
 #: Methods that the source times against its standard Lagrange method.

@@ -205,7 +205,7 @@ def test_large_pictures_become_pixels(monkeypatch):
 
 def test_lines_of_methods_can_be_told_apart():
     from symgen.methods import METHODS
-    from symgen.report.row_selection import line_number
+    from symgen.report.comparison_findings import line_number
 
     looks = [tuple(map(str, picture.style(line_number(m)).values())) for m in METHODS.names]
     assert len(set(looks)) == len(looks)

@@ -1,4 +1,4 @@
-"""What the rows of a comparison say, in plain sentences computed from them."""
+"""What the rows of a comparison say, in plain sentences computed from them, and which rows stand for its methods."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from collections.abc import Iterable, Sequence
 from statistics import median
 
 from symgen.report import words
-from symgen.report.row_selection import methods, representatives, settings_text
 from symgen.result.run_data import FAILED, OK, UNVERIFIED
-from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study
+from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study, Trace
 
+#: The integrator and the step of the source, by which methods are compared where they have it.
+USUAL = "rk4"
 #: An error above this in a run that ended ok is a success that was none [m].
 WRONG = 1e-3
 #: Errors for which the cheapest run is named [m].
@@ -21,6 +22,47 @@ ROUNDING = 1e-11
 MOST = 4
 #: Slopes are fitted over errors above this multiple of the reference's own.
 CLEAR = 10.0
+
+
+def methods(study: Study) -> list[str]:
+    """Return the methods of a study in order."""
+    return list(dict.fromkeys(row.label for row in study.rows))
+
+
+def line_number(method: str) -> int:
+    """Return a number of a method for its line style: the same in every report."""
+    from symgen.methods import METHODS
+    from symgen.study.comparison.combinations import DEFAULT_METHODS
+
+    others = [name for name in METHODS.names if name not in DEFAULT_METHODS]
+    known = [*DEFAULT_METHODS, *others]
+    return known.index(method) if method in known else len(known)
+
+
+def _closeness(row: Row, step: float) -> float:
+    """Return how far a row is from the mechanism's own step, or from the middle of the usual tolerances."""
+    return abs(math.log(row.step / step)) if row.step is not None else abs(math.log10((row.rtol or 1.0) / 1e-8))
+
+
+def representatives(study: Study) -> list[tuple[Row, Trace]]:
+    """Return one row a method: with the usual integrator where it was run, at the step nearest to the mechanism's."""
+    found = []
+    for method in methods(study):
+        own = [(row, trace) for row, trace in zip(study.rows, study.traces, strict=True) if row.label == method]
+        usual = [pair for pair in own if pair[0].integrator == USUAL]
+        first = [pair for pair in own if pair[0].integrator == own[0][0].integrator]
+        found.append(min(usual or first, key=lambda pair: _closeness(pair[0], study.step)))
+    return found
+
+
+def settings_text(study: Study) -> str:
+    """Return the setting that representatives share, in words, or what they have in common."""
+    rows = [row for row, _ in representatives(study)]
+    most = max({row.setting for row in rows}, key=[row.setting for row in rows].count)
+    settings = [f"{row.integrator}, {words.setting(row.step, row.rtol)}" for row in rows]
+    shared = next(text for row, text in zip(rows, settings, strict=True) if row.setting == most)
+    others = [f"{row.label} ({text})" for row, text in zip(rows, settings, strict=True) if row.setting != most]
+    return "; ".join([shared, *([", ".join(others)] if others else [])])
 
 
 def findings(study: Study) -> tuple[str, ...]:
