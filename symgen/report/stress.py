@@ -13,7 +13,7 @@ from symgen.running.automatic import AUTO
 from symgen.study.machine_class import machine_class, versions
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
-from symgen.study.stress.findings import FEW_MODELS, cause, findings
+from symgen.study.stress.findings import cause, findings
 from symgen.study.stress.stress_rows import LEGEND, Map, Stress, StressRow, outcomes_of_models
 
 _LEAD = (
@@ -21,6 +21,8 @@ _LEAD = (
     "closed form, or independently derived equations integrated by another scheme at a tight tolerance. The outcome is "
     f"told by that distance, not by what the run says of itself. A run is accurate (ok) up to {ACCURATE:g} m."
 )
+#: Of more models than this the report has an overview.
+FEW_MODELS = 3
 #: More cells than this are not listed.
 MOST_CELLS = 6000
 _MOODS = {"ok": "good", "inaccurate": "doubtful", "refused": "faint", "unjudged": "faint", "too slow": "faint"}
