@@ -60,7 +60,7 @@ def make_rows(
     base: Mapping[str, float],
     varied: Mapping[str, Array],
     held: Sequence[str],
-    given: Mapping[str, int],
+    velocities: Mapping[str, int],
     settled: Iterable[str] = (),
     constant: Mapping[str, Expr] | None = None,
 ) -> Rows:
@@ -76,7 +76,7 @@ def make_rows(
         Values of all names that vary.
     held : sequence of str
         Coordinates, joint coordinates and rates of these that are held, in the order of `Rows.targets`.
-    given : mapping of str to int
+    velocities : mapping of str to int
         Velocities that vary, each with its index.
     settled : iterable of str
         Parameters that have numbers in place of their formulas.
@@ -88,7 +88,7 @@ def make_rows(
     for name, formula in derived(mechanism.parameters, {*settled, *varied}):
         values[name] = Columns(values).value(formula)
     described, speeds = described_start(mechanism, Columns(values))
-    parameters, q, v = (np.empty((k, len(found))) for found in (base, described, speeds))
+    parameters, q, v = (np.empty((k, len(columns))) for columns in (base, described, speeds))
     for array, columns in ((parameters, [values[name] for name in base]), (q, described), (v, speeds)):
         for i, column in enumerate(columns):
             array[:, i] = np.nan if column is None else column
@@ -96,7 +96,7 @@ def make_rows(
     q[~np.isfinite(v[:, undefined]).all(axis=1)] = np.nan
     numbers = Columns(values)
     chosen = {**varied, **{name: np.full(k, numbers.value(e)) for name, e in (constant or {}).items()}}
-    for name, index in given.items():
+    for name, index in velocities.items():
         v[:, index] = chosen[name]
     targets = np.zeros((k, len(held)))
     for i, name in enumerate(held):

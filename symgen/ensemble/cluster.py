@@ -112,19 +112,19 @@ def run_there(
     try:
         for future in completed:
             index, attempt = handed.pop(future.key)
-            found = _outcome(future)
-            if isinstance(found, Chunk):
-                table.put(index, found)
+            result = _outcome(future)
+            if isinstance(result, Chunk):
+                table.put(index, result)
                 if progress is not None:
                     progress(table.runs_done)
                 following, attempt = next(waiting, None), 0
                 if following is None:
                     continue
                 index = following
-            elif isinstance(found, SimulationError | InputError):
-                raise found
+            elif isinstance(result, SimulationError | InputError):
+                raise result
             elif attempt >= _ATTEMPTS or client.status != "running":
-                raise _gave_up(index, found)
+                raise _gave_up(index, result)
             completed.add(hand_out(index, attempt + 1))
     except KeyboardInterrupt:
         return True
@@ -142,7 +142,7 @@ def _gave_up(index: int, error: BaseException) -> SimulationError:
 def _outcome(future: Any) -> Chunk | BaseException:
     """Return a chunk, or why there is none: its task failed, or what it gave was lost on the way here."""
     try:
-        found: Chunk = future.result(timeout=60)
+        chunk: Chunk = future.result(timeout=60)
     except (Exception, CancelledError) as error:
         return error
-    return found
+    return chunk

@@ -136,8 +136,8 @@ class RowKernel:
     def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:
         """Close and run selected rows with one compiled model; those with light bodies only where there is no other."""
         info, recipe, now = model.compiled.info, self.recipe, self._described(model, rows)
-        asked = StartConditions(rows.v, rows.targets, out.summary)
-        if model.assembly.close_all(now, asked, selected, control) < len(selected):
+        conditions = StartConditions(rows.v, rows.targets, out.summary)
+        if model.assembly.close_all(now, conditions, selected, control) < len(selected):
             return False
         self._look_at_sides(info, now.y, selected, out.summary)
         ready = out.summary[selected, e.START] == e.ASSEMBLED
@@ -150,8 +150,8 @@ class RowKernel:
         for i in (i for i, q in enumerate(recipe.columns) if q.source == e.MULTIPLIER):  # they are not unique then
             out.values[redundant, i] = np.nan
         if model.measures is not None:
-            given = recipe.behind, recipe.times, selected, out.values, now.p, now.w
-            out.behind[selected] = model.measures.work_out(model.compiled, *given)
+            left = recipe.behind, recipe.times, selected, out.values, now.p, now.w
+            out.behind[selected] = model.measures.work_out(model.compiled, *left)
         return True
 
     def _look_at_sides(self, info: ModelInfo, ys: Array, selected: Integers, summary: Array) -> None:
@@ -240,9 +240,9 @@ _kernels_lock = threading.Lock()
 def kernel_of(recipe: Recipe) -> RowKernel:
     """Return the kernel of a recipe, the same one as long as it is among the last few."""
     with _kernels_lock:
-        found = _kernels.get(recipe.digest)
-        if found is None:
+        kernel = _kernels.get(recipe.digest)
+        if kernel is None:
             while len(_kernels) >= 4:
                 del _kernels[next(iter(_kernels))]
-            found = _kernels[recipe.digest] = RowKernel(recipe)
-    return found
+            kernel = _kernels[recipe.digest] = RowKernel(recipe)
+    return kernel

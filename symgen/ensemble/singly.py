@@ -154,12 +154,12 @@ class SingleRuns:
         count = int(simulation.state.control[abi.OUTPUTS])
         shown = outcome if tree is None else tree.carried(outcome)
         late = self.watch.ends and len(shown.times) > count  # an event has ended it
-        kept = slice(-1, None) if late else slice(count)
-        seen = self._columns(shown, out.summary[r, e.REDUNDANT_ROWS] == 0.0)
-        size = seen[:, kept].shape[1]
-        out.values[r, :, :size] = seen[:, kept]
+        outputs_kept = slice(-1, None) if late else slice(count)
+        columns = self._columns(shown, out.summary[r, e.REDUNDANT_ROWS] == 0.0)
+        size = columns[:, outputs_kept].shape[1]
+        out.values[r, :, :size] = columns[:, outputs_kept]
         if self.measures is not None and size:
-            out.behind[r, :, :size] = self._behind(self.measures, shown, seen)[:, kept]
+            out.behind[r, :, :size] = self._behind(self.measures, shown, columns)[:, outputs_kept]
         return True
 
     def _events(self, rows: Rows, r: int) -> Watched | None:
@@ -194,18 +194,18 @@ class SingleRuns:
             e.JOINT: lambda: outcome.joint_coordinates,
         }
         tables = {source: columns[source]() for source in self.recipe.sources}
-        found = [tables[q.source][:, q.column] for q in self.recipe.columns]
-        return np.array(found).reshape(len(found), len(outcome.times))
+        columns_of_run = [tables[q.source][:, q.column] for q in self.recipe.columns]
+        return np.array(columns_of_run).reshape(len(columns_of_run), len(outcome.times))
 
-    def _behind(self, measures: Measures, outcome: Outcome, seen: Array) -> Array:
+    def _behind(self, measures: Measures, outcome: Outcome, columns: Array) -> Array:
         """Return what is worked out behind loops, shape (quantities, outputs), with the parameters of each part."""
-        asked, one = self.recipe.behind, np.zeros(1, dtype=np.int64)
-        found = np.empty((len(asked), len(outcome.times)))
+        quantities, one = self.recipe.behind, np.zeros(1, dtype=np.int64)
+        values = np.empty((len(quantities), len(outcome.times)))
         for first, last, p in outcome.parameters:
-            part = np.ascontiguousarray(seen[np.newaxis, :, first:last])
-            given = outcome.times[first:last], one, part, p[np.newaxis], outcome.w[np.newaxis].copy()
-            found[:, first:last] = measures.work_out(self.compiled, asked, *given)[0]
-        return found
+            part = np.ascontiguousarray(columns[np.newaxis, :, first:last])
+            part_of_run = outcome.times[first:last], one, part, p[np.newaxis], outcome.w[np.newaxis].copy()
+            values[:, first:last] = measures.work_out(self.compiled, quantities, *part_of_run)[0]
+        return values
 
 
 def note_events(row: Array, outcome: Outcome, code: int) -> None:

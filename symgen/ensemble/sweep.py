@@ -132,12 +132,12 @@ def sweep(
     )
     with table:
         seconds, interrupted = _run(ensemble, table, jobs, scheduler, progress)
-        found = Sweep(ensemble, table.values, table.summary, table.done(), seconds, interrupted)
+        study = Sweep(ensemble, table.values, table.summary, table.done(), seconds, interrupted)
         if path is not None and path != folder and not interrupted:
-            found.save(path)
+            study.save(path)
             assert isinstance(table, FolderTable), "an output has a folder"
             table.remove()
-    return found
+    return study
 
 
 def _check_room(ensemble: Ensemble, path: Path | None, folder: Path | None) -> None:

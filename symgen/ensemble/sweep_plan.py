@@ -134,8 +134,8 @@ class Ensemble:
         if self.target == "cuda":  # a device wants tens of thousands of runs at once, whatever they take
             return int(max(1.0, min(131072.0, CHUNK_BYTES_CUDA / (8 * numbers))))
         most = min(CHUNK_SECONDS / seconds, CHUNK_BYTES / (8 * numbers), len(self) / 16)
-        found = int(max(1.0, min(65536.0, math.ceil(most))))
-        return found if self.target == "cpu" else LANES * math.ceil(found / LANES)
+        size = int(max(1.0, min(65536.0, math.ceil(most))))
+        return size if self.target == "cpu" else LANES * math.ceil(size / LANES)
 
     def rows(self, first: int, last: int) -> Rows:
         """Return what distinguishes the runs from `first` to `last` (exclusive)."""
@@ -150,16 +150,16 @@ class Ensemble:
     @cached_property
     def description(self) -> dict[str, Any]:
         """What is computed: two ensembles of the same description give the same rows."""
-        found = hashlib.sha256()
+        varied = hashlib.sha256()
         for axis in self.grid.axes:
             for name, values in axis.values.items():
-                found.update(f"{axis.dimension}\0{name}\0".encode() + values.tobytes())
+                varied.update(f"{axis.dimension}\0{name}\0".encode() + values.tobytes())
         formulas = {name for name, _ in derived(self.model.mechanism.parameters)}
         settled = sorted(formulas & set(self.settings.parameters))  # these have numbers in place of their formulas
         return {
             **({"settled": settled} if settled else {}),
             "mechanism": identity(self.model.mechanism),
-            "varied": found.hexdigest(),
+            "varied": varied.hexdigest(),
             "parameters": self.parameters,
             "start": {name: repr(value) for name, value in self.targets.constant.items()},
             **({"inputs": driven} if (driven := self.driving.described) else {}),
@@ -221,9 +221,9 @@ def make_ensemble(
         refuse_jumps(mechanism, plan.parameters, spec.until)
     kept_names, events = _events(mechanism, plan, quantities)
     acting = mechanism if target == "cpu" else structs.replace(mechanism, outputs=())  # others integrate no outputs
-    known = foreseen(acting, events)
+    passed_times = foreseen(acting, events)
     looks = spec.adaptive and bool(discontinuities_of(acting))
-    driving = Driving(plan.inputs, grid.names, spec.until, known if spec.adaptive else None, moving)
+    driving = Driving(plan.inputs, grid.names, spec.until, passed_times if spec.adaptive else None, moving)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)
     targets = targets_of(names, grid.names, plan.holds, compiled.info)
@@ -251,8 +251,8 @@ def make_ensemble(
         (watch is not None or (driving.jumps and spec.adaptive)) and can_integrate(compiled)
     )
 
-    def with_sums(found: CompiledModel) -> CompiledModel:
-        return with_integrals(mechanism, found) if adds else found
+    def with_sums(law: CompiledModel) -> CompiledModel:
+        return with_integrals(mechanism, law) if adds else law
 
     compiled, spare = with_sums(compiled), None
     if plan.solver_is_free:  # the few runs with light bodies are not worth lanes of their own
@@ -278,7 +278,7 @@ def make_ensemble(
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first
     model = replace(model, mechanism=mechanism)
-    missed, notes = _missed(plan, known, grid)
+    missed, notes = _missed(plan, passed_times, grid)
     warnings = *plan.warnings, *missed
     return Ensemble(
         model,
@@ -311,16 +311,16 @@ def _code(
     )
 
 
-def _missed(plan: Plan, known: Foreseen, grid: Grid) -> tuple[tuple[str, ...], tuple[str, ...]]:
+def _missed(plan: Plan, passed_times: Foreseen, grid: Grid) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return what steps of all runs may not see, as warnings, or as a note where that depends on what varies."""
-    if not known.reads & {*grid.names, *(name for name, _ in derived(plan.mechanism.parameters))}:
-        return plan.missed if known else (), ()
+    if not passed_times.reads & {*grid.names, *(name for name, _ in derived(plan.mechanism.parameters))}:
+        return plan.missed if passed_times else (), ()
     if plan.spec.adaptive:
         return (), ()
-    said = (
+    sentence = (
         f"formulas change at times that depend on what varies: steps of {plan.spec.step:g} s may miss what is shorter"
     )
-    return (), (f"{said}; adaptive ones do not",)
+    return (), (f"{sentence}; adaptive ones do not",)
 
 
 def _check_settings(settings: Settings, target: str) -> None:
@@ -360,13 +360,13 @@ def _events(
         If an event is asked for that there is none of.
     """
     words = [] if "event" in {body.name for body in mechanism.bodies} else quantities or ()
-    asked = [name for name in words if name.partition(".")[0] == "event"]
+    chosen = [name for name in words if name.partition(".")[0] == "event"]
     names = [event.name for event in plan.events]
-    for name in asked:
+    for name in chosen:
         if name.partition(".")[2] not in ("", *names):
-            known = [f"event.{x}" for x in names]
-            raise InputError(f"quantity '{name}'", f"an event of {mechanism.name}", "none", nearest(name, known))
+            options = [f"event.{x}" for x in names]
+            raise InputError(f"quantity '{name}'", f"an event of {mechanism.name}", "none", nearest(name, options))
     further = len(plan.events) > len(mechanism.events)
-    if asked or further or any(event.action != RECORD for event in plan.events):
-        return [name for name in quantities if name not in asked] if asked and quantities else quantities, plan.events
+    if chosen or further or any(event.action != RECORD for event in plan.events):
+        return [name for name in quantities if name not in chosen] if chosen and quantities else quantities, plan.events
     return quantities, ()
