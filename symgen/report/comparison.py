@@ -63,15 +63,15 @@ def comparison(
 
 
 def _settings(studies: Sequence[Study]) -> list[tuple[str, str]]:
-    found = [("Durations", ", ".join(f"{study.mechanism} {study.until:g} s" for study in studies))]
+    facts = [("Durations", ", ".join(f"{study.mechanism} {study.until:g} s" for study in studies))]
     repeat = max(study.repeat for study in studies)
     text = f"at least {words.counted(repeat, 'timed run')} a row after a warm-up" if repeat > 1 else "one run a row"
-    found.append(("Timing", f"{text}, one at a time, nothing else running in this process"))
+    facts.append(("Timing", f"{text}, one at a time, nothing else running in this process"))
     first = studies[0]
     for label, changed in (("Parameters", first.parameters), ("Start", first.start), ("Options", first.options)):
         if changed:
-            found.append((f"{label} changed", ", ".join(f"{name} = {value}" for name, value in changed.items())))
-    return found
+            facts.append((f"{label} changed", ", ".join(f"{name} = {value}" for name, value in changed.items())))
+    return facts
 
 
 # -- across mechanisms -------------------------------------------------------------------------------------------------
@@ -207,12 +207,12 @@ def _warnings(study: Study) -> list[str]:
     for row in study.rows:
         for text in row.warnings:
             by_text.setdefault(text, []).append(row)
-    found = []
+    notes = []
     for text, rows in by_text.items():
         more = f" and {words.counted(len(rows) - 1, 'other run')}" if len(rows) > 1 else ""
         where = "every run" if text in common else _where(rows[0]) + more
-        found.append(f"{where}: {words.readable(text)}")
-    return found
+        notes.append(f"{where}: {words.readable(text)}")
+    return notes
 
 
 def _all_violations(study: Study) -> DocumentTable:

@@ -35,8 +35,8 @@ def line_number(method: str) -> int:
     from symgen.study.comparison.combinations import DEFAULT_METHODS
 
     others = [name for name in METHODS.names if name not in DEFAULT_METHODS]
-    known = [*DEFAULT_METHODS, *others]
-    return known.index(method) if method in known else len(known)
+    order = [*DEFAULT_METHODS, *others]
+    return order.index(method) if method in order else len(order)
 
 
 def _closeness(row: Row, step: float) -> float:
@@ -46,13 +46,13 @@ def _closeness(row: Row, step: float) -> float:
 
 def representatives(study: Study) -> list[tuple[Row, Trace]]:
     """Return one row a method: with the usual integrator where it was run, at the step nearest to the mechanism's."""
-    found = []
+    pairs = []
     for method in methods(study):
         own = [(row, trace) for row, trace in zip(study.rows, study.traces, strict=True) if row.label == method]
         usual = [pair for pair in own if pair[0].integrator == USUAL]
         first = [pair for pair in own if pair[0].integrator == own[0][0].integrator]
-        found.append(min(usual or first, key=lambda pair: _closeness(pair[0], study.step)))
-    return found
+        pairs.append(min(usual or first, key=lambda pair: _closeness(pair[0], study.step)))
+    return pairs
 
 
 def settings_text(study: Study) -> str:
@@ -67,7 +67,7 @@ def settings_text(study: Study) -> str:
 
 def findings(study: Study) -> tuple[str, ...]:
     """Return what the rows say, most important first; what cannot be said is left out."""
-    found = [
+    sentences = [
         _reference(study),
         _cheapest(study),
         _best(study),
@@ -79,7 +79,7 @@ def findings(study: Study) -> tuple[str, ...]:
         _orders(study),
         _spread(study),
     ]
-    return tuple(words.sentence(text) for text in found if text)
+    return tuple(words.sentence(text) for text in sentences if text)
 
 
 def _name(row: Row) -> str:
@@ -145,7 +145,7 @@ def _statuses(study: Study) -> list[str]:
         text += f", {len(by_status[status])} {what}" if by_status[status] else ""
     if study.interrupted:
         text += "; the study was interrupted, so rows are missing"
-    found = [text]
+    sentences = [text]
     for status, one, many in ((FAILED, "failed", "failed"), (UNVERIFIED, "is unverified", "are unverified")):
         reasons: dict[str, list[Row]] = {}
         for row in by_status[status]:
@@ -154,11 +154,11 @@ def _statuses(study: Study) -> list[str]:
         for rows in reasons.values():
             first = f"{_name(rows[0])}: {words.readable(rows[0].reason or '')}"
             if len(rows) == 1:
-                found.append(f"1 run {one}: {first}")
+                sentences.append(f"1 run {one}: {first}")
             else:
                 each = words.listed([f"{m} ({n})" for m, n in _counts(r.label for r in rows)])
-                found.append(f"{len(rows)} runs {many} for one reason: {each}; e.g. {first}")
-    return found
+                sentences.append(f"{len(rows)} runs {many} for one reason: {each}; e.g. {first}")
+    return sentences
 
 
 def _counts(names: Iterable[str]) -> list[tuple[str, int]]:
@@ -218,19 +218,19 @@ def _energy(study: Study) -> str:
 
 def costs(study: Study) -> list[tuple[str, float, float, float, int]]:
     """Return method, median, smallest and largest cost ratio, and their number, for all but the yardstick."""
-    found = []
+    ratios_of_methods = []
     for method in methods(study):
         ratios = [r.cost_ratio for r in study.rows if r.label == method and r.cost_ratio is not None]
         if ratios and method != YARDSTICK:
-            found.append((method, median(ratios), min(ratios), max(ratios), len(ratios)))
-    return found
+            ratios_of_methods.append((method, median(ratios), min(ratios), max(ratios), len(ratios)))
+    return ratios_of_methods
 
 
 def _costs(study: Study) -> str:
-    found = sorted(costs(study), key=lambda c: c[1])
-    if not found:
+    medians = sorted(costs(study), key=lambda c: c[1])
+    if not medians:
         return ""
-    parts = [f"{method} {words.ratio(middle)}" for method, middle, *_ in found]
+    parts = [f"{method} {words.ratio(middle)}" for method, middle, *_ in medians]
     if len(parts) > 2 * MOST:
         parts = [*parts[:MOST], "...", *parts[-MOST:]]
     return (

@@ -35,14 +35,14 @@ def pictures(study: Study) -> tuple[Picture, ...]:
     distance = f"Distance to the reference over time ({shared}); grey: the error of the reference itself."
     work = "W being the work of forces without potential and of drivers"
     balance = f"Energy error |T + V − E₀ − W| over time, {work} ({shared})."
-    made = [
+    every = [
         *_errors_against_time(study),
         _over_time(study, "error", "error", "error [m]", distance),
         *(_over_time(study, x, f"{x}-violation", y, f"{x.title()} violation over time ({shared}).") for x, y in levels),
         _over_time(study, "energy_error", "energy-error", "|energy error| [J]", balance),
         _energies(study),
     ]
-    return tuple(picture for picture in made if picture is not None)
+    return tuple(picture for picture in every if picture is not None)
 
 
 # -- error against run time --------------------------------------------------------------------------------------------
@@ -76,15 +76,15 @@ def _errors_against_time(study: Study) -> list[Picture]:
         return []
     groups = _groups(study)
     usual = {pair for _, lines in groups for pair in lines if not _mixed(lines)}
-    found = []
+    pictures = []
     for title, lines in groups:
         # pictures of one integrator share their axes, so that they can be compared; the rest would stretch them
         together = set(lines) if _mixed(lines) else usual
         rows = [r for r in shown if (r.label, r.integrator) in together]
         if rows:
             limits = _limits([r.run_seconds for r in rows]), _limits([max(r.error or 0.0, FLOOR) for r in rows])
-            found.append(_error_against_time(study, title, lines, limits))
-    return found
+            pictures.append(_error_against_time(study, title, lines, limits))
+    return pictures
 
 
 def _mixed(lines: list[tuple[str, str]]) -> bool:

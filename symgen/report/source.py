@@ -54,12 +54,12 @@ def _with_spread(row: Row) -> str:
 
 def _ours(study: Study) -> dict[str, Row]:
     """Return the row of each method with the integrator of the source, at the step nearest to the source's."""
-    found: dict[str, Row] = {}
+    nearest: dict[str, Row] = {}
     for method in METHODS:
         rows = [r for r in study.rows if (r.label, r.integrator) == (method, USUAL) and r.cost_ratio is not None]
         if rows:
-            found[method] = min(rows, key=lambda r: abs((r.step or 0.0) - STEP))
-    return found
+            nearest[method] = min(rows, key=lambda r: abs((r.step or 0.0) - STEP))
+    return nearest
 
 
 def _picture(ours: dict[str, dict[str, Row]]) -> Picture:

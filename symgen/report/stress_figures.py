@@ -136,10 +136,10 @@ def _paint(ax: Any, field: np.ndarray[Any, Any]) -> None:
 def _legend(figure: Figure, ax: Any, rows: Sequence[StressRow]) -> None:
     from matplotlib.patches import Patch
 
-    found = [name for name in OUTCOMES if any(row.outcome == name for row in rows)]
+    names = [name for name in OUTCOMES if any(row.outcome == name for row in rows)]
     handles = [
         Patch(facecolor=COLOURS[name], edgecolor=GREY, label=f"{LETTERS[name]} {name}" if name in LETTERS else name)
-        for name in found
+        for name in names
     ]
     below(figure, len(handles), columns=4, handles=handles)
 
@@ -149,7 +149,7 @@ def _legend(figure: Figure, ax: Any, rows: Sequence[StressRow]) -> None:
 
 def regions(study: Stress) -> tuple[Picture, ...]:
     """Return the pictures of planes: Baumgarte's gains, and step against stiffness."""
-    made = []
+    pictures = []
     for family, labels in (
         ("alpha-beta", ("α h", "β h")),
         ("step-stiffness", ("stiffness [N/m]", "step [s]")),
@@ -157,8 +157,8 @@ def regions(study: Stress) -> tuple[Picture, ...]:
         rows = plane_rows(study.rows, family)
         for model, method, integrator in plane_lines(rows):
             own = [row for row in rows if (row.model, row.method, row.integrator) == (model, method, integrator)]
-            made.append(_plane(family, labels, model, method, integrator, own))
-    return tuple(made)
+            pictures.append(_plane(family, labels, model, method, integrator, own))
+    return tuple(pictures)
 
 
 def _plane(

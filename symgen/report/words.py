@@ -45,8 +45,8 @@ def seconds(x: float | None) -> str:
     if x is None or not math.isfinite(x):
         return NONE
     for unit, size in (("µs", 1e-6), ("ms", 1e-3)):
-        if float(told := f"{x / size:.3g}") < 1000.0:  # as rounded: 999.6 µs are 1 ms
-            return f"{told} {unit}"
+        if float(digits := f"{x / size:.3g}") < 1000.0:  # as rounded: 999.6 µs are 1 ms
+            return f"{digits} {unit}"
     return f"{x:.3g} s"
 
 

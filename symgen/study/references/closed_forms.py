@@ -159,10 +159,10 @@ def flyball_governor(mechanism: Mechanism, parameters: Mapping[str, float], q: A
 
     def solve(rtol: float) -> Array:
         start, end = [begin, height, 0.0, 0.0, 0.0], (0.0, float(times[-1]))
-        found = solve_ivp(rate, end, start, "Radau", times, rtol=rtol, atol=0.1 * rtol, jac=slopes)
-        if not found.success:
-            raise SimulationError(f"the reference motion cannot be integrated: {found.message}")
-        return np.asarray(found.y, dtype=np.float64)
+        solution = solve_ivp(rate, end, start, "Radau", times, rtol=rtol, atol=0.1 * rtol, jac=slopes)
+        if not solution.success:
+            raise SimulationError(f"the reference motion cannot be integrated: {solution.message}")
+        return np.asarray(solution.y, dtype=np.float64)
 
     y, rougher = solve(1e-11), solve(1e-10)
     alpha, s, turned = y[0], y[1], y[4]

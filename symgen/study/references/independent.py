@@ -249,8 +249,8 @@ def curves(table: Table) -> dict[str, Callable[[float], Any]]:
     They are plain Python that Numba compiles as well.
     """
     x, y = np.asarray(table.x, dtype=float), np.asarray(table.y, dtype=float)
-    found = _lines(x, y) if table.interpolation == "linear" else _pieces(x, y, table.interpolation, table.periodic)
-    return {f"{name}_{table.name}": function for name, function in found.items()}
+    functions = _lines(x, y) if table.interpolation == "linear" else _pieces(x, y, table.interpolation, table.periodic)
+    return {f"{name}_{table.name}": function for name, function in functions.items()}
 
 
 def _lines(x: Any, y: Any) -> dict[str, Callable[[float], Any]]:

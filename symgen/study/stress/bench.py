@@ -185,11 +185,11 @@ class Base:
         )
         heavy = raw["bodies"][self.middle]
         for key in ("mass", "inertia"):
-            given = heavy.get(key, 0.0)
-            if isinstance(given, list):  # the inertia of a spatial body
-                heavy[key] = [f"({_text(x)})*{MASS}" if x != 0.0 else 0.0 for x in given]
-            elif given != 0.0:
-                heavy[key] = f"({_text(given)})*{MASS}"
+            value = heavy.get(key, 0.0)
+            if isinstance(value, list):  # the inertia of a spatial body
+                heavy[key] = [f"({_text(x)})*{MASS}" if x != 0.0 else 0.0 for x in value]
+            elif value != 0.0:
+                heavy[key] = f"({_text(value)})*{MASS}"
         dimensions = len(self.anchor)
         gravity = raw["mechanism"].get("gravity", [0.0] * dimensions)
         if any(component != 0.0 for component in gravity):

@@ -256,7 +256,7 @@ def two_routes(mechanism: Mechanism, parameters: Mapping[str, float], times: Arr
 def _by_routes(
     mechanism: Mechanism, parameters: Mapping[str, float], times: Array, routes: tuple[Route, ...], budget: int
 ) -> Reference:
-    found = []
+    motions = []
     for method, integrator, options, rtol in routes:
         settings = Settings(
             method=method,
@@ -276,8 +276,8 @@ def _by_routes(
         if outcome.code != abi.DONE:
             reason = f"it takes more than {budget:.3g} evaluations" if outcome.code == abi.STOPPED else outcome.reason
             raise SimulationError(f"the reference by {method} with {integrator} does not come to its end: {reason}")
-        found.append(run.positions(outcome))
-    apart = Points.of(mechanism, parameter_values(mechanism, parameters)).distance(*found)
+        motions.append(run.positions(outcome))
+    apart = Points.of(mechanism, parameter_values(mechanism, parameters)).distance(*motions)
     (method, integrator, _, rtol), (other, with_other, _, _) = routes
     how = f"{method} with {integrator} at {rtol:g}; estimated from {other} with {with_other}"
-    return Reference(how, max(apart, 1e-14), times, found[0])
+    return Reference(how, max(apart, 1e-14), times, motions[0])

@@ -204,8 +204,8 @@ def _with_others(names: Sequence[str]) -> str:
 
 
 def _outcomes(rows: Sequence[StressRow]) -> str:
-    found = counts([row.outcome for row in rows])
-    return _listed([f"{found[name]} {name}" for name in OUTCOMES if found[name]])
+    numbers = counts([row.outcome for row in rows])
+    return _listed([f"{numbers[name]} {name}" for name in OUTCOMES if numbers[name]])
 
 
 def _many(count: int, thing: str) -> str:

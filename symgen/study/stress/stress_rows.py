@@ -208,8 +208,8 @@ class Entry:
         """Accurate cells of all that were judged, with the letters of the other outcomes: ``3/5 di``."""
         if not self.rows:
             return ""
-        found = counts([row.outcome for row in self.rows])
-        letters = "".join(LETTERS[name] for name in OUTCOMES if name in LETTERS and found[name])
+        numbers = counts([row.outcome for row in self.rows])
+        letters = "".join(LETTERS[name] for name in OUTCOMES if name in LETTERS and numbers[name])
         return f"{self.good}/{self.judged} {letters}".strip()
 
 
@@ -272,5 +272,5 @@ def outcomes_of_models(rows: Sequence[StressRow]) -> tuple[tuple[str, dict[str, 
 
 def shares_of_models(rows: Sequence[StressRow]) -> tuple[tuple[str, int, int], ...]:
     """Return model, accurate cells and judged cells of the map."""
-    found = outcomes_of_models(map_rows(rows))
-    return tuple((m, n[GOOD], sum(n.values()) - n[REFUSED] - n[UNJUDGED]) for m, n in found if m != "-")
+    outcomes = outcomes_of_models(map_rows(rows))
+    return tuple((m, n[GOOD], sum(n.values()) - n[REFUSED] - n[UNJUDGED]) for m, n in outcomes if m != "-")

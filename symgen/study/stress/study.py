@@ -190,9 +190,9 @@ class _Study:
         everything = [pair for name in self.methods for pair in (pairs(name)[:1] if self.quick else pairs(name))]
         out = []
         for base in self.bases:
-            made = [base.stressed, *(level.mechanism for level in self.levels if level.model == base.name)]
+            mechanisms = [base.stressed, *(level.mechanism for level in self.levels if level.model == base.name)]
             # cases that differ in their start alone share code, and have the name of the base
-            distinct = list({mechanism.name: mechanism for mechanism in made}.values())
+            distinct = list({mechanism.name: mechanism for mechanism in mechanisms}.values())
             out += left_out(distinct, everything, self.compilation, self.coordinates == "joint")
         return tuple(out)
 
