@@ -1,7 +1,4 @@
-"""Folders of sweeps of older versions, or of other runs: continued where they are the same, refused in words else.
-
-The description of an older version is one that it wrote.
-"""
+"""Folders of sweeps of other versions, or of other runs: continued where they are the same, refused else."""
 
 import json
 
@@ -14,17 +11,6 @@ from symgen.describe.builder import MechanismBuilder
 from symgen.ensemble.table import DONE
 from symgen.errors import InputError
 
-#: Of the sweep below, by a version before joint coordinates, whose text of a mechanism was another one.
-OLD = {
-    "symgen-sweep": 2,
-    "mechanism": "2d6b801e6b497cafe622fced54b60b1c34592d5850bd10c9dfde4b04dce496d7",
-    "varied": "89bbee263d95e6c1984688ecf4bfeedd97f5889a073bb9d96a07ef321c5737d3",
-    "parameters": {"bob_mass": 1.0},
-    "start": {},
-    "recipe": "26f7ecf788318470b380401d7982d4edf0d40c3309445221861648f54ffb44ca",
-    "runs": 9,
-    "chunk": 1,
-}
 PENDULUM = {"vary": {"bob.vy": "lin(0, 1, 9)"}, "until": 0.02}
 
 
@@ -45,10 +31,7 @@ def test_a_folder_of_an_older_version_is_refused_and_left_as_it_is(tmp_path):
     folder = tmp_path / "runs"
     symgen.sweep("pendulum", output=folder, **PENDULUM)
     now = json.loads((folder / "sweep.json").read_text())
-    assert {key: now[key] for key in ("symgen-sweep", "varied", "parameters", "start", "runs", "chunk")} == {
-        key: OLD[key] for key in ("symgen-sweep", "varied", "parameters", "start", "runs", "chunk")
-    }
-    for older in (OLD, {**now, "code": "0" * 64}, {key: x for key, x in now.items() if key != "code"}):
+    for older in ({**now, "code": "0" * 64}, {key: x for key, x in now.items() if key != "code"}):
         (folder / "sweep.json").write_text(json.dumps(older))
         refused(folder, "by another version of symgen", **PENDULUM)
     (folder / "sweep.json").write_text(json.dumps({**now, "symgen-sweep": 1}))
