@@ -7,7 +7,7 @@ import symgen
 from symgen.errors import SimulationError
 from symgen.methods import METHODS
 from symgen.running.automatic import AUTO
-from symgen.running.prepare import make_plan, prepare
+from symgen.running.prepare import make_plan
 from symgen.settings import Settings
 from symgen.study.references.motion import CompiledEquations, motion
 from symgen.study.references.solvers import STIFF_FOLDINGS, OverBudgetError, fastest_modes, is_stiff
@@ -16,6 +16,7 @@ from symgen.study.stress.bench import Base
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
 from symgen.study.stress.families import levels_of
 from symgen.study.stress.study import pairs, stress
+from tests.study.test_reference import start_of
 
 
 def plan_of(name, method, integrator, **settings):
@@ -133,11 +134,7 @@ def test_what_is_left_out_is_listed_and_not_run():
 def equations_of(name, **changes):
     mechanism = Base.of(name).stressed
     model = symgen.load(mechanism)
-    values = model.parameters(changes)
-    run = prepare(model.mechanism, Settings(method="lagrange", parameters=values))
-    compiled, start = run.compiled, run.start
-    nq, nv = compiled.info.nq, compiled.info.nv
-    return CompiledEquations(mechanism, values), start.y[:nq].copy(), start.y[nq : nq + nv].copy()
+    return CompiledEquations(mechanism, model.parameters(changes)), *start_of(model, model.parameters(changes))
 
 
 def test_what_conserves_energy_is_not_stiff_however_long_it_lasts():

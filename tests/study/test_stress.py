@@ -3,11 +3,6 @@
 import csv
 import json
 import math
-import os
-import signal
-import subprocess
-import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -26,21 +21,12 @@ from symgen.study.stress.families import FAMILIES, levels_of
 from symgen.study.stress.findings import largest_root
 from symgen.study.stress.stress_rows import save_csv
 from symgen.study.stress.study import pairs, stress
+from tests.study.test_reference import start_of
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
 # -- references --------------------------------------------------------------------------------------------------------
-
-
-def start_of(mechanism, parameters):
-    from symgen.running.prepare import prepare
-    from symgen.settings import Settings
-
-    model = symgen.load(mechanism)
-    run = prepare(model.mechanism, Settings(method="lagrange", parameters=parameters))
-    compiled, start = run.compiled, run.start
-    return start.y[: compiled.info.nq], start.y[compiled.info.nq : compiled.info.nq + compiled.info.nv]
 
 
 def test_compiled_equations_are_the_interpreted_ones():
@@ -49,7 +35,7 @@ def test_compiled_equations_are_the_interpreted_ones():
     values = symgen.load(mechanism).parameters()
     equations = CompiledEquations(mechanism, values)
     changed = {**values, "stress_stiffness": 300.0, "stress_damping": 2.0, "stress_mass": 3.0, "stress_gravity": 0.5}
-    q, v = start_of(mechanism, changed)
+    q, v = start_of(symgen.load(mechanism), changed)
     times = np.linspace(0.0, 0.5, 6)
     equations.set_parameters(changed)
     found = motion(equations, q, v, times)
@@ -342,36 +328,6 @@ def test_bad_input_is_refused_before_anything_is_run(arguments, sentence):
         stress(*arguments)
 
 
-@pytest.mark.slow
-def test_killed_and_resumed(tmp_path):
-    """A study killed in the middle goes on where it was: rows are those of an undisturbed one, none computed twice."""
-    journal = tmp_path / "journal.jsonl"
-    script = (
-        "from pathlib import Path; from symgen.study.journal import Journal; "
-        "from symgen.study.stress.study import stress; "
-        "stress(['pendulum'], ['gravity', 'step'], ['lagrange', 'penalty'], "
-        f"journal=Journal(Path({str(journal)!r})))"
-    )
-    environment = {**os.environ, "PYTHONPATH": f"{ROOT}{os.pathsep}{os.environ.get('PYTHONPATH', '')}"}
-    process = subprocess.Popen([sys.executable, "-c", script], env=environment)
-    end = time.monotonic() + 600
-    while not (journal.exists() and journal.read_bytes().count(b"\n") >= 12):
-        assert process.poll() is None and time.monotonic() < end
-        time.sleep(0.002)
-    process.send_signal(signal.SIGKILL)
-    process.wait()
-    before = journal.read_bytes()
-    before = before[: before.rfind(b"\n") + 1]
-    with Journal(journal) as kept:
-        study = stress(["pendulum"], ["gravity", "step"], ["lagrange", "penalty"], journal=kept)
-    after = journal.read_bytes()
-    assert after.startswith(before)
-    keys = [json.loads(line)["key"] for line in after.splitlines()[1:]]
-    assert len(keys) == len(set(keys))
-    assert study == stress(["pendulum"], ["gravity", "step"], ["lagrange", "penalty"])
-    assert not study.interrupted and math.isfinite(study.rows[0].error)
-
-
 def test_a_reference_does_with_less_where_rounding_forbids_more(monkeypatch):
     from symgen.study.references import motion as compiled
 
@@ -384,3 +340,25 @@ def test_a_reference_does_with_less_where_rounding_forbids_more(monkeypatch):
     found = motion(equations, np.array([-1.0, 0.0]), np.zeros(2), times)
     assert "at 3e-14" in best.how and "at 1e-10" in found.how
     np.testing.assert_allclose(found.q, best.q, atol=1e-8)
+
+
+FEW = {"models": ("four-bar",), "cases": ("mass-ratio",), "methods": ("lagrange",), "quick": True}
+
+
+def test_runs_in_joint_coordinates_are_judged_by_the_references_of_bodies(tmp_path):
+    with Journal(tmp_path / "cells") as journal:
+        bodies = stress(**FEW, journal=journal)
+        joints = stress(**FEW, journal=journal, coordinates="joint")
+        again = stress(**FEW, journal=journal, coordinates="joint")
+    assert [(r.case, r.method) for r in joints.rows] == [(r.case, r.method) for r in bodies.rows] != []
+    assert all(row.outcome == "ok" and row.error < 1e-8 for row in joints.rows)
+    assert joints.rows == again.rows
+    # not the cells of bodies: other equations round otherwise
+    assert all(a.error != b.error for a, b in zip(bodies.rows, joints.rows, strict=True))
+    assert (bodies.to_json()["coordinates"], joints.to_json()["coordinates"]) == ("absolute", "joint")
+    assert {*bodies.to_json()["rows"][0]} == {*joints.to_json()["rows"][0]}
+
+
+def test_other_coordinates_are_refused():
+    with pytest.raises(InputError, match="coordinates: expected"):
+        stress(**FEW, coordinates="joints")

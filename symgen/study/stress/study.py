@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from symgen import arguments
+from symgen.describe.digest import identity
 from symgen.describe.mechanism import bounded
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
@@ -17,7 +18,7 @@ from symgen.methods import METHODS
 from symgen.running.automatic import AUTO
 from symgen.running.plan import refuse_events, refuse_weightless
 from symgen.settings import Settings
-from symgen.study.journal import Journal, Outcome, cell_key, code_identity, mechanism_identity
+from symgen.study.journal import Journal, Outcome, cell_key, code_identity
 from symgen.study.runner import Cell, Status, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable
 from symgen.study.stress.cell_references import without_reference
@@ -260,7 +261,7 @@ def _cell(task: CellReference | RunTask) -> Cell:
     parts: dict[str, Any] = {
         "kind": type(task).__name__,
         "code": code_identity(),
-        "mechanism": mechanism_identity(level.mechanism),
+        "mechanism": identity(level.mechanism),
         "parameters": dict(level.parameters),
         "until": level.until,
         "outputs": level.outputs,
