@@ -5,6 +5,8 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from contextlib import ExitStack
+from functools import partial
 from itertools import islice
 from os import PathLike
 from pathlib import Path
@@ -161,30 +163,20 @@ def _run(
     progress: Callable[[float, int], None] | None,
 ) -> tuple[float, bool]:
     """Run what is missing; return seconds, and whether it was interrupted."""
-    total = len(ensemble)
+    show = None if progress is None else lambda done: progress(done, len(ensemble))
+    with ExitStack() as clients:
+        if scheduler is None:
+            if table.missing():
+                kernel_of(ensemble.recipe).warm()
+            run = partial(run_here, ensemble, table, jobs)
+        else:
+            from symgen.ensemble.cluster import connect, run_there
 
-    def show(done: float) -> None:
-        if progress is not None:
-            progress(done, total)
-
-    if scheduler is None:
-        from symgen.ensemble.kernel import kernel_of
-
-        if table.missing():
-            kernel_of(ensemble.recipe).warm()
+            client: Any = clients.enter_context(connect(scheduler)) if isinstance(scheduler, str) else scheduler
+            run = partial(run_there, ensemble, table, client)
         began = time.perf_counter()
-        interrupted = run_here(ensemble, table, jobs, show)
+        interrupted = run(show)
         return time.perf_counter() - began, interrupted
-    from symgen.ensemble.cluster import connect, run_there
-
-    client: Any = connect(scheduler) if isinstance(scheduler, str) else scheduler
-    try:
-        began = time.perf_counter()
-        interrupted = run_there(ensemble, table, client, show)
-        return time.perf_counter() - began, interrupted
-    finally:
-        if isinstance(scheduler, str):
-            client.close()
 
 
 def folder_of(path: Path, resume: bool) -> Path:
@@ -256,7 +248,6 @@ def run_here(
     waiting, handed = iter(missing), dict[Future[Chunk | None], int]()
     with ThreadPoolExecutor(jobs, "symgen-sweep") as pool:
         try:
-            kernel.warm()
             while True:
                 handed |= {pool.submit(work, index): index for index in islice(waiting, _AHEAD * jobs - len(handed))}
                 if not handed:

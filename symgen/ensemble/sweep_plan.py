@@ -64,8 +64,8 @@ class Ensemble:
     ----------
     model : Model
         What is run.
-    settings, plan : Settings, Plan
-        As asked for, and resolved.
+    plan : Plan
+        How, resolved.
     compiled : CompiledModel
         Its law; compiled when it is first run.
     grid : Grid
@@ -83,7 +83,6 @@ class Ensemble:
     """
 
     model: Model
-    settings: Settings
     plan: Plan
     compiled: CompiledModel
     grid: Grid
@@ -118,7 +117,7 @@ class Ensemble:
     @cached_property
     def parameters(self) -> dict[str, float]:
         """Values of all parameters, before any varies."""
-        return self.model.parameters(self.settings.parameters)
+        return self.model.parameters(self.plan.settings.parameters)
 
     @cached_property
     def chunk(self) -> int:
@@ -143,7 +142,7 @@ class Ensemble:
 
     def settled(self, first: int, last: int) -> Rows:
         """Return the same without the stops of runs."""
-        varied, targets, settled = self.grid.values(first, last), self.targets, self.settings.parameters
+        varied, targets, settled = self.grid.values(first, last), self.targets, self.plan.settings.parameters
         held = targets.names, targets.velocities, settled, targets.constant
         return make_rows(self.model.mechanism, self.parameters, varied, *held)
 
@@ -155,7 +154,7 @@ class Ensemble:
             for name, values in axis.values.items():
                 varied.update(f"{axis.dimension}\0{name}\0".encode() + values.tobytes())
         formulas = {name for name, _ in derived(self.model.mechanism.parameters)}
-        settled = sorted(formulas & set(self.settings.parameters))  # these have numbers in place of their formulas
+        settled = sorted(formulas & set(self.plan.settings.parameters))  # these have numbers in place of their formulas
         return {
             **({"settled": settled} if settled else {}),
             "mechanism": identity(self.model.mechanism),
@@ -282,7 +281,6 @@ def make_ensemble(
     warnings = *plan.warnings, *missed
     return Ensemble(
         model,
-        plan.settings,
         plan,
         compiled,
         grid,

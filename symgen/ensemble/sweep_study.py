@@ -161,8 +161,8 @@ class Sweep:
     def attributes(self) -> dict[str, Any]:
         """What was run, by name, as JSON can express it."""
         ensemble, spec = self.ensemble, self.ensemble.recipe.spec
-        settings = {f.name: getattr(ensemble.settings, f.name) for f in fields(ensemble.settings)}
-        settings = {key: value for key, value in settings.items() if key not in ("times", "parameters", "options")}
+        chosen, elsewhere = ensemble.plan.settings, ("times", "parameters", "options")
+        settings = {f.name: getattr(chosen, f.name) for f in fields(chosen) if f.name not in elsewhere}
         return {
             "mechanism": ensemble.model.name,
             "model_digest": ensemble.compiled.info.digest,
@@ -176,7 +176,7 @@ class Sweep:
             "until": spec.until,
             "parameters": json.dumps({k: x for k, x in ensemble.parameters.items() if "~" not in k}),
             "inputs": json.dumps(dict(ensemble.driving.inputs.words)),
-            "options": json.dumps(dict(ensemble.settings.options)),
+            "options": json.dumps(dict(chosen.options)),
             "settings": json.dumps(finite(settings)),
             "versions": json.dumps(_versions()),
             "ensemble_digest": ensemble.recipe.digest,

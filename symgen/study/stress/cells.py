@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -31,7 +31,7 @@ from symgen.running.plan import Purpose
 from symgen.running.prepare import assemble, begin, decided
 from symgen.runtime import abi
 from symgen.runtime.outcome import Outcome
-from symgen.settings import Settings, default, told_constant
+from symgen.settings import Settings, told_constant
 from symgen.study.stress import cell_outcome as judged
 from symgen.study.stress.bench import Level
 from symgen.study.stress.cell_outcome import Run, classify, largest_error
@@ -42,17 +42,8 @@ Array = NDArray[np.float64]
 Fields = dict[str, Any]
 
 
-@dataclass(frozen=True)
-class Limits:
-    """Limits of a run, as in `symgen.Settings`."""
-
-    max_violation: float = default("max_violation")
-    max_energy_error: float = default("max_energy_error")
-    max_attempts: float | None = None
-
-
-#: Of a run that watches itself, by default, and of one that does not.
-WATCHED, UNWATCHED = Limits(), Limits(1e30, 1e30)
+#: Limits of a run that does not watch itself.
+UNWATCHED: dict[str, Any] = {"max_violation": 1e30, "max_energy_error": 1e30}
 #: How a loop ends that stopped itself although it could have gone on.
 WATCHES = (abi.POSITION, abi.VELOCITY, abi.ENERGY)
 #: The search for the largest step: factor of the scan, halvings afterwards, and how far it goes down from the step.
@@ -70,15 +61,14 @@ class CellReference:
 class RunTask:
     """Run a case with a method and an integrator; `reference` is the outcome of its `CellReference`.
 
-    `limits` are those of a run that watches itself, `coordinates` those of the state.
+    `common` holds what all runs have in common: coordinates of the state, and limits of a run that watches itself.
     """
 
     level: Level
     method: str
     integrator: str
     reference: Fields
-    limits: Limits = WATCHED
-    coordinates: str = "absolute"
+    common: Settings = field(default_factory=Settings)
 
 
 @dataclass(frozen=True)
@@ -105,10 +95,10 @@ def _not_run(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") 
 
 def _run(task: RunTask) -> Fields:
     """Return the fields of a row that depend on the run; without a reference it would say nothing, and is not run."""
-    level, method, integrator, motion, limits = task.level, task.method, task.integrator, task.reference, task.limits
+    level, method, integrator, motion = task.level, task.method, task.integrator, task.reference
     mechanism = level.mechanism
-    watched = limits if level.watched else replace(UNWATCHED, max_attempts=limits.max_attempts)
-    settings = Settings(
+    settings = replace(
+        task.common,
         method=method,
         integrator=integrator,
         step=None if _is_adaptive(integrator, level.options) else level.step,
@@ -116,8 +106,7 @@ def _run(task: RunTask) -> Fields:
         times=times_of(level),
         parameters={**level.parameters, **motion.get("parameters", {})},
         options=level.options,
-        coordinates=task.coordinates,
-        **asdict(watched),
+        **({} if level.watched else UNWATCHED),
     )
     try:
         plan, assembled = decided(mechanism, _shaped(mechanism, settings), Purpose.MOTION)
@@ -149,8 +138,7 @@ def _run(task: RunTask) -> Fields:
     if outcome.code in WATCHES and kind == judged.DIVERGED:
         # it stopped itself before its error could be seen: what would have become of it says what it was
         most = further_budget(budget, outcome.evaluations)
-        violation, energy = UNWATCHED.max_violation, UNWATCHED.max_energy_error
-        run = run.with_spec(max_violation=violation, max_energy_error=energy, max_evaluations=most)
+        run = run.with_spec(**UNWATCHED, max_evaluations=most)
         further = run.integrate()
         if further.interrupted:
             raise KeyboardInterrupt
@@ -230,7 +218,7 @@ def _limit(task: LimitTask) -> Fields:
     def attempt(step: float) -> tuple[bool, bool]:
         if step not in ran:
             level = replace(task.level, step=step, watched=False, options={**task.level.options, **_constant(task)})
-            fields = _run(RunTask(level, task.method, task.integrator, task.reference, coordinates=task.coordinates))
+            fields = _run(RunTask(level, task.method, task.integrator, task.reference, task.common))
             lost = judged.LOST * task.reference["size"]
             error = fields["error"] if fields["error"] is not None and not fields["note"] else math.inf
             ran[step] = error <= lost, error <= judged.ACCURATE
