@@ -3,21 +3,18 @@
 from dataclasses import replace
 
 import pytest
+from report.made import stress_row
 
 from symgen.report import stress as report
 from symgen.report.stress import FEW_MODELS
 from symgen.study.stress.findings import cause, findings
-from symgen.study.stress.stress_rows import Limit, Stress, StressRow, outcomes_of_models, shares_of_models
+from symgen.study.stress.stress_rows import Limit, Stress, outcomes_of_models, shares_of_models
 
 MODELS = tuple(f"model-{i}" for i in range(FEW_MODELS + 1))
 
 
 def row(model, method, outcome, error=1e-6, **changes):
-    base = StressRow(
-        *(model, "stiffness", "1", (1.0,), method, "rk4", 1e-3, 1.0, outcome, error, 1e-9, "ok", None, 4000),
-        *(1e-12, 1e-12, 0.0, "", "", True),
-    )
-    return replace(base, **changes)
+    return stress_row(model, method, outcome, error, **changes)
 
 
 def penalty(model, factor, outcome):

@@ -5,11 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from report.made import stress_row
 
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES, Run, classify, false_success
 from symgen.study.stress.cells import largest
 from symgen.study.stress.findings import cause, explained, findings, largest_root
-from symgen.study.stress.stress_rows import Map, Stress, StressRow
+from symgen.study.stress.stress_rows import Map, Stress
 
 REGULAR = np.ones(11)
 FLAT = np.array([1.0, 0.8, 0.5, 0.3, 0.1, 0.05, 0.2, 0.4, 0.6, 0.8, 1.0])
@@ -83,11 +84,7 @@ def test_roots_of_the_feedback():
 
 
 def row(method, outcome, error, case="1", **changes):
-    base = StressRow(
-        *("four-bar", "stiffness", case, (1.0,), method, "rk4", 1e-3, 1.0, outcome, error, 1e-9, "ok", None, 4000),
-        *(1e-12, 1e-12, 0.0, "", "", True),
-    )
-    return replace(base, **changes)
+    return stress_row("four-bar", method, outcome, error, case=case, **changes)
 
 
 ROWS = (
