@@ -14,6 +14,7 @@ from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study
 from symgen.study.machine_class import machine_class, versions
 
 _MOODS = {"ok": "good", "unverified": "doubtful", "failed": "bad"}
+BELOW = "* below the error of the reference itself"
 _LEAD = (
     "The error of a run is its largest distance [m] from a reference motion, over bodies, common output times and "
     "points: the centre of mass of each body and the tips of its axes at the body's own length. Run time is that of "
@@ -100,7 +101,7 @@ def _error_cell(row: Row | None) -> str | TableCell:
         return words.NONE
     if row.error is None:
         return TableCell(row.status, _MOODS[row.status])
-    text = words.number(row.error) + (" *" if row.below_reference else "")
+    text = _error_text(row)
     return TableCell(f"{text} ({row.status})", _MOODS[row.status]) if row.status != "ok" else text
 
 
@@ -142,11 +143,7 @@ def _summary(study: Study) -> DocumentTable:
                 words.number(row.energy_drift_max),
             )
         )
-    notes = (
-        ("* below the error of the reference itself",)
-        if any(r.below_reference for r, _ in representatives(study))
-        else ()
-    )
+    notes = (BELOW,) if any(r.below_reference for r, _ in representatives(study)) else ()
     return DocumentTable(f"One row a method: {settings_text(study)}.", headings, tuple(rows), words=2, notes=notes)
 
 
@@ -174,22 +171,16 @@ def _all_rows(study: Study) -> DocumentTable:
     rows = []
     for row in study.rows:
         spread = row.run_seconds_spread / row.run_seconds if row.run_seconds > 0.0 else None
-        both = words.ratio(row.cost_ratio)
-        if row.cost_ratio is not None and row.cost_ratio_spread:
-            both += f" ± {words.ratio(row.cost_ratio_spread)}"
+        both = words.with_spread(row.cost_ratio, row.cost_ratio_spread or None)
         rows.append(
             (
-                *(
-                    row.label,
-                    row.integrator,
-                    words.setting(row.step, row.rtol),
-                    TableCell(row.status, _MOODS[row.status]),
-                ),
+                *(row.label, row.integrator, words.setting(row.step, row.rtol)),
+                TableCell(row.status, _MOODS[row.status]),
                 *(_error_text(row), words.seconds(row.run_seconds), words.percent(spread), both),
                 *(str(row.evaluations), str(row.iterations), words.number(row.energy_drift_max)),
             )
         )
-    notes = ["* below the error of the reference itself"] if any(row.below_reference for row in study.rows) else []
+    notes = [BELOW] if any(row.below_reference for row in study.rows) else []
     for row in study.rows:
         notes += [f"{_where(row)}: {row.status}: {words.readable(row.reason)}"] if row.reason else []
     notes += _warnings(study)

@@ -96,12 +96,8 @@ def _reference(study: Study) -> str:
     )
     if marked:
         lie = words.counted(marked, "row lies", "rows lie")
-        text += f"; {lie} below that, marked *, and {_say(marked)} no more than that"
+        text += f"; {lie} below that, marked *, and {'says' if marked == 1 else 'say'} no more than that"
     return f"{text}. Note: {words.readable(study.note)}" if study.note else text
-
-
-def _say(count: int) -> str:
-    return "says" if count == 1 else "say"
 
 
 def _trusted(study: Study) -> list[Row]:

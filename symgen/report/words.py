@@ -62,6 +62,11 @@ def ratio(x: float | None) -> str:
     return NONE if x is None or not math.isfinite(x) else f"{x:.2f}" if x < 100.0 else f"{x:.0f}"
 
 
+def with_spread(x: float | None, spread: float | None) -> str:
+    """Return a ratio with what it may vary by."""
+    return f"{ratio(x)} ± {ratio(spread)}" if spread is not None else ratio(x)
+
+
 def listed(words: Sequence[str], last: str = "and") -> str:
     """Return words as an enumeration: a, b and c."""
     if len(words) < 2:
