@@ -222,31 +222,24 @@ class FolderTable(RowTable):
         for line in content.split(b"\n")[:-1]:  # behind the last line end is a line that a kill tore, or nothing
             match = _LINE.fullmatch(line)
             index = int(match[1]) if match else self.chunks
-            if index < self.chunks and index not in self.finished and self._line(index) == line + b"\n":
+            first, last = self.bounds(index)
+            own = _line(index, self.values[first:last].tobytes(), self.summary[first:last].tobytes())
+            if index < self.chunks and index not in self.finished and own == line + b"\n":
                 self.finished.add(index)
                 kept += line + b"\n"
         if kept != content:
             write_whole(path, kept)
         self._log = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
 
-    def _line(self, index: int) -> bytes:
-        """Return the line of a chunk whose rows are those in the files."""
-        first, last = self.bounds(index)
-        digest = hashlib.sha256(self.values[first:last].tobytes())
-        digest.update(self.summary[first:last].tobytes())
-        return f"{index} {digest.hexdigest()[:32]}\n".encode()
-
     def _write(self, index: int, chunk: Chunk) -> None:
         first, _ = self.bounds(index)
-        digest = hashlib.sha256()
+        contents = [np.ascontiguousarray(rows).tobytes() for rows in (chunk.values, chunk.summary)]
         try:
-            for name, rows in ((VALUES, chunk.values), (SUMMARY, chunk.summary)):
-                data = np.ascontiguousarray(rows).tobytes()
-                digest.update(data)
+            for name, data in zip((VALUES, SUMMARY), contents, strict=True):
                 if name in self._files:
                     file, offset, size = self._files[name]
                     _write_all(file, data, offset + first * size)
-            os.write(self._log, f"{index} {digest.hexdigest()[:32]}\n".encode())
+            os.write(self._log, _line(index, *contents))
         except OSError as error:
             raise SimulationError(f"the folder '{self.folder}' cannot be written: {why(error)}") from None
 
@@ -269,6 +262,11 @@ class FolderTable(RowTable):
             (self.folder / name).unlink(missing_ok=True)
         if not any(self.folder.iterdir()):
             self.folder.rmdir()
+
+
+def _line(index: int, *contents: bytes) -> bytes:
+    """Return the line of a chunk with these rows."""
+    return f"{index} {hashlib.sha256(b''.join(contents)).hexdigest()[:32]}\n".encode()
 
 
 def _array(path: Path, shape: tuple[int, ...]) -> np.memmap[Any, np.dtype[np.float64]] | None:

@@ -75,19 +75,6 @@ def test_a_solver_that_gives_up_costs_its_reference_alone(monkeypatch):
         motion(equations, np.array([-1.0, 0.0]), np.zeros(2), np.array([0.0, 0.1]))
 
 
-def test_the_parallelogram_is_the_catalogue_s():
-    from symgen.study.references.closed_forms import n_four_bar, parallel_cranks
-
-    times = np.linspace(0.0, 4.0, 41)
-    mechanism = symgen.load("n-four-bar:1").mechanism
-    _, _, expected = n_four_bar(mechanism, {}, np.zeros(9), times)
-    by_name = {body.name: expected[:, 3 * i : 3 * i + 3] for i, body in enumerate(mechanism.bodies)}
-    names = ("vertical0", "coupler0", "vertical1")
-    found = parallel_cranks(names, times)[2]
-    for i, name in enumerate(names):
-        np.testing.assert_allclose(found[:, 3 * i : 3 * i + 3], by_name[name], atol=1e-11)
-
-
 # -- families ----------------------------------------------------------------------------------------------------------
 
 
@@ -313,19 +300,6 @@ def test_pairs_of_methods_and_integrators():
     assert pairs("lagrange", constant_steps=True) == (("lagrange", "rk4"),)
     assert pairs("ggl") == (("ggl", "radau5"),)
     assert pairs("auto") == (("auto", "auto"),) and pairs("auto", constant_steps=True) == ()
-
-
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        ((["four-bar"], ["stifness"]), "did you mean 'stiffness'"),
-        ((["four-bar"], [], ["lagrnage"]), "did you mean 'lagrange'"),
-        ((["five-bar"],), "a catalogue name or the path of a file"),
-    ],
-)
-def test_bad_input_is_refused_before_anything_is_run(arguments, sentence):
-    with pytest.raises(InputError, match=sentence):
-        stress(*arguments)
 
 
 def test_a_reference_does_with_less_where_rounding_forbids_more(monkeypatch):
