@@ -15,7 +15,6 @@ from symgen.ensemble.chunks import Chunk, Results, Rows
 from symgen.ensemble.device_runs import DeviceRuns, need_of
 from symgen.ensemble.loop_runs import LoopRuns, TreeRuns
 from symgen.ensemble.recipe import Code, Recipe
-from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.running.tree import carried_of
 from symgen.runtime import ensemble_abi as e
@@ -24,14 +23,11 @@ from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.integrator import Integrator
 from symgen.runtime.model_arrays import joints_of
 from symgen.runtime.new_state import span_of
-from symgen.runtime.run import RunSpec
 from symgen.runtime.start_records import Instant, StartConditions
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.measures import Measures
     from symgen.runtime.compiled import ModelInfo
-    from symgen.runtime.events import Watched
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -63,17 +59,6 @@ class RowKernel:
     _lock: threading.Lock = field(default_factory=threading.Lock)
     _spare: _Prepared | None = None
     _warm: bool = False
-
-    @cached_property
-    def integrator(self) -> Integrator:
-        """The scheme.
-
-        Raises
-        ------
-        InputError
-            If there is no loop over many runs for it.
-        """
-        return integrator_of_rows(self.recipe.integrator, self.recipe.spec)
 
     @cached_property
     def first(self) -> _Prepared:
@@ -176,7 +161,8 @@ class RowKernel:
 
     def _runs(self, code: Code, compiled: CompiledModel) -> Runs:
         """Return what runs rows from starts of bodies."""
-        recipe, watch, integrator = self.recipe, self.recipe.watch, self.integrator
+        recipe, watch, spec = self.recipe, self.recipe.watch, self.recipe.spec
+        integrator: Integrator = INTEGRATORS.get(recipe.integrator)
         other, tree = (None if module is None else module.load() for module in (code.other, code.tree))
         own, on_tree = tree or compiled, None
         if watch is not None and recipe.tree is not None:
@@ -185,11 +171,13 @@ class RowKernel:
             from symgen.ensemble.singly import SingleRuns
 
             return SingleRuns(recipe, watch, compiled, integrator, code.measures, on_tree)
-        setup = integrator.setup(own, recipe.spec, own.scratch())
+        setup = integrator.setup(own, spec, own.scratch())
         if other is not None and recipe.target == "cuda":
-            need, span = need_of(other, setup, recipe.spec.adaptive, recipe.sources), span_of(recipe.spec, setup)
+            need, span = need_of(other, setup, spec.adaptive, recipe.sources), span_of(spec, setup)
             return DeviceRuns(other, need, setup.scheme, span, recipe.limits, recipe.times, recipe.picks)
-        watched = None if watch is None else self._watched(recipe.tree or watch.mechanism, own)
+        watched, rtol = None, spec.rtol if spec.adaptive else None
+        if watch is not None:
+            watched = compile_events(recipe.tree or watch.mechanism, own, watch.events, {}, rtol)
         if on_tree is None:
             return LoopRuns(recipe, compiled, integrator, setup, recipe.picks, watched, other)
         info, picks = compiled.info, list[tuple[int, int]]()
@@ -200,32 +188,6 @@ class RowKernel:
         flat = np.array(picks, dtype=np.int64).ravel()
         loop = LoopRuns(recipe, own, integrator, setup, flat, watched, width=info.nq + 2 * info.nv)
         return TreeRuns(on_tree[1], self._parameters(own), loop)
-
-    def _watched(self, mechanism: Mechanism, compiled: CompiledModel) -> Watched | None:
-        """Return the switching functions of rows, None where there are none."""
-        watch, spec = self.recipe.watch, self.recipe.spec
-        assert watch is not None, "rows look for something"
-        return compile_events(mechanism, compiled, watch.events, {}, spec.rtol if spec.adaptive else None)
-
-
-def integrator_of_rows(name: str, spec: RunSpec) -> Integrator:
-    """Return an integrator that has a loop over many runs.
-
-    Raises
-    ------
-    InputError
-        If it has none; says which have one.
-    """
-    chosen: Integrator = INTEGRATORS.get(name, "--integrator")
-    if chosen.rows(spec.adaptive) is None:
-        with_loop = [other for other, kind in INTEGRATORS.items() if kind.rows(False) is not None]
-        raise InputError(
-            f"integrator '{name}'",
-            "one with a loop over many runs",
-            "one without",
-            f"{', '.join(with_loop)} have one",
-        )
-    return chosen
 
 
 def new_control() -> Integers:

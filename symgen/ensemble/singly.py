@@ -165,12 +165,8 @@ class SingleRuns:
     def _events(self, rows: Rows, r: int) -> Watched | None:
         if self._watched is None or not self._watched.resets:
             return self._watched
-        return replace(self._watched, masses=masses_of(self._run_of[0], self._values(rows, r)))
-
-    def _values(self, rows: Rows, r: int) -> dict[str, float]:
-        """Return the parameters of a row by name."""
-        names = (q.name for q in self.compiled.info.parameters)
-        return {name: float(x) for name, x in zip(names, rows.parameters[r], strict=True)}
+        values = zip((q.name for q in self.compiled.info.parameters), rows.parameters[r].tolist(), strict=True)
+        return replace(self._watched, masses=masses_of(self._run_of[0], dict(values)))
 
     def _columns(self, outcome: Outcome, unique: bool) -> Array:
         """Return what loops would leave of a run at its outputs, shape (columns, outputs).

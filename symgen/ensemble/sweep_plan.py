@@ -24,13 +24,14 @@ from symgen.describe.sides import sides_of
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.chunks import Rows, make_rows
 from symgen.ensemble.driving import Driving, read_by_motions
-from symgen.ensemble.kernel import integrator_of_rows, kernel_of
+from symgen.ensemble.kernel import kernel_of
 from symgen.ensemble.loop_runs import PLAIN
 from symgen.ensemble.measures import integrated, make_measures, measurable
 from symgen.ensemble.names import Names, Targets, targets_of
 from symgen.ensemble.recipe import Code, Module, Recipe, Watch, code_identity
 from symgen.ensemble.row_quantities import choose_quantities
 from symgen.errors import InputError, nearest
+from symgen.integrators import INTEGRATORS
 from symgen.ir.program import LANES
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import make_plan
@@ -229,15 +230,19 @@ def make_ensemble(
     if target != "cpu":
         inputs, passed = replace(driving, foreseen=None).jumps, looks or driving.jumps
         _check_target(target, inputs, passed, bool(events))
+    name = plan.integrator.name
+    if plan.integrator.rows(spec.adaptive) is None:
+        others = ", ".join(other for other, kind in INTEGRATORS.items() if kind.rows(False) is not None)
+        expected = "one with a loop over many runs"
+        raise InputError(f"integrator '{name}'", expected, "one without", f"{others} have one")
+    if target == "lanes" and spec.adaptive:  # runs side by side take the same steps
+        got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with --step, or rk4"
+        raise InputError("target 'lanes'", "a constant step", got, hint)
     kept = choose_quantities(compiled.info, kept_names, partial(measurable, mechanism, compiled.info))
     integral = integrated(mechanism, kept)
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
         raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave --target out, or name others")
-    integrator_of_rows(plan.integrator.name, spec)
-    if target == "lanes" and spec.adaptive:  # runs side by side take the same steps
-        got, hint = f"'{plan.integrator.name}' with adaptive steps", "integrator.adaptive=false with --step, or rk4"
-        raise InputError("target 'lanes'", "a constant step", got, hint)
     resets = any(event.action == RESET for event in events)
     late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in kept)
     # what Python does something between; and measures behind the loops know the inputs of one part
