@@ -20,7 +20,7 @@ from rich.table import Table
 from benchmarks.show import show
 from symgen.api import load
 from symgen.compiling.pipeline import choose_method, compile_model
-from symgen.ensemble.lanes import aligned
+from symgen.ensemble.loop_runs import aligned
 from symgen.ir.program import LANES, lane_bases
 from symgen.native import types
 from symgen.runtime import abi

@@ -177,7 +177,7 @@ class Passages:
 
 def passages(method: str, windows: int, steps: Array, until: float = 10.0) -> Passages:
     """Run the N-four-bar with a method at several steps with `rk4`, or with its own integrator."""
-    from symgen.study.references.reference import n_four_bar
+    from symgen.study.references.closed_forms import n_four_bar
 
     model, times = load(f"n-four-bar:{windows}"), np.linspace(0.0, until, 101)
     exact = n_four_bar(model.mechanism, model.parameters(), np.zeros(0), times)[2]

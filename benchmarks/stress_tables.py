@@ -23,8 +23,7 @@ from benchmarks.gallery import slim
 from symgen.running.automatic import AUTO
 from symgen.study.stress.cell_outcome import GOOD, OUTCOMES, REFUSED, UNJUDGED
 from symgen.study.stress.findings import cause
-from symgen.study.stress.map import map_rows, outcomes_of_models
-from symgen.study.stress.stress_rows import Limit, Stress, StressRow
+from symgen.study.stress.stress_rows import Limit, Stress, StressRow, map_rows, outcomes_of_models
 
 COLUMNS = ("rk4", "dop853", "radau5", AUTO)
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def show_stress(study: Stress) -> None:
     """Print a stress study."""
     from symgen.study.stress.findings import findings
-    from symgen.study.stress.map import LEGEND, Map
+    from symgen.study.stress.stress_rows import LEGEND, Map
 
     out = console()
     out.print(f"{', '.join(study.models)}: {len(study.rows)} cells")

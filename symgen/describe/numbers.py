@@ -1,7 +1,7 @@
 """What a described start is worked out in: the numbers of one run, or arrays with an element for each of many.
 
 Algorithms are written once, with the operators of Python and the functions of formulas, and serve both: `Scalars` here,
-and columns of a sweep in `symgen.ensemble.row_starts`.
+and columns of a sweep in `symgen.ensemble.chunks`.
 """
 
 from __future__ import annotations

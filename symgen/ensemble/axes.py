@@ -71,11 +71,11 @@ class Grid:
     def values(self, first: int, last: int) -> dict[str, Array]:
         """Return the value of every name in the runs from `first` to `last`, shape (last - first,) each."""
         indices = np.unravel_index(np.arange(first, last), self.shape)
-        found: dict[str, Array] = {}
+        columns: dict[str, Array] = {}
         for axis, index in zip(self.axes, indices, strict=True):
             for name, values in axis.values.items():
-                found[name] = values[index]
-        return found
+                columns[name] = values[index]
+        return columns
 
 
 # -- from what people write --------------------------------------------------------------------------------------------
@@ -90,9 +90,9 @@ def log(first: float, last: float, count: int) -> Array:
     """Return `count` values from `first` to `last`, both above 0, each the same factor above the one before."""
     if not (first > 0.0 and last > 0.0):
         raise InputError("log", "two ends above 0", f"{first:g} and {last:g}")
-    found = np.exp(np.linspace(math.log(first), math.log(last), _count("log", count)))
-    found[0], found[-1] = first, last if len(found) > 1 else first
-    return np.asarray(found)
+    values = np.exp(np.linspace(math.log(first), math.log(last), _count("log", count)))
+    values[0], values[-1] = first, last if len(values) > 1 else first
+    return np.asarray(values)
 
 
 def values(*numbers: float) -> Array:
@@ -141,14 +141,14 @@ def parse(text: str, where: str) -> Array:
         If it is anything else.
     """
     expected = "lin(a, b, n), log(a, b, n), values(a, b, ...) or uniform(a, b, n, seed)"
-    found = _SHAPE.fullmatch(text) if len(text) <= 1_000_000 else None
-    if found is None:
+    match = _SHAPE.fullmatch(text) if len(text) <= 1_000_000 else None
+    if match is None:
         raise InputError(where, expected, quoted(text.strip()))
-    word = found[1]
+    word = match[1]
     if word not in _WORDS:
         raise InputError(where, expected, quoted(word), nearest(word, _WORDS))
     build, arity, form = _WORDS[word]
-    numbers = [_number(part, where) for part in found[2].split(",")]
+    numbers = [_number(part, where) for part in match[2].split(",")]
     if arity is not None and len(numbers) != arity:
         raise InputError(where, form, f"{len(numbers)} numbers")
     try:
@@ -184,16 +184,16 @@ def make_grid(
     """
     axes = []
     if runs:
-        together = {name: _values(name, given) for name, given in runs.items()}
-        lengths = {name: len(given) for name, given in together.items()}
+        together = {name: _values(name, written) for name, written in runs.items()}
+        lengths = {name: len(written) for name, written in together.items()}
         if len(set(lengths.values())) > 1:
-            told = ", ".join(f"{length} for {name}" for name, length in lengths.items())
-            raise InputError("runs", "as many values for every name", told)
+            sizes = ", ".join(f"{length} for {name}" for name, length in lengths.items())
+            raise InputError("runs", "as many values for every name", sizes)
         axes.append(Axis("run", together, together=True))
-    for name, given in vary.items():
+    for name, written in vary.items():
         if name in runs:
             raise InputError(name, "one way of varying it", "two")
-        axes.append(Axis(f"{name}(0)" if name in starts else name, {name: _values(name, given)}))
+        axes.append(Axis(f"{name}(0)" if name in starts else name, {name: _values(name, written)}))
     if not axes:
         raise InputError("sweep", "something that varies", "nothing")
     grid = Grid(tuple(axes))
@@ -203,18 +203,18 @@ def make_grid(
     return grid
 
 
-def _values(name: str, given: ArrayLike | str) -> Array:
-    if isinstance(given, str):
-        return parse(given, name)
+def _values(name: str, written: ArrayLike | str) -> Array:
+    if isinstance(written, str):
+        return parse(written, name)
     try:
-        plain = np.asarray(given)
+        plain = np.asarray(written)
         if plain.dtype.kind in "bc":
             raise TypeError("truth values and complex numbers are no values")
-        found = np.array(plain, dtype=np.float64)
+        numbers = np.array(plain, dtype=np.float64)
     except (TypeError, ValueError):
-        raise InputError(name, "numbers", shown(given)) from None
-    if found.ndim != 1 or len(found) == 0:
-        raise InputError(name, "a list of at least one number", f"an array of shape {found.shape}")
-    if not np.all(np.isfinite(found)):
+        raise InputError(name, "numbers", shown(written)) from None
+    if numbers.ndim != 1 or len(numbers) == 0:
+        raise InputError(name, "a list of at least one number", f"an array of shape {numbers.shape}")
+    if not np.all(np.isfinite(numbers)):
         raise InputError(name, "finite numbers", "others")
-    return found
+    return numbers

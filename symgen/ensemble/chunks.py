@@ -1,13 +1,107 @@
-"""What the rows of a chunk give: arrays while they are written, and when they are complete."""
+"""The rows of a chunk: what distinguishes its runs, evaluated as arrays, and what they give.
+
+What is undefined for some values (a division by 0, the root of a negative number) is nan there, and only those runs
+fail.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.derived_parameters import derived
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.start import described_start
+from symgen.runtime.array_formulas import Columns
+from symgen.vocabulary.expressions import Expr
+
+if TYPE_CHECKING:
+    from symgen.runtime.stops import Stop
+
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Rows:
+    """What distinguishes the runs of a chunk.
+
+    Attributes
+    ----------
+    parameters : Array, shape (k, number of parameters)
+        Values of the mechanism's parameters.
+    q, v : Array, shapes (k, nq), (k, nv)
+        Described coordinates, not closed; given velocities, nan where they are to be completed.
+    targets : Array, shape (k, h)
+        Values of what the runs hold: coordinates, then joint coordinates, then rates of these.
+    stops : tuple of tuple of Stop
+        Of each run, or of all of them, where an input jumps; none where nothing does.
+    """
+
+    parameters: Array
+    q: Array
+    v: Array
+    targets: Array
+    stops: tuple[tuple[Stop, ...], ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.parameters)
+
+    def stops_of(self, r: int) -> tuple[Stop, ...]:
+        """Return the stops of a run."""
+        return self.stops[r if len(self.stops) > 1 else 0] if self.stops else ()
+
+
+def make_rows(
+    mechanism: Mechanism,
+    base: Mapping[str, float],
+    varied: Mapping[str, Array],
+    held: Sequence[str],
+    velocities: Mapping[str, int],
+    settled: Iterable[str] = (),
+    constant: Mapping[str, Expr] | None = None,
+) -> Rows:
+    """Return the rows of a chunk.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    base : mapping
+        Values of all parameters, before any varies.
+    varied : mapping of str to Array, shape (k,)
+        Values of all names that vary.
+    held : sequence of str
+        Coordinates, joint coordinates and rates of these that are held, in the order of `Rows.targets`.
+    velocities : mapping of str to int
+        Velocities that vary, each with its index.
+    settled : iterable of str
+        Parameters that have numbers in place of their formulas.
+    constant : mapping of str to Expr, optional
+        Values of those among them that do not vary, as formulas of parameters.
+    """
+    k = len(next(iter(varied.values())))
+    values: dict[str, Any] = {**base, **{name: x for name, x in varied.items() if name in base}}
+    for name, formula in derived(mechanism.parameters, {*settled, *varied}):
+        values[name] = Columns(values).value(formula)
+    described, speeds = described_start(mechanism, Columns(values))
+    parameters, q, v = (np.empty((k, len(columns))) for columns in (base, described, speeds))
+    for array, columns in ((parameters, [values[name] for name in base]), (q, described), (v, speeds)):
+        for i, column in enumerate(columns):
+            array[:, i] = np.nan if column is None else column
+    undefined = [i for i, speed in enumerate(speeds) if speed is not None]
+    q[~np.isfinite(v[:, undefined]).all(axis=1)] = np.nan
+    numbers = Columns(values)
+    chosen = {**varied, **{name: np.full(k, numbers.value(e)) for name, e in (constant or {}).items()}}
+    for name, index in velocities.items():
+        v[:, index] = chosen[name]
+    targets = np.zeros((k, len(held)))
+    for i, name in enumerate(held):
+        targets[:, i] = chosen[name]
+    return Rows(parameters, q, v, targets)
 
 
 @dataclass(frozen=True)

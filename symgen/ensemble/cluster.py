@@ -11,7 +11,7 @@ from contextlib import suppress
 from secrets import token_hex
 from typing import TYPE_CHECKING, Any
 
-from symgen.ensemble.chunks import Chunk
+from symgen.ensemble.chunks import Chunk, Rows
 from symgen.ensemble.kernel import kernel_of, new_control
 from symgen.ensemble.recipe import Recipe, code_identity
 from symgen.errors import InputError, SimulationError
@@ -19,7 +19,6 @@ from symgen.errors import InputError, SimulationError
 if TYPE_CHECKING:
     from distributed import Client
 
-    from symgen.ensemble.row_starts import Rows
     from symgen.ensemble.sweep_plan import Ensemble
     from symgen.ensemble.table import RowTable
 
@@ -79,7 +78,7 @@ def run_there(
     Parameters
     ----------
     ensemble, table : Ensemble, Table
-        As for `symgen.ensemble.local.run_here`.
+        As for `symgen.ensemble.sweep.run_here`.
     client : Client
         Of the cluster; stays open.
     progress : callable, optional
@@ -113,19 +112,19 @@ def run_there(
     try:
         for future in completed:
             index, attempt = handed.pop(future.key)
-            found = _outcome(future)
-            if isinstance(found, Chunk):
-                table.put(index, found)
+            result = _outcome(future)
+            if isinstance(result, Chunk):
+                table.put(index, result)
                 if progress is not None:
                     progress(table.runs_done)
                 following, attempt = next(waiting, None), 0
                 if following is None:
                     continue
                 index = following
-            elif isinstance(found, SimulationError | InputError):
-                raise found
+            elif isinstance(result, SimulationError | InputError):
+                raise result
             elif attempt >= _ATTEMPTS or client.status != "running":
-                raise _gave_up(index, found)
+                raise _gave_up(index, result)
             completed.add(hand_out(index, attempt + 1))
     except KeyboardInterrupt:
         return True
@@ -143,7 +142,7 @@ def _gave_up(index: int, error: BaseException) -> SimulationError:
 def _outcome(future: Any) -> Chunk | BaseException:
     """Return a chunk, or why there is none: its task failed, or what it gave was lost on the way here."""
     try:
-        found: Chunk = future.result(timeout=60)
+        chunk: Chunk = future.result(timeout=60)
     except (Exception, CancelledError) as error:
         return error
-    return found
+    return chunk

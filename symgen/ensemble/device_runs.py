@@ -22,8 +22,7 @@ from symgen.runtime.new_state import metric_of, share_of, sizes_of
 from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
-    from symgen.ensemble.chunks import Results
-    from symgen.ensemble.row_starts import Rows
+    from symgen.ensemble.chunks import Results, Rows
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.device import Need
     from symgen.runtime.integrator import Setup
@@ -112,7 +111,7 @@ def need_of(compiled: CompiledModel, setup: Setup, adaptive: bool, wants: set[in
     if not isinstance(setup.scheme, TableauRecord):
         raise InputError("target 'cuda'", "an explicit Runge-Kutta scheme", "an integrator with a loop of its own")
     info, law = compiled.info, compiled.law
-    found = Need(
+    need = Need(
         width=padded(info.ny),
         n_p=max(1, law.parameter_offset + len(law.parameters) + law.hoisted),
         nw=max(1, law.nw),
@@ -123,10 +122,10 @@ def need_of(compiled: CompiledModel, setup: Setup, adaptive: bool, wants: set[in
         rates=bool(wants & {e.ACCELERATION, e.MULTIPLIER, e.JOINT}),
         joints=e.JOINT in wants,
     )
-    if found.local_bytes > LOCAL_BYTES:
-        least, most = found.local_bytes / 1024, LOCAL_BYTES / 1024
+    if need.local_bytes > LOCAL_BYTES:
+        least, most = need.local_bytes / 1024, LOCAL_BYTES / 1024
         raise InputError("target 'cuda'", f"runs that need at most {most:.0f} KiB each", f"{least:.0f} KiB")
-    return found
+    return need
 
 
 class DeviceRuns:
@@ -290,8 +289,8 @@ class DeviceRuns:
             arguments = scheme, self.sizes, self.span, Starts(*inputs, *shared), DeviceResults(*outputs)
             self._kernel[-(-k // block), block](*arguments)
             values, numbers = outputs[-2].copy_to_host(), outputs[-1].copy_to_host()
-        asked = self.quantities * self.times
-        return values.T[:, :asked].reshape(k, self.quantities, self.times), numbers.T
+        size = self.quantities * self.times
+        return values.T[:, :size].reshape(k, self.quantities, self.times), numbers.T
 
 
 @contextmanager
@@ -302,5 +301,5 @@ def _reported() -> Iterator[None]:
     except Exception as error:
         if type(error).__module__.partition(".")[0] not in ("numba", "cuda"):
             raise
-        said = " ".join(str(error).split())[:300]
-        raise SimulationError(f"the CUDA device reports {type(error).__name__}: {said}") from error
+        report = " ".join(str(error).split())[:300]
+        raise SimulationError(f"the CUDA device reports {type(error).__name__}: {report}") from error

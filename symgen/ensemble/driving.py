@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.ensemble.row_starts import Rows
+    from symgen.ensemble.chunks import Rows
     from symgen.ensemble.sweep_plan import Ensemble
     from symgen.running.inputs import Inputs
     from symgen.runtime.stops import Foreseen
@@ -33,7 +33,7 @@ class Driving:
 
     Attributes
     ----------
-    given : Inputs
+    inputs : Inputs
         What the settings give, put into the mechanism.
     varied : tuple of str
         What varies.
@@ -45,7 +45,7 @@ class Driving:
         From `read_by_motions`.
     """
 
-    given: Inputs
+    inputs: Inputs
     varied: tuple[str, ...]
     until: float
     foreseen: Foreseen | None = None
@@ -55,8 +55,8 @@ class Driving:
     @cached_property
     def own(self) -> bool:
         """Whether jumps and kinks are elsewhere in each run."""
-        driven = self.given.driven
-        depends = {*self.varied, *(name for name, _ in derived(self.given.mechanism.parameters))}
+        driven = self.inputs.driven
+        depends = {*self.varied, *(name for name, _ in derived(self.inputs.mechanism.parameters))}
         reads = [{*names(jump.argument), *names(jump.value)} for jump in (() if driven is None else driven.jumps)]
         return any(depends & read for read in (*reads, self.foreseen.reads if self.foreseen else frozenset[str]()))
 
@@ -64,9 +64,9 @@ class Driving:
     def stops(self) -> tuple[Stop, ...]:
         """The stops of all runs, where they are the same."""
         if not self.foreseen:
-            return self.given.stops
-        values = parameter_values(self.given.mechanism, self.given.settings.parameters)
-        return merged(self.given.stops, self.foreseen.stops(values, self.until))
+            return self.inputs.stops
+        values = parameter_values(self.inputs.mechanism, self.inputs.settings.parameters)
+        return merged(self.inputs.stops, self.foreseen.stops(values, self.until))
 
     @property
     def jumps(self) -> bool:
@@ -76,13 +76,13 @@ class Driving:
     @property
     def changes(self) -> bool:
         """Whether numbers change at the stops of runs; at kinks none does."""
-        own = self.own and self.given.driven is not None and bool(self.given.driven.jumps)
+        own = self.own and self.inputs.driven is not None and bool(self.inputs.driven.jumps)
         return own or any(stop.values for stop in self.stops[1:])
 
     @property
     def described(self) -> list[Any]:
         """What inputs are beside what the mechanism holds, as JSON can express it."""
-        driven = self.given.driven
+        driven = self.inputs.driven
         if driven is None:
             return []
         samples = [(name, data.t, data.u) for name, data in sorted(driven.samples.items())]
@@ -100,7 +100,7 @@ class Driving:
         """
         if not (self.own or self.moving):
             return replace(rows, stops=(self.stops,)) if self.stops else rows
-        found = list[tuple[Stop, ...]]()
+        stops_of_rows = list[tuple[Stop, ...]]()
         for row in rows.parameters:
             stops: tuple[Stop, ...] = ()
             if np.all(np.isfinite(row)):
@@ -108,10 +108,10 @@ class Driving:
                     stops = self._stops_of(dict(zip(parameters, row.tolist(), strict=True)))
                 except InputError:
                     row[:] = np.nan  # what is not defined fails at its start
-            found.append(stops)
+            stops_of_rows.append(stops)
             for name, value in (stops[0].values if stops else {}).items():
                 row[parameters.index(name)] = value
-        return replace(rows, stops=tuple(found))
+        return replace(rows, stops=tuple(stops_of_rows))
 
     def refusals(self, ensemble: Ensemble, failed: NDArray[np.bool_]) -> Iterator[tuple[int, str]]:
         """Yield rows whose inputs jump too often, or in which the motion of a driver jumps, and why they cannot run.
@@ -132,9 +132,9 @@ class Driving:
                     yield r, str(error)
 
     def _stops_of(self, values: dict[str, float]) -> tuple[Stop, ...]:
-        driven, read = self.given.driven, tuple(values[name] for name in self.moving)
+        driven, read = self.inputs.driven, tuple(values[name] for name in self.moving)
         if self.moving and read not in self._jumps:
-            self._jumps[read] = jump_of(self.given.mechanism, values, self.until)
+            self._jumps[read] = jump_of(self.inputs.mechanism, values, self.until)
         if (jump := self._jumps.get(read)) is not None:
             raise jump
         stops = () if driven is None else stops_of(driven, values, self.until)
@@ -144,5 +144,5 @@ class Driving:
 def read_by_motions(mechanism: Mechanism, varied: Container[str]) -> tuple[str, ...]:
     """Return the parameters that motions which may jump read, if some of them differ from row to row; else none."""
     read, formulas = names_of_motions(mechanism), {name for name, _ in derived(mechanism.parameters)}
-    known = tuple(p.name for p in mechanism.parameters if p.name in read)
-    return known if any(name in varied or name in formulas for name in known) else ()
+    parameters = tuple(p.name for p in mechanism.parameters if p.name in read)
+    return parameters if any(name in varied or name in formulas for name in parameters) else ()

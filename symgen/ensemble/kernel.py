@@ -11,12 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.events import compile_events
-from symgen.ensemble.chunks import Chunk, Results
+from symgen.ensemble.chunks import Chunk, Results, Rows
 from symgen.ensemble.device_runs import DeviceRuns, need_of
-from symgen.ensemble.loop_runs import LoopRuns
+from symgen.ensemble.loop_runs import LoopRuns, TreeRuns
 from symgen.ensemble.recipe import Code, Recipe
-from symgen.ensemble.tree_rows import TreeRuns, picks_on_tree
-from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.running.tree import carried_of
 from symgen.runtime import ensemble_abi as e
@@ -25,15 +23,11 @@ from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.integrator import Integrator
 from symgen.runtime.model_arrays import joints_of
 from symgen.runtime.new_state import span_of
-from symgen.runtime.run import RunSpec
 from symgen.runtime.start_records import Instant, StartConditions
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.measures import Measures
-    from symgen.ensemble.row_starts import Rows
     from symgen.runtime.compiled import ModelInfo
-    from symgen.runtime.events import Watched
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -67,17 +61,6 @@ class RowKernel:
     _warm: bool = False
 
     @cached_property
-    def integrator(self) -> Integrator:
-        """The scheme.
-
-        Raises
-        ------
-        InputError
-            If there is no loop over many runs for it.
-        """
-        return integrator_of_rows(self.recipe.integrator, self.recipe.spec)
-
-    @cached_property
     def first(self) -> _Prepared:
         """The model as it is run first."""
         return self._prepare(self.recipe.first)
@@ -91,8 +74,6 @@ class RowKernel:
 
     def warm(self) -> None:
         """Compile or load all that runs need, by no runs at all."""
-        from symgen.ensemble.row_starts import Rows
-
         with self._lock:
             if self._warm:
                 return
@@ -140,8 +121,8 @@ class RowKernel:
     def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:
         """Close and run selected rows with one compiled model; those with light bodies only where there is no other."""
         info, recipe, now = model.compiled.info, self.recipe, self._described(model, rows)
-        asked = StartConditions(rows.v, rows.targets, out.summary)
-        if model.assembly.close_all(now, asked, selected, control) < len(selected):
+        conditions = StartConditions(rows.v, rows.targets, out.summary)
+        if model.assembly.close_all(now, conditions, selected, control) < len(selected):
             return False
         self._look_at_sides(info, now.y, selected, out.summary)
         ready = out.summary[selected, e.START] == e.ASSEMBLED
@@ -154,8 +135,8 @@ class RowKernel:
         for i in (i for i, q in enumerate(recipe.columns) if q.source == e.MULTIPLIER):  # they are not unique then
             out.values[redundant, i] = np.nan
         if model.measures is not None:
-            given = recipe.behind, recipe.times, selected, out.values, now.p, now.w
-            out.behind[selected] = model.measures.work_out(model.compiled, *given)
+            left = recipe.behind, recipe.times, selected, out.values, now.p, now.w
+            out.behind[selected] = model.measures.work_out(model.compiled, *left)
         return True
 
     def _look_at_sides(self, info: ModelInfo, ys: Array, selected: Integers, summary: Array) -> None:
@@ -180,7 +161,8 @@ class RowKernel:
 
     def _runs(self, code: Code, compiled: CompiledModel) -> Runs:
         """Return what runs rows from starts of bodies."""
-        recipe, watch, integrator = self.recipe, self.recipe.watch, self.integrator
+        recipe, watch, spec = self.recipe, self.recipe.watch, self.recipe.spec
+        integrator: Integrator = INTEGRATORS.get(recipe.integrator)
         other, tree = (None if module is None else module.load() for module in (code.other, code.tree))
         own, on_tree = tree or compiled, None
         if watch is not None and recipe.tree is not None:
@@ -189,42 +171,23 @@ class RowKernel:
             from symgen.ensemble.singly import SingleRuns
 
             return SingleRuns(recipe, watch, compiled, integrator, code.measures, on_tree)
-        setup = integrator.setup(own, recipe.spec, own.scratch())
+        setup = integrator.setup(own, spec, own.scratch())
         if other is not None and recipe.target == "cuda":
-            need, span = need_of(other, setup, recipe.spec.adaptive, recipe.sources), span_of(recipe.spec, setup)
+            need, span = need_of(other, setup, spec.adaptive, recipe.sources), span_of(spec, setup)
             return DeviceRuns(other, need, setup.scheme, span, recipe.limits, recipe.times, recipe.picks)
-        watched = None if watch is None else self._watched(recipe.tree or watch.mechanism, own)
+        watched, rtol = None, spec.rtol if spec.adaptive else None
+        if watch is not None:
+            watched = compile_events(recipe.tree or watch.mechanism, own, watch.events, {}, rtol)
         if on_tree is None:
             return LoopRuns(recipe, compiled, integrator, setup, recipe.picks, watched, other)
-        info, picks = compiled.info, picks_on_tree(recipe.quantities, compiled.info, own.info)
-        loop = LoopRuns(recipe, own, integrator, setup, picks, watched, width=info.nq + 2 * info.nv)
+        info, picks = compiled.info, list[tuple[int, int]]()
+        for q in recipe.quantities:  # what bodies do stands behind multipliers, where loops look for joint coordinates
+            of_bodies = q.source == e.STATE and q.column < info.work
+            work = own.info.work - info.work if q.source == e.STATE else 0
+            picks.append((e.JOINT, q.column - own.info.m) if of_bodies else (q.source, q.column + work))
+        flat = np.array(picks, dtype=np.int64).ravel()
+        loop = LoopRuns(recipe, own, integrator, setup, flat, watched, width=info.nq + 2 * info.nv)
         return TreeRuns(on_tree[1], self._parameters(own), loop)
-
-    def _watched(self, mechanism: Mechanism, compiled: CompiledModel) -> Watched | None:
-        """Return the switching functions of rows, None where there are none."""
-        watch, spec = self.recipe.watch, self.recipe.spec
-        assert watch is not None, "rows look for something"
-        return compile_events(mechanism, compiled, watch.events, {}, spec.rtol if spec.adaptive else None)
-
-
-def integrator_of_rows(name: str, spec: RunSpec) -> Integrator:
-    """Return an integrator that has a loop over many runs.
-
-    Raises
-    ------
-    InputError
-        If it has none; says which have one.
-    """
-    chosen: Integrator = INTEGRATORS.get(name, "--integrator")
-    if chosen.rows(spec.adaptive) is None:
-        with_loop = [other for other, kind in INTEGRATORS.items() if kind.rows(False) is not None]
-        raise InputError(
-            f"integrator '{name}'",
-            "one with a loop over many runs",
-            "one without",
-            f"{', '.join(with_loop)} have one",
-        )
-    return chosen
 
 
 def new_control() -> Integers:
@@ -239,9 +202,9 @@ _kernels_lock = threading.Lock()
 def kernel_of(recipe: Recipe) -> RowKernel:
     """Return the kernel of a recipe, the same one as long as it is among the last few."""
     with _kernels_lock:
-        found = _kernels.get(recipe.digest)
-        if found is None:
+        kernel = _kernels.get(recipe.digest)
+        if kernel is None:
             while len(_kernels) >= 4:
                 del _kernels[next(iter(_kernels))]
-            found = _kernels[recipe.digest] = RowKernel(recipe)
-    return found
+            kernel = _kernels[recipe.digest] = RowKernel(recipe)
+    return kernel

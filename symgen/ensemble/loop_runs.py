@@ -1,14 +1,14 @@
-"""Rows of an ensemble run by one compiled loop, on a processor, in its vector lanes where asked for."""
+"""Rows of an ensemble run by one compiled loop: of bodies, in vector lanes, or in joint coordinates."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.ensemble.lanes import run_in_lanes
+from symgen.ir.program import LANES, lane_bases
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.hunting import with_events
@@ -18,18 +18,23 @@ from symgen.runtime.records import Kept, Observed, RowChunk
 from symgen.runtime.redundancy import room_of_choice
 from symgen.runtime.rows import observe_nothing, variant
 from symgen.runtime.searching import decide
+from symgen.runtime.start_records import Instant
 from symgen.runtime.stopping import with_table
+from symgen.runtime.tree_start import TURNED_OVER, Carried
 
 if TYPE_CHECKING:
-    from symgen.ensemble.chunks import Results
+    from symgen.ensemble.chunks import Results, Rows
     from symgen.ensemble.recipe import Recipe
-    from symgen.ensemble.row_starts import Rows
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Watched
     from symgen.runtime.integrator import Integrator, Setup
-    from symgen.runtime.start_records import Instant
+    from symgen.runtime.records import Span, State
 
+Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
+
+#: What loops leave of a motion in joint coordinates; further quantities are left to `symgen.ensemble.singly`.
+PLAIN = {e.STATE, e.STATUS, e.ENERGY, e.ENERGY_ERROR}
 
 
 @dataclass(frozen=True)
@@ -98,7 +103,7 @@ class LoopRuns:
         state = new_state(compiled, sizes, setup.memory, room)._replace(control=control)
         observers = sizes, *rates, law.accept, observe
         if self.lanes is not None:
-            if run_in_lanes(self.lanes, observers, setup.scheme, span, chunk, state, kept) < len(selected):
+            if self._in_lanes(self.lanes, observers, span, chunk, state, kept) < len(selected):
                 return False
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
         system, inner = (sizes, *setup.functions), self.integrator.loop(adaptive)
@@ -120,3 +125,80 @@ class LoopRuns:
         k, rows = len(times), info.observed if self.width is None else self.width
         observed = Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), np.zeros((k, rows)))
         return Kept(new_outputs(info, times), observed)
+
+    def _in_lanes(
+        self, lanes: CompiledModel, observers: tuple[Any, ...], span: Span, chunk: RowChunk, state: State, kept: Kept
+    ) -> int:
+        """Run selected rows several at once; those that single runs have to do get the code `LEFT` in the summary.
+
+        Parameters
+        ----------
+        lanes : CompiledModel
+            Modules emitted for lanes.
+        observers : tuple
+            The sizes of the model, and what single runs call at outputs: rates and their confirmation, ``accept``,
+            ``observe``.
+        span, chunk, state, kept
+            As for `symgen.runtime.rows.run_rows`.
+
+        Returns
+        -------
+        int
+            Number of rows that were worked on.
+        """
+        from symgen.runtime.lanes import lane_runs, room_of_lanes
+
+        info, law, scheme, (sizes, *others) = lanes.info, lanes.law_module, self.setup.scheme, observers
+        lengths = len(state.p), len(state.w), info.windings, len(kept.outputs.times)
+        state = state._replace(room=aligned(room_of_lanes(info.ny, scheme.stages, *lengths)))
+        wide = sizes._replace(width=LANES * lane_bases(info.ny, 0, 0)["ydot"])
+        return int(lane_runs((wide, law.rhs, law.accept, *others), scheme, span, chunk, state, kept))
+
+
+@dataclass(frozen=True)
+class TreeRuns:
+    """Runs rows in joint coordinates from starts of bodies.
+
+    Attributes
+    ----------
+    carried : Carried
+        Starts of bodies as those of the tree.
+    p : Array
+        Parameters of the tree, those of a row left out.
+    loop : LoopRuns
+        Of the tree.
+    """
+
+    carried: Carried
+    p: Array
+    loop: LoopRuns
+
+    def run(self, rows: Rows, starts: Instant, selected: Integers, out: Results, control: Integers) -> bool:
+        """Run selected rows from consistent starts; parameters as for `symgen.ensemble.loop_runs.LoopRuns.run`."""
+        info, own, runs = self.carried.bodies.info, self.loop.compiled.info, len(starts.y)
+        scratch = np.zeros((runs, len(self.loop.compiled.scratch())))
+        now, count = Instant(np.zeros((runs, own.ny)), np.tile(self.p, (runs, 1)), scratch), len(info.parameters)
+        now.p[:, :count] = starts.p[:, :count]
+        alike = self.carried.settle_all(starts, now, selected, control)
+        over = np.abs(alike[selected]) < TURNED_OVER
+        for k in reversed(range(over.shape[1])):  # the first one stays
+            out.summary[selected[over[:, k]], [[e.START], [e.START_WHERE]]] = [[e.TURNED_OVER], [k]]
+        selected = selected[~over.any(axis=1)]
+        if not self.loop.run(rows, now, selected, out, control):
+            return False
+        self._turn(selected, alike, out.values)
+        return True
+
+    def _turn(self, selected: Integers, alike: Array, values: Array) -> None:
+        """Have Euler parameters, of two signs, go on from those of the start."""
+        at = {q.column: i for i, q in enumerate(self.loop.recipe.quantities) if q.source == e.STATE}
+        for (first, _), products in zip(self.carried.bodies.info.spins, alike.T, strict=True):
+            columns = [at[k] for k in range(first, first + 4) if k in at]
+            values[np.ix_(selected[products[selected] < 0.0], columns)] *= -1.0
+
+
+def aligned(size: int) -> NDArray[np.float64]:
+    """Return zeros that begin where a line of the cache does: vectors that cross lines take twice the time."""
+    array = np.zeros(size + 8)
+    first = -(array.ctypes.data // 8) % 8
+    return array[first : first + size]

@@ -42,7 +42,7 @@ _REACTIONS = {"reactions": e.REACTION, "body_reactions": e.BODY_REACTION, "magni
 
 def measurable(mechanism: Mechanism, info: ModelInfo) -> dict[str, tuple[RowQuantity, ...]]:
     """Return the quantities of each table that no loop leaves; `RowQuantity.column` is their place there."""
-    found: dict[str, tuple[RowQuantity, ...]] = {
+    quantities: dict[str, tuple[RowQuantity, ...]] = {
         table: tuple(RowQuantity(PREFIX[table] + c.name, c.unit, e.SIDE, i) for i, c in enumerate(columns(mechanism)))
         for table, columns in TABLES.items()
     }
@@ -51,17 +51,17 @@ def measurable(mechanism: Mechanism, info: ModelInfo) -> dict[str, tuple[RowQuan
     entries = np.zeros((0, info.sections["jacobian"][1]))
     for table, labelled in _tables(acting, entries, np.zeros((0, info.m))).items():
         named = zip(labelled.names, labelled.units, strict=True)
-        found[table] = tuple(
+        quantities[table] = tuple(
             RowQuantity(PREFIX[table] + n, unit, _REACTIONS[table], i) for i, (n, unit) in enumerate(named)
         )
-    return found
+    return quantities
 
 
 def integrated(mechanism: Mechanism, chosen: Sequence[RowQuantity]) -> str | None:
     """Return the first of some quantities that reads an integral, None where none does."""
-    asked = {q.name for q in chosen if q.source == e.SIDE}
+    names = {q.name for q in chosen if q.source == e.SIDE}
     for output in mechanism.outputs:
-        if output.name in asked and any(isinstance(r.source, Integral) for r in readings(output.value)):
+        if output.name in names and any(isinstance(r.source, Integral) for r in readings(output.value)):
             return output.name
     return None
 
@@ -71,8 +71,8 @@ def _bodies(mechanism: Mechanism) -> dict[str, str]:
 
 
 def _tables(acting: Acting, entries: Array, multipliers: Array) -> dict[str, Any]:
-    found = acting.reactions(entries, multipliers)
-    return {"reactions": found, "body_reactions": acting.in_body_axes(found), "magnitudes": acting.magnitudes(found)}
+    table = acting.reactions(entries, multipliers)
+    return {"reactions": table, "body_reactions": acting.in_body_axes(table), "magnitudes": acting.magnitudes(table)}
 
 
 def stored(folder: str, modules: Mapping[str, tuple[str, Mapping[str, Any]]]) -> Path:
@@ -152,10 +152,10 @@ class Measures:
     def work_out(
         self,
         compiled: CompiledModel,
-        asked: Sequence[RowQuantity],
+        quantities: Sequence[RowQuantity],
         times: Array,
         selected: Integers,
-        seen: Array,
+        columns: Array,
         ps: Array,
         ws: Array,
     ) -> Array:
@@ -165,13 +165,13 @@ class Measures:
         ----------
         compiled : CompiledModel
             What was run.
-        asked : sequence of RowQuantity
+        quantities : sequence of RowQuantity
             Those that no loop leaves.
         times : Array
             Output times [s].
         selected : Array of int
             Runs.
-        seen : Array, shape (runs, columns, times)
+        columns : Array, shape (runs, columns, times)
             What loops left; the last columns are `reads`.
         ps, ws : Array, shapes (runs, np), (runs, nw)
             Parameters, and scratch, which is overwritten.
@@ -181,34 +181,34 @@ class Measures:
 
         info, runs, n_times = compiled.info, len(ps), len(times)
         y, rates, places = np.zeros(info.ny), np.zeros(info.ny), np.array(self.places, dtype=np.int64)
-        first = seen.shape[1] - len(self.reads)
-        left = Left(times, selected, seen, first, places, ps, ws, y, rates)
+        first = columns.shape[1] - len(self.reads)
+        left = Left(times, selected, columns, first, places, ps, ws, y, rates)
         numbers, (at, size) = np.zeros((runs, n_times, self.length)), info.sections["jacobian"]
         entries = np.zeros((runs if self.joints else 0, n_times, size))
         function = self.function if self.length else observe_nothing
         measure_rows((left, function, compiled.model.geometry), numbers, at, entries)
-        sides = [q for q in asked if q.source == e.SIDE]
+        sides = [q for q in quantities if q.source == e.SIDE]
         column = {q.name: i for i, q in enumerate(sides)}
         tables: dict[int, Array] = {}
         if self.joints:
-            tables = self._reactions(info, selected, seen[:, first:], numbers, entries)
-        found = np.empty((len(selected), len(asked), n_times))
-        for i, q in enumerate(asked):
+            tables = self._reactions(info, selected, columns[:, first:], numbers, entries)
+        values = np.empty((len(selected), len(quantities), n_times))
+        for i, q in enumerate(quantities):
             if q.source == e.SIDE:
-                found[:, i] = numbers[selected, :, column[q.name]]
+                values[:, i] = numbers[selected, :, column[q.name]]
             else:
-                found[:, i] = tables[q.source][:, q.column].reshape(len(selected), n_times)
-        return found
+                values[:, i] = tables[q.source][:, q.column].reshape(len(selected), n_times)
+        return values
 
     def _reactions(
-        self, info: ModelInfo, selected: Integers, seen: Array, numbers: Array, entries: Array
+        self, info: ModelInfo, selected: Integers, columns: Array, numbers: Array, entries: Array
     ) -> dict[int, Array]:
         """Return the tables of reactions by source, shape (selected x times, columns)."""
 
         def flat(array: Array) -> Array:  # (runs, times, n): outputs of one run after those of another
             return np.ascontiguousarray(array[selected]).reshape(len(selected) * array.shape[1], array.shape[2])
 
-        states = flat(np.swapaxes(seen[:, : info.ny], 1, 2))
+        states = flat(np.swapaxes(columns[:, : info.ny], 1, 2))
         multipliers = [i for i, q in enumerate(self.reads) if q.source == e.MULTIPLIER]
         formulas = flat(numbers)
         seats = {}
@@ -216,7 +216,7 @@ class Measures:
             point = formulas[:, list(place.point)] if place.point else np.zeros((len(states), 3))
             centre = formulas[:, list(place.centre)] if place.centre else 0.0
             seats[name] = Seat(place.body, point - centre)
-        tables = _tables(Acting(info, seats, states), flat(entries), flat(np.swapaxes(seen[:, multipliers], 1, 2)))
+        tables = _tables(Acting(info, seats, states), flat(entries), flat(np.swapaxes(columns[:, multipliers], 1, 2)))
         return {_REACTIONS[name]: table.values for name, table in tables.items()}
 
 
@@ -240,8 +240,8 @@ def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequenc
     if all(q.source < e.SIDE for q in chosen):
         return None
     info = compiled.info
-    known = {PREFIX[table] + c.name: c.formula for table, columns in TABLES.items() for c in columns(mechanism)}
-    formulas = [(q.name, known[q.name]) for q in chosen if q.source == e.SIDE]
+    definitions = {PREFIX[table] + c.name: c.formula for table, columns in TABLES.items() for c in columns(mechanism)}
+    formulas = [(q.name, definitions[q.name]) for q in chosen if q.source == e.SIDE]
     joints = _places(mechanism, formulas) if any(q.source > e.SIDE for q in chosen) else {}
     side = compile_side(mechanism, compiled, NAME, PURPOSE, formulas)
     reads = [(RowQuantity(f"y{i}", "", e.STATE, i), e.OF_Y, i) for i in range(info.ny)]
@@ -267,7 +267,7 @@ def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequenc
 
 def _places(mechanism: Mechanism, formulas: list[tuple[str, Expr]]) -> dict[str, Place]:
     """Return where reactions act, after adding what that depends on to the formulas."""
-    markers, found = dict(mechanism.seats), dict[str, Place]()
+    markers, places = dict(mechanism.seats), dict[str, Place]()
 
     def add(label: str, expressions: Sequence[Expr]) -> tuple[int, ...]:
         first = len(formulas)
@@ -281,5 +281,5 @@ def _places(mechanism: Mechanism, formulas: list[tuple[str, Expr]]) -> dict[str,
             point = add(f"point of {name}", markers[name].point)
             if body != GROUND:
                 centre = add(f"centre of {body}", mechanism.body(body).centre_of_mass)
-        found[name] = Place(body, point, centre)
-    return found
+        places[name] = Place(body, point, centre)
+    return places

@@ -57,17 +57,17 @@ class Names:
 
     def one(self, name: str) -> str:
         """Return the one name of what a name of the start means."""
-        known = name in self.parameters or name in self.coordinates or name in self.velocities
-        return name if known else self.joints.get(name, name)
+        plain = name in self.parameters or name in self.coordinates or name in self.velocities
+        return name if plain else self.joints.get(name, name)
 
-    def check(self, varied: Iterable[str], given: Iterable[str]) -> None:
+    def check(self, varied: Iterable[str], taken_names: Iterable[str]) -> None:
         """Refuse what cannot vary.
 
         Parameters
         ----------
         varied : iterable of str
             Names as they were written.
-        given : iterable of str
+        taken_names : iterable of str
             Names that are given values otherwise.
 
         Raises
@@ -75,12 +75,12 @@ class Names:
         InputError
             If a name is none, means what another one does, or is given otherwise.
         """
-        known, seen, taken = (*self.parameters, *self.starts), dict[str, str](), {self.one(name) for name in given}
+        names, written, taken = (*self.parameters, *self.starts), dict[str, str](), set(map(self.one, taken_names))
         for name in varied:
             where = f"vary '{name}'"
-            if name not in known:
+            if name not in names:
                 expected = f"a parameter, or an initial coordinate or velocity of {self.model}"
-                raise InputError(where, expected, "none of that name", nearest(name, known))
+                raise InputError(where, expected, "none of that name", nearest(name, names))
             if name in self.coordinates and name.rpartition(".")[2] in _EULER:
                 raise InputError(
                     where,
@@ -91,9 +91,9 @@ class Names:
             one = self.one(name)
             if one in taken:
                 raise InputError(where, "one way of giving it a value", "two")
-            if one in seen:
-                raise InputError(where, "each thing once", f"{seen[one]} and {name}, which are the same")
-            seen[one] = name
+            if one in written:
+                raise InputError(where, "each thing once", f"{written[one]} and {name}, which are the same")
+            written[one] = name
 
 
 @dataclass(frozen=True)
@@ -136,10 +136,10 @@ def targets_of(names: Names, varied: Sequence[str], holds: Sequence[Hold], info:
     others = [hold for hold in holds if hold.name not in varies]
     constant = {hold.name: hold.value for hold in others if hold.value is not None}
     places = [hold.name for hold in others if hold.value is None and hold.name not in names.velocities]
-    asked = {name: names.one(name) for name in (*varied, *constant)}
+    plain_names = {name: names.one(name) for name in (*varied, *constant)}
 
-    def among(known: Sequence[str]) -> dict[str, int]:
-        return {name: known.index(one) for name, one in asked.items() if one in known}
+    def among(names_of_kind: Sequence[str]) -> dict[str, int]:
+        return {name: names_of_kind.index(one) for name, one in plain_names.items() if one in names_of_kind}
 
     joints = [quantity.name for quantity in info.joint_coordinates]
     coordinates, turned, rates = map(among, (names.coordinates, joints, [f"{name}.rate" for name in joints]))

@@ -241,8 +241,8 @@ class Recipe:
         if self.measures is None:
             return columns
         left, late = iter(range(columns.shape[1])), iter(range(behind.shape[1]))
-        found = [behind[:, next(late)] if q.source >= SIDE else columns[:, next(left)] for q in self.quantities]
-        return np.stack(found, axis=1)
+        quantities = [behind[:, next(late)] if q.source >= SIDE else columns[:, next(left)] for q in self.quantities]
+        return np.stack(quantities, axis=1)
 
     @property
     def sources(self) -> set[int]:

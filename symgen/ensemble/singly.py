@@ -9,7 +9,7 @@ of this module.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -31,10 +31,9 @@ from symgen.runtime.simulation import Simulation
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.ensemble.chunks import Results
+    from symgen.ensemble.chunks import Results, Rows
     from symgen.ensemble.measures import Measures
     from symgen.ensemble.recipe import Recipe, Watch
-    from symgen.ensemble.row_starts import Rows
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Watched
     from symgen.runtime.integrator import Integrator
@@ -155,23 +154,19 @@ class SingleRuns:
         count = int(simulation.state.control[abi.OUTPUTS])
         shown = outcome if tree is None else tree.carried(outcome)
         late = self.watch.ends and len(shown.times) > count  # an event has ended it
-        kept = slice(-1, None) if late else slice(count)
-        seen = self._columns(shown, out.summary[r, e.REDUNDANT_ROWS] == 0.0)
-        size = seen[:, kept].shape[1]
-        out.values[r, :, :size] = seen[:, kept]
+        outputs_kept = slice(-1, None) if late else slice(count)
+        columns = self._columns(shown, out.summary[r, e.REDUNDANT_ROWS] == 0.0)
+        size = columns[:, outputs_kept].shape[1]
+        out.values[r, :, :size] = columns[:, outputs_kept]
         if self.measures is not None and size:
-            out.behind[r, :, :size] = self._behind(self.measures, shown, seen)[:, kept]
+            out.behind[r, :, :size] = self._behind(self.measures, shown, columns)[:, outputs_kept]
         return True
 
     def _events(self, rows: Rows, r: int) -> Watched | None:
         if self._watched is None or not self._watched.resets:
             return self._watched
-        return replace(self._watched, masses=masses_of(self._run_of[0], self._values(rows, r)))
-
-    def _values(self, rows: Rows, r: int) -> dict[str, float]:
-        """Return the parameters of a row by name."""
-        names = (q.name for q in self.compiled.info.parameters)
-        return {name: float(x) for name, x in zip(names, rows.parameters[r], strict=True)}
+        values = zip((q.name for q in self.compiled.info.parameters), rows.parameters[r].tolist(), strict=True)
+        return replace(self._watched, masses=masses_of(self._run_of[0], dict(values)))
 
     def _columns(self, outcome: Outcome, unique: bool) -> Array:
         """Return what loops would leave of a run at its outputs, shape (columns, outputs).
@@ -195,18 +190,18 @@ class SingleRuns:
             e.JOINT: lambda: outcome.joint_coordinates,
         }
         tables = {source: columns[source]() for source in self.recipe.sources}
-        found = [tables[q.source][:, q.column] for q in self.recipe.columns]
-        return np.array(found).reshape(len(found), len(outcome.times))
+        columns_of_run = [tables[q.source][:, q.column] for q in self.recipe.columns]
+        return np.array(columns_of_run).reshape(len(columns_of_run), len(outcome.times))
 
-    def _behind(self, measures: Measures, outcome: Outcome, seen: Array) -> Array:
+    def _behind(self, measures: Measures, outcome: Outcome, columns: Array) -> Array:
         """Return what is worked out behind loops, shape (quantities, outputs), with the parameters of each part."""
-        asked, one = self.recipe.behind, np.zeros(1, dtype=np.int64)
-        found = np.empty((len(asked), len(outcome.times)))
+        quantities, one = self.recipe.behind, np.zeros(1, dtype=np.int64)
+        values = np.empty((len(quantities), len(outcome.times)))
         for first, last, p in outcome.parameters:
-            part = np.ascontiguousarray(seen[np.newaxis, :, first:last])
-            given = outcome.times[first:last], one, part, p[np.newaxis], outcome.w[np.newaxis].copy()
-            found[:, first:last] = measures.work_out(self.compiled, asked, *given)[0]
-        return found
+            part = np.ascontiguousarray(columns[np.newaxis, :, first:last])
+            part_of_run = outcome.times[first:last], one, part, p[np.newaxis], outcome.w[np.newaxis].copy()
+            values[:, first:last] = measures.work_out(self.compiled, quantities, *part_of_run)[0]
+        return values
 
 
 def note_events(row: Array, outcome: Outcome, code: int) -> None:
@@ -231,12 +226,3 @@ def note_events(row: Array, outcome: Outcome, code: int) -> None:
         row[e.IMPOSSIBLE_EVENT] = numbers[refused[-1].name]
     elif code == abi.UNDEFINED:
         row[e.IMPOSSIBLE_EVENT] = undefined_event(outcome.simulation.state)
-
-
-def event_columns(names: Sequence[str]) -> dict[str, tuple[int, str]]:
-    """Return the numbers that each run leaves of events: name -> (column behind those of every ensemble, unit)."""
-    found = dict[str, tuple[int, str]]()
-    for i, name in enumerate(names):
-        at = e.N_SUMMARY + e.HEAD_OF_EVENTS + e.OF_EVENT * i
-        found |= {f"event.{name}.{what}": (at + k, unit) for k, (what, unit) in enumerate(e.EVENT_COLUMNS)}
-    return found

@@ -4,22 +4,29 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from contextlib import ExitStack
+from functools import partial
+from itertools import islice
 from os import PathLike
 from pathlib import Path
+from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
 from symgen import arguments
 from symgen.ensemble.axes import RUN_SIZE
-from symgen.ensemble.local import run_here
+from symgen.ensemble.chunks import Chunk
+from symgen.ensemble.kernel import Integers, kernel_of, new_control
 from symgen.ensemble.sweep_plan import Ensemble, make_ensemble
 from symgen.ensemble.sweep_study import SAVED, Sweep
 from symgen.ensemble.table import FolderTable, RowTable, check_folder
 from symgen.errors import InputError
-from symgen.memory import require, require_disk
+from symgen.memory import processors, require, require_disk
 from symgen.result.export import check_path
-from symgen.runtime.ensemble_abi import N_SUMMARY
+from symgen.runtime import abi
+from symgen.runtime.ensemble_abi import N_SUMMARY, RUNS_DONE
 from symgen.settings import Settings, changed
 
 if TYPE_CHECKING:
@@ -127,12 +134,12 @@ def sweep(
     )
     with table:
         seconds, interrupted = _run(ensemble, table, jobs, scheduler, progress)
-        found = Sweep(ensemble, table.values, table.summary, table.done(), seconds, interrupted)
+        study = Sweep(ensemble, table.values, table.summary, table.done(), seconds, interrupted)
         if path is not None and path != folder and not interrupted:
-            found.save(path)
+            study.save(path)
             assert isinstance(table, FolderTable), "an output has a folder"
             table.remove()
-    return found
+    return study
 
 
 def _check_room(ensemble: Ensemble, path: Path | None, folder: Path | None) -> None:
@@ -156,30 +163,20 @@ def _run(
     progress: Callable[[float, int], None] | None,
 ) -> tuple[float, bool]:
     """Run what is missing; return seconds, and whether it was interrupted."""
-    total = len(ensemble)
+    show = None if progress is None else lambda done: progress(done, len(ensemble))
+    with ExitStack() as clients:
+        if scheduler is None:
+            if table.missing():
+                kernel_of(ensemble.recipe).warm()
+            run = partial(run_here, ensemble, table, jobs)
+        else:
+            from symgen.ensemble.cluster import connect, run_there
 
-    def show(done: float) -> None:
-        if progress is not None:
-            progress(done, total)
-
-    if scheduler is None:
-        from symgen.ensemble.kernel import kernel_of
-
-        if table.missing():
-            kernel_of(ensemble.recipe).warm()
+            client: Any = clients.enter_context(connect(scheduler)) if isinstance(scheduler, str) else scheduler
+            run = partial(run_there, ensemble, table, client)
         began = time.perf_counter()
-        interrupted = run_here(ensemble, table, jobs, show)
+        interrupted = run(show)
         return time.perf_counter() - began, interrupted
-    from symgen.ensemble.cluster import connect, run_there
-
-    client: Any = connect(scheduler) if isinstance(scheduler, str) else scheduler
-    try:
-        began = time.perf_counter()
-        interrupted = run_there(ensemble, table, client, show)
-        return time.perf_counter() - began, interrupted
-    finally:
-        if isinstance(scheduler, str):
-            client.close()
 
 
 def folder_of(path: Path, resume: bool) -> Path:
@@ -200,3 +197,76 @@ def folder_of(path: Path, resume: bool) -> Path:
         raise InputError(f"output '{path}'", "one that is not finished", "a finished one", hint)
     check_folder(parts, resume)
     return parts
+
+
+#: How often progress is shown while no chunk ends [s].
+_BEAT = 0.1
+#: Chunks that are handed out for every thread: no more results than these wait for being written.
+_AHEAD = 3
+
+
+def run_here(
+    ensemble: Ensemble, table: RowTable, jobs: int | None, progress: Callable[[float], None] | None = None
+) -> bool:
+    """Run all chunks that the table does not hold yet.
+
+    Parameters
+    ----------
+    ensemble, table : Ensemble, Table
+        What to run, and what gets each chunk as soon as it is there.
+    jobs : int or None
+        Threads; None: one for every core.
+    progress : callable, optional
+        Called about ten times a second with the number of runs that are done.
+
+    Returns
+    -------
+    bool
+        Whether a KeyboardInterrupt ended it early; finished chunks are in the table then, and no others.
+    """
+    missing = table.missing()
+    if not missing:
+        return False
+    kernel, jobs = kernel_of(ensemble.recipe), max(1, min(len(missing), jobs or processors()))
+    controls, free = [new_control() for _ in range(jobs)], SimpleQueue[Integers]()
+    for control in controls:
+        free.put(control)
+    stopping = interrupted = False
+
+    def work(index: int) -> Chunk | None:
+        control = free.get()
+        control[:] = 0
+        try:  # it may have been stopped before the line above
+            return None if stopping else kernel.run(ensemble.rows(*table.bounds(index)), control)
+        finally:
+            free.put(control)
+
+    def put(index: int, chunk: Chunk | None) -> None:
+        if chunk is not None and chunk.complete:
+            table.put(index, chunk)
+
+    waiting, handed = iter(missing), dict[Future[Chunk | None], int]()
+    with ThreadPoolExecutor(jobs, "symgen-sweep") as pool:
+        try:
+            while True:
+                handed |= {pool.submit(work, index): index for index in islice(waiting, _AHEAD * jobs - len(handed))}
+                if not handed:
+                    break
+                done, _ = wait(handed, _BEAT, FIRST_COMPLETED)
+                for future in done:
+                    chunk = future.result()
+                    put(handed[future], chunk)
+                    del handed[future]
+                if progress is not None:
+                    running = 0 if done else sum(int(control[RUNS_DONE]) for control in controls)
+                    progress(table.runs_done + running)
+        except KeyboardInterrupt:
+            interrupted = True
+        finally:
+            stopping = True  # no other chunk begins, and the runs that are being worked on end
+            for control in controls:
+                control[abi.STOP] = 1
+            for future in wait(handed).done:  # what was finished meanwhile
+                if handed[future] not in table.finished and future.exception() is None:
+                    put(handed[future], future.result())
+    return interrupted

@@ -21,16 +21,16 @@ from symgen.describe.events import RECORD, RESET, STOP
 from symgen.describe.kinks import discontinuities_of
 from symgen.describe.sides import sides_of
 from symgen.ensemble.axes import Grid, make_grid
+from symgen.ensemble.chunks import Rows, make_rows
 from symgen.ensemble.driving import Driving, read_by_motions
-from symgen.ensemble.kernel import integrator_of_rows, kernel_of
-from symgen.ensemble.lanes import check_lanes
+from symgen.ensemble.kernel import kernel_of
+from symgen.ensemble.loop_runs import PLAIN
 from symgen.ensemble.measures import integrated, make_measures, measurable
 from symgen.ensemble.names import Names, Targets, targets_of
 from symgen.ensemble.recipe import Code, Module, Recipe, Watch, code_identity
 from symgen.ensemble.row_quantities import choose_quantities
-from symgen.ensemble.row_starts import Rows, make_rows
-from symgen.ensemble.tree_rows import are_plain
 from symgen.errors import InputError, nearest
+from symgen.integrators import INTEGRATORS
 from symgen.ir.program import LANES
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import make_plan
@@ -64,8 +64,8 @@ class Ensemble:
     ----------
     model : Model
         What is run.
-    settings, plan : Settings, Plan
-        As asked for, and resolved.
+    plan : Plan
+        How, resolved.
     compiled : CompiledModel
         Its law; compiled when it is first run.
     grid : Grid
@@ -83,7 +83,6 @@ class Ensemble:
     """
 
     model: Model
-    settings: Settings
     plan: Plan
     compiled: CompiledModel
     grid: Grid
@@ -118,7 +117,7 @@ class Ensemble:
     @cached_property
     def parameters(self) -> dict[str, float]:
         """Values of all parameters, before any varies."""
-        return self.model.parameters(self.settings.parameters)
+        return self.model.parameters(self.plan.settings.parameters)
 
     @cached_property
     def chunk(self) -> int:
@@ -134,8 +133,8 @@ class Ensemble:
         if self.target == "cuda":  # a device wants tens of thousands of runs at once, whatever they take
             return int(max(1.0, min(131072.0, CHUNK_BYTES_CUDA / (8 * numbers))))
         most = min(CHUNK_SECONDS / seconds, CHUNK_BYTES / (8 * numbers), len(self) / 16)
-        found = int(max(1.0, min(65536.0, math.ceil(most))))
-        return found if self.target == "cpu" else LANES * math.ceil(found / LANES)
+        size = int(max(1.0, min(65536.0, math.ceil(most))))
+        return size if self.target == "cpu" else LANES * math.ceil(size / LANES)
 
     def rows(self, first: int, last: int) -> Rows:
         """Return what distinguishes the runs from `first` to `last` (exclusive)."""
@@ -143,23 +142,23 @@ class Ensemble:
 
     def settled(self, first: int, last: int) -> Rows:
         """Return the same without the stops of runs."""
-        varied, targets, settled = self.grid.values(first, last), self.targets, self.settings.parameters
+        varied, targets, settled = self.grid.values(first, last), self.targets, self.plan.settings.parameters
         held = targets.names, targets.velocities, settled, targets.constant
         return make_rows(self.model.mechanism, self.parameters, varied, *held)
 
     @cached_property
     def description(self) -> dict[str, Any]:
         """What is computed: two ensembles of the same description give the same rows."""
-        found = hashlib.sha256()
+        varied = hashlib.sha256()
         for axis in self.grid.axes:
             for name, values in axis.values.items():
-                found.update(f"{axis.dimension}\0{name}\0".encode() + values.tobytes())
+                varied.update(f"{axis.dimension}\0{name}\0".encode() + values.tobytes())
         formulas = {name for name, _ in derived(self.model.mechanism.parameters)}
-        settled = sorted(formulas & set(self.settings.parameters))  # these have numbers in place of their formulas
+        settled = sorted(formulas & set(self.plan.settings.parameters))  # these have numbers in place of their formulas
         return {
             **({"settled": settled} if settled else {}),
             "mechanism": identity(self.model.mechanism),
-            "varied": found.hexdigest(),
+            "varied": varied.hexdigest(),
             "parameters": self.parameters,
             "start": {name: repr(value) for name, value in self.targets.constant.items()},
             **({"inputs": driven} if (driven := self.driving.described) else {}),
@@ -221,37 +220,42 @@ def make_ensemble(
         refuse_jumps(mechanism, plan.parameters, spec.until)
     kept_names, events = _events(mechanism, plan, quantities)
     acting = mechanism if target == "cpu" else structs.replace(mechanism, outputs=())  # others integrate no outputs
-    known = foreseen(acting, events)
+    passed_times = foreseen(acting, events)
     looks = spec.adaptive and bool(discontinuities_of(acting))
-    driving = Driving(plan.inputs, grid.names, spec.until, known if spec.adaptive else None, moving)
+    driving = Driving(plan.inputs, grid.names, spec.until, passed_times if spec.adaptive else None, moving)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)
     targets = targets_of(names, grid.names, plan.holds, compiled.info)
     if target != "cpu":
         inputs, passed = replace(driving, foreseen=None).jumps, looks or driving.jumps
         _check_target(target, inputs, passed, bool(events))
+    name = plan.integrator.name
+    if plan.integrator.rows(spec.adaptive) is None:
+        others = ", ".join(other for other, kind in INTEGRATORS.items() if kind.rows(False) is not None)
+        expected = "one with a loop over many runs"
+        raise InputError(f"integrator '{name}'", expected, "one without", f"{others} have one")
+    if target == "lanes" and spec.adaptive:  # runs side by side take the same steps
+        got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with --step, or rk4"
+        raise InputError("target 'lanes'", "a constant step", got, hint)
     kept = choose_quantities(compiled.info, kept_names, partial(measurable, mechanism, compiled.info))
     integral = integrated(mechanism, kept)
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
         raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave --target out, or name others")
-    integrator_of_rows(plan.integrator.name, spec)
-    if target == "lanes":
-        check_lanes(plan.integrator.name, spec)
     resets = any(event.action == RESET for event in events)
     late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in kept)
     # what Python does something between; and measures behind the loops know the inputs of one part
     measured = driving.changes and any(q.source >= SIDE for q in kept)
     parts = resets or late or measured
-    alone = parts or (joint and not are_plain(kept))
+    alone = parts or (joint and not {q.source for q in kept} <= PLAIN)
     watch = Watch(mechanism, events, ends, alone) if parts or joint or events or looks else None
     # single runs add up all that outputs ask for, which their steps follow, too
     adds = integral is not None or (
         (watch is not None or (driving.jumps and spec.adaptive)) and can_integrate(compiled)
     )
 
-    def with_sums(found: CompiledModel) -> CompiledModel:
-        return with_integrals(mechanism, found) if adds else found
+    def with_sums(law: CompiledModel) -> CompiledModel:
+        return with_integrals(mechanism, law) if adds else law
 
     compiled, spare = with_sums(compiled), None
     if plan.solver_is_free:  # the few runs with light bodies are not worth lanes of their own
@@ -277,11 +281,10 @@ def make_ensemble(
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first
     model = replace(model, mechanism=mechanism)
-    missed, notes = _missed(plan, known, grid)
+    missed, notes = _missed(plan, passed_times, grid)
     warnings = *plan.warnings, *missed
     return Ensemble(
         model,
-        plan.settings,
         plan,
         compiled,
         grid,
@@ -310,16 +313,16 @@ def _code(
     )
 
 
-def _missed(plan: Plan, known: Foreseen, grid: Grid) -> tuple[tuple[str, ...], tuple[str, ...]]:
+def _missed(plan: Plan, passed_times: Foreseen, grid: Grid) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return what steps of all runs may not see, as warnings, or as a note where that depends on what varies."""
-    if not known.reads & {*grid.names, *(name for name, _ in derived(plan.mechanism.parameters))}:
-        return plan.missed if known else (), ()
+    if not passed_times.reads & {*grid.names, *(name for name, _ in derived(plan.mechanism.parameters))}:
+        return plan.missed if passed_times else (), ()
     if plan.spec.adaptive:
         return (), ()
-    said = (
+    sentence = (
         f"formulas change at times that depend on what varies: steps of {plan.spec.step:g} s may miss what is shorter"
     )
-    return (), (f"{said}; adaptive ones do not",)
+    return (), (f"{sentence}; adaptive ones do not",)
 
 
 def _check_settings(settings: Settings, target: str) -> None:
@@ -359,13 +362,13 @@ def _events(
         If an event is asked for that there is none of.
     """
     words = [] if "event" in {body.name for body in mechanism.bodies} else quantities or ()
-    asked = [name for name in words if name.partition(".")[0] == "event"]
+    chosen = [name for name in words if name.partition(".")[0] == "event"]
     names = [event.name for event in plan.events]
-    for name in asked:
+    for name in chosen:
         if name.partition(".")[2] not in ("", *names):
-            known = [f"event.{x}" for x in names]
-            raise InputError(f"quantity '{name}'", f"an event of {mechanism.name}", "none", nearest(name, known))
+            options = [f"event.{x}" for x in names]
+            raise InputError(f"quantity '{name}'", f"an event of {mechanism.name}", "none", nearest(name, options))
     further = len(plan.events) > len(mechanism.events)
-    if asked or further or any(event.action != RECORD for event in plan.events):
-        return [name for name in quantities if name not in asked] if asked and quantities else quantities, plan.events
+    if chosen or further or any(event.action != RECORD for event in plan.events):
+        return [name for name in quantities if name not in chosen] if chosen and quantities else quantities, plan.events
     return quantities, ()

@@ -17,9 +17,8 @@ from numpy.typing import NDArray
 
 from symgen.arguments import path as argument_path
 from symgen.arguments import shown, whole
-from symgen.ensemble.labels import NUMBERS, of_dimension, of_number, of_quantities, of_varied
 from symgen.ensemble.names import Names
-from symgen.ensemble.singly import event_columns
+from symgen.ensemble.row_quantities import NUMBERS, event_columns, of_dimension, of_number, of_quantities, of_varied
 from symgen.ensemble.verdicts import NOT_RUN, column, judge_all, warnings_all
 from symgen.errors import InputError, nearest
 from symgen.files import headed, write_csv, write_whole
@@ -73,8 +72,8 @@ class Sweep:
         return len(self.ensemble)
 
     def __repr__(self) -> str:
-        told = ", ".join(f"{count} {status}" for status, count in self.counts.items() if count)
-        return f"<Sweep of {self.ensemble.model.name}: {len(self)} runs, {told}>"
+        counts = ", ".join(f"{count} {status}" for status, count in self.counts.items() if count)
+        return f"<Sweep of {self.ensemble.model.name}: {len(self)} runs, {counts}>"
 
     def _repr_html_(self) -> str:
         facts = [("mechanism", self.ensemble.model.name), ("runs", str(len(self)))]
@@ -109,13 +108,13 @@ class Sweep:
     @cached_property
     def warnings(self) -> NDArray[np.object_]:
         """What there is to say of every run, ok or not: a tuple of sentences."""
-        ensemble, found = self.ensemble, np.empty(len(self), dtype=object)
+        ensemble, sentences_of_runs = self.ensemble, np.empty(len(self), dtype=object)
         begun = self.done & (column(self.summary, "start") == ASSEMBLED)
-        found[:] = [ensemble.warnings if there else () for there in begun]
+        sentences_of_runs[:] = [ensemble.warnings if there else () for there in begun]
         law, spec = ensemble.compiled.law, ensemble.recipe.spec
         for i, sentences in warnings_all(self.summary, begun, law, spec).items():
-            found[i] += sentences
-        return found
+            sentences_of_runs[i] += sentences
+        return sentences_of_runs
 
     @property
     def counts(self) -> dict[str, int]:
@@ -124,9 +123,9 @@ class Sweep:
 
     def reasons(self, most: int = 10) -> list[tuple[str, int]]:
         """Return the commonest reasons without their figures, each with the number of runs it is said of."""
-        found = Counter(_kind(reason) for reason in self.reason if reason)
+        kinds = Counter(_kind(reason) for reason in self.reason if reason)
         most = whole("most", most, 0, 10**9)
-        return found.most_common(most)
+        return kinds.most_common(most)
 
     def told(self) -> list[tuple[str, int]]:
         """Return one of the warnings of each kind, that of the first run, with the number of runs it is said of."""
@@ -153,17 +152,17 @@ class Sweep:
             return column(self.summary, name).reshape(shape)
         if name in self.events:
             return np.asarray(self.summary[:, self.events[name][0]]).reshape(shape)
-        known = [*(q.name for q in self.ensemble.recipe.quantities), *NUMBERS, *self.events]
+        names = [*(q.name for q in self.ensemble.recipe.quantities), *NUMBERS, *self.events]
         raise InputError(
-            "sweep", "a quantity that was kept, or a number of every run", shown(name), nearest(str(name), known)
+            "sweep", "a quantity that was kept, or a number of every run", shown(name), nearest(str(name), names)
         )
 
     @property
     def attributes(self) -> dict[str, Any]:
         """What was run, by name, as JSON can express it."""
         ensemble, spec = self.ensemble, self.ensemble.recipe.spec
-        settings = {f.name: getattr(ensemble.settings, f.name) for f in fields(ensemble.settings)}
-        settings = {key: value for key, value in settings.items() if key not in ("times", "parameters", "options")}
+        chosen, elsewhere = ensemble.plan.settings, ("times", "parameters", "options")
+        settings = {f.name: getattr(chosen, f.name) for f in fields(chosen) if f.name not in elsewhere}
         return {
             "mechanism": ensemble.model.name,
             "model_digest": ensemble.compiled.info.digest,
@@ -176,8 +175,8 @@ class Sweep:
             "atol": spec.atol if spec.adaptive else None,
             "until": spec.until,
             "parameters": json.dumps({k: x for k, x in ensemble.parameters.items() if "~" not in k}),
-            "inputs": json.dumps(dict(ensemble.driving.given.words)),
-            "options": json.dumps(dict(ensemble.settings.options)),
+            "inputs": json.dumps(dict(ensemble.driving.inputs.words)),
+            "options": json.dumps(dict(chosen.options)),
             "settings": json.dumps(finite(settings)),
             "versions": json.dumps(_versions()),
             "ensemble_digest": ensemble.recipe.digest,
@@ -277,11 +276,11 @@ class Sweep:
     def units(self) -> dict[str, str]:
         """Return the units of what varies, by name; empty where there is none."""
         info = self.ensemble.compiled.info
-        known = {q.name: q.unit for q in (*info.parameters, *info.coordinates, *info.velocities)}
-        known |= {q.name: q.unit for q in info.joint_coordinates}
-        known |= {f"{q.name}.rate": f"{q.unit}/s" for q in info.joint_coordinates}
+        units = {q.name: q.unit for q in (*info.parameters, *info.coordinates, *info.velocities)}
+        units |= {q.name: q.unit for q in info.joint_coordinates}
+        units |= {f"{q.name}.rate": f"{q.unit}/s" for q in info.joint_coordinates}
         names = Names.of(self.ensemble.model.mechanism)
-        return {name: known.get(names.one(name), "") for name in self.ensemble.grid.names}
+        return {name: units.get(names.one(name), "") for name in self.ensemble.grid.names}
 
 
 #: Figures in sentences, which differ from run to run.
@@ -307,34 +306,34 @@ def _versions() -> dict[str, str]:
     }
 
 
-def lines_of(found: Sweep) -> tuple[list[str], Iterator[list[object]]]:
+def lines_of(sweep: Sweep) -> tuple[list[str], Iterator[list[object]]]:
     """Return the heading of a table with units, and a line for each run and output time; missing numbers are empty."""
-    ensemble, units = found.ensemble, found.units()
+    ensemble, units = sweep.ensemble, sweep.units()
     times, quantities = ensemble.recipe.spec.times, ensemble.recipe.quantities
-    varied = ensemble.grid.values(0, len(found))
+    varied = ensemble.grid.values(0, len(sweep))
     labels = of_quantities([q.name for q in quantities], ensemble.grid.axes)
     names = {name: of_varied(name, axis) for axis in ensemble.grid.axes for name in axis.values}
-    events = {name: found.summary[:, at] for name, (at, _) in found.events.items()}
+    events = {name: sweep.summary[:, at] for name, (at, _) in sweep.events.items()}
     heading = [
         "run",
         *(headed(names[name], units[name]) for name in varied),
         headed("t", "s"),
         *(headed(label, q.unit) for label, q in zip(labels, quantities, strict=True)),
         headed("end", "s"),
-        *(headed(name, unit) for name, (_, unit) in found.events.items()),
+        *(headed(name, unit) for name, (_, unit) in sweep.events.items()),
         "status",
         "reason",
         "warnings",
     ]
-    end = column(found.summary, "end")
+    end = column(sweep.summary, "end")
 
     def lines() -> Iterator[list[object]]:
-        for i in range(len(found)):
+        for i in range(len(sweep)):
             before = [i, *(float(x[i]) for x in varied.values())]
-            behind = [float(end[i]), *(_shown(x[i]) for x in events.values()), found.status[i], found.reason[i]]
-            behind.append("; ".join(found.warnings[i]))
+            behind = [float(end[i]), *(_shown(x[i]) for x in events.values()), sweep.status[i], sweep.reason[i]]
+            behind.append("; ".join(sweep.warnings[i]))
             for k, t in enumerate(times):
-                yield [*before, float(t), *(_shown(x) for x in found.values[i, :, k]), *behind]
+                yield [*before, float(t), *(_shown(x) for x in sweep.values[i, :, k]), *behind]
 
     return heading, lines()
 

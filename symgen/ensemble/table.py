@@ -89,11 +89,11 @@ class RowTable:
 
     def done(self) -> NDArray[np.bool_]:
         """Return which runs are done."""
-        found = np.zeros(self.runs, dtype=np.bool_)
+        done = np.zeros(self.runs, dtype=np.bool_)
         for index in self.finished:
             first, last = self.bounds(index)
-            found[first:last] = True
-        return found
+            done[first:last] = True
+        return done
 
     def put(self, index: int, chunk: Chunk) -> None:
         """Keep the rows of a chunk.
@@ -187,8 +187,8 @@ class FolderTable(RowTable):
             raise
 
     def _check_description(self, where: str) -> None:
-        found = json.loads((self.folder / DESCRIPTION).read_text(encoding="utf-8"))
-        differing = sorted(k for k in {*found, *self._description} if found.get(k) != self._description.get(k))
+        begun, own = json.loads((self.folder / DESCRIPTION).read_text(encoding="utf-8")), self._description
+        differing = sorted(k for k in {*begun, *own} if begun.get(k) != own.get(k))
         if not differing:
             return
         # other versions may say the same in other words, so nothing is said of what they have
@@ -220,33 +220,26 @@ class FolderTable(RowTable):
         path = self.folder / DONE
         content, kept = path.read_bytes() if path.exists() else b"", b""
         for line in content.split(b"\n")[:-1]:  # behind the last line end is a line that a kill tore, or nothing
-            found = _LINE.fullmatch(line)
-            index = int(found[1]) if found else self.chunks
-            if index < self.chunks and index not in self.finished and self._line(index) == line + b"\n":
+            match = _LINE.fullmatch(line)
+            index = int(match[1]) if match else self.chunks
+            first, last = self.bounds(index)
+            own = _line(index, self.values[first:last].tobytes(), self.summary[first:last].tobytes())
+            if index < self.chunks and index not in self.finished and own == line + b"\n":
                 self.finished.add(index)
                 kept += line + b"\n"
         if kept != content:
             write_whole(path, kept)
         self._log = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
 
-    def _line(self, index: int) -> bytes:
-        """Return the line of a chunk whose rows are those in the files."""
-        first, last = self.bounds(index)
-        digest = hashlib.sha256(self.values[first:last].tobytes())
-        digest.update(self.summary[first:last].tobytes())
-        return f"{index} {digest.hexdigest()[:32]}\n".encode()
-
     def _write(self, index: int, chunk: Chunk) -> None:
         first, _ = self.bounds(index)
-        digest = hashlib.sha256()
+        contents = [np.ascontiguousarray(rows).tobytes() for rows in (chunk.values, chunk.summary)]
         try:
-            for name, rows in ((VALUES, chunk.values), (SUMMARY, chunk.summary)):
-                data = np.ascontiguousarray(rows).tobytes()
-                digest.update(data)
+            for name, data in zip((VALUES, SUMMARY), contents, strict=True):
                 if name in self._files:
                     file, offset, size = self._files[name]
                     _write_all(file, data, offset + first * size)
-            os.write(self._log, f"{index} {digest.hexdigest()[:32]}\n".encode())
+            os.write(self._log, _line(index, *contents))
         except OSError as error:
             raise SimulationError(f"the folder '{self.folder}' cannot be written: {why(error)}") from None
 
@@ -271,16 +264,21 @@ class FolderTable(RowTable):
             self.folder.rmdir()
 
 
+def _line(index: int, *contents: bytes) -> bytes:
+    """Return the line of a chunk with these rows."""
+    return f"{index} {hashlib.sha256(b''.join(contents)).hexdigest()[:32]}\n".encode()
+
+
 def _array(path: Path, shape: tuple[int, ...]) -> np.memmap[Any, np.dtype[np.float64]] | None:
     """Return the array in a file, None where there is none of this shape."""
     try:
-        found = np.load(path, mmap_mode="r") if path.is_file() else None
+        array = np.load(path, mmap_mode="r") if path.is_file() else None
     except Exception:  # whatever NumPy makes of a damaged head
         return None
     fits = (
-        isinstance(found, np.memmap) and found.shape == shape and found.dtype == np.float64 and found.flags.c_contiguous
+        isinstance(array, np.memmap) and array.shape == shape and array.dtype == np.float64 and array.flags.c_contiguous
     )
-    return found if fits else None
+    return array if fits else None
 
 
 def check_folder(folder: Path, resume: bool) -> bool:
@@ -306,8 +304,8 @@ def check_folder(folder: Path, resume: bool) -> bool:
     if not (folder / DESCRIPTION).exists():
         return False
     try:
-        found = json.loads((folder / DESCRIPTION).read_text(encoding="utf-8"))
-        form = found["symgen-sweep"]
+        description = json.loads((folder / DESCRIPTION).read_text(encoding="utf-8"))
+        form = description["symgen-sweep"]
     except (OSError, ValueError, TypeError, KeyError):
         raise InputError(where, "a folder of a sweep", f"another '{DESCRIPTION}'") from None
     if form != FORM:

@@ -72,10 +72,10 @@ def judge_all(
         if column(row, "start") != e.ASSEMBLED:
             status[i], reason[i] = FAILED, str(refusal(row, info))
             continue
-        if (told := _of_events(row, events)) is not None:
-            status[i], reason[i] = FAILED, told
+        if (why := _of_events(row, events)) is not None:
+            status[i], reason[i] = FAILED, why
             continue
-        verdict = judge_alone(_seen(row, spec), law.position_correction)
+        verdict = judge_alone(_ended(row, spec), law.position_correction)
         status[i], reason[i] = verdict.status, verdict.reason or ""
     return status, reason
 
@@ -91,10 +91,10 @@ def warnings_all(summary: Array, done: NDArray[np.bool_], law: LawInfo, spec: Ru
     odd = (column(summary, "rank_event_count") > 0.0) | (column(summary, "smallest_pivot") < WARN)
     odd |= (column(summary, "energy_jump") > 0.0) | (column(summary, "light_evaluations") > 0.0)
     ready, projected = done & (column(summary, "start") == e.ASSEMBLED), column(summary, "start_velocities") == 1.0
-    found: dict[int, tuple[str, ...]] = {int(i): (_PROJECTED,) for i in np.flatnonzero(ready & projected)}
+    warnings: dict[int, tuple[str, ...]] = {int(i): (_PROJECTED,) for i in np.flatnonzero(ready & projected)}
     for i in np.flatnonzero(ready & odd).tolist():
-        found[i] = (*found.get(i, ()), *judge_alone(_seen(summary[i], spec), law.position_correction).warnings)
-    return found
+        warnings[i] = (*warnings.get(i, ()), *judge_alone(_ended(summary[i], spec), law.position_correction).warnings)
+    return warnings
 
 
 def _of_events(row: Array, events: Sequence[str]) -> str | None:
@@ -120,7 +120,7 @@ def _jumped(summary: Array) -> NDArray[np.bool_]:
     return np.asarray(column(summary, "energy_jump") > 0.5 * JUMP_FAILURE * column(summary, "energy_scale"))
 
 
-def _seen(row: Array, spec: RunSpec) -> Ended:
+def _ended(row: Array, spec: RunSpec) -> Ended:
     numbers = {name: float(row[k]) for k, name in enumerate(e.SUMMARY)}
     code, scale = int(numbers["code"]), numbers["energy_scale"]
     names = ("position_violation", "velocity_violation", "length_scale", "speed_scale")

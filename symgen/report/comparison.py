@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from symgen.report import words
+from symgen.report.comparison_findings import costs, findings, methods, representatives, settings_text
 from symgen.report.document import Document, DocumentTable, Section, TableCell
 from symgen.report.figures import pictures
-from symgen.report.finding_pages import costs, findings
 from symgen.report.picture import sketched
-from symgen.report.row_selection import methods, representatives, settings_text
 from symgen.report.source import beside_the_source
 from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study
 from symgen.study.machine_class import machine_class, versions
 
 _MOODS = {"ok": "good", "unverified": "doubtful", "failed": "bad"}
+BELOW = "* below the error of the reference itself"
 _LEAD = (
     "The error of a run is its largest distance [m] from a reference motion, over bodies, common output times and "
     "points: the centre of mass of each body and the tips of its axes at the body's own length. Run time is that of "
@@ -64,15 +64,15 @@ def comparison(
 
 
 def _settings(studies: Sequence[Study]) -> list[tuple[str, str]]:
-    found = [("Durations", ", ".join(f"{study.mechanism} {study.until:g} s" for study in studies))]
+    facts = [("Durations", ", ".join(f"{study.mechanism} {study.until:g} s" for study in studies))]
     repeat = max(study.repeat for study in studies)
     text = f"at least {words.counted(repeat, 'timed run')} a row after a warm-up" if repeat > 1 else "one run a row"
-    found.append(("Timing", f"{text}, one at a time, nothing else running in this process"))
+    facts.append(("Timing", f"{text}, one at a time, nothing else running in this process"))
     first = studies[0]
     for label, changed in (("Parameters", first.parameters), ("Start", first.start), ("Options", first.options)):
         if changed:
-            found.append((f"{label} changed", ", ".join(f"{name} = {value}" for name, value in changed.items())))
-    return found
+            facts.append((f"{label} changed", ", ".join(f"{name} = {value}" for name, value in changed.items())))
+    return facts
 
 
 # -- across mechanisms -------------------------------------------------------------------------------------------------
@@ -101,7 +101,7 @@ def _error_cell(row: Row | None) -> str | TableCell:
         return words.NONE
     if row.error is None:
         return TableCell(row.status, _MOODS[row.status])
-    text = words.number(row.error) + (" *" if row.below_reference else "")
+    text = _error_text(row)
     return TableCell(f"{text} ({row.status})", _MOODS[row.status]) if row.status != "ok" else text
 
 
@@ -143,11 +143,7 @@ def _summary(study: Study) -> DocumentTable:
                 words.number(row.energy_drift_max),
             )
         )
-    notes = (
-        ("* below the error of the reference itself",)
-        if any(r.below_reference for r, _ in representatives(study))
-        else ()
-    )
+    notes = (BELOW,) if any(r.below_reference for r, _ in representatives(study)) else ()
     return DocumentTable(f"One row a method: {settings_text(study)}.", headings, tuple(rows), words=2, notes=notes)
 
 
@@ -175,22 +171,16 @@ def _all_rows(study: Study) -> DocumentTable:
     rows = []
     for row in study.rows:
         spread = row.run_seconds_spread / row.run_seconds if row.run_seconds > 0.0 else None
-        both = words.ratio(row.cost_ratio)
-        if row.cost_ratio is not None and row.cost_ratio_spread:
-            both += f" ± {words.ratio(row.cost_ratio_spread)}"
+        both = words.with_spread(row.cost_ratio, row.cost_ratio_spread or None)
         rows.append(
             (
-                *(
-                    row.label,
-                    row.integrator,
-                    words.setting(row.step, row.rtol),
-                    TableCell(row.status, _MOODS[row.status]),
-                ),
+                *(row.label, row.integrator, words.setting(row.step, row.rtol)),
+                TableCell(row.status, _MOODS[row.status]),
                 *(_error_text(row), words.seconds(row.run_seconds), words.percent(spread), both),
                 *(str(row.evaluations), str(row.iterations), words.number(row.energy_drift_max)),
             )
         )
-    notes = ["* below the error of the reference itself"] if any(row.below_reference for row in study.rows) else []
+    notes = [BELOW] if any(row.below_reference for row in study.rows) else []
     for row in study.rows:
         notes += [f"{_where(row)}: {row.status}: {words.readable(row.reason)}"] if row.reason else []
     notes += _warnings(study)
@@ -208,12 +198,12 @@ def _warnings(study: Study) -> list[str]:
     for row in study.rows:
         for text in row.warnings:
             by_text.setdefault(text, []).append(row)
-    found = []
+    notes = []
     for text, rows in by_text.items():
         more = f" and {words.counted(len(rows) - 1, 'other run')}" if len(rows) > 1 else ""
         where = "every run" if text in common else _where(rows[0]) + more
-        found.append(f"{where}: {words.readable(text)}")
-    return found
+        notes.append(f"{where}: {words.readable(text)}")
+    return notes
 
 
 def _all_violations(study: Study) -> DocumentTable:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from symgen.report import words
+from symgen.report.comparison_findings import line_number, methods, representatives, settings_text
 from symgen.report.document import Picture, anchor
 from symgen.report.picture import COLOURS, GREY, below, drawn, style
-from symgen.report.row_selection import line_number, methods, most_accurate, representatives, settings_text
-from symgen.study.comparison.comparison_rows import Row, Study, Trace
+from symgen.study.comparison.comparison_rows import Row, Study
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,15 +26,23 @@ MARKS = 8
 
 def pictures(study: Study) -> tuple[Picture, ...]:
     """Return all pictures of a study; those for which it has nothing are left out."""
-    made = [*_errors_against_time(study), _errors_over_time(study)]
-    made += [
-        _violations(study, "position", "position violation", "|Φ| [m, rad]"),
-        _violations(study, "velocity", "velocity violation", "|D v − ν| [m/s, rad/s]"),
-        _violations(study, "acceleration", "acceleration violation", "|D v' − γ| [m/s², rad/s²]"),
-        _energy_errors(study),
+    shared = settings_text(study)
+    levels = (
+        ("position", "|Φ| [m, rad]"),
+        ("velocity", "|D v − ν| [m/s, rad/s]"),
+        ("acceleration", "|D v' − γ| [m/s², rad/s²]"),
+    )
+    distance = f"Distance to the reference over time ({shared}); grey: the error of the reference itself."
+    work = "W being the work of forces without potential and of drivers"
+    balance = f"Energy error |T + V − E₀ − W| over time, {work} ({shared})."
+    every = [
+        *_errors_against_time(study),
+        _over_time(study, "error", "error", "error [m]", distance),
+        *(_over_time(study, x, f"{x}-violation", y, f"{x.title()} violation over time ({shared}).") for x, y in levels),
+        _over_time(study, "energy_error", "energy-error", "|energy error| [J]", balance),
         _energies(study),
     ]
-    return tuple(picture for picture in made if picture is not None)
+    return tuple(picture for picture in every if picture is not None)
 
 
 # -- error against run time --------------------------------------------------------------------------------------------
@@ -68,15 +76,15 @@ def _errors_against_time(study: Study) -> list[Picture]:
         return []
     groups = _groups(study)
     usual = {pair for _, lines in groups for pair in lines if not _mixed(lines)}
-    found = []
+    pictures = []
     for title, lines in groups:
         # pictures of one integrator share their axes, so that they can be compared; the rest would stretch them
         together = set(lines) if _mixed(lines) else usual
         rows = [r for r in shown if (r.label, r.integrator) in together]
         if rows:
             limits = _limits([r.run_seconds for r in rows]), _limits([max(r.error or 0.0, FLOOR) for r in rows])
-            found.append(_error_against_time(study, title, lines, limits))
-    return found
+            pictures.append(_error_against_time(study, title, lines, limits))
+    return pictures
 
 
 def _mixed(lines: list[tuple[str, str]]) -> bool:
@@ -145,22 +153,13 @@ def _floor(ax: Any, estimated: float, limits: tuple[float, float] | None = None)
 # -- over time ---------------------------------------------------------------------------------------------------------
 
 
-def _curves(study: Study, get: Callable[[Trace], tuple[float, ...]]) -> list[tuple[str, Trace, Any]]:
-    """Return method, trace and values of the representatives that have some."""
-    found = []
-    for row, trace in representatives(study):
-        values = np.abs(np.array(get(trace), dtype=float))
-        if len(values) > 1 and len(values) == len(trace.t):
-            found.append((row.label, trace, values))
-    return found
-
-
-def _over_time(
-    study: Study, get: Callable[[Trace], tuple[float, ...]], name: str, title: str, label: str, caption: str
-) -> Picture | None:
-    curves = _curves(study, get)
+def _over_time(study: Study, field: str, name: str, label: str, caption: str) -> Picture | None:
+    """Return the curves of a field of traces, one a method."""
+    curves = [(row.label, trace, np.abs(getattr(trace, field))) for row, trace in representatives(study)]
+    curves = [curve for curve in curves if len(curve[2]) > 1]
     if not curves:
         return None
+    title = f"{name[:1].upper()}{name[1:].replace('-', ' ')} over time"
 
     def draw(figure: Figure) -> None:
         ax = figure.subplots()
@@ -172,7 +171,7 @@ def _over_time(
             marks = (k * every // max(1, len(curves)), every)
             ax.plot(trace.t, values, **look, markevery=marks, markerfacecolor="white", markersize=4.5, label=method)
         if name == "error":
-            _floor(ax, study.estimated_error, None)
+            _floor(ax, study.estimated_error)
             above = (float(np.nanmin(np.where(v > 0.0, v, np.nan))) for _, _, v in curves if np.any(v > 0.0))
             ax.set_ylim(bottom=max(FLOOR, 0.3 * min((study.estimated_error, *above))))
         ax.set(yscale="log", xlabel="t [s]", ylabel=label, xlim=(0.0, study.until))
@@ -192,34 +191,11 @@ def _decades(ax: Any) -> None:
         ax.set_ylim(middle / 31.7, middle * 31.7)
 
 
-def _errors_over_time(study: Study) -> Picture | None:
-    caption = f"Distance to the reference over time ({settings_text(study)}); grey: the error of the reference itself."
-    return _over_time(study, lambda t: t.error, "error", "Error over time", "error [m]", caption)
-
-
-def _violations(study: Study, level: str, title: str, label: str) -> Picture | None:
-    caption = f"{title[:1].upper()}{title[1:]} over time ({settings_text(study)})."
-    name = f"{level}-violation"
-    return _over_time(
-        study, lambda t: getattr(t, level), name, f"{title[:1].upper()}{title[1:]} over time", label, caption
-    )
-
-
-def _energy_errors(study: Study) -> Picture | None:
-    caption = (
-        f"Energy error |T + V − E₀ − W| over time, W being the work of forces without potential and of drivers "
-        f"({settings_text(study)})."
-    )
-    return _over_time(
-        study, lambda t: t.energy_error, "energy-error", "Energy error over time", "|energy error| [J]", caption
-    )
-
-
 def _energies(study: Study) -> Picture | None:
-    best = most_accurate(study)
-    if best is None or len(best[1].t) < 2:
+    pairs = [(row, t) for row, t in zip(study.rows, study.traces, strict=True) if row.ended and len(t.t) > 1]
+    if not pairs:
         return None
-    row, trace = best
+    row, trace = min(pairs, key=lambda pair: np.inf if pair[0].error is None else pair[0].error)
     kinetic, potential = np.array(trace.kinetic), np.array(trace.potential)
 
     def draw(figure: Figure) -> None:

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from symgen.report import words
+from symgen.report.comparison_findings import USUAL, line_number
 from symgen.report.document import DocumentTable, Picture, Section
 from symgen.report.picture import GREY, below, drawn, style
-from symgen.report.row_selection import USUAL, line_number
 from symgen.study.comparison.comparison_rows import Row, Study
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 #: Methods that the source times against its standard Lagrange method.
 METHODS = ("baumgarte", "augmented-lagrangian", "direct-correction")
@@ -40,7 +45,7 @@ def beside_the_source(studies: list[Study]) -> Section | None:
     for mechanism, (name, ratios) in RATIOS.items():
         for method, theirs in zip(METHODS, ratios, strict=True):
             row = ours.get(mechanism, {}).get(method)
-            mine = "not in this report" if row is None else _with_spread(row)
+            mine = "not in this report" if row is None else words.with_spread(row.cost_ratio, row.cost_ratio_spread)
             step = words.NONE if row is None else f"{words.exact(row.step or 0.0)} s"
             rows.append((name, mechanism, method, words.ratio(theirs), mine, step))
     headings = ("mechanism of the source", "ours", "method", "source", "symgen", "step")
@@ -48,25 +53,18 @@ def beside_the_source(studies: list[Study]) -> Section | None:
     return Section("Beside the source", _TEXT, tables=(table,), pictures=(_picture(ours),))
 
 
-def _with_spread(row: Row) -> str:
-    return f"{words.ratio(row.cost_ratio)} ± {words.ratio(row.cost_ratio_spread)}"
-
-
 def _ours(study: Study) -> dict[str, Row]:
     """Return the row of each method with the integrator of the source, at the step nearest to the source's."""
-    found: dict[str, Row] = {}
+    nearest: dict[str, Row] = {}
     for method in METHODS:
         rows = [r for r in study.rows if (r.label, r.integrator) == (method, USUAL) and r.cost_ratio is not None]
         if rows:
-            found[method] = min(rows, key=lambda r: abs((r.step or 0.0) - STEP))
-    return found
+            nearest[method] = min(rows, key=lambda r: abs((r.step or 0.0) - STEP))
+    return nearest
 
 
 def _picture(ours: dict[str, dict[str, Row]]) -> Picture:
-    def draw(figure: object) -> None:
-        from matplotlib.figure import Figure
-
-        assert isinstance(figure, Figure)
+    def draw(figure: Figure) -> None:
         ax = figure.subplots()
         places, labels = [], []
         for i, (mechanism, (name, ratios)) in enumerate(RATIOS.items()):

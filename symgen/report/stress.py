@@ -13,15 +13,16 @@ from symgen.running.automatic import AUTO
 from symgen.study.machine_class import machine_class, versions
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
-from symgen.study.stress.findings import FEW_MODELS, cause, findings
-from symgen.study.stress.map import LEGEND, Map, outcomes_of_models
-from symgen.study.stress.stress_rows import Stress, StressRow
+from symgen.study.stress.findings import cause, findings
+from symgen.study.stress.stress_rows import LEGEND, Map, Stress, StressRow, outcomes_of_models
 
 _LEAD = (
     "Every cell is one run of a method with an integrator on a case, compared with a motion from another route: a "
     "closed form, or independently derived equations integrated by another scheme at a tight tolerance. The outcome is "
     f"told by that distance, not by what the run says of itself. A run is accurate (ok) up to {ACCURATE:g} m."
 )
+#: Of more models than this the report has an overview.
+FEW_MODELS = 3
 #: More cells than this are not listed.
 MOST_CELLS = 6000
 _MOODS = {"ok": "good", "inaccurate": "doubtful", "refused": "faint", "unjudged": "faint", "too slow": "faint"}
@@ -63,7 +64,7 @@ def stress_report(study: Stress, command: str = "", sketches: Mapping[str, str] 
         Section("Findings", findings=findings(study)),
         _map_section(study),
         *_limits_section(study),
-        *_regions_section(study),
+        *([Section("Regions of stability", pictures=planes)] if (planes := regions(study)) else []),
         _trust_section(study),
         *_left_out(study),
         _cells_section(study),
@@ -127,11 +128,6 @@ def _limits_section(study: Stress) -> list[Section]:
     return [Section("Largest steps", (text,), tables=(DocumentTable("", headings, rows, words=4),))]
 
 
-def _regions_section(study: Stress) -> list[Section]:
-    pictures = regions(study)
-    return [Section("Regions of stability", pictures=pictures)] if pictures else []
-
-
 def _trust_section(study: Stress) -> Section:
     """Return the list of runs that report success although their error is large."""
     wrong = study.false_successes
@@ -147,15 +143,13 @@ def _trust_section(study: Stress) -> Section:
         )
     if not others:
         text.append("No run of another method reports success with such an error.")
+    headings = ("model", "case", "method", "integrator", "why", "error [m]")
     tables = tuple(
-        DocumentTable(caption, _TRUST_HEADINGS, tuple(_trust_row(row) for row in rows), words=5)
+        DocumentTable(caption, headings, tuple(map(_trust_row, rows)), words=5)
         for caption, rows in (("auto.", own), ("Methods that were asked for by name.", others))
         if rows
     )
     return Section(f"Success reported with an error above {ACCURATE:g} m", tuple(text), tables=tables)
-
-
-_TRUST_HEADINGS = ("model", "case", "method", "integrator", "why", "error [m]")
 
 
 def _trust_row(row: StressRow) -> tuple[str, ...]:
@@ -164,17 +158,12 @@ def _trust_row(row: StressRow) -> tuple[str, ...]:
 
 
 def _left_out(study: Stress) -> list[Section]:
-    tables = []
-    if study.unusable:
-        tables.append(
-            DocumentTable("Cases without a usable reference.", ("model", "family", "case", "why"), study.unusable, 4)
-        )
-    if study.skipped:
-        tables.append(DocumentTable("Families that do not apply.", ("model", "family", "why"), study.skipped, 3))
-    if study.left_out:
-        headings = ("mechanism", "method", "integrator", "why")
-        tables.append(DocumentTable("Pairs left out for the time of their compilation.", headings, study.left_out, 4))
-    return [Section("What is not judged", tables=tuple(tables))] if tables else []
+    unusable = ("Cases without a usable reference.", ("model", "family", "case", "why"), study.unusable, 4)
+    skipped = ("Families that do not apply.", ("model", "family", "why"), study.skipped, 3)
+    headings = ("mechanism", "method", "integrator", "why")
+    left_out = ("Pairs left out for the time of their compilation.", headings, study.left_out, 4)
+    tables = tuple(DocumentTable(*table) for table in (unusable, skipped, left_out) if table[2])
+    return [Section("What is not judged", tables=tables)] if tables else []
 
 
 def _cells_section(study: Stress) -> Section:

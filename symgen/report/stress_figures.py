@@ -10,8 +10,7 @@ import numpy as np
 from symgen.report.document import Picture, anchor
 from symgen.report.picture import GREY, below, drawn
 from symgen.study.stress.cell_outcome import OUTCOMES
-from symgen.study.stress.findings import largest_root
-from symgen.study.stress.map import LETTERS, Entry, Map, plane_lines, plane_rows
+from symgen.study.stress.stress_rows import LETTERS, Entry, Map, plane_lines, plane_rows
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -136,10 +135,10 @@ def _paint(ax: Any, field: np.ndarray[Any, Any]) -> None:
 def _legend(figure: Figure, ax: Any, rows: Sequence[StressRow]) -> None:
     from matplotlib.patches import Patch
 
-    found = [name for name in OUTCOMES if any(row.outcome == name for row in rows)]
+    names = [name for name in OUTCOMES if any(row.outcome == name for row in rows)]
     handles = [
         Patch(facecolor=COLOURS[name], edgecolor=GREY, label=f"{LETTERS[name]} {name}" if name in LETTERS else name)
-        for name in found
+        for name in names
     ]
     below(figure, len(handles), columns=4, handles=handles)
 
@@ -149,7 +148,7 @@ def _legend(figure: Figure, ax: Any, rows: Sequence[StressRow]) -> None:
 
 def regions(study: Stress) -> tuple[Picture, ...]:
     """Return the pictures of planes: Baumgarte's gains, and step against stiffness."""
-    made = []
+    pictures = []
     for family, labels in (
         ("alpha-beta", ("α h", "β h")),
         ("step-stiffness", ("stiffness [N/m]", "step [s]")),
@@ -157,8 +156,8 @@ def regions(study: Stress) -> tuple[Picture, ...]:
         rows = plane_rows(study.rows, family)
         for model, method, integrator in plane_lines(rows):
             own = [row for row in rows if (row.model, row.method, row.integrator) == (model, method, integrator)]
-            made.append(_plane(family, labels, model, method, integrator, own))
-    return tuple(made)
+            pictures.append(_plane(family, labels, model, method, integrator, own))
+    return tuple(pictures)
 
 
 def _plane(
@@ -201,7 +200,6 @@ def _root_limit(ax: Any, xs: Sequence[float], ys: Sequence[float]) -> None:
     alphas = np.geomspace(RK4 / 2.0, RK4, 60)
     betas = np.array([np.sqrt(max(1e-300, RK4 * (2.0 * a - RK4))) for a in alphas])
     real = (betas <= alphas * (1.0 + 1e-9)) & (betas >= ys[0] / 3.0)
-    assert all(abs(largest_root(a, b) - RK4) < 1e-6 for a, b in zip(alphas[real], betas[real], strict=True))
 
     def at(values: np.ndarray[Any, Any], grid: Sequence[float]) -> np.ndarray[Any, Any]:
         step = np.log(grid[-1] / grid[0]) / max(1, len(grid) - 1)

@@ -45,8 +45,8 @@ def seconds(x: float | None) -> str:
     if x is None or not math.isfinite(x):
         return NONE
     for unit, size in (("µs", 1e-6), ("ms", 1e-3)):
-        if float(told := f"{x / size:.3g}") < 1000.0:  # as rounded: 999.6 µs are 1 ms
-            return f"{told} {unit}"
+        if float(digits := f"{x / size:.3g}") < 1000.0:  # as rounded: 999.6 µs are 1 ms
+            return f"{digits} {unit}"
     return f"{x:.3g} s"
 
 
@@ -60,6 +60,11 @@ def percent(x: float | None) -> str:
 def ratio(x: float | None) -> str:
     """Return a ratio to two decimals."""
     return NONE if x is None or not math.isfinite(x) else f"{x:.2f}" if x < 100.0 else f"{x:.0f}"
+
+
+def with_spread(x: float | None, spread: float | None) -> str:
+    """Return a ratio with what it may vary by."""
+    return f"{ratio(x)} ± {ratio(spread)}" if spread is not None else ratio(x)
 
 
 def listed(words: Sequence[str], last: str = "and") -> str:

@@ -48,17 +48,17 @@ def write(document: Document, path: Path) -> Path:
     check_report("report", path)
     if path.suffix.lower() == ".html":
         return write_whole(path, html(document))
-    folder, made = _folder(path), False
+    folder, is_new = _folder(path), False
     files: dict[Path, Content] = {folder / f"{p.name}.{p.kind}": p.data for p in document.pictures()}
     try:
         if files and not folder.exists():
             folder.mkdir()
-            made = True
+            is_new = True
         write_all(files | {path: markdown(document, folder.name)})
     except OSError as error:
         raise InputError(str(folder), "a folder that can be made", why(error)) from error
     finally:
-        if made and not any(folder.iterdir()):  # something could not be written
+        if is_new and not any(folder.iterdir()):  # something could not be written
             folder.rmdir()
     return path
 

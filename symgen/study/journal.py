@@ -17,7 +17,6 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, TYPE_CHECKING, Any
 
-from symgen.describe.digest import identity
 from symgen.errors import InputError, SimulationError
 from symgen.files import check_name
 from symgen.store.identity import SOURCES, digest, sources_digest
@@ -25,8 +24,6 @@ from symgen.version import __version__
 
 if TYPE_CHECKING:
     from filelock import BaseFileLock
-
-    from symgen.describe.mechanism import Mechanism
 
 #: First line of every journal; the number changes when the form of lines does.
 FORM = 1
@@ -45,7 +42,7 @@ def cell_key(**parts: Any) -> str:
     ----------
     **parts
         Numbers, texts, None, and lists or mappings of these; floats count to their last digit, the order of keys does
-        not. `mechanism_identity` and `code_identity` give the parts for the model and for what computes the cell.
+        not. `identity` of a mechanism and `code_identity` give the parts for the model and for what computes the cell.
 
     Raises
     ------
@@ -60,11 +57,6 @@ def _plain(value: Any) -> dict[str, Any]:
     if isinstance(value, Mapping):
         return dict(value)
     raise TypeError(f"a cell's key cannot hold a {type(value).__name__}")
-
-
-def mechanism_identity(mechanism: Mechanism) -> str:
-    """Return a digest of a whole mechanism: equations, start, values of parameters and defaults."""
-    return identity(mechanism)
 
 
 def code_identity() -> str:
@@ -232,13 +224,10 @@ def _parsed(line: bytes) -> tuple[str, Outcome] | None:
     """Return key and outcome of a line, None of one that is damaged."""
     try:
         entry = json.loads(line)
-        written = entry.pop("sha256", None)  # lines of earlier versions have none
-        if set(entry) != {"key", "outcome"} or written not in (None, _digest(entry)):
-            return None
-    except (ValueError, RecursionError, AttributeError, TypeError):
+        written = entry.pop("sha256")
+        return (entry["key"], entry["outcome"]) if written == _digest(entry) else None
+    except (ValueError, RecursionError, AttributeError, LookupError, TypeError):
         return None
-    fits = isinstance(entry["key"], str) and isinstance(entry["outcome"], dict)
-    return (entry["key"], entry["outcome"]) if fits else None
 
 
 def _digest(entry: Mapping[str, Any]) -> str:

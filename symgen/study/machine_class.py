@@ -35,10 +35,10 @@ def versions() -> dict[str, str]:
     """Return the versions of symgen, Python and the libraries by name."""
     from symgen.version import __version__
 
-    found = {"symgen": __version__, "Python": platform.python_version()}
+    versions = {"symgen": __version__, "Python": platform.python_version()}
     for name in LIBRARIES:
         try:
-            found[name] = version(name)
+            versions[name] = version(name)
         except PackageNotFoundError:
-            found[name] = "not installed"
-    return found
+            versions[name] = "not installed"
+    return versions

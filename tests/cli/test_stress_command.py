@@ -81,7 +81,7 @@ def test_an_interrupted_study_shows_what_is_done(cli, monkeypatch, tmp_path, fur
     ("words", "sentence"),
     [
         ("stress five-bar", "model: expected a catalogue name or the path of a file, got 'five-bar'"),
-        ("stress --cases stifness", "--cases: expected a family of cases, got 'stifness'; did you mean 'stiffness'?"),
+        ("stress --cases stifness", "got 'stifness'; did you mean 'stiffness'?"),
         ("stress --cases stiffness,,", "--cases: expected words separated by commas"),
         ("stress --methods lagrang", "did you mean 'lagrange'?"),
         ("stress --jobs 0", "--jobs: expected a whole number from 1 to 4096, got 0"),

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from runtime.test_events import four_bar
-from support.checks import assert_same_motion
 from support.emitted import mechanism_of
 
 import symgen
+from ensemble.single_runs import assert_row, assert_rows
 from symgen.compiling import events
 from symgen.ensemble import singly
 from symgen.errors import InputError
@@ -22,29 +22,13 @@ CASES = [
 FURTHER = ("q", "v", "energy", "violation", "smallest_pivot")
 
 
-def column_of(one, name):
-    table, _, rest = name.partition(".")
-    if table == "energy":
-        return one.kinetic + one.potential if rest == "total" else one.energy[rest]
-    if table == "violation":
-        return one.violations[rest]
-    return one.smallest_pivot if name == "smallest_pivot" else one[name]
-
-
 @pytest.mark.parametrize(("name", "varies", "values", "how"), CASES, ids=[case[0] for case in CASES])
 def test_rows_are_single_runs(name, varies, values, how):
     model, asked = symgen.load(name), {"until": 0.1, "times": (0.0, 0.051, 0.1), "coordinates": "joint"}
     found = symgen.sweep(model, {varies: values}, quantities=FURTHER, **asked)
     plain = symgen.sweep(model, {varies: values}, quantities=FURTHER, **{**asked, "coordinates": "absolute"})
     assert [q.name for q in found.ensemble.recipe.quantities] == [q.name for q in plain.ensemble.recipe.quantities]
-    for i, value in enumerate(values):
-        one = model.simulate(**{how: {varies: value}}, **asked)
-        assert one.coordinates == "joint" and (found.status[i], found.reason[i]) == (one.status, one.reason or "")
-        for quantity in (q.name for q in found.ensemble.recipe.quantities):
-            assert_same_motion(found[quantity][i], column_of(one, quantity), quantity)
-        for number in ("position_violation_max", "energy_drift_max"):
-            assert_same_motion(found[number][i], getattr(one, number), number)
-        assert (found["steps"][i], found["evaluations"][i]) == (one.steps, one.evaluations)
+    assert_rows(found, model, how, **asked)
     assert found.to_json()["coordinates"] == "joint" == found.attributes["coordinates"]
 
 
@@ -81,11 +65,8 @@ def test_whatever_else_is_kept_is_that_of_single_runs():
         symgen.sweep("four-bar", {"crank_mass": [1.0, 3.0]}, quantities=kept, **asked),
         symgen.load("four-bar"),
     )
-    names = [q.name for q in found.ensemble.recipe.quantities]
-    assert {"crank.alpha", "joint.B.angle", "reaction.A.Fx"} < {*names}
-    for i, mass in enumerate((1.0, 3.0)):
-        one = model.simulate(parameters={"crank_mass": mass}, **asked).select(names)
-        assert_same_motion(found.values[i].T, one.values)
+    assert {"crank.alpha", "joint.B.angle", "reaction.A.Fx"} < {q.name for q in found.ensemble.recipe.quantities}
+    assert_rows(found, model, **asked)
 
 
 def test_events_are_found_in_both_and_auto_takes_what_is_smaller():
@@ -102,9 +83,7 @@ def test_light_bodies_get_the_other_solver_in_joint_coordinates_too():
     asked = {"until": 0.05, "times": (0.05,), "coordinates": "joint"}
     found = symgen.sweep("four-bar", {"coupler_mass": [8.0, 1e-9]}, **asked)
     assert list(found["light"]) == [0.0, 1.0]
-    one = symgen.load("four-bar").simulate(parameters={"coupler_mass": 1e-9}, **asked)
-    for name in one.q.names:
-        assert_same_motion(found[name][1], one[name], name)
+    assert_row(found, 1, symgen.load("four-bar").simulate(parameters={"coupler_mass": 1e-9}, **asked))
 
 
 @pytest.mark.slow

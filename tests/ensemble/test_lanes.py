@@ -14,7 +14,7 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.compiling.pipeline import choose_method, compile_model, generate
-from symgen.ensemble.lanes import aligned
+from symgen.ensemble.loop_runs import aligned
 from symgen.errors import InputError
 from symgen.ir.program import LANES, lane_bases
 from symgen.runtime import ensemble_abi as e

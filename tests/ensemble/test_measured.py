@@ -4,10 +4,10 @@ import copy
 
 import numpy as np
 import pytest
-from support.checks import assert_same_motion
 from support.emitted import mechanism_of
 
 import symgen
+from ensemble.single_runs import assert_rows
 from symgen.catalogue import raw
 from symgen.errors import InputError
 
@@ -35,28 +35,21 @@ def sprung():
     return symgen.load(mechanism_of(description))
 
 
-def agree(found, model, parameter, values, settings):
-    """Rows are those of single runs."""
-    kept = [q.name for q in found.ensemble.recipe.quantities]
-    for i, value in enumerate(values):
-        one = model.simulate(parameters={parameter: value}, **settings).select(kept)
-        assert_same_motion(found.values[i].T, one.values)
-        assert [q.unit for q in found.ensemble.recipe.quantities] == list(one.units)
-
-
 def test_reactions_of_every_run_are_those_of_its_single_run():
     model, names = symgen.load("four-bar"), ("reactions", "body_reactions", "magnitudes", "joint", "crank.theta")
     found = symgen.sweep(model, {"crank_mass": [1.0, 3.0]}, quantities=names, **TIMES)
     kept = [q.name for q in found.ensemble.recipe.quantities]
     assert kept[-1] == "crank.theta" and {"reaction.A.Fx", "reaction.body.B.Fy", "reaction.C.F"} < set(kept)
-    agree(found, model, "crank_mass", (1.0, 3.0), TIMES)
+    assert_rows(found, model, **TIMES)
 
 
 def test_elements_formulas_and_integrals_of_every_run_are_those_of_its_single_run():
     model = sprung()
     found = symgen.sweep(model, {"stiffness": [1.0, 5.0]}, quantities=("spring", "bob", "outputs"), **TIMES)
     assert {"spring.length", "spring.force", "spring.power", "reach", "spent"} < {*found.to_json()["quantities"]}
-    agree(found, model, "stiffness", (1.0, 5.0), TIMES)
+    assert_rows(found, model, **TIMES)
+    one = model.simulate(**TIMES).select([q.name for q in found.ensemble.recipe.quantities])
+    assert [q.unit for q in found.ensemble.recipe.quantities] == list(one.units)
 
 
 def test_a_rod_and_a_spring_pull_as_newton_says():

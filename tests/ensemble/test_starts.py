@@ -8,7 +8,7 @@ from support.emitted import mechanism_of
 import symgen
 from symgen.describe.evaluate import evaluate
 from symgen.describe.parser import FormulaNames, parse
-from symgen.ensemble.row_starts import Columns, make_rows
+from symgen.ensemble.chunks import Columns, make_rows
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Name
 

@@ -1,6 +1,9 @@
 """Studies made by hand: what a report says can then be known without running anything."""
 
+from dataclasses import replace
+
 from symgen.study.comparison.comparison_rows import Row, Study, Trace, with_ratios
+from symgen.study.stress.stress_rows import StressRow
 
 
 def row(method, step, error, seconds, **changes):
@@ -65,3 +68,12 @@ def study(rows=None, **changes):
         "repeat": 3,
     }
     return Study(**{**values, "rows": with_ratios(rows), **changes})
+
+
+def stress_row(model, method, outcome, error, **changes):
+    """Return a cell of a stress study with rk4 that ended ok."""
+    base = StressRow(
+        *(model, "stiffness", "1", (1.0,), method, "rk4", 1e-3, 1.0, outcome, error, 1e-9, "ok", None, 4000),
+        *(1e-12, 1e-12, 0.0, "", "", True),
+    )
+    return replace(base, **changes)

@@ -4,7 +4,7 @@ import pytest
 
 from report.made import row, study
 from symgen.report import words
-from symgen.report.finding_pages import costs, findings, order
+from symgen.report.comparison_findings import costs, findings, order
 
 
 def one(found, begin):

@@ -98,7 +98,7 @@ def test_rows_whose_own_motion_jumps_fail(coordinates):
 
 def test_rows_of_stress_whose_motion_jumps_are_refused():
     mechanism = mechanism_of(cart("0 if t < late else 0.1"))
-    level = Level("late", "at half the time", (0.5,), mechanism, until=1.0, step=1e-2)
+    level = Level("at half the time", (0.5,), mechanism, until=1.0, step=1e-2)
     found = compute(RunTask(level, "lagrange", "rk4", compute(CellReference(level))))
     assert found["outcome"] == "refused" and "a value that jumps by 0.1 m at t = 0.5 s" in found["reason"]
 

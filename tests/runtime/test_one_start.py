@@ -12,7 +12,7 @@ from support.random_closed import make
 
 import symgen
 from symgen.api import load
-from symgen.ensemble.row_starts import make_rows
+from symgen.ensemble.chunks import make_rows
 from symgen.errors import AssemblyError, InputError
 from symgen.runtime import decisions
 from symgen.runtime import ensemble_abi as e

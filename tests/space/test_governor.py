@@ -6,7 +6,7 @@ from support.spatial_runs import columns, run, start_of
 
 import symgen
 from symgen.result.points import Points
-from symgen.study.references.closed_space import flyball_governor
+from symgen.study.references.closed_forms import flyball_governor
 from symgen.study.references.reference import reference
 
 #: Largest stable step of RK4 [s]: 2.785 over the rate of the dampers.

@@ -7,16 +7,16 @@ import symgen
 from symgen.errors import SimulationError
 from symgen.methods import METHODS
 from symgen.running.automatic import AUTO
-from symgen.running.prepare import make_plan, prepare
+from symgen.running.prepare import make_plan
 from symgen.settings import Settings
-from symgen.study.references import stiff
 from symgen.study.references.motion import CompiledEquations, motion
-from symgen.study.references.solvers import OverBudgetError
-from symgen.study.stress import effort, other_route
+from symgen.study.references.solvers import STIFF_FOLDINGS, OverBudgetError, fastest_modes, is_stiff
+from symgen.study.stress import cell_references, effort
 from symgen.study.stress.bench import Base
-from symgen.study.stress.cases import CASES
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
+from symgen.study.stress.families import levels_of
 from symgen.study.stress.study import pairs, stress
+from tests.study.test_reference import start_of
 
 
 def plan_of(name, method, integrator, **settings):
@@ -63,7 +63,7 @@ def test_what_is_predicted():
 
 def test_a_prediction_is_below_what_a_run_takes():
     """A damper that decays fast, yet can be integrated: the prediction must not stop a run that could be made."""
-    level = CASES.get("damping").levels(Base.of("four-bar"), False)[2]
+    level = levels_of("damping", Base.of("four-bar"), False)[2]
     known = compute(CellReference(level))
     assert known["decay"] > 1e4
     found = compute(RunTask(level, "lagrange", "dop853", known))
@@ -73,7 +73,7 @@ def test_a_prediction_is_below_what_a_run_takes():
 
 
 def test_a_run_without_a_chance_is_not_begun(monkeypatch):
-    level = CASES.get("damping").levels(Base.of("four-bar"), False)[4]
+    level = levels_of("damping", Base.of("four-bar"), False)[4]
     known = {"unusable": None, "estimated_error": 0.0, "decay": 1e9, "parameters": {}}
     monkeypatch.setattr("symgen.study.stress.cells.assemble", None)
     found = compute(RunTask(level, "lagrange", "dop853", known))
@@ -82,7 +82,7 @@ def test_a_run_without_a_chance_is_not_begun(monkeypatch):
 
 def test_cells_without_a_reference_are_not_run(monkeypatch):
     monkeypatch.setattr("symgen.study.stress.cells.assemble", None)
-    level = CASES.get("gravity").levels(Base.of("pendulum"), True)[0]
+    level = levels_of("gravity", Base.of("pendulum"), True)[0]
     for known, why in (
         ({"unusable": "none at hand"}, "none at hand"),
         ({"unusable": None, "estimated_error": 0.02}, "the two reference runs differ by 0.02 m"),
@@ -134,21 +134,17 @@ def test_what_is_left_out_is_listed_and_not_run():
 def equations_of(name, **changes):
     mechanism = Base.of(name).stressed
     model = symgen.load(mechanism)
-    values = model.parameters(changes)
-    run = prepare(model.mechanism, Settings(method="lagrange", parameters=values))
-    compiled, start = run.compiled, run.start
-    nq, nv = compiled.info.nq, compiled.info.nv
-    return CompiledEquations(mechanism, values), start.y[:nq].copy(), start.y[nq : nq + nv].copy()
+    return CompiledEquations(mechanism, model.parameters(changes)), *start_of(model, model.parameters(changes))
 
 
 def test_what_conserves_energy_is_not_stiff_however_long_it_lasts():
     """Its modes decay and grow in pairs: the slider-crank's fastest is 16 1/s, which over 2000 s is 3e4 e-foldings."""
     equations, q, v = equations_of("slider-crank")
     y = equations.project(0.0, np.concatenate([q, v]))
-    assert stiff.decay(equations, y) * 2000.0 > stiff.STIFF_FOLDINGS
-    assert not stiff.is_stiff(equations, y, 2000.0)
+    assert fastest_modes(equations, y)[0] * 2000.0 > STIFF_FOLDINGS
+    assert not is_stiff(equations, y, 2000.0)
     damped, q, v = equations_of("slider-crank", stress_damping=1e8)
-    assert stiff.is_stiff(damped, damped.project(0.0, np.concatenate([q, v])), 1.0)
+    assert is_stiff(damped, damped.project(0.0, np.concatenate([q, v])), 1.0)
 
 
 def test_compiled_rates_are_those_of_numpy():
@@ -171,14 +167,16 @@ def test_a_reference_over_its_budget_says_so(monkeypatch):
 
 @pytest.mark.slow
 def test_two_formulations_take_over_beyond_the_budget(monkeypatch):
-    level = CASES.get("gravity").levels(Base.of("slider-crank"), False)[1]
+    level = levels_of("gravity", Base.of("slider-crank"), False)[1]
     best = compute(CellReference(level))
     monkeypatch.setattr("symgen.study.references.motion.BUDGET", 100)
     found = compute(CellReference(level))
     assert best["how"].startswith("independently derived") and found["how"].startswith("direct-correction with dop853")
     np.testing.assert_allclose(found["q"], best["q"], atol=1e-9)
-    longer = CASES.get("duration").levels(Base.of("slider-crank"), False)[1]
-    monkeypatch.setattr(other_route, "BUDGET", 100)  # a run is stopped some time after that, the slower one at least
+    longer = levels_of("duration", Base.of("slider-crank"), False)[1]
+    monkeypatch.setattr(
+        cell_references, "BUDGET", 100
+    )  # a run is stopped some time after that, the slower one at least
     failed = compute(CellReference(longer))
     assert failed["unusable"].startswith("the reference takes more than 100 evaluations; the reference by ")
     assert "does not come to" in failed["unusable"]
@@ -197,11 +195,11 @@ def sinking():
 def test_stiff_motions_in_space_have_a_reference():
     model = sinking()
     times = np.linspace(0.0, 1.0, 5)
-    found = other_route.agreed(model.mechanism, {"c": 1e8}, times, decay=1e8 / 2.0)
+    found = cell_references.two_routes(model.mechanism, {"c": 1e8}, times, decay=1e8 / 2.0)
     assert found.how.startswith("direct-correction with radau5") and found.estimated_error < 1e-9
     np.testing.assert_allclose(found.q[:, 2], -1.0 - 2.0 * 9.81 / 1e8 * times, rtol=0.0, atol=1e-9)
 
 
 def test_implicit_references_end_with_the_size():
     with pytest.raises(SimulationError, match="fastest decay, 1e\\+12 1/s, asks for implicit steps"):
-        other_route.agreed(symgen.load("stewart-platform").mechanism, {}, np.linspace(0.0, 1.0, 3), decay=1e12)
+        cell_references.two_routes(symgen.load("stewart-platform").mechanism, {}, np.linspace(0.0, 1.0, 3), decay=1e12)

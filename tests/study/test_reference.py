@@ -11,9 +11,10 @@ from symgen.describe import MechanismBuilder
 from symgen.describe.mechanism import bounded
 from symgen.errors import InputError
 from symgen.result.points import Points, own_length
+from symgen.study.references.closed_forms import CLOSED
 from symgen.study.references.independent import IndependentEquations
 from symgen.study.references.motion import CompiledEquations, motion
-from symgen.study.references.reference import CLOSED, reference
+from symgen.study.references.reference import reference
 from symgen.study.references.solvers import SOLVERS
 from tests.methods.test_hard_cases import two_links
 
@@ -106,9 +107,8 @@ def test_runs_that_part_at_a_singular_position_are_not_passed_silently(monkeypat
     from symgen.study.references import reference as module
 
     real = module.pass_through
-    monkeypatch.setattr(
-        module, "pass_through", lambda e, y, t, step, *rest: real(e, y, t, 0.7, *rest, phases=(1.0, 0.85))
-    )
+    monkeypatch.setattr(module, "pass_through", lambda e, y, t, step: real(e, y, t, 0.7))
+    monkeypatch.setattr(module, "PHASES", (1.0, 0.85))
     model = symgen.load("n-four-bar:3")
     times = np.linspace(0.0, 10.0, 11)
     found = reference(model.mechanism, {}, *start_of(model), times, solver="scipy-dop853")
@@ -310,19 +310,20 @@ def test_references_see_a_force_between_two_places(solver, tmp_path):
 
 def test_runs_through_singular_positions_differ_between_close_outputs(monkeypatch):
     """Steps longer than from one output to the next would end at the outputs alone, and all runs be the same."""
-    from symgen.study.references import singular_passing
+    from symgen.study.references import reference as module
 
-    real, steps = singular_passing.march, list[float]()
-    monkeypatch.setattr(
-        singular_passing, "march", lambda e, y, t, step, *rest: steps.append(step) or real(e, y, t, step, *rest)
-    )
+    steps, by_steps = list[float](), module.by_steps
+
+    def counted(equations, y, times, scheme, **more):
+        steps.extend([scheme.step] if scheme.step else [])
+        return by_steps(equations, y, times, scheme, **more)
+
+    monkeypatch.setattr(module, "by_steps", counted)
     model = symgen.load("n-four-bar:1")
     times = np.linspace(0.0, 0.5, 51)
     found = reference(model.mechanism, {}, *start_of(model), times, solver="scipy-dop853")
     if not steps:
         equations = IndependentEquations(model.mechanism, {})
-        points = Points.of(model.mechanism, {})
-        y = equations.state(*start_of(model))
-        singular_passing.pass_through(equations, y, times, 0.05, points)
+        module.pass_through(equations, equations.state(*start_of(model)), times, 0.05)
     assert len(steps) >= 2 and max(steps) <= 0.01 * (1.0 + 1e-12) and len(set(steps)) == len(steps)
     assert found.estimated_error < 1e-6

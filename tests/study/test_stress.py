@@ -3,11 +3,6 @@
 import csv
 import json
 import math
-import os
-import signal
-import subprocess
-import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -19,28 +14,19 @@ from symgen.result.points import Points
 from symgen.study.journal import Journal
 from symgen.study.references.motion import CompiledEquations, motion
 from symgen.study.references.reference import reference
-from symgen.study.references.stiff import decay
+from symgen.study.references.solvers import fastest_modes
 from symgen.study.stress.bench import Base, Level
-from symgen.study.stress.cases import CASES
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
+from symgen.study.stress.families import FAMILIES, levels_of
 from symgen.study.stress.findings import largest_root
 from symgen.study.stress.stress_rows import save_csv
 from symgen.study.stress.study import pairs, stress
+from tests.study.test_reference import start_of
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
 # -- references --------------------------------------------------------------------------------------------------------
-
-
-def start_of(mechanism, parameters):
-    from symgen.running.prepare import prepare
-    from symgen.settings import Settings
-
-    model = symgen.load(mechanism)
-    run = prepare(model.mechanism, Settings(method="lagrange", parameters=parameters))
-    compiled, start = run.compiled, run.start
-    return start.y[: compiled.info.nq], start.y[compiled.info.nq : compiled.info.nq + compiled.info.nv]
 
 
 def test_compiled_equations_are_the_interpreted_ones():
@@ -49,7 +35,7 @@ def test_compiled_equations_are_the_interpreted_ones():
     values = symgen.load(mechanism).parameters()
     equations = CompiledEquations(mechanism, values)
     changed = {**values, "stress_stiffness": 300.0, "stress_damping": 2.0, "stress_mass": 3.0, "stress_gravity": 0.5}
-    q, v = start_of(mechanism, changed)
+    q, v = start_of(symgen.load(mechanism), changed)
     times = np.linspace(0.0, 0.5, 6)
     equations.set_parameters(changed)
     found = motion(equations, q, v, times)
@@ -89,30 +75,16 @@ def test_a_solver_that_gives_up_costs_its_reference_alone(monkeypatch):
         motion(equations, np.array([-1.0, 0.0]), np.zeros(2), np.array([0.0, 0.1]))
 
 
-def test_the_parallelogram_is_the_catalogue_s():
-    from symgen.study.references.reference import n_four_bar, parallel_cranks
-
-    times = np.linspace(0.0, 4.0, 41)
-    mechanism = symgen.load("n-four-bar:1").mechanism
-    _, _, expected = n_four_bar(mechanism, {}, np.zeros(9), times)
-    by_name = {body.name: expected[:, 3 * i : 3 * i + 3] for i, body in enumerate(mechanism.bodies)}
-    names = ("vertical0", "coupler0", "vertical1")
-    found = parallel_cranks(names, times)[2]
-    for i, name in enumerate(names):
-        np.testing.assert_allclose(found[:, 3 * i : 3 * i + 3], by_name[name], atol=1e-11)
-
-
 # -- families ----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("family", CASES.names)
+@pytest.mark.parametrize("family", FAMILIES)
 @pytest.mark.parametrize("quick", [True, False])
 def test_families_make_cases(family, quick):
-    kind = CASES.get(family)
-    levels = kind.levels(Base.of("four-bar"), quick)
+    levels = levels_of(family, Base.of("four-bar"), quick)
     assert levels and len({level.label for level in levels}) == len(levels)
     for level in levels:
-        assert level.family == family and len(level.values) == len(kind.axes)
+        assert level.family == family and len(level.values) == (2 if family in ("alpha-beta", "step-stiffness") else 1)
         assert level.until > 0.0 and level.step > 0.0
         known = {p.name for p in level.mechanism.parameters}
         assert set(level.parameters) <= known
@@ -123,7 +95,7 @@ def test_one_compiled_module_serves_all_cases_but_those_with_other_joints():
     from symgen.describe.digest import digest
 
     base = Base.of("four-bar")
-    found = {digest(level.mechanism) for name in CASES.names for level in CASES.get(name).levels(base, False)}
+    found = {digest(level.mechanism) for name in FAMILIES for level in levels_of(name, base, False)}
     assert len(found) == 4
 
 
@@ -159,12 +131,12 @@ def test_families_say_why_they_do_not_apply():
 @pytest.fixture(scope="module")
 def damped():
     """The four-bar with a stiff damper, its reference, and the fastest decay by the independent equations."""
-    level = CASES.get("damping").levels(Base.of("four-bar"), False)[1]
+    level = levels_of("damping", Base.of("four-bar"), False)[1]
     known = compute(CellReference(level))
     values = symgen.load(level.mechanism).parameters(level.parameters)
     equations = CompiledEquations(level.mechanism, values)
     y = equations.project(0.0, np.concatenate([known["q"][0], np.zeros(equations.n)]))
-    return level, known, decay(equations, y)
+    return level, known, fastest_modes(equations, y)[0]
 
 
 @pytest.mark.slow
@@ -177,7 +149,7 @@ def test_the_largest_step_of_rk4_is_where_its_region_of_stability_ends(damped):
 
 def test_the_size_of_a_point_on_a_link_is_that_of_its_motion():
     """Else nothing of a pendulum would be within a tenth of its size: the largest step would be that of an error."""
-    level = CASES.get("duration").levels(Base.of("pendulum"), True)[0]
+    level = levels_of("duration", Base.of("pendulum"), True)[0]
     known = compute(CellReference(level))
     assert known["size"] == pytest.approx(1.0, rel=1e-3)
     found = compute(LimitTask(level, "lagrange", "rk4", known))
@@ -230,7 +202,7 @@ def test_cells_see_a_force_between_two_places(space, tmp_path):
         f"position = [0.3, 0.0{rest}]\nvelocity = [1.0, 0.0{rest}]\n"
         f'[forces.push]\ntype = "force"\nbody = "a"\nforce = ["6.6 if 0.9996 < a.x < 1.0004 else 0", 0.0{rest}]\n'
     )
-    level = Level("flight", "past", (1.0,), symgen.load(path).mechanism, 2.0, 1e-3)
+    level = Level("past", (1.0,), symgen.load(path).mechanism, 2.0, 1e-3)
     known = compute(CellReference(level))
     times, edge, faster = np.linspace(0.0, 2.0, 51), 0.7 - 4e-4, math.sqrt(1.0 + 2.0 * 6.6 * 8e-4)
     expected = np.where(times < edge, 0.3 + times, 1.0 + 4e-4 + faster * (times - edge - (faster - 1.0) / 6.6))
@@ -240,7 +212,7 @@ def test_cells_see_a_force_between_two_places(space, tmp_path):
 
 
 def test_what_is_too_slow_is_told_without_a_clock():
-    level = CASES.get("duration").levels(Base.of("four-bar"), True)[0]
+    level = levels_of("duration", Base.of("four-bar"), True)[0]
     from dataclasses import replace
 
     known = {"unusable": None, "estimated_error": 0.0, "decay": 0.0, "parameters": {}}
@@ -330,49 +302,6 @@ def test_pairs_of_methods_and_integrators():
     assert pairs("auto") == (("auto", "auto"),) and pairs("auto", constant_steps=True) == ()
 
 
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        ((["four-bar"], ["stifness"]), "did you mean 'stiffness'"),
-        ((["four-bar"], [], ["lagrnage"]), "did you mean 'lagrange'"),
-        ((["five-bar"],), "a catalogue name or the path of a file"),
-    ],
-)
-def test_bad_input_is_refused_before_anything_is_run(arguments, sentence):
-    with pytest.raises(InputError, match=sentence):
-        stress(*arguments)
-
-
-@pytest.mark.slow
-def test_killed_and_resumed(tmp_path):
-    """A study killed in the middle goes on where it was: rows are those of an undisturbed one, none computed twice."""
-    journal = tmp_path / "journal.jsonl"
-    script = (
-        "from pathlib import Path; from symgen.study.journal import Journal; "
-        "from symgen.study.stress.study import stress; "
-        "stress(['pendulum'], ['gravity', 'step'], ['lagrange', 'penalty'], "
-        f"journal=Journal(Path({str(journal)!r})))"
-    )
-    environment = {**os.environ, "PYTHONPATH": f"{ROOT}{os.pathsep}{os.environ.get('PYTHONPATH', '')}"}
-    process = subprocess.Popen([sys.executable, "-c", script], env=environment)
-    end = time.monotonic() + 600
-    while not (journal.exists() and journal.read_bytes().count(b"\n") >= 12):
-        assert process.poll() is None and time.monotonic() < end
-        time.sleep(0.002)
-    process.send_signal(signal.SIGKILL)
-    process.wait()
-    before = journal.read_bytes()
-    before = before[: before.rfind(b"\n") + 1]
-    with Journal(journal) as kept:
-        study = stress(["pendulum"], ["gravity", "step"], ["lagrange", "penalty"], journal=kept)
-    after = journal.read_bytes()
-    assert after.startswith(before)
-    keys = [json.loads(line)["key"] for line in after.splitlines()[1:]]
-    assert len(keys) == len(set(keys))
-    assert study == stress(["pendulum"], ["gravity", "step"], ["lagrange", "penalty"])
-    assert not study.interrupted and math.isfinite(study.rows[0].error)
-
-
 def test_a_reference_does_with_less_where_rounding_forbids_more(monkeypatch):
     from symgen.study.references import motion as compiled
 
@@ -385,3 +314,25 @@ def test_a_reference_does_with_less_where_rounding_forbids_more(monkeypatch):
     found = motion(equations, np.array([-1.0, 0.0]), np.zeros(2), times)
     assert "at 3e-14" in best.how and "at 1e-10" in found.how
     np.testing.assert_allclose(found.q, best.q, atol=1e-8)
+
+
+FEW = {"models": ("four-bar",), "cases": ("mass-ratio",), "methods": ("lagrange",), "quick": True}
+
+
+def test_runs_in_joint_coordinates_are_judged_by_the_references_of_bodies(tmp_path):
+    with Journal(tmp_path / "cells") as journal:
+        bodies = stress(**FEW, journal=journal)
+        joints = stress(**FEW, journal=journal, coordinates="joint")
+        again = stress(**FEW, journal=journal, coordinates="joint")
+    assert [(r.case, r.method) for r in joints.rows] == [(r.case, r.method) for r in bodies.rows] != []
+    assert all(row.outcome == "ok" and row.error < 1e-8 for row in joints.rows)
+    assert joints.rows == again.rows
+    # not the cells of bodies: other equations round otherwise
+    assert all(a.error != b.error for a, b in zip(bodies.rows, joints.rows, strict=True))
+    assert (bodies.to_json()["coordinates"], joints.to_json()["coordinates"]) == ("absolute", "joint")
+    assert {*bodies.to_json()["rows"][0]} == {*joints.to_json()["rows"][0]}
+
+
+def test_other_coordinates_are_refused():
+    with pytest.raises(InputError, match="coordinates: expected"):
+        stress(**FEW, coordinates="joints")

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import json
 
+from report.made import stress_row
+
 from benchmarks.stress_tables import main, studied
-from symgen.study.stress.stress_rows import Stress, StressRow
+from symgen.study.stress.stress_rows import Stress
 
 
-def row(model: str, method: str, outcome: str, error: float) -> StressRow:
-    return StressRow(
-        *(model, "gravity", "1 m/s^2", (1.0,), method, "rk4", 1e-3, 1.0, outcome, error, 1e-9, "ok", None),
-        *(4000, 1e-12, 1e-12, 0.0, "", "", True),
-    )
+def row(model, method, outcome, error):
+    return stress_row(model, method, outcome, error, family="gravity", case="1 m/s^2")
 
 
 def test_several_studies_are_one_and_what_stands_in_each_counts_once(tmp_path, capsys):

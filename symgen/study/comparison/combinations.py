@@ -44,13 +44,13 @@ class Combinations:
     coordinates: Sequence[str] = ()
 
     def __post_init__(self) -> None:
-        given = {name: arguments.words(name, getattr(self, name)) for name in ("methods", "integrators", "coordinates")}
-        for state in given["coordinates"]:
+        words = {name: arguments.words(name, getattr(self, name)) for name in ("methods", "integrators", "coordinates")}
+        for state in words["coordinates"]:
             arguments.one_of("coordinates", state, COORDINATES)
         numbers = {
             name: arguments.numbers(name[:-1], getattr(self, name), positive=True) for name in ("steps", "rtols")
         }
-        for name, value in (given | numbers).items():
+        for name, value in (words | numbers).items():
             object.__setattr__(self, name, value)
 
     def settings(self, base: Settings, own: float) -> Iterator[Settings]:
@@ -88,9 +88,9 @@ class Combinations:
                 yield replace(common, step=step)
 
 
-def _named(given: Sequence[str], default: Sequence[str], everything: Sequence[str]) -> tuple[str, ...]:
+def _named(names: Sequence[str], default: Sequence[str], everything: Sequence[str]) -> tuple[str, ...]:
     """Return the names asked for, each once; ``all`` stands for everything there is."""
-    wanted = [name for g in given or default for name in (everything if g == ALL else (g,))]
+    wanted = [name for g in names or default for name in (everything if g == ALL else (g,))]
     return tuple(dict.fromkeys(wanted))
 
 

@@ -13,7 +13,7 @@ from msgspec import structs
 
 from symgen import arguments
 from symgen.api import Model, load
-from symgen.describe.digest import digest
+from symgen.describe.digest import digest, identity
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism, bounded
 from symgen.errors import SimulationError, SymgenError
@@ -27,7 +27,7 @@ from symgen.store.paths import cache_location
 from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.comparison_rows import Row, Study, Trace, from_entry, save_csv, to_entry, with_ratios
 from symgen.study.comparison.measured_runs import measured
-from symgen.study.journal import Journal, Outcome, cell_key, code_identity, mechanism_identity
+from symgen.study.journal import Journal, Outcome, cell_key, code_identity
 from symgen.study.machine_class import machine_class, versions
 from symgen.study.references.reference import Array, Reference, reference
 from symgen.study.references.solvers import AUTO, check_solver
@@ -214,7 +214,7 @@ class _Work:
     @cached_property
     def _parts(self) -> dict[str, Any]:
         """What all cells of the model depend on; other machines and libraries have other run times."""
-        base, mechanism = self.settings[0], mechanism_identity(self.model.mechanism)
+        base, mechanism = self.settings[0], identity(self.model.mechanism)
         parts: dict[str, Any] = {"mechanism": mechanism, "code": code_identity(), "reference": self.reference_by}
         parts |= {"machine": machine_class(), "versions": versions(), "until": base.until, "times": self.times.tolist()}
         return parts | {"parameters": dict(base.parameters), "start": dict(base.start)}

@@ -185,18 +185,18 @@ def with_ratios(rows: Sequence[Row]) -> tuple[Row, ...]:
     # of both coordinates the first ones asked for are the yardstick, so that ratios tell them apart
     usable = [row for row in rows if row.method == YARDSTICK and row.ended and row.run_seconds > 0.0]
     base = {row.setting: row for row in reversed(usable)}
-    found = []
+    rated = []
     for row in rows:
         other = base.get(row.setting)
         if other is None or not row.ended or row.run_seconds <= 0.0:
-            found.append(replace(row, cost_ratio=None, cost_ratio_spread=None))
+            rated.append(replace(row, cost_ratio=None, cost_ratio_spread=None))
             continue
         ratio = row.run_seconds / other.run_seconds
         parts = [max(r.run_seconds_median - r.run_seconds, 0.0) / r.run_seconds for r in (row, other)]
         # the yardstick's ratio to itself is 1 however its run time varies
         spread = 0.0 if row is other else ratio * sum(parts)
-        found.append(replace(row, cost_ratio=ratio, cost_ratio_spread=spread))
-    return tuple(found)
+        rated.append(replace(row, cost_ratio=ratio, cost_ratio_spread=spread))
+    return tuple(rated)
 
 
 @dataclass(frozen=True, repr=False)
@@ -282,8 +282,8 @@ class Study:
     @property
     def ratio_spreads(self) -> tuple[float, float] | None:
         """Median and largest of what cost ratios may vary by, as fractions of them; None where there are none."""
-        found = [r.cost_ratio_spread / r.cost_ratio for r in self.rows if r.cost_ratio_spread and r.cost_ratio]
-        return (median(found), max(found)) if found else None
+        shares = [r.cost_ratio_spread / r.cost_ratio for r in self.rows if r.cost_ratio_spread and r.cost_ratio]
+        return (median(shares), max(shares)) if shares else None
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen compare --json``; numbers that are not finite become None."""

@@ -44,7 +44,7 @@ def measured(run: Prepared, runs: Timed, reference: Reference | None, points: Po
     error = float(distances.max(initial=0.0)) if distances is not None and outcome.code == abi.DONE else None
     accelerations = outcome.acceleration_violations if count else np.zeros(0)
     status, adaptive = outcome.status_columns, plan.spec.adaptive
-    position, velocity = status[:, abi.PHI], status[:, abi.DRIFT]
+    violations = {"position": status[:, abi.PHI], "velocity": status[:, abi.DRIFT], "acceleration": accelerations}
     row = Row(
         method=plan.choice.method.name,
         coordinates=plan.coordinates,
@@ -63,36 +63,25 @@ def measured(run: Prepared, runs: Timed, reference: Reference | None, points: Po
         position_violation_max=outcome.position_violation_max,
         velocity_violation_max=outcome.velocity_violation_max,
         acceleration_violation_max=float(accelerations.max()) if count else None,
-        position_violation_rms=_rms(position),
-        velocity_violation_rms=_rms(velocity),
-        acceleration_violation_rms=_rms(accelerations),
-        position_violation_final=_last(position),
-        velocity_violation_final=_last(velocity),
-        acceleration_violation_final=_last(accelerations),
+        **{f"{level}_violation_rms": _rms(values) for level, values in violations.items()},
+        **{f"{level}_violation_final": float(values[-1]) if count else None for level, values in violations.items()},
         energy_drift_max=outcome.energy_drift_max,
         warnings=(*plan.all_warnings, *outcome.start.warnings, *verdict.warnings),
     )
     kinetic, potential = status[:, abi.KINETIC], status[:, abi.POTENTIAL]
     work = outcome.states[:, outcome.compiled.info.work]
-    trace = Trace(
-        t=_digits(outcome.times),
-        error=() if distances is None else _digits(distances),
-        position=_digits(position),
-        velocity=_digits(velocity),
-        acceleration=_digits(accelerations),
-        kinetic=_digits(kinetic),
-        potential=_digits(potential),
-        energy_error=_digits(kinetic + potential - outcome.energy_start - work),
-    )
+    curves = {
+        **violations,
+        **{"t": outcome.times, "error": () if distances is None else distances},
+        **{"kinetic": kinetic, "potential": potential},
+        "energy_error": kinetic + potential - outcome.energy_start - work,
+    }
+    trace = Trace(**{name: _digits(values) for name, values in curves.items()})
     return row, trace
 
 
 def _rms(values: Array) -> float | None:
     return float(np.sqrt(np.mean(np.square(values)))) if len(values) else None
-
-
-def _last(values: Array) -> float | None:
-    return float(values[-1]) if len(values) else None
 
 
 def _digits(values: Any) -> tuple[float, ...]:

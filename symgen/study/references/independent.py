@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import sympy as sp
@@ -18,8 +18,10 @@ from numpy.typing import NDArray
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Body, Mechanism
-from symgen.study.references.curves import curves
 from symgen.study.references.sympy_formulas import TENSOR, ReferenceFormulas
+
+if TYPE_CHECKING:
+    from symgen.describe.tables import Table
 
 Array = NDArray[np.float64]
 
@@ -239,3 +241,68 @@ def _turning(e: Array) -> Array:
     """Return L(e), shape (3, 4), with omega = 2 L e' in body axes."""
     a, b, c, d = e
     return np.array([[-b, a, d, -c], [-c, -d, a, b], [-d, c, -b, a]])
+
+
+def curves(table: Table) -> dict[str, Callable[[float], Any]]:
+    """Return a table's function and its derivatives by the names that SymPy prints for them.
+
+    They are plain Python that Numba compiles as well.
+    """
+    x, y = np.asarray(table.x, dtype=float), np.asarray(table.y, dtype=float)
+    functions = _lines(x, y) if table.interpolation == "linear" else _pieces(x, y, table.interpolation, table.periodic)
+    return {f"{name}_{table.name}": function for name, function in functions.items()}
+
+
+def _lines(x: Any, y: Any) -> dict[str, Callable[[float], Any]]:
+    def value(at: float) -> Any:
+        return np.interp(at, x, y)
+
+    def slope(at: float) -> Any:
+        if at <= x[0] or at >= x[-1]:
+            return 0.0
+        i = np.searchsorted(x, at, side="right")
+        return (y[i] - y[i - 1]) / (x[i] - x[i - 1])
+
+    return {"table": value, "slope": slope}
+
+
+def _pieces(x: Any, y: Any, interpolation: str, periodic: bool) -> dict[str, Callable[[float], Any]]:
+    from scipy.interpolate import CubicSpline, PchipInterpolator
+
+    n, period = len(x), x[-1] - x[0] if periodic else np.inf
+    spline: Any
+    if interpolation == "cubic":
+        spline = CubicSpline(x, y, bc_type="periodic" if periodic else "not-a-knot")
+    elif periodic:  # the pieces in the middle of three periods
+        ends = np.concatenate([x[:-1] - period, x, x[1:] + period])
+        spline = PchipInterpolator(ends, np.concatenate([y[:-1], y, y[1:]]))
+    else:
+        spline = PchipInterpolator(x, y)
+    slopes, c = spline(x, 1), np.ascontiguousarray(spline.c[:, n - 1 : 2 * n - 2] if len(spline.x) > n else spline.c)
+
+    def table(at: float) -> Any:
+        at = x[0] + (at - x[0]) % period if period < np.inf else at
+        if at < x[0]:
+            return y[0] + slopes[0] * (at - x[0])
+        if at > x[-1]:
+            return y[-1] + slopes[-1] * (at - x[-1])
+        i = min(np.searchsorted(x, at, side="right") - 1, n - 2)
+        u = at - x[i]
+        return ((c[0, i] * u + c[1, i]) * u + c[2, i]) * u + c[3, i]
+
+    def slope(at: float) -> Any:
+        at = x[0] + (at - x[0]) % period if period < np.inf else at
+        if at < x[0] or at > x[-1]:
+            return slopes[0] if at < x[0] else slopes[-1]
+        i = min(np.searchsorted(x, at, side="right") - 1, n - 2)
+        u = at - x[i]
+        return (3.0 * c[0, i] * u + 2.0 * c[1, i]) * u + c[2, i]
+
+    def second(at: float) -> Any:
+        at = x[0] + (at - x[0]) % period if period < np.inf else at
+        if at < x[0] or at > x[-1]:
+            return 0.0
+        i = min(np.searchsorted(x, at, side="right") - 1, n - 2)
+        return 6.0 * c[0, i] * (at - x[i]) + 2.0 * c[1, i]
+
+    return {"table": table, "slope": slope, "second": second}

@@ -25,14 +25,11 @@ from numpy.typing import NDArray
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import SimulationError
 from symgen.result.points import Points
-from symgen.study.references.curves import curves
-from symgen.study.references.independent import CUTOFF, IndependentEquations
+from symgen.study.references.independent import CUTOFF, IndependentEquations, curves
 from symgen.study.references.least_squares import compiled, shortest
 from symgen.study.references.reference import Reference
-from symgen.study.references.solvers import OverBudgetError, Scheme, by_steps
-from symgen.study.references.stiff import is_stiff
+from symgen.study.references.solvers import OverBudgetError, Scheme, by_steps, in_parts, is_stiff, longest_of
 from symgen.study.references.sympy_formulas import ReferenceFormulas
-from symgen.study.references.time_parts import in_parts, longest_of
 
 Array = NDArray[np.float64]
 
@@ -89,7 +86,7 @@ class CompiledEquations(IndependentEquations):
 
     def rate(self, t: float, y: Array) -> Array:
         """Return (v, v'), as `IndependentEquations.rate` does."""
-        found = np.empty(2 * self.n)
+        rates = np.empty(2 * self.n)
         _for_all(_rate, _RATE)(
             self._function,
             self._index,
@@ -99,9 +96,9 @@ class CompiledEquations(IndependentEquations):
             self.values,
             float(t),
             np.ascontiguousarray(y),
-            found,
+            rates,
         )
-        return found
+        return rates
 
     @property
     def budget(self) -> int:
@@ -165,8 +162,8 @@ class CompiledEquations(IndependentEquations):
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _by_gauss(d: Any, gamma: Any, f: Any, mass: Any, found: Any) -> None:
-    """Set `found` to the v' of D v' = gamma that is nearest to M^-1 f in the metric of M."""
+def _by_gauss(d: Any, gamma: Any, f: Any, mass: Any, acceleration: Any) -> None:
+    """Set `acceleration` to the v' of D v' = gamma that is nearest to M^-1 f in the metric of M."""
     m, n = d.shape
     root, free = np.empty(n), np.empty(n)
     for j in range(n):
@@ -188,32 +185,32 @@ def _by_gauss(d: Any, gamma: Any, f: Any, mass: Any, found: Any) -> None:
         for j in range(n):
             free[j] += change[j] if finite else math.nan
     for j in range(n):
-        found[j] = root[j] * free[j]
+        acceleration[j] = root[j] * free[j]
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _with_multipliers(d: Any, gamma: Any, f: Any, mass: Any, found: Any) -> None:
-    """Set `found` to the v' of M v' + D^T l = f and D v' = gamma."""
+def _with_multipliers(d: Any, gamma: Any, f: Any, mass: Any, acceleration: Any) -> None:
+    """Set `acceleration` to the v' of M v' + D^T l = f and D v' = gamma."""
     m, n = d.shape
     heavy, usual = 0, 0.0
     for j in range(n):
         heavy, usual = heavy + int(mass[j] > 0.0), usual + mass[j]
     usual = usual / heavy if heavy > 0 else 1.0
-    system, given, solution = np.zeros((n + m, n + m)), np.zeros(n + m), np.empty(n + m)
+    system, right, solution = np.zeros((n + m, n + m)), np.zeros(n + m), np.empty(n + m)
     finite = True
     for j in range(n):
-        system[j, j], given[j] = mass[j], f[j]
+        system[j, j], right[j] = mass[j], f[j]
         finite = finite and math.isfinite(mass[j]) and math.isfinite(f[j])
     for i in range(m):
-        given[n + i] = usual * gamma[i]
-        finite = finite and math.isfinite(given[n + i])
+        right[n + i] = usual * gamma[i]
+        finite = finite and math.isfinite(right[n + i])
         for j in range(n):
             system[j, n + i] = system[n + i, j] = usual * d[i, j]
             finite = finite and math.isfinite(system[j, n + i])
     if finite:
-        shortest(system, given, solution)
+        shortest(system, right, solution)
     for j in range(n):
-        found[j] = solution[j] if finite else math.nan
+        acceleration[j] = solution[j] if finite else math.nan
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
@@ -368,7 +365,7 @@ def _by_extrapolation(
     used, longest = np.zeros(1, dtype=np.int64), longest_of(equations, times)
 
     def part(t: float, y: Array, times: Array) -> Array:
-        found, step = np.empty((len(times), len(y))), np.zeros(1)  # the step to try next
+        states, step = np.empty((len(times), len(y))), np.zeros(1)  # the step to try next
         for k, following in enumerate(times.tolist()):
             if following > t:
                 count = max(1, math.ceil((following - t) / longest))
@@ -377,8 +374,8 @@ def _by_extrapolation(
                 t = following
             if k % every == 0:
                 y = equations.project(t, y)
-            found[k] = y
-        return found
+            states[k] = y
+        return states
 
     return in_parts(equations, y, times, part)[:, : equations.n]
 

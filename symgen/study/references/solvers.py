@@ -14,11 +14,13 @@ from numpy.typing import NDArray
 
 from symgen.arguments import one_of
 from symgen.describe.kinks import compares_state
+from symgen.describe.unforeseen import longest_step
 from symgen.errors import SimulationError
-from symgen.study.references.time_parts import in_parts, longest_of
+from symgen.runtime.stops import foreseen
 
 if TYPE_CHECKING:
     from symgen.study.references.independent import IndependentEquations
+    from symgen.study.references.motion import CompiledEquations
 
 Array = NDArray[np.float64]
 
@@ -270,3 +272,75 @@ def jacobian(rate: Callable[[float, Array], Array], t: float, y: Array) -> Array
         for step, unit in zip(steps, np.eye(len(y)), strict=True)
     ]
     return np.column_stack(columns)
+
+
+#: Parts that are shorter than this part of the end lead from one side of a jump to the other.
+JUMP = 3e-12
+
+#: Called with the time at which a part begins, the state there, the times at which states are wanted, the last of them
+#: the part's end; returns the states.
+Integrate = Callable[[float, Array, Array], Array]
+
+
+def longest_of(equations: IndependentEquations, times: Array) -> float:
+    """Return the longest step of a reference at some times that sees what formulas of the time do [s]."""
+    return longest_step(equations.mechanism, float(times[-1]))[0] if len(times) and times[-1] > 0.0 else np.inf
+
+
+def in_parts(
+    equations: IndependentEquations,
+    y: Array,
+    times: Array,
+    integrate: Integrate,
+) -> Array:
+    """Return the states at some times, integrated part by part.
+
+    Parameters
+    ----------
+    equations : IndependentEquations
+        What is integrated: whose formulas count.
+    y : Array
+        The state at the time 0.
+    times : Array
+        Increasing from 0 or later [s].
+    integrate : callable
+        See `Integrate`.
+    """
+    motion, done = np.empty((len(times), len(y))), 0
+    end = float(times[-1]) if len(times) else 0.0
+    stops = foreseen(equations.mechanism).stops(equations.parameters, end) if end else ()
+    for first, last in pairwise([*([stop.t for stop in stops] or [0.0]), end]):
+        upto = int(np.searchsorted(times, last, side="right"))
+        own = times[done:upto]
+        if stops and last - first < JUMP * end:  # what acts before it up to its middle, and then what acts behind it
+            y = y + 0.5 * (last - first) * (equations.rate(first, y) + equations.rate(last, y))
+            states = np.tile(y, (len(own), 1))
+        else:
+            wanted = own if len(own) and own[-1] == last else np.append(own, last)
+            states = integrate(first, y, wanted)
+            y = states[-1]
+        motion[done:upto], done = states[: len(own)], upto
+    return motion
+
+
+#: Decay of so many e-foldings over the motion is left to Radau.
+STIFF_FOLDINGS = 3e4
+
+
+def is_stiff(equations: CompiledEquations, y: Array, until: float) -> bool:
+    """Whether something decays over a motion by more than `STIFF_FOLDINGS`.
+
+    What conserves energy has modes in pairs, one that grows for each that decays, and is not stiff however long it
+    lasts; what counts is by how much decay exceeds growth.
+    """
+    falling, growing = fastest_modes(equations, y)
+    return (falling - growing) * until > STIFF_FOLDINGS
+
+
+def fastest_modes(equations: CompiledEquations, y: Array) -> tuple[float, float]:
+    """Return the fastest decay and the fastest growth of the linearised equations at a state [1/s]."""
+    slopes = jacobian(equations.rate, 0.0, y)
+    if not np.all(np.isfinite(slopes)):
+        return 0.0, 0.0
+    real = np.linalg.eigvals(slopes).real
+    return float(max(0.0, -real.min(initial=0.0))), float(real.max(initial=0.0))

@@ -118,8 +118,8 @@ class ReferenceFormulas:
         return total
 
     def _expression(self, e: Expr, **placeholders: Any) -> Any:
-        seen = {r.name: self._reading(r) for r in readings(e)}
-        return to_sympy(e, {**self._symbols, **seen, **placeholders})
+        measured = {r.name: self._reading(r) for r in readings(e)}
+        return to_sympy(e, {**self._symbols, **measured, **placeholders})
 
     def _reading(self, r: Reading) -> Any:
         """Return a measure's value, or its rate."""

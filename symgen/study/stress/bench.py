@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -47,8 +47,8 @@ class Level:
 
     Attributes
     ----------
-    family, label : str
-        Which family, and the case in words.
+    label : str
+        The case in words.
     values : tuple of float
         What is varied: one number, or two for a plane.
     mechanism : Mechanism
@@ -73,11 +73,10 @@ class Level:
         Whether the run watches its own violations and energy; off where stability alone is asked for.
     closed : str or None
         What has a closed form to compare with: a catalogue entry, or ``"parallelogram"``.
-    model : str
-        Name of the base model, ``-`` for a mechanism of the family's own.
+    family, model : str
+        Names of the family and of the base model, ``-`` for a mechanism of the family's own.
     """
 
-    family: str
     label: str
     values: tuple[float, ...]
     mechanism: Mechanism
@@ -92,6 +91,7 @@ class Level:
     spring_end: tuple[float, ...] | None = None
     watched: bool = True
     closed: str | None = None
+    family: str = ""
     model: str = "-"
 
 
@@ -152,7 +152,7 @@ class Base:
     @property
     def closed(self) -> str | None:
         """The base's own name if there is a closed form of its motion."""
-        from symgen.study.references.reference import closed_form
+        from symgen.study.references.closed_forms import closed_form
 
         return self.name if closed_form(self.mechanism) is not None else None
 
@@ -162,10 +162,10 @@ class Base:
         names = [body.name for body in self.mechanism.bodies]
         return names[len(names) // 2]
 
-    def level(self, family: str, label: str, *values: float, **changes: Any) -> Level:
+    def level(self, label: str, *values: float, **changes: Any) -> Level:
         """Return a case: the stressed mechanism, nominal length and step, but for `changes`."""
         settings: dict[str, Any] = {"mechanism": self.stressed, "until": self.nominal, "step": self.step} | changes
-        return Level(family, label, values, **settings)
+        return Level(label, values, **settings)
 
     def build(self, change: Mapping[str, Any], suffix: str = "stressed") -> Mechanism:
         """Return the stressed mechanism with further entries.
@@ -185,11 +185,11 @@ class Base:
         )
         heavy = raw["bodies"][self.middle]
         for key in ("mass", "inertia"):
-            given = heavy.get(key, 0.0)
-            if isinstance(given, list):  # the inertia of a spatial body
-                heavy[key] = [f"({_text(x)})*{MASS}" if x != 0.0 else 0.0 for x in given]
-            elif given != 0.0:
-                heavy[key] = f"({_text(given)})*{MASS}"
+            value = heavy.get(key, 0.0)
+            if isinstance(value, list):  # the inertia of a spatial body
+                heavy[key] = [f"({_text(x)})*{MASS}" if x != 0.0 else 0.0 for x in value]
+            elif value != 0.0:
+                heavy[key] = f"({_text(value)})*{MASS}"
         dimensions = len(self.anchor)
         gravity = raw["mechanism"].get("gravity", [0.0] * dimensions)
         if any(component != 0.0 for component in gravity):
@@ -268,13 +268,3 @@ class Base:
 
 def _text(value: Any) -> str:
     return value if isinstance(value, str) else repr(float(value))
-
-
-def shown(value: float) -> str:
-    """Return a number as labels show it."""
-    return f"{value:g}"
-
-
-def pick(values: Sequence[float], quick: Sequence[float], is_quick: bool) -> tuple[float, ...]:
-    """Return the values of a family, or those of a quick study."""
-    return tuple(quick if is_quick else values)

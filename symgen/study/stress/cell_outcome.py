@@ -44,8 +44,6 @@ class Run:
         1, as a share of the largest on the way.
     violation : float
         |Phi| by the independent equations at the last output reached.
-    reference_error : float or None
-        How far the reference may be off [m]; None where there is none.
     size : float
         Of the mechanism [m].
     """
@@ -54,7 +52,6 @@ class Run:
     errors: Array
     sines: Array
     violation: float
-    reference_error: float | None
     size: float
 
 
@@ -66,8 +63,6 @@ def classify(run: Run) -> str:
     inaccurate while constraints are closed or the error is below `LOST` of the size, else diverged. A run that ended
     early is singular where the reference is near a singular position there, else diverged.
     """
-    if run.reference_error is None or run.reference_error > TRUSTED * ACCURATE:
-        return UNJUDGED
     last = len(run.errors)
     largest = largest_error(run.errors)
     if run.finished:

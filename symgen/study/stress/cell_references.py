@@ -1,10 +1,16 @@
-"""What the runs of a case are compared with: closed forms, or independent equations with another integrator."""
+"""What the runs of a case are compared with: closed forms, independent equations, or two formulations that agree.
+
+The second derivation of a spatial mechanism (`symgen.study.references.independent`) is interpreted: too slow for the
+many motions of a stress study. What can differ at the speed of compiled code is how the equations are formulated and
+integrated. The motion is that of `direct-correction` with Runge-Kutta steps at a tight tolerance; its error is
+estimated from `index1-augmented-lagrangian`, which solves another system for the accelerations, with Adams steps.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,22 +18,23 @@ from numpy.typing import NDArray
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.load import load as load_mechanism
+from symgen.describe.mechanism import Mechanism
 from symgen.errors import AssemblyError, InputError, SimulationError
 from symgen.result.points import Points
 from symgen.running.automatic import linearised
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
+from symgen.runtime import abi
+from symgen.runtime.assembly import Start
+from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.motions import refuse_jumps
+from symgen.runtime.probe import Ready
 from symgen.settings import Settings
-from symgen.study.references.reference import closed_form, parallel_cranks
-from symgen.study.references.singular_passing import scaled_values
+from symgen.study.references.closed_forms import closed_form, parallel_cranks
+from symgen.study.references.reference import Reference, scaled_values
 from symgen.study.stress.bench import FREE_LENGTH, Level
 from symgen.study.stress.cell_outcome import ACCURATE, TRUSTED
-
-if TYPE_CHECKING:
-    from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel
+from symgen.study.stress.effort import LARGEST_IMPLICIT_REFERENCE, explicit_budget, implicit_budget
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
@@ -47,7 +54,6 @@ def reference_of(level: Level) -> Fields:
 
 def _moved(level: Level) -> Fields:
     from symgen.study.references.motion import motion
-    from symgen.study.stress.other_route import EmittedGeometry, agreed
 
     mechanism, parameters = level.mechanism, parameter_values(level.mechanism, level.parameters)
     settings = Settings("lagrange", "rk4", level.step, until=level.until, shape="looped", parameters=parameters)
@@ -70,12 +76,12 @@ def _moved(level: Level) -> Fields:
     falling = fastest_decay(mechanism, compiled, start)
     if moved is None:
         try:
-            reference = motion(equations, q, v, times) if planar else agreed(mechanism, parameters, times, falling)
+            reference = motion(equations, q, v, times) if planar else two_routes(mechanism, parameters, times, falling)
         except SimulationError as error:  # over its budget, or at a singular position
             if not planar:
                 raise
             try:
-                reference = agreed(mechanism, parameters, times, falling)
+                reference = two_routes(mechanism, parameters, times, falling)
             except SimulationError as other:
                 raise SimulationError(f"{error}; {other}") from None
         how, estimated, moved = reference.how, reference.estimated_error, reference.q
@@ -136,15 +142,15 @@ def equations_of(level: Level, parameters: Mapping[str, float]) -> Any:
     from symgen.study.references.motion import CompiledEquations
 
     key = digest(level.mechanism)
-    if key not in _KNOWN:
-        _KNOWN[key] = CompiledEquations(level.mechanism, parameters)
-    equations = _KNOWN[key]
+    if key not in _COMPILED:
+        _COMPILED[key] = CompiledEquations(level.mechanism, parameters)
+    equations = _COMPILED[key]
     equations.mechanism = level.mechanism
     equations.set_parameters(parameters)
     return equations
 
 
-_KNOWN: dict[str, Any] = {}
+_COMPILED: dict[str, Any] = {}
 
 
 def _closed(level: Level, parameters: Mapping[str, float], q: Array, times: Array) -> tuple[str, float, Array | None]:
@@ -170,3 +176,108 @@ def _sines(equations: Any, times: Array, q: Array) -> Array:
         values.append(float(singular[rank - 1]) if rank else 1.0)
     largest = max(values)
     return np.array(values) / largest if largest > 0.0 else np.ones(len(times))
+
+
+Route = tuple[str, str, dict[str, str | float], float]
+#: Method, integrator, options and tolerance of the two routes; the first is the reference.
+ROUTES: tuple[Route, ...] = (
+    ("direct-correction", "dop853", {"method.weight": "mass"}, 1e-12),
+    ("index1-augmented-lagrangian", "abm", {}, 1e-11),
+)
+#: The same where decay asks explicit steps for more evaluations than they may take.
+STIFF_ROUTES: tuple[Route, ...] = (
+    ("direct-correction", "radau5", {"method.weight": "mass"}, 1e-10),
+    ("ggl", "radau5", {}, 1e-9),
+)
+#: The first ones where rounding of very stiff forces makes their tolerances unattainable.
+ROUGH_ROUTES = tuple((*route[:3], rtol) for route, rtol in zip(ROUTES, (1e-9, 1e-8), strict=True))
+#: Evaluations after which a route is given up, for small mechanisms.
+BUDGET, STIFF_BUDGET = 20_000_000, 300_000
+#: Evaluations that decay may ask explicit steps for, for small mechanisms; the stiff routes are taken beyond.
+STIFF_FROM = 6_000_000
+
+
+class EmittedGeometry:
+    """Phi, D and nu of a compiled model as numbers.
+
+    Parameters
+    ----------
+    compiled, start : CompiledModel, Start
+        Model and method, and a start with the parameters prepared.
+    """
+
+    def __init__(self, compiled: CompiledModel, start: Start) -> None:
+        self.compiled, self.start = compiled, start
+        self.m, self.n = compiled.info.m, compiled.info.nv
+
+    def evaluate(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array]:
+        """Return Phi, D and nu at a state."""
+        w, y = self.start.w.copy(), np.concatenate([q, v, [0.0]])
+        Ready(self.compiled.model.geometry, abi.MEASURE)(t, y, self.start.p, w)
+        section = self.compiled.section
+        return section(w, "residual").copy(), self.compiled.jacobian(w), section(w, "nu").copy()
+
+
+def two_routes(mechanism: Mechanism, parameters: Mapping[str, float], times: Array, decay: float = 0.0) -> Reference:
+    """Return the motion by the first of `ROUTES`, or of `STIFF_ROUTES`, its error estimated by the second.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What moves.
+    parameters : mapping
+        Values that differ from the mechanism's own.
+    times : Array
+        Where the motion is wanted [s], increasing from 0.
+    decay : float
+        Fastest decay at the start [1/s].
+
+    Raises
+    ------
+    SimulationError
+        If a route does not come to its end.
+    """
+    # twelve evaluations a step of dop853, which is stable up to 6.39 over the decay
+    stiff = decay * float(times[-1]) * 12.0 / 6.39 > explicit_budget(mechanism, STIFF_FROM)
+    if stiff and mechanism.body_coordinates > LARGEST_IMPLICIT_REFERENCE:
+        raise SimulationError(
+            f"its fastest decay, {decay:.2g} 1/s, asks for implicit steps, whose dense matrices are too large for "
+            f"references from {LARGEST_IMPLICIT_REFERENCE} coordinates on"
+        )
+    if stiff:
+        return _by_routes(mechanism, parameters, times, STIFF_ROUTES, implicit_budget(mechanism, STIFF_BUDGET))
+    explicit = explicit_budget(mechanism, BUDGET)
+    try:
+        return _by_routes(mechanism, parameters, times, ROUTES, explicit)
+    except SimulationError:
+        return _by_routes(mechanism, parameters, times, ROUGH_ROUTES, explicit)
+
+
+def _by_routes(
+    mechanism: Mechanism, parameters: Mapping[str, float], times: Array, routes: tuple[Route, ...], budget: int
+) -> Reference:
+    motions = []
+    for method, integrator, options, rtol in routes:
+        settings = Settings(
+            method=method,
+            integrator=integrator,
+            options=options,
+            rtol=rtol,
+            atol=1e-2 * rtol,
+            until=float(times[-1]),
+            times=list(times),
+            parameters=parameters,
+            shape="straight" if routes is STIFF_ROUTES else "looped",
+        )
+        run = prepare(mechanism, settings).with_spec(max_evaluations=budget)
+        outcome = run.integrate()
+        if outcome.interrupted:
+            raise KeyboardInterrupt
+        if outcome.code != abi.DONE:
+            reason = f"it takes more than {budget:.3g} evaluations" if outcome.code == abi.STOPPED else outcome.reason
+            raise SimulationError(f"the reference by {method} with {integrator} does not come to its end: {reason}")
+        motions.append(run.positions(outcome))
+    apart = Points.of(mechanism, parameter_values(mechanism, parameters)).distance(*motions)
+    (method, integrator, _, rtol), (other, with_other, _, _) = routes
+    how = f"{method} with {integrator} at {rtol:g}; estimated from {other} with {with_other}"
+    return Reference(how, max(apart, 1e-14), times, motions[0])

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -31,29 +31,19 @@ from symgen.running.plan import Purpose
 from symgen.running.prepare import assemble, begin, decided
 from symgen.runtime import abi
 from symgen.runtime.outcome import Outcome
-from symgen.settings import Settings, default, told_constant
+from symgen.settings import Settings, told_constant
 from symgen.study.stress import cell_outcome as judged
 from symgen.study.stress.bench import Level
 from symgen.study.stress.cell_outcome import Run, classify, largest_error
-from symgen.study.stress.cell_references import equations_of, reference_of, times_of, without_reference
+from symgen.study.stress.cell_references import EmittedGeometry, equations_of, reference_of, times_of, without_reference
 from symgen.study.stress.effort import budget_of, further_budget, predicted
-from symgen.study.stress.other_route import EmittedGeometry
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
 
 
-@dataclass(frozen=True)
-class Limits:
-    """Limits of a run, as in `symgen.Settings`."""
-
-    max_violation: float = default("max_violation")
-    max_energy_error: float = default("max_energy_error")
-    max_attempts: float | None = None
-
-
-#: Of a run that watches itself, by default, and of one that does not.
-WATCHED, UNWATCHED = Limits(), Limits(1e30, 1e30)
+#: Limits of a run that does not watch itself.
+UNWATCHED: dict[str, Any] = {"max_violation": 1e30, "max_energy_error": 1e30}
 #: How a loop ends that stopped itself although it could have gone on.
 WATCHES = (abi.POSITION, abi.VELOCITY, abi.ENERGY)
 #: The search for the largest step: factor of the scan, halvings afterwards, and how far it goes down from the step.
@@ -71,15 +61,14 @@ class CellReference:
 class RunTask:
     """Run a case with a method and an integrator; `reference` is the outcome of its `CellReference`.
 
-    `limits` are those of a run that watches itself, `coordinates` those of the state.
+    `common` holds what all runs have in common: coordinates of the state, and limits of a run that watches itself.
     """
 
     level: Level
     method: str
     integrator: str
     reference: Fields
-    limits: Limits = WATCHED
-    coordinates: str = "absolute"
+    common: Settings = field(default_factory=Settings)
 
 
 @dataclass(frozen=True)
@@ -91,39 +80,25 @@ def compute(task: CellReference | RunTask) -> Fields:
     """Compute a cell; see the classes of tasks."""
     if isinstance(task, CellReference):
         return reference_of(task.level)
-    fields: Fields = finite(_limit(task) if isinstance(task, LimitTask) else asdict(_run(task)))
+    fields: Fields = finite(_limit(task) if isinstance(task, LimitTask) else _run(task))
     return fields
 
 
 # -- runs --------------------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class RunFields:
-    """What a run of a case gave; the fields of a row that depend on the run."""
-
-    outcome: str
-    error: float | None
-    status: str
-    reason: str | None
-    evaluations: int
-    position_violation_max: float | None
-    velocity_violation_max: float | None
-    energy_drift_max: float | None
-    chosen: str
-    note: str
+def _not_run(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") -> Fields:
+    numbers = dict.fromkeys(("error", "position_violation_max", "velocity_violation_max", "energy_drift_max"))
+    words = {"outcome": outcome, "status": "not run", "reason": reason, "chosen": chosen, "note": ""}
+    return {**words, **numbers, "evaluations": evaluations}
 
 
-def _nothing(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") -> RunFields:
-    return RunFields(outcome, None, "not run", reason, evaluations, None, None, None, chosen, "")
-
-
-def _run(task: RunTask) -> RunFields:
-    """Run a case and judge it against its reference; without one it would say nothing, and is not run."""
-    level, method, integrator, motion, limits = task.level, task.method, task.integrator, task.reference, task.limits
+def _run(task: RunTask) -> Fields:
+    """Return the fields of a row that depend on the run; without a reference it would say nothing, and is not run."""
+    level, method, integrator, motion = task.level, task.method, task.integrator, task.reference
     mechanism = level.mechanism
-    watched = limits if level.watched else replace(UNWATCHED, max_attempts=limits.max_attempts)
-    settings = Settings(
+    settings = replace(
+        task.common,
         method=method,
         integrator=integrator,
         step=None if _is_adaptive(integrator, level.options) else level.step,
@@ -131,30 +106,29 @@ def _run(task: RunTask) -> RunFields:
         times=times_of(level),
         parameters={**level.parameters, **motion.get("parameters", {})},
         options=level.options,
-        coordinates=task.coordinates,
-        **asdict(watched),
+        **({} if level.watched else UNWATCHED),
     )
     try:
         plan, assembled = decided(mechanism, _shaped(mechanism, settings), Purpose.MOTION)
         why = without_reference(motion)
         if why is not None:
-            return _nothing(judged.UNJUDGED, why)
+            return _not_run(judged.UNJUDGED, why)
         budget = budget_of(plan, mechanism)
         chosen = f"{plan.choice.method.name}, {plan.integrator.name}" if method == AUTO else ""
         least = predicted(plan, motion["decay"])
         if least > budget:
             what = "at least " if plan.spec.adaptive else ""
-            return _nothing(judged.TOO_SLOW, f"{what}{least:.3g} evaluations, more than {budget:.3g}", 0, chosen)
+            return _not_run(judged.TOO_SLOW, f"{what}{least:.3g} evaluations, more than {budget:.3g}", 0, chosen)
         run = begin(plan, assembled or assemble(plan)).with_spec(max_evaluations=budget)
     except (InputError, AssemblyError) as error:
-        return _nothing(judged.REFUSED, str(error))
+        return _not_run(judged.REFUSED, str(error))
     outcome, verification = run.integrate(), None
     if method == AUTO:
         run, outcome, verification = verified(run, outcome, free=True)
     if outcome.interrupted:
         raise KeyboardInterrupt
     if outcome.evaluations > budget or outcome.code == abi.STOPPED:
-        return _nothing(judged.TOO_SLOW, f"more than {budget:.3g} evaluations", budget, chosen)
+        return _not_run(judged.TOO_SLOW, f"more than {budget:.3g} evaluations", budget, chosen)
     verdict = judge(run, outcome, verification)
     assert verdict.reason != INTERRUPTED, "an interrupted run has raised"
     compared, note = _compared(level, plan.parameters, run.of_bodies(outcome), motion), ""
@@ -164,8 +138,7 @@ def _run(task: RunTask) -> RunFields:
     if outcome.code in WATCHES and kind == judged.DIVERGED:
         # it stopped itself before its error could be seen: what would have become of it says what it was
         most = further_budget(budget, outcome.evaluations)
-        violation, energy = UNWATCHED.max_violation, UNWATCHED.max_energy_error
-        run = run.with_spec(max_violation=violation, max_energy_error=energy, max_evaluations=most)
+        run = run.with_spec(**UNWATCHED, max_evaluations=most)
         further = run.integrate()
         if further.interrupted:
             raise KeyboardInterrupt
@@ -173,18 +146,18 @@ def _run(task: RunTask) -> RunFields:
         kind = classify(compared)
         if kind == judged.GOOD:
             kind, note = judged.INACCURATE, f"{note}; off its constraints, not off the motion"
-    return RunFields(
-        outcome=kind,
-        error=largest_error(compared.errors) if compared.reference_error is not None else None,
-        status=verdict.status,
-        reason=verdict.reason,
-        evaluations=outcome.evaluations,
-        position_violation_max=outcome.position_violation_max,
-        velocity_violation_max=outcome.velocity_violation_max,
-        energy_drift_max=outcome.energy_drift_max,
-        chosen=chosen,
-        note=note,
-    )
+    return {
+        "outcome": kind,
+        "error": largest_error(compared.errors),
+        "status": verdict.status,
+        "reason": verdict.reason,
+        "evaluations": outcome.evaluations,
+        "position_violation_max": outcome.position_violation_max,
+        "velocity_violation_max": outcome.velocity_violation_max,
+        "energy_drift_max": outcome.energy_drift_max,
+        "chosen": chosen,
+        "note": note,
+    }
 
 
 def _is_adaptive(integrator: str, options: Mapping[str, str | float]) -> bool:
@@ -229,7 +202,6 @@ def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, m
         errors=errors,
         sines=np.array(motion["sines"]),
         violation=violation,
-        reference_error=motion["estimated_error"],
         size=motion["size"],
     )
 
@@ -240,15 +212,15 @@ def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, m
 def _limit(task: LimitTask) -> Fields:
     """Find the largest step that follows the motion at all, and the largest one that is accurate."""
     if without_reference(task.reference) is not None:
-        return {"stable_step": None, "accurate_step": None, "runs": 0}
+        return {"stable_step": None, "accurate_step": None}
     ran: dict[float, tuple[bool, bool]] = {}
 
     def attempt(step: float) -> tuple[bool, bool]:
         if step not in ran:
             level = replace(task.level, step=step, watched=False, options={**task.level.options, **_constant(task)})
-            fields = _run(RunTask(level, task.method, task.integrator, task.reference, coordinates=task.coordinates))
+            fields = _run(RunTask(level, task.method, task.integrator, task.reference, task.common))
             lost = judged.LOST * task.reference["size"]
-            error = fields.error if fields.error is not None and fields.note == "" else math.inf
+            error = fields["error"] if fields["error"] is not None and not fields["note"] else math.inf
             ran[step] = error <= lost, error <= judged.ACCURATE
         return ran[step]
 
@@ -257,7 +229,7 @@ def _limit(task: LimitTask) -> Fields:
     accurate = largest(lambda h: attempt(h)[1], first, task.level.until)
     if stable is not None and accurate is not None:
         stable = max(stable, accurate)  # what is accurate follows the motion, also beyond a step that does not
-    return {"stable_step": stable, "accurate_step": accurate, "runs": len(ran)}
+    return {"stable_step": stable, "accurate_step": accurate}
 
 
 def _constant(task: LimitTask) -> dict[str, str]:

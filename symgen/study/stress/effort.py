@@ -122,7 +122,7 @@ def left_out(
     """
     wanted = [pair for pair in dict.fromkeys(pairs) if needs_straight(*pair) or (straight and pair[0] != AUTO)]
     wanted.sort(key=lambda pair: METHODS.get(pair[0]).default_integrator != pair[1])
-    found, compiled, spent = [], set[tuple[str, str, bool]](), 0.0
+    pairs_out, compiled, spent = [], set[tuple[str, str, bool]](), 0.0
     for mechanism in mechanisms:
         each = straight_seconds(mechanism)
         for method, integrator in wanted:
@@ -133,5 +133,5 @@ def left_out(
                 compiled.add(code)
             if code not in compiled:
                 why = f"its code does not fit into the {seconds:g} s of compilation"
-                found.append((mechanism.name, method, integrator, why))
-    return found
+                pairs_out.append((mechanism.name, method, integrator, why))
+    return pairs_out

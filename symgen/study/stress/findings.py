@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from symgen.running.automatic import AUTO
-from symgen.study.stress.cell_outcome import ACCURATE, DIVERGED, GOOD, OUTCOMES, REFUSED, UNJUDGED, WRONG_BRANCH, counts
-from symgen.study.stress.map import Map, map_rows, plane_rows, shares_of_models
+from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, WRONG_BRANCH, counts
+from symgen.study.stress.stress_rows import Map, map_rows, plane_rows, shares_of_models
 
 if TYPE_CHECKING:
-    from symgen.study.stress.stress_rows import Limit, Stress, StressRow
+    from symgen.study.stress.stress_rows import Stress, StressRow
 
 #: Methods that hold constraints by forces, and only as closely as these push.
 YIELDING = ("penalty", "augmented-lagrangian", "augmented-hamiltonian")
@@ -19,23 +20,21 @@ YIELDING = ("penalty", "augmented-lagrangian", "augmented-hamiltonian")
 LONG = 1e-6
 #: A run with larger violations |Phi| is within its limit, 1e-6, only because the largest coordinate is so large.
 OPEN = 1e-4
-#: Sentences about each model are written for so many models at most; beyond, they are summed up.
-FEW_MODELS = 3
 
 
 def findings(study: Stress) -> tuple[str, ...]:
     """Return what a study found: counts, the toughest methods, each family, gains and penalties, steps, and trust."""
-    return tuple(
-        [
-            *_counted(study),
-            *_models(study),
-            *_toughest(study),
-            *_families(study),
-            *_gains(study),
-            *_penalties(study),
-            *_steps(study),
-            *_trust(study),
-        ]
+    shown = Map.of(study)
+    pairs = [(_line(line), entry.good, entry.judged) for line in shown.lines for entry in [shown.entry(line)]]
+    return (
+        *_counted(study),
+        *_extremes("models", shares_of_models(study.rows)),
+        *_extremes("pairs of method and integrator", pairs),
+        *_families(shown),
+        *_gains(study),
+        *_penalties(study),
+        *_steps(study),
+        *_trust(study),
     )
 
 
@@ -43,97 +42,49 @@ def _counted(study: Stress) -> Iterator[str]:
     rows = map_rows(study.rows)
     if not rows:
         return
-    found = counts([row.outcome for row in rows])
-    parts = [f"{found[name]} {name}" for name in OUTCOMES if found[name]]
     planes = len(study.rows) - len(rows)
     beside = f", beside {planes} cells of planes" if planes else ""
-    yield f"Of {len(rows)} cells of the map {_listed(parts)}{beside}."
+    yield f"Of {len(rows)} cells of the map {_outcomes(rows)}{beside}."
     if study.unusable:
-        several = len(study.models) > 1
-        cases = [f"{family} {case}{f' on {model}' * several}" for model, family, case, _ in study.unusable[:3]]
-        more = "" if len(study.unusable) <= len(cases) else ", ..."
-        many = _many(len(study.unusable), "case")
-        yield f"{many} could not be judged for want of a reference: {', '.join(cases)}{more}."
+        cases = [f"{family} {case} on {model}" for model, family, case, _ in study.unusable[:3]]
+        cases += ["..."] * (len(study.unusable) > len(cases))
+        yield f"{_many(len(study.unusable), 'case')} could not be judged for want of a reference: {', '.join(cases)}."
 
 
-def _models(study: Stress) -> Iterator[str]:
-    if len(study.models) <= FEW_MODELS:
-        return
-    shares = [(good / judged, model, good, judged) for model, good, judged in shares_of_models(study.rows) if judged]
-    if len(shares) < 2:
-        return
-    best, worst = max(s[0] for s in shares), min(s[0] for s in shares)
-    if best == worst:
-        _, model, good, judged = shares[0]
-        yield f"All {len(shares)} models went equally well: {model} with {good} of {judged} cells accurate."
-        return
-    ends = []
-    for share, cells in ((best, " cells accurate"), (worst, "")):
-        (_, model, good, judged), *others = [s for s in shares if s[0] == share]
-        also = f", as did {_many(len(others), 'other')}" if others else ""
-        ends.append((model, f"{good} of {judged}{cells}{also}"))
-    yield f"Of the models, {ends[0][0]} went best, {ends[0][1]}, and {ends[1][0]} worst, {ends[1][1]}."
+def _extremes(what: str, cells: Iterable[tuple[str, int, int]]) -> Iterator[str]:
+    """Yield the largest and the smallest share of accurate cells, of (name, accurate, judged)."""
+    shares = {name: (good / judged, f"{good} of {judged}") for name, good, judged in cells if judged}
+    if len(shares) > 1:
+        ends = dict.fromkeys(end(share for share, _ in shares.values()) for end in (max, min))
+        alike = [[name for name, (share, _) in shares.items() if share == end] for end in ends]
+        both = "; fewest: ".join(f"{_with_others(names)} ({shares[names[0]][1]})" for names in alike)
+        yield f"Most accurate cells among {what}: {both}."
 
 
-def _toughest(study: Stress) -> Iterator[str]:
-    shown = Map.of(study)
-    shares = []
-    for line in shown.lines:
-        entry = shown.entry(line)
-        if entry.judged:
-            shares.append((entry.good / entry.judged, entry.good, entry.judged, line))
-    if len(shares) < 2:
-        return
-    shares.sort(key=lambda s: -s[0])
-    if shares[0][0] == shares[-1][0]:
-        _, good, judged, line = shares[0]
-        yield f"All {len(shares)} pairs were accurate equally often: {_line(line)} in {good} of {judged} cells."
-        return
-    for label, (share, good, judged, line) in (("Most", shares[0]), ("Least", shares[-1])):
-        others = sum(other == share for other, *_ in shares) - 1
-        also = f", as often as {_many(others, 'other pair')}" if others else ""
-        yield f"{label} often accurate was {_line(line)}: {good} of {judged} cells{also}."
-
-
-def _families(study: Stress) -> Iterator[str]:
-    shown = Map.of(study)
+def _families(shown: Map) -> Iterator[str]:
     for family in shown.families:
         entries = {line: shown.entry(line, family) for line in shown.lines}
         entries = {line: entry for line, entry in entries.items() if entry.judged}
-        whole = [line for line, entry in entries.items() if entry.good == entry.judged]
         if not entries:
             continue
-        left = any(row.outcome in (REFUSED, UNJUDGED) for row in shown.rows if row.family == family)
+        whole = [_line(line) for line, entry in entries.items() if entry.good == entry.judged]
         if len(whole) == len(entries):
-            of = " that was judged" if left else ""
-            yield f"{_title(family)}: accurate in every case{of} with every pair of method and integrator."
+            yield f"{_title(family)}: accurate in every case that was judged with every pair of method and integrator."
             continue
+        which = f" ({'; '.join(whole)})" if 0 < len(whole) <= 4 else ""
         rows = [row for entry in entries.values() for row in entry.rows if row.outcome not in (REFUSED, UNJUDGED)]
-        hardest = _hardest(rows)
-        kept = (
-            f"{len(whole)} of {len(entries)} pairs stay accurate {'in all that was judged' if left else 'throughout'}"
-        )
-        if 0 < len(whole) <= 4:
-            kept += f" ({'; '.join(_line(line) for line in whole)})"
-        yield f"{_title(family)}: {kept}; {hardest}."
+        share = f"{len(whole)} of {len(entries)} pairs are accurate in every case that was judged{which}"
+        yield f"{_title(family)}: {share}; hardest: {_hardest(rows)}."
 
 
 def _hardest(rows: Sequence[StressRow]) -> str:
     """Return which case spoils most runs, and how."""
-    cases = dict.fromkeys((row.model, row.case) for row in rows)
-    shares = {}
-    for case in cases:
-        own = [row for row in rows if (row.model, row.case) == case]
-        shares[case] = sum(row.outcome != GOOD for row in own) / len(own)
-    worst = max(shares, key=lambda case: shares[case])
-    alike = sum(share == shares[worst] for share in shares.values())
-    own = [row for row in rows if (row.model, row.case) == worst]
-    found = counts([row.outcome for row in own])
-    parts = [f"{found[name]} {name}" for name in OUTCOMES if found[name]]
-    where = f"{worst[1]} on {worst[0]}" if len({model for model, _ in cases}) > 1 else worst[1]
-    if alike > 1:
-        return f"hardest are {alike} cases alike, the first of them {where}: {_listed(parts)}"
-    return f"hardest is {where}: {_listed(parts)}"
+    cases: dict[str, list[StressRow]] = {}
+    for row in rows:
+        cases.setdefault(row.case if row.model == "-" else f"{row.case} on {row.model}", []).append(row)
+    shares = {case: sum(row.outcome != GOOD for row in own) / len(own) for case, own in cases.items()}
+    worst = [case for case, share in shares.items() if share == max(shares.values())]
+    return f"{_with_others(worst)}, {_outcomes(cases[worst[0]])}"
 
 
 # -- gains, penalties, steps -------------------------------------------------------------------------------------------
@@ -146,123 +97,47 @@ def largest_root(alpha: float, beta: float) -> float:
 
 
 def _gains(study: Stress) -> Iterator[str]:
-    few = len(study.models) <= FEW_MODELS
-    reaches = []
-    rows = [r for r in plane_rows(study.rows, "alpha-beta") if r.step is not None and r.outcome != UNJUDGED]
-    for model in dict.fromkeys(row.model for row in rows):
-        # real roots: only for them is the limit the end of the region of stability on the real axis
-        own = [
-            (largest_root(*row.values) * (row.step or 0.0), row.outcome == GOOD)
-            for row in rows
-            if row.model == model and row.values[0] >= row.values[1] * (1.0 - 1e-12)
-        ]
-        stable, unstable = [x for x, good in own if good], [x for x, good in own if not good]
-        if stable and unstable:
-            reaches.append((_up_to(stable, unstable), min(unstable)))
-        if stable and unstable and few:
-            reach = _up_to(stable, unstable)
-            below = f"all cells up to |root| h = {reach:.3g} are accurate and the first that is not has"
-            first = below if reach else "the cell of the smallest |root| h is not accurate,"
-            yield (
-                f"Baumgarte's gains on {model}: with real roots {first} {min(unstable):.3g}; rk4 is stable up to 2.785."
-            )
-    if reaches and not few:
-        firsts = [above for _, above in reaches]
+    """Yield where Baumgarte's gains stop being accurate, for real roots: the end of the region on the real axis."""
+    reaches: dict[str, dict[bool, list[float]]] = {}
+    for row in plane_rows(study.rows, "alpha-beta"):
+        if row.step is not None and row.outcome != UNJUDGED and row.values[0] >= row.values[1] * (1.0 - 1e-12):
+            own = reaches.setdefault(row.model, {True: [], False: []})
+            own[row.outcome == GOOD].append(largest_root(*row.values) * row.step)
+    firsts = [min(own[False]) for own in reaches.values() if own[True] and own[False]]
+    if firsts:
+        span = " to ".join(dict.fromkeys(f"{x:.3g}" for x in (min(firsts), max(firsts))))
+        on = _many(len(firsts), "model")
         yield (
-            f"Baumgarte's gains on {_many(len(reaches), 'model')}: with real roots the first cell that is not accurate "
-            f"has |root| h from {min(firsts):.3g} to {max(firsts):.3g}; rk4 is stable up to 2.785."
+            f"Baumgarte's gains on {on}: with real roots the first cell that is not accurate has |root| h = {span}; "
+            "rk4 is stable up to 2.785."
         )
-
-
-def _up_to(stable: Sequence[float], unstable: Sequence[float]) -> float:
-    """Return the largest stable value below all unstable ones, 0 where there is none."""
-    return max((x for x in stable if x < min(unstable)), default=0.0)
 
 
 def _penalties(study: Stress) -> Iterator[str]:
     rows = [row for row in study.rows if row.family == "penalty-factor" and row.outcome not in (UNJUDGED, REFUSED)]
-    if len(study.models) > FEW_MODELS:
-        yield from _penalties_of_many(rows, len({r.model for r in study.rows if r.family == "penalty-factor"}))
-        return
-    for method, integrator, model in dict.fromkeys((row.method, row.integrator, row.model) for row in rows):
-        own = [r for r in rows if (r.method, r.integrator, r.model) == (method, integrator, model)]
-        if len(own) < 2:
-            continue
-        # a run that ended early has the error of what it reached
-        ended = [row for row in own if row.error is not None and row.outcome != DIVERGED and not row.note]
-        best = min(ended, key=lambda row: row.error or 0.0, default=None)
-        told = f"; smallest error {best.error:.1e} m at a = {best.values[0]:g}" if best is not None else ""
-        yield f"Penalty of {_line((method, integrator))} on {model}: {_span(own)}{told}."
-
-
-def _span(rows: Sequence[StressRow]) -> str:
-    """Return for which factors runs are accurate, those between them that are not named as well."""
-    good = sorted(row.values[0] for row in rows if row.outcome == GOOD)
-    if not good:
-        return "accurate for none of the factors"
-    if good[0] == good[-1]:
-        return f"accurate for a = {good[0]:g} alone"
-    between = sorted(row.values[0] for row in rows if row.outcome != GOOD and good[0] < row.values[0] < good[-1])
-    but = f" but not for {_listed([f'{a:g}' for a in between])}" if between else ""
-    return f"accurate for a = {good[0]:g} to {good[-1]:g}{but}"
-
-
-def _penalties_of_many(rows: Sequence[StressRow], models: int) -> Iterator[str]:
     for line in dict.fromkeys((row.method, row.integrator) for row in rows):
         own = [row for row in rows if (row.method, row.integrator) == line]
-        factors = sorted({row.values[0] for row in own})
-        good = {a: sum(row.outcome == GOOD for row in own if row.values[0] == a) for a in factors}
-        tried = {a: sum(row.values[0] == a for row in own) for a in factors}
-        everywhere = [a for a in factors if good[a] == tried[a]]
-        if everywhere:
-            of = "" if all(tried[a] == models for a in everywhere) else " that were judged"
-            a = _listed([f"{a:g}" for a in everywhere])
-            yield f"Penalty of {_line(line)}: accurate on all models{of} for a = {a}."
-        else:
-            best = max(factors, key=lambda a: good[a] / tried[a])
-            alike = sum(good[a] / tried[a] == good[best] / tried[best] for a in factors) - 1
-            also = f", {_many(alike, 'other factor')} as often" if alike else ""
-            suits = f"a = {best:g} suits {good[best]} of {tried[best]}{also}"
-            yield f"Penalty of {_line(line)}: no factor suits all models; {suits}."
+        runs = Counter(row.values[0] for row in own)
+        good = Counter(row.values[0] for row in own if row.outcome == GOOD)
+        shares = {a: good[a] / runs[a] for a in sorted(runs)}
+        best = [a for a, share in shares.items() if share == max(shares.values())]
+        cells = f"{good[best[0]]} of {runs[best[0]]} cells" if max(shares.values()) < 1.0 else "all cells"
+        yield f"Penalty of {_line(line)}: accurate most often with a = {_listed([f'{a:g}' for a in best])}, in {cells}."
 
 
 def _steps(study: Stress) -> Iterator[str]:
-    largest: dict[str, list[tuple[str, list[tuple[str, str]]]]] = {}
-    for model, family, case in dict.fromkeys((x.model, x.family, x.case) for x in study.limits):
-        own = [x for x in study.limits if (x.model, x.family, x.case) == (model, family, case)]
-        stable = [x for x in own if x.stable_step is not None]
-        if len(stable) < 2:
-            continue
-
-        def step(limit: Limit) -> float:
-            return limit.stable_step or 0.0
-
-        most, least = max(stable, key=step), min(stable, key=step)
-        tied = [(x.method, x.integrator) for x in stable if step(x) == step(most)]
-        largest.setdefault(family, []).append((model, tied))
-        if len(study.models) <= FEW_MODELS:
-            ends = [[x for x in stable if step(x) == step(end)] for end in (least, most)]
-            span = "from " + " to ".join(f"{step(alike[0]):.3g} s ({_first_of(alike)})" for alike in ends)
-            if step(least) == step(most):
-                span = f"{step(most):.3g} s with each of {len(stable)} pairs"
-            none = len(own) - len(stable)
-            without = f"; none was found with {_many(none, 'pair')}" if none else ""
-            yield f"Largest steps on {model}, {family} {case}: {span}{without}."
-    if len(study.models) > FEW_MODELS:
-        for family, winners in largest.items():
-            lines = [line for _, tied in winners for line in tied]
-            order = sorted(dict.fromkeys(lines), key=lambda line: -lines.count(line))
-            parts = [f"{_line(line)} on {lines.count(line)}" for line in order]
-            shared = ", those with the same step each" if len(lines) > len(winners) else ""
-            single = len({model for model, _ in winners}) == len(winners)
-            of = _many(len(winners), "model" if single else "case")
-            yield f"Largest stable steps in {family}, of {of}: {_listed(parts)}{shared}."
-
-
-def _first_of(limits: Sequence[Limit]) -> str:
-    """Return the pair of the first of some limits, and how many others have the same."""
-    others = f" and {_many(len(limits) - 1, 'other pair')}" if len(limits) > 1 else ""
-    return _line((limits[0].method, limits[0].integrator)) + others
+    """Yield the pairs with the largest stable steps in a family, each with the number of cases in which it has one."""
+    families: dict[str, dict[tuple[str, str], list[tuple[float, str]]]] = {}
+    for x in study.limits:
+        steps = families.setdefault(x.family, {}).setdefault((x.model, x.case), [])
+        if x.stable_step is not None:
+            steps.append((x.stable_step, _line((x.method, x.integrator))))
+    for family, cases in families.items():
+        several = [steps for steps in cases.values() if len(steps) > 1]
+        if several:
+            lines = Counter(line for steps in several for step, line in steps if step == max(steps)[0])
+            parts = [f"{line} in {count}" for line, count in lines.most_common()]
+            yield f"Largest stable steps in {family}, of {_many(len(several), 'case')}: {_listed(parts)}."
 
 
 # -- can a status be trusted? ------------------------------------------------------------------------------------------
@@ -274,29 +149,15 @@ def _trust(study: Stress) -> Iterator[str]:
     if AUTO in methods:
         own = [row for row in wrong if row.method == AUTO]
         total = sum(row.method == AUTO for row in study.rows)
-        said = "in no cell" if not own else f"in {_many(len(own), 'cell')}"
-        yield f"auto reports success with an error above {ACCURATE:g} m {said} of {total}."
+        cells = _many(len(own), "cell") if own else "no cell"
+        yield f"auto reports success with an error above {ACCURATE:g} m in {cells} of {total}."
     others = [row for row in wrong if row.method != AUTO]
     watched = [row for row in study.rows if row.method != AUTO and row.watched]
     if not watched:
         return
-    if not others:
-        which = "No other run" if AUTO in methods else "No run"
-        yield f"{which} reports success with an error above {ACCURATE:g} m, in {len(watched)} cells."
-        return
-    share = f"{len(others)} of {len(watched)} cells"
-    which, such = (
-        ("Other methods", "such an error") if AUTO in methods else ("Methods", f"an error above {ACCURATE:g} m")
-    )
-    yield f"{which} report success with {such} in {share}: {_reasons(others)}."
-
-
-def _reasons(rows: Sequence[StressRow]) -> str:
-    found: dict[str, int] = {}
-    for row in rows:
-        why = cause(row)
-        found[why] = found.get(why, 0) + 1
-    return "; ".join(f"{count} because {why}" for why, count in sorted(found.items(), key=lambda item: -item[1]))
+    causes = "; ".join(f"{count} because {why}" for why, count in Counter(map(cause, others)).most_common())
+    cells = f"in {len(others)} of {len(watched)} cells" + (f": {causes}" if others else "")
+    yield f"Methods chosen by name report success with an error above {ACCURATE:g} m {cells}."
 
 
 def cause(row: StressRow) -> str:
@@ -334,7 +195,17 @@ def _title(family: str) -> str:
 
 
 def _listed(parts: Sequence[str]) -> str:
-    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
+    return " and ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
+
+
+def _with_others(names: Sequence[str]) -> str:
+    """Return the first of some names, and how many others are alike."""
+    return names[0] if len(names) == 1 else f"{names[0]} and {_many(len(names) - 1, 'other')}"
+
+
+def _outcomes(rows: Sequence[StressRow]) -> str:
+    numbers = counts([row.outcome for row in rows])
+    return _listed([f"{numbers[name]} {name}" for name in OUTCOMES if numbers[name]])
 
 
 def _many(count: int, thing: str) -> str:

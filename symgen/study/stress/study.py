@@ -4,26 +4,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeVar
 
 from symgen import arguments
+from symgen.describe.digest import identity
 from symgen.describe.mechanism import bounded
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 from symgen.running.automatic import AUTO
 from symgen.running.plan import refuse_events, refuse_weightless
-from symgen.settings import Settings
-from symgen.study.journal import Journal, Outcome, cell_key, code_identity, mechanism_identity
+from symgen.settings import Settings, default
+from symgen.study.journal import Journal, Outcome, cell_key, code_identity
 from symgen.study.runner import Cell, Status, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable
-from symgen.study.stress.cases import CASES, Family
 from symgen.study.stress.cell_references import without_reference
-from symgen.study.stress.cells import WATCHED, CellReference, Limits, LimitTask, RunTask, compute
+from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
 from symgen.study.stress.effort import BUDGET, left_out
+from symgen.study.stress.families import FAMILIES, levels_of
 from symgen.study.stress.stress_rows import Limit, Stress, StressRow
 
 #: Integrators that a method is run with, beside its own default: an explicit adaptive one and an implicit one.
@@ -66,8 +67,8 @@ def stress(
     jobs: int = 1,
     progress: Progress | None = None,
     compilation: float = math.inf,
-    max_violation: float = WATCHED.max_violation,
-    max_energy_error: float = WATCHED.max_energy_error,
+    max_violation: float = default("max_violation"),
+    max_energy_error: float = default("max_energy_error"),
     max_attempts: float | None = None,
     coordinates: str = "absolute",
     max_step: float | None = None,
@@ -79,7 +80,7 @@ def stress(
     models : sequence of str or path
         Base models: catalogue entries or files; `DEFAULT_MODEL` by default.
     cases : sequence of str
-        Families (`symgen.study.stress.cases.CASES`); all by default.
+        Families (`symgen.study.stress.families.FAMILIES`); all by default.
     methods : sequence of str
         Methods, ``auto`` among them; all and ``auto`` by default.
     quick : bool
@@ -130,7 +131,7 @@ def stress(
         refuse_events("stress", base.mechanism, common)
         refuse_weightless(base.mechanism)
     bases = [base.without_events() for base in bases]
-    chosen = tuple(dict.fromkeys(CASES.canonical(name, "--cases") for name in cases or CASES.names))
+    chosen = tuple(dict.fromkeys(arguments.one_of("--cases", name, FAMILIES) for name in cases or FAMILIES))
     names = tuple(dict.fromkeys(methods or (*METHODS.names, AUTO)))
     for name in names:
         if name != AUTO:
@@ -146,8 +147,7 @@ def stress(
         jobs=jobs,
         progress=progress or (lambda what, status: None),
         compilation=compilation,
-        limits=Limits(common.max_violation, common.max_energy_error, common.max_attempts),
-        coordinates=common.coordinates,
+        common=replace(common, max_step=None),  # mechanisms have it
     )
     return study.run(tuple(skipped))
 
@@ -161,12 +161,11 @@ def _levels(
 ) -> Iterator[Level]:
     for number, base in enumerate(bases):
         for name in families:
-            family: Family = CASES.get(name)
-            if family.own and number > 0:
+            if FAMILIES[name].own and number > 0:
                 continue
-            model = "-" if family.own else base.name
+            model = "-" if FAMILIES[name].own else base.name
             try:
-                for level in family.levels(base, quick):
+                for level in levels_of(name, base, quick):
                     yield replace(level, mechanism=bounded(level.mechanism, max_step), model=model)
             except (NotApplicable, InputError) as why:  # the latter e.g. where the model uses the name of a handle
                 skipped.append((base.name, name, str(why)))
@@ -182,8 +181,7 @@ class _Study:
     jobs: int
     progress: Progress
     compilation: float
-    limits: Limits
-    coordinates: str
+    common: Settings
 
     @cached_property
     def left_out(self) -> tuple[tuple[str, str, str, str], ...]:
@@ -191,10 +189,10 @@ class _Study:
         everything = [pair for name in self.methods for pair in (pairs(name)[:1] if self.quick else pairs(name))]
         out = []
         for base in self.bases:
-            made = [base.stressed, *(level.mechanism for level in self.levels if level.model == base.name)]
+            mechanisms = [base.stressed, *(level.mechanism for level in self.levels if level.model == base.name)]
             # cases that differ in their start alone share code, and have the name of the base
-            distinct = list({mechanism.name: mechanism for mechanism in made}.values())
-            out += left_out(distinct, everything, self.compilation, self.coordinates == "joint")
+            distinct = list({mechanism.name: mechanism for mechanism in mechanisms}.values())
+            out += left_out(distinct, everything, self.compilation, self.common.coordinates == "joint")
         return tuple(out)
 
     def run(self, skipped: tuple[tuple[str, str, str], ...]) -> Stress:
@@ -215,7 +213,7 @@ class _Study:
             left_out=self.left_out,
             quick=self.quick,
             interrupted=interrupted,
-            coordinates=self.coordinates,
+            coordinates=self.common.coordinates,
         )
 
     def _computed(self, what: str, tasks: Sequence[Task]) -> tuple[list[tuple[Task, Outcome]], bool]:
@@ -230,7 +228,7 @@ class _Study:
         for task, motion in motions:
             for pair in self._pairs(task.level):
                 if self._is_compiled(task.level, pair):
-                    yield RunTask(task.level, *pair, motion, self.limits, self.coordinates)
+                    yield RunTask(task.level, *pair, motion, self.common)
 
     def _pairs(self, level: Level) -> tuple[tuple[str, str], ...]:
         if level.pairs is not None:
@@ -249,7 +247,7 @@ class _Study:
             level, motion = own[0 if family == "duration" else min(1, len(own) - 1)]
             for pair in ((name, METHODS.get(name).default_integrator) for name in self.methods if name != AUTO):
                 if self._is_compiled(level, pair):
-                    yield LimitTask(level, *pair, motion, coordinates=self.coordinates)
+                    yield LimitTask(level, *pair, motion, self.common)
 
     def _is_compiled(self, level: Level, pair: tuple[str, str]) -> bool:
         return (level.mechanism.name, *pair) not in [out[:3] for out in self.left_out]
@@ -261,7 +259,7 @@ def _cell(task: CellReference | RunTask) -> Cell:
     parts: dict[str, Any] = {
         "kind": type(task).__name__,
         "code": code_identity(),
-        "mechanism": mechanism_identity(level.mechanism),
+        "mechanism": identity(level.mechanism),
         "parameters": dict(level.parameters),
         "until": level.until,
         "outputs": level.outputs,
@@ -272,10 +270,11 @@ def _cell(task: CellReference | RunTask) -> Cell:
     if isinstance(task, CellReference):
         return Cell(cell_key(**parts), name, task, 1e3 + steps)
     parts |= {"step": level.step, "options": dict(level.options), "watched": level.watched}
-    parts |= {"method": task.method, "integrator": task.integrator, "coordinates": task.coordinates}
+    parts |= {"method": task.method, "integrator": task.integrator, "coordinates": task.common.coordinates}
+    limits = [task.common.max_violation, task.common.max_energy_error, task.common.max_attempts]
     # roughly how long a run takes, in steps
     cost = 50.0 + steps * (10.0 if task.integrator == "radau5" else 1.0)
-    return Cell(cell_key(**parts, limits=asdict(task.limits)), f"{name} {task.method}", task, cost)
+    return Cell(cell_key(**parts, limits=limits), f"{name} {task.method}", task, cost)
 
 
 def _row(task: RunTask, outcome: Outcome) -> StressRow:

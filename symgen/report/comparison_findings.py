@@ -1,4 +1,4 @@
-"""What the rows of a comparison say, in plain sentences computed from them."""
+"""What the rows of a comparison say, in plain sentences computed from them, and which rows stand for its methods."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from collections.abc import Iterable, Sequence
 from statistics import median
 
 from symgen.report import words
-from symgen.report.row_selection import methods, representatives, settings_text
 from symgen.result.run_data import FAILED, OK, UNVERIFIED
-from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study
+from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study, Trace
 
+#: The integrator and the step of the source, by which methods are compared where they have it.
+USUAL = "rk4"
 #: An error above this in a run that ended ok is a success that was none [m].
 WRONG = 1e-3
 #: Errors for which the cheapest run is named [m].
@@ -23,9 +24,50 @@ MOST = 4
 CLEAR = 10.0
 
 
+def methods(study: Study) -> list[str]:
+    """Return the methods of a study in order."""
+    return list(dict.fromkeys(row.label for row in study.rows))
+
+
+def line_number(method: str) -> int:
+    """Return a number of a method for its line style: the same in every report."""
+    from symgen.methods import METHODS
+    from symgen.study.comparison.combinations import DEFAULT_METHODS
+
+    others = [name for name in METHODS.names if name not in DEFAULT_METHODS]
+    order = [*DEFAULT_METHODS, *others]
+    return order.index(method) if method in order else len(order)
+
+
+def _closeness(row: Row, step: float) -> float:
+    """Return how far a row is from the mechanism's own step, or from the middle of the usual tolerances."""
+    return abs(math.log(row.step / step)) if row.step is not None else abs(math.log10((row.rtol or 1.0) / 1e-8))
+
+
+def representatives(study: Study) -> list[tuple[Row, Trace]]:
+    """Return one row a method: with the usual integrator where it was run, at the step nearest to the mechanism's."""
+    pairs = []
+    for method in methods(study):
+        own = [(row, trace) for row, trace in zip(study.rows, study.traces, strict=True) if row.label == method]
+        usual = [pair for pair in own if pair[0].integrator == USUAL]
+        first = [pair for pair in own if pair[0].integrator == own[0][0].integrator]
+        pairs.append(min(usual or first, key=lambda pair: _closeness(pair[0], study.step)))
+    return pairs
+
+
+def settings_text(study: Study) -> str:
+    """Return the setting that representatives share, in words, or what they have in common."""
+    rows = [row for row, _ in representatives(study)]
+    most = max({row.setting for row in rows}, key=[row.setting for row in rows].count)
+    settings = [f"{row.integrator}, {words.setting(row.step, row.rtol)}" for row in rows]
+    shared = next(text for row, text in zip(rows, settings, strict=True) if row.setting == most)
+    others = [f"{row.label} ({text})" for row, text in zip(rows, settings, strict=True) if row.setting != most]
+    return "; ".join([shared, *([", ".join(others)] if others else [])])
+
+
 def findings(study: Study) -> tuple[str, ...]:
     """Return what the rows say, most important first; what cannot be said is left out."""
-    found = [
+    sentences = [
         _reference(study),
         _cheapest(study),
         _best(study),
@@ -37,7 +79,7 @@ def findings(study: Study) -> tuple[str, ...]:
         _orders(study),
         _spread(study),
     ]
-    return tuple(words.sentence(text) for text in found if text)
+    return tuple(words.sentence(text) for text in sentences if text)
 
 
 def _name(row: Row) -> str:
@@ -54,12 +96,8 @@ def _reference(study: Study) -> str:
     )
     if marked:
         lie = words.counted(marked, "row lies", "rows lie")
-        text += f"; {lie} below that, marked *, and {_say(marked)} no more than that"
+        text += f"; {lie} below that, marked *, and {'says' if marked == 1 else 'say'} no more than that"
     return f"{text}. Note: {words.readable(study.note)}" if study.note else text
-
-
-def _say(count: int) -> str:
-    return "says" if count == 1 else "say"
 
 
 def _trusted(study: Study) -> list[Row]:
@@ -103,7 +141,7 @@ def _statuses(study: Study) -> list[str]:
         text += f", {len(by_status[status])} {what}" if by_status[status] else ""
     if study.interrupted:
         text += "; the study was interrupted, so rows are missing"
-    found = [text]
+    sentences = [text]
     for status, one, many in ((FAILED, "failed", "failed"), (UNVERIFIED, "is unverified", "are unverified")):
         reasons: dict[str, list[Row]] = {}
         for row in by_status[status]:
@@ -112,11 +150,11 @@ def _statuses(study: Study) -> list[str]:
         for rows in reasons.values():
             first = f"{_name(rows[0])}: {words.readable(rows[0].reason or '')}"
             if len(rows) == 1:
-                found.append(f"1 run {one}: {first}")
+                sentences.append(f"1 run {one}: {first}")
             else:
                 each = words.listed([f"{m} ({n})" for m, n in _counts(r.label for r in rows)])
-                found.append(f"{len(rows)} runs {many} for one reason: {each}; e.g. {first}")
-    return found
+                sentences.append(f"{len(rows)} runs {many} for one reason: {each}; e.g. {first}")
+    return sentences
 
 
 def _counts(names: Iterable[str]) -> list[tuple[str, int]]:
@@ -176,19 +214,19 @@ def _energy(study: Study) -> str:
 
 def costs(study: Study) -> list[tuple[str, float, float, float, int]]:
     """Return method, median, smallest and largest cost ratio, and their number, for all but the yardstick."""
-    found = []
+    ratios_of_methods = []
     for method in methods(study):
         ratios = [r.cost_ratio for r in study.rows if r.label == method and r.cost_ratio is not None]
         if ratios and method != YARDSTICK:
-            found.append((method, median(ratios), min(ratios), max(ratios), len(ratios)))
-    return found
+            ratios_of_methods.append((method, median(ratios), min(ratios), max(ratios), len(ratios)))
+    return ratios_of_methods
 
 
 def _costs(study: Study) -> str:
-    found = sorted(costs(study), key=lambda c: c[1])
-    if not found:
+    medians = sorted(costs(study), key=lambda c: c[1])
+    if not medians:
         return ""
-    parts = [f"{method} {words.ratio(middle)}" for method, middle, *_ in found]
+    parts = [f"{method} {words.ratio(middle)}" for method, middle, *_ in medians]
     if len(parts) > 2 * MOST:
         parts = [*parts[:MOST], "...", *parts[-MOST:]]
     return (

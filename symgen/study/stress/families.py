@@ -1,0 +1,308 @@
+"""Families of stiff and extreme cases: what is varied, over which values, and the cases that these make of a base."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from symgen.describe.builder import MechanismBuilder
+from symgen.describe.evaluate import evaluate
+from symgen.describe.mechanism import Mechanism
+from symgen.joints import JOINTS
+from symgen.methods import METHODS
+from symgen.study.stress.bench import DAMPING, GRAVITY, MASS, STIFFNESS, Base, Level, NotApplicable
+
+
+@dataclass(frozen=True)
+class Family:
+    """What is varied.
+
+    Attributes
+    ----------
+    level : callable
+        (base, value) -> case, None where the base has none for this value; raises `NotApplicable` where it has none at
+        all.
+    values, quick : sequence
+        Of all cases, and of a quick study.
+    own : bool
+        The family has a mechanism of its own: it is run once, whatever the base models.
+    """
+
+    level: Callable[[Base, Any], Level | None]
+    values: Sequence[Any]
+    quick: Sequence[Any]
+    own: bool = False
+
+
+def levels_of(family: str, base: Base, quick: bool) -> list[Level]:
+    """Return the cases of a family, those of the same values once.
+
+    Raises
+    ------
+    NotApplicable
+        If the base has none.
+    """
+    kind = FAMILIES[family]
+    levels = [kind.level(base, value) for value in (kind.quick if quick else kind.values)]
+    distinct = {level.values: level for level in levels if level is not None}
+    return [replace(level, family=family) for level in distinct.values()]
+
+
+# -- handles of the base -----------------------------------------------------------------------------------------------
+
+
+def stiffness(base: Base, k: float) -> Level:
+    """Return the case of a spring on the middle body, unloaded at the start; stiffer ones last shorter."""
+    base.need_spring()
+    until = base.nominal * min(1.0, (1e6 / k) ** 0.25)
+    return base.level(f"{k:g} N/m", k, parameters={STIFFNESS: k}, until=until, spring_end=base.spring_end)
+
+
+def damping(base: Base, c: float) -> Level:
+    """Return the case of a damper between the ground and the middle body."""
+    base.need_spring()
+    return base.level(f"{c:g} N s/m", c, parameters={DAMPING: c})
+
+
+def mass_ratio(base: Base, factor: float) -> Level:
+    """Return the case of a factor on mass and inertia of the middle body."""
+    if len(base.mechanism.bodies) < 2:
+        raise NotApplicable("it has one body, so no ratio of masses")
+    return base.level(f"mass x {factor:g}", factor, parameters={MASS: factor})
+
+
+def gravity(base: Base, g: float) -> Level:
+    """Return the case of an acceleration; the stronger, the shorter, as the motion is faster."""
+    until = base.nominal / math.sqrt(max(1.0, g / 10.0))
+    return base.level(f"{g:g} m/s^2", g, parameters={GRAVITY: g / base.gravity}, until=until)
+
+
+def duration(base: Base, steps: float) -> Level:
+    """Return the case of a length in steps of the mechanism, none longer than the motion can be predicted.
+
+    The longest runs have steps twice as long, so that methods with constant steps stay within the budget of
+    evaluations.
+    """
+    until = min(steps * base.step, base.mechanism.defaults.predictable_until or math.inf)
+    step = base.step * (2.0 if until >= 1e6 * base.step else 1.0)
+    return base.level(f"{until:g} s", until, until=until, step=step, outputs=100, closed=base.closed)
+
+
+def step(base: Base, factor: float) -> Level:
+    """Return the case of a constant step, as a multiple of the mechanism's own."""
+    h = factor * base.step
+    return base.level(f"{h:g} s", h, step=h, constant_steps=True, closed=base.closed)
+
+
+# -- starts and joints -------------------------------------------------------------------------------------------------
+
+
+def inconsistent_start(base: Base, share: float) -> Level:
+    """Return the case of a middle body described away from where it can be, with velocities that it cannot have.
+
+    The displacement is a fraction of the mechanism's size, the velocity the same fraction of its size a second.
+    """
+    away, signs = share * base.size, ("+", "-", "+")[: len(base.anchor)]
+    at = base.raw["bodies"][base.middle].get("position", [0.0] * len(signs))
+    position = [f"({x}){sign}{away!r}" for x, sign in zip(at, signs, strict=True)]
+    moved = {"position": position, "velocity": [away] * len(signs)}
+    return base.level(f"{away:g} m away", away, mechanism=base.build({"bodies": {base.middle: moved}}))
+
+
+def spin_rate(base: Base, rate: float) -> Level:
+    """Return the case of a body on a pin in the ground that starts turning, some fifty turns long."""
+    if base.mechanism.space != "planar":
+        raise NotApplicable("a spin rate is set in the plane only")
+    joints = base.raw.get("joints", {}).values()
+    if any(joint["type"] == "driver" for joint in joints):
+        raise NotApplicable("a driver prescribes its speed")
+    pins = (joint["between"] for joint in joints if joint["type"] == "revolute")
+    turning = next((second for first, second in pins if first == "ground"), None)
+    if turning is None:
+        raise NotApplicable("no body is pinned to the ground as the first of a joint's bodies")
+    bodies = {
+        body.name: {"velocity": None, "angular_velocity": rate if body.name == turning else None}
+        for body in base.mechanism.bodies
+    }
+    mechanism, until = base.build({"bodies": bodies}), min(base.nominal, 300.0 / rate)
+    return base.level(f"{rate:g} rad/s", rate, mechanism=mechanism, until=until)
+
+
+def redundancy(base: Base, count: float) -> Level | None:
+    """Return the case of one or two bars more, each beside a body that is pinned at either end.
+
+    They repeat what others say, on the constraint manifold only, so that no derivation can drop them.
+    """
+    if base.mechanism.space not in JOINTS.get("distance").SPACES:
+        raise NotApplicable(f"there is no distance joint in {base.mechanism.space} mechanisms")
+    bars = _bars(base)[: int(count)]
+    if not bars:
+        raise NotApplicable("no body is pinned to the ground and to another body")
+    if len(bars) < count:
+        return None
+    joints = {f"stress_bar{i}": bar for i, bar in enumerate(bars)}
+    mechanism = base.build({"joints": joints}, f"redundant-{int(count)}")
+    return base.level(f"{int(count)} bar{'s' if count > 1 else ''} more", count, mechanism=mechanism)
+
+
+def _bars(base: Base) -> list[dict[str, Any]]:
+    """Return distance joints between a pin in the ground and the next pin, on the body beyond it."""
+    pins = [joint for joint in base.raw.get("joints", {}).values() if joint["type"] == "revolute"]
+    bars = list[dict[str, Any]]()
+    for first in pins:
+        if first["between"][0] != "ground":
+            continue
+        body = first["between"][1]
+        for second in pins:
+            if body not in second["between"] or "ground" in second["between"]:
+                continue
+            here = second["between"].index(body)
+            length = math.dist(_point(base, body, first["at"][1]), _point(base, body, second["at"][here]))
+            if length < 1e-9:
+                continue
+            between, at = ["ground", second["between"][1 - here]], [first["at"][0], second["at"][1 - here]]
+            bars.append({"type": "distance", "between": between, "at": at, "length": length})
+            break
+    return bars
+
+
+def _point(base: Base, body: str, at: Any) -> tuple[float, ...]:
+    described = base.mechanism.body(body)
+    if isinstance(at, str):
+        point = described.centre_of_mass if at == "centre" else dict(described.points)[at]
+        return tuple(evaluate(x, base.values, body) for x in point)
+    return tuple(float(x) for x in at)
+
+
+# -- options of methods ------------------------------------------------------------------------------------------------
+
+
+def penalty_factor(base: Base, a: float) -> Level:
+    """Return the case of a penalty, of the methods that have one."""
+    methods = tuple(name for name, method in METHODS.items() if any(p.name == "penalty" for p in method.parameters))
+    return base.level(f"a = {a:g}", a, options={"method.penalty": a}, methods=methods, closed=base.closed)
+
+
+def baumgarte_gain(base: Base, x: float) -> Level:
+    """Return the case of gains alpha = beta = x / h, h being the mechanism's step; both roots are -alpha."""
+    gains = {"method.alpha": x / base.step, "method.beta": x / base.step}
+    return base.level(f"alpha h = {x:g}", x / base.step, options=gains, methods=("baumgarte",), closed=base.closed)
+
+
+def alpha_beta(base: Base, gains: tuple[float, float]) -> Level:
+    """Return the case of both gains times the mechanism's step, with `rk4` at that step."""
+    alpha, beta = (x / base.step for x in gains)
+    return base.level(
+        "alpha h = {:g}, beta h = {:g}".format(*(round(x, 3) for x in gains)),
+        *(alpha, beta),
+        options={"method.alpha": alpha, "method.beta": beta},
+        pairs=(("baumgarte", "rk4"),),
+        watched=False,
+        closed=base.closed,
+    )
+
+
+def step_stiffness(base: Base, point: tuple[float, float]) -> Level:
+    """Return the case of a stiffness and a step, for an explicit and three implicit schemes."""
+    spring, h = stiffness(base, point[0]), point[1] * base.step
+    pairs = (
+        *(("direct-correction", "rk4"), ("penalty", "rk4")),
+        *(("generalized-alpha", "generalized-alpha"), ("index3-augmented-lagrangian", "trapezoidal")),
+    )
+    label, values = f"{spring.label}, {h:g} s", (*spring.values, h)
+    return replace(spring, label=label, values=values, step=h, pairs=pairs, watched=False)
+
+
+# -- mechanisms of their own -------------------------------------------------------------------------------------------
+
+
+def length_ratio(base: Base, ratio: float) -> Level:
+    """Return the case of a four-bar linkage with a crank of 1 m and other links that are longer by a ratio."""
+    mechanism = quadrilateral(1.0, 4.0 * ratio, 2.5 * ratio, 5.0 * ratio, math.pi / 3.0)
+    return Level(f"1 : {ratio:g}", (ratio,), mechanism, until=2.0, step=1e-3)
+
+
+def singular_passage(base: Base, gap: float) -> Level:
+    """Return the case of a parallelogram whose base is longer than the coupler by a gap [m]; 0 is singular."""
+    mechanism = quadrilateral(1.0, 1.0, 1.0, 1.0 + gap, math.pi / 2.0, -1.0)
+    closed = None if gap else "parallelogram"
+    return Level(f"gap {gap:g} m", (gap,), mechanism, until=4.0, step=1e-3, outputs=160, closed=closed)
+
+
+@lru_cache(maxsize=64)
+def quadrilateral(
+    crank: float, coupler: float, rocker: float, base: float, angle: float, spin: float = 0.0
+) -> Mechanism:
+    """Return a four-bar linkage, each rod uniform and of 1 kg, closed with the joint of coupler and rocker above.
+
+    Parameters
+    ----------
+    crank, coupler, rocker, base : float
+        Lengths [m]; they are parameters, so all these mechanisms have the same equations.
+    angle, spin : float
+        Of the crank at the start [rad, rad/s].
+    """
+    bx, by = crank * math.cos(angle), crank * math.sin(angle)
+    dx, dy = base - bx, -by
+    d = math.hypot(dx, dy)
+    along = (d * d + coupler * coupler - rocker * rocker) / (2.0 * d)
+    across = math.sqrt(max(0.0, coupler * coupler - along * along))
+    cx, cy = bx + (along * dx - across * dy) / d, by + (along * dy + across * dx) / d
+    builder = MechanismBuilder("quadrilateral", gravity=(0.0, -9.81)).run(until=5.0, step=1e-3)
+    lengths = {"crank": crank, "coupler": coupler, "rocker": rocker, "base": base}
+    for name, length in lengths.items():
+        builder.parameter(f"{name}_length", length, unit="m")
+    ends = {
+        "crank": ((0.0, 0.0), (bx, by), "A", "B"),
+        "coupler": ((bx, by), (cx, cy), "B", "C"),
+        "rocker": ((base, 0.0), (cx, cy), "D", "C"),
+    }
+    for name, (start, end, first, second) in ends.items():
+        builder.body(
+            name,
+            mass=1.0,
+            inertia=f"{name}_length**2/12",
+            points={first: (f"-{name}_length/2", 0.0), second: (f"{name}_length/2", 0.0)},
+            position=((start[0] + end[0]) / 2.0, (start[1] + end[1]) / 2.0),
+            angle=math.atan2(end[1] - start[1], end[0] - start[0]),
+            **({"angular_velocity": spin} if name == "crank" else {}),
+        )
+    builder.joint("A", "revolute", between=("ground", "crank"), at=((0.0, 0.0), "A"))
+    builder.joint("B", "revolute", between=("crank", "coupler"), at=("B", "B"))
+    builder.joint("C", "revolute", between=("coupler", "rocker"), at=("C", "C"))
+    builder.joint("D", "revolute", between=("ground", "rocker"), at=(("base_length", 0.0), "D"))
+    return builder.build()
+
+
+# -- all of them -------------------------------------------------------------------------------------------------------
+
+_SPRINGS, _QUICK_SPRINGS = (1e2, 1e4, 1e6, 1e8, 1e10), (1e2, 1e6)
+_GRID, _QUICK_GRID = (np.geomspace(0.05, 12.8, points).tolist() for points in (15, 7))
+
+FAMILIES: Mapping[str, Family] = {
+    "alpha-beta": Family(alpha_beta, tuple(product(_GRID, _GRID)), tuple(product(_QUICK_GRID, _QUICK_GRID))),
+    "baumgarte-gain": Family(baumgarte_gain, (1e-3, 1e-2, 1e-1, 1.0, 2.5, 3.0, 1e1), (1e-2, 3.0)),
+    "damping": Family(damping, _SPRINGS, _QUICK_SPRINGS),
+    "duration": Family(duration, (1e4, 1e5, 2e6), (1e4,)),
+    "gravity": Family(gravity, (0.0, 1e1, 1e2, 1e3, 1e4), (0.0, 1e3)),
+    "inconsistent-start": Family(inconsistent_start, (1e-6, 1e-3, 1e-2, 1e-1), (1e-2,)),
+    "length-ratio": Family(length_ratio, (1.0, 1e1, 1e2, 1e4, 1e6), (1.0, 1e2), own=True),
+    "mass-ratio": Family(mass_ratio, (1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9), (1e-9, 1e3)),
+    "penalty-factor": Family(penalty_factor, (1e2, 1e4, 1e6, 1e8, 1e10, 1e12), (1e4, 1e8, 1e12)),
+    "redundancy": Family(redundancy, (1.0, 2.0), (1.0,)),
+    "singular-passage": Family(singular_passage, (0.0, 1e-4, 1e-3, 1e-2, 1e-1), (0.0, 1e-1), own=True),
+    "spin-rate": Family(spin_rate, (1e1, 1e2, 1e3, 1e4), (1e2, 1e4)),
+    "step": Family(step, (1e-2, 1e-1, 1.0, 1e1, 1e2), (1.0, 1e1)),
+    "step-stiffness": Family(
+        step_stiffness,
+        tuple(product(_SPRINGS, (0.03, 0.1, 0.3, 1.0, 3.0, 10.0))),
+        tuple(product(_QUICK_SPRINGS, (0.1, 1.0, 10.0))),
+    ),
+    "stiffness": Family(stiffness, _SPRINGS, _QUICK_SPRINGS),
+}
