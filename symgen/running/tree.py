@@ -19,6 +19,7 @@ from symgen.compiling.carrying import carrying_of
 from symgen.compiling.choose_tree import on_tree
 from symgen.describe.mechanism import Topology
 from symgen.describe.topology import known_coordinates
+from symgen.errors import InputError
 from symgen.lower.windings import winding_order
 from symgen.running.continuation import choice_after, taken_up
 from symgen.running.starts import compiled_for
@@ -38,11 +39,14 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Happening, Watched
     from symgen.runtime.last_state import LastState
+    from symgen.runtime.records import State
 
 Array = NDArray[np.float64]
 
 #: What both descriptions of a motion measure alike, taken over from the run.
 _SCALES = (abi.LENGTH, abi.SPEED, abi.MEAN_MASS)
+#: Places of bodies after a change of parameters, beside their size or that of the mechanism: what is rounding.
+MOVED = 1e-12
 
 #: What is kept of bodies for a run that goes on: state, parameters, scratch, and the rank at the start of the tree.
 _BODIES = ("body_y", "body_p", "body_w", "tree_rank")
@@ -185,7 +189,7 @@ class TreeRun:
     def _signs(self) -> Array:
         """What makes the Euler parameters of bodies, of two signs, go on from those of the start: 1 or -1 each."""
         info = self.bodies.info
-        found, signs = self._raw(self.start.t, self.start.y, self.start.p), np.ones(info.nq)
+        found, signs = self.bodies_at(self.start.t, self.start.y, self.start.p, self.start.w), np.ones(info.nq)
         for first, _ in info.spins:
             if found[first : first + 4] @ self.body_start.y[first : first + 4] < 0.0:
                 signs[first : first + 4] = -1.0
@@ -199,17 +203,41 @@ class TreeRun:
 
     def _of_bodies(self, t: float, y: Array, p: Array) -> Array:
         """Return coordinates and velocities of bodies at one state."""
-        found = self._raw(t, y, p)
+        found = self.bodies_at(t, y, p, self.start.w)
         found[: self.bodies.info.nq] *= self._signs
         return found
 
-    def _raw(self, t: float, y: Array, p: Array) -> Array:
+    def bodies_at(self, t: float, y: Array, p: Array, w: Array) -> Array:
+        """Return coordinates and velocities of bodies at one state of joints."""
         own, info = self.compiled.info, self.bodies.info
         state, out = np.zeros(own.ny), np.zeros(info.nq + 2 * info.nv)
         state[: own.work] = y[: own.work]
-        observe = Ready(self.compiled.model.bodies, abi.OBSERVE)
-        observe(t, state, p, self.start.w.copy(), np.zeros(own.ny), out)
+        Ready(self.compiled.model.bodies, abi.OBSERVE)(t, state, p, w.copy(), np.zeros(own.ny), out)
         return out[: info.nq + info.nv]
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the coordinates and velocities of bodies."""
+        return [x.name for x in (*self.bodies.info.coordinates, *self.bodies.info.velocities)]
+
+    def refuse_moves(self, t: float, state: State, p: Array) -> None:
+        """Refuse parameters that move bodies at a state: joints of the tree hold wherever they are.
+
+        Raises
+        ------
+        InputError
+            If they do.
+        """
+        numbers = state.p.copy()
+        numbers[: len(p)] = p
+        with np.errstate(all="ignore"):
+            self.compiled.prepare(numbers)
+            before, after = (self.bodies_at(t, state.y, x, state.w) for x in (state.p, numbers))
+        by = np.abs(after - before) / np.maximum(np.abs(before), float(state.w[abi.LENGTH]))
+        if not by.max(initial=0.0) <= MOVED:
+            name = self.names[int(np.argmax(np.where(np.isfinite(by), by, np.inf)))]
+            expected = "parameters that leave the position of every joint as it is"
+            raise InputError("set", expected, f"some that move {name}", "start anew for another geometry")
 
     def _turns(self, states: Array, windings: Array) -> list[Array]:
         """Return the angles that count turns as the code for bodies remembers them, at the outputs."""

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from symgen.describe.events import RECORD, RESET, STOP
 from symgen.runtime import abi, hunting
 from symgen.runtime import search_records as searching
-from symgen.runtime.rebounds import are_lost
-from symgen.runtime.resets import Impact, Masses, Reset, impact_of
+from symgen.runtime.resets import Impact, Masses, Reset, are_lost, impact_of
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo

@@ -14,10 +14,9 @@ from symgen.errors import InputError
 from symgen.ir.numerics import WARN
 from symgen.runtime import abi
 from symgen.runtime.changes import Changes
-from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
+from symgen.runtime.new_state import Snapshot, names_kept, new_outputs, new_state, sizes_of, span_of, with_kept
 from symgen.runtime.probe import rates_of
 from symgen.runtime.redundancy import row_chooser
-from symgen.runtime.snapshot import Snapshot, names_kept, with_kept
 
 if TYPE_CHECKING:
     from symgen.runtime.assembly import Start

@@ -19,11 +19,9 @@ from symgen.runtime.changes import begin_with_step
 from symgen.runtime.events import EventRecord, record_of
 from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.stops import Foreseen, foreseen, merged, stops_of
-from symgen.stepping.advance import Advance
-from symgen.stepping.clock import Clock, Controller
+from symgen.stepping.advance import Advance, Clock, Controller
 from symgen.stepping.named import Named
 from symgen.stepping.saved_state import Saved
-from symgen.stepping.tree_state import CarriedBodies
 from symgen.version import __version__
 
 if TYPE_CHECKING:
@@ -65,7 +63,7 @@ class SteppedRun:
         self._loop = prepared.simulation()
         self._loop.span = self._loop.span._replace(end=math.inf)  # `until` is none
         state = self._loop.state
-        self._carried = CarriedBodies(mechanism, compiled, self._loop) if mechanism.topology is not None else None
+        self._tree = prepared.tree
         self._clock, self._control = memoryview(state.clock), memoryview(state.control)
         self._clocks, self._calling, self._advance = list[Clock](), False, Advance(self._loop)
         inputs, self._driven = plan.inputs.words, plan.inputs.driven
@@ -99,9 +97,12 @@ class SteppedRun:
     @property
     def bodies(self) -> dict[str, float]:
         """Present coordinates and velocities of bodies by name, whatever the state is made of."""
-        if self._carried is None:
-            return dict(zip(self.state.names, self.state.tolist(), strict=True))
-        return dict(zip(self._carried.names, self._carried.at().tolist(), strict=True))
+        if self._tree is None:
+            return self.state.to_dict()
+        state = self._loop.state
+        return dict(
+            zip(self._tree.names, self._tree.bodies_at(self.t, state.y, state.p, state.w).tolist(), strict=True)
+        )
 
     @property
     def parameters(self) -> dict[str, float]:
@@ -242,8 +243,8 @@ class SteppedRun:
         if not np.array_equal(p[:count], loop.state.p[:count]):
             refuse_jumps(self._plan.mechanism, changed, loop.spec.until)
             spec = self._divided(found)
-            if self._carried is not None:
-                self._carried.check(p[:count])
+            if self._tree is not None:
+                self._tree.refuse_moves(self.t, loop.state, p[:count])
             self._advance.begin()
             loop.changes.set(p[:count])
             loop.divide(spec)
