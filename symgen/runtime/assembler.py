@@ -119,10 +119,10 @@ class Assembly:
         held, given = self.held, v.copy()
         given[list(held.velocities)] = list(held.velocities.values())
         targets = [*held.coordinates.values(), *held.joints.values(), *held.rates.values()]
-        asked = StartConditions(given, np.array(targets, dtype=np.float64), np.zeros(e.N_SUMMARY))
+        conditions = StartConditions(given, np.array(targets, dtype=np.float64), np.zeros(e.N_SUMMARY))
         now = Instant(y, p, self.compiled.scratch())
-        self.close_one(now, asked)
-        return now.w, asked.summary
+        self.close_one(now, conditions)
+        return now.w, conditions.summary
 
     def close_all(self, now: Instant, asked: StartConditions, selected: Integers, control: Integers) -> int:
         """Make the selected rows consistent, in compiled code.

@@ -295,15 +295,11 @@ class Events:
         names = {e.name for e in self.happened[-_SHRINKING:] if e.action == RESET}
         return tuple(name for name in self.watched.names if name in names)
 
-    def undefined(self, state: Any, t: float) -> str:
-        """Return why a run ended that met an event whose condition is undefined."""
+    def reason(self, code: int, state: Any, t: float) -> str:
+        """Return why a run ended at a time [s] at which events accumulate, or a condition is undefined."""
+        if code == abi.GATHERED:
+            return gathered(self.recent, self.accumulation or t)
         return undefined(self.watched.names[hunting.undefined_event(state)], t)
-
-    @property
-    def reason(self) -> str:
-        """Why a run ended whose events accumulate."""
-        assert self.accumulation is not None, "events accumulate"
-        return gathered(self.recent, self.accumulation)
 
 
 def _rest(before: float, last: float) -> float:

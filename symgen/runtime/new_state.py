@@ -27,7 +27,8 @@ _BEHIND = ("events", "room")
 def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: float = np.inf) -> Span:
     """Return how far a loop goes, to the end of the run by default, and by which steps."""
     end = spec.until if until is None else until
-    numbers = setup.step, spec.largest_step, end, spec.until, spec.scale_time, spec.rtol, spec.atol, spec.relative
+    duration = spec.until if spec.duration is None else spec.duration
+    numbers = setup.step, spec.largest_step, end, spec.until, duration, spec.rtol, spec.atol, spec.relative
     return Span(*(float(number) for number in (*numbers, setup.safety, spec.max_attempts, pause)))
 
 

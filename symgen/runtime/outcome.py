@@ -236,8 +236,8 @@ class Outcome(Motion, Ended):
     energy_drift_max: float
     interrupted: bool
     run_seconds: float
-    compile_seconds: float
     simulation: Simulation = field(repr=False)
+    compile_seconds: float = 0.0
     happened: tuple[Happening, ...] = ()
     accumulation: float | None = None
 
