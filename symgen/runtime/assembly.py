@@ -184,20 +184,16 @@ def moved_far(
     moved : callable, optional
         As for `assemble`.
     """
-    info = start.compiled.info
-    if not changes or _asked_far(start, q, p, w):
+    info, held, length = start.compiled.info, start.held, float(w[abi.LENGTH])
+    if not changes:
         return ()
-    return warnings_of(changes, info, float(w[abi.LENGTH]), moved(q, y[: info.nq]) if moved else ())
-
-
-def _asked_far(start: Assembly, q: Array, p: Array, w: Array) -> bool:
-    """Whether positions were asked for that are far from the described ones, so that others have to follow."""
-    info, held, y = start.compiled.info, start.held, _described(start.compiled.info, q)
-    values = joint_values(start.compiled, start.t, y, p, w.copy()) if held.joints else y
-    asked = [(info.coordinates[i].unit, x - q[i]) for i, x in held.coordinates.items()]
-    asked += [(info.joint_coordinates[k].unit, x - values[2 * k]) for k, x in held.joints.items()]
-    limits = {"m": decisions.FAR * float(w[abi.LENGTH]), "rad": decisions.FAR_TURNED}
-    return any(not abs(change) <= limits[unit] for unit, change in asked)
+    values = joint_values(start.compiled, start.t, _described(info, q), p, w.copy()) if held.joints else q
+    distances = [(info.coordinates[i].unit, x - q[i]) for i, x in held.coordinates.items()]
+    distances += [(info.joint_coordinates[k].unit, x - values[2 * k]) for k, x in held.joints.items()]
+    limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED}
+    if any(not abs(distance) <= limits[unit] for unit, distance in distances):
+        return ()  # other positions have to follow
+    return warnings_of(changes, info, length, moved(q, y[: info.nq]) if moved else ())
 
 
 def _described(info: ModelInfo, q: Array) -> Array:
