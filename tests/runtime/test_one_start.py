@@ -151,15 +151,6 @@ def test_a_held_velocity_is_not_projected():
     assert "b0.omega" not in changed and changed & {"b1.omega", "b2.omega"}
 
 
-def test_held_velocities_that_contradict_are_an_error():
-    model = load("four-bar")
-    compiled = model.compile("lagrange")
-    _, names = coordinates_of(compiled)
-    held = Held(velocities={names.index("crank.omega"): 1.0, names.index("rocker.omega"): 5.0})
-    with pytest.raises(AssemblyError, match=r"beside crank.omega = 1 rad/s, rocker.omega = 5 rad/s, which the start"):
-        model.assemble(compiled, held=held)
-
-
 # -- what is said ------------------------------------------------------------------------------------------------------
 
 
