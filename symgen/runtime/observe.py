@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import part
 from symgen.runtime.records import OBSERVED, OUTPUTS, SIZES
+from symgen.runtime.start_records import record_type
 from symgen.store.jit import jit
 
 _A, _I, _I8 = types.float64[::1], types.int64[::1], types.int64
@@ -123,39 +124,26 @@ def observe_status(geometry: Any, measure: Any, sizes: Any, outputs: Any, p: Any
 # -- runs of an ensemble -----------------------------------------------------------------------------------------------
 
 
-class Left(NamedTuple):
-    """What runs of an ensemble left, and working memory.
-
-    Attributes
-    ----------
-    times : Array
-        Output times [s].
-    selected : Array of int64
-        Runs.
-    seen : Array, shape (runs, columns, times)
-        What they left; nan where they did not get there.
-    first : int
-        The first column that is brought.
-    places : Array of int64
-        Where each column from there on goes: (array, index), flat.
-    ps, ws : Array, shapes (runs, np), (runs, nw)
-        Parameters and scratch, which is overwritten.
-    y, rates : Array, shape (ny,)
-        Working memory.
-    """
-
-    times: Any
-    selected: Any
-    seen: Any
-    first: int
-    places: Any
-    ps: Any
-    ws: Any
-    y: Any
-    rates: Any
-
-
-LEFT = types.RecordType((_A, _I, _C, _I8, _I, _M, _M, _A, _A), Left)
+#: What runs of an ensemble left, and working memory.
+#: - times: Output times [s].
+#: - selected: Runs.
+#: - seen (shape (runs, columns, times)): What they left; nan where they did not get there.
+#: - first: The first column that is brought.
+#: - places: Where each column from there on goes: (array, index), flat.
+#: - ps, ws (shapes (runs, np), (runs, nw)): Parameters and scratch, which is overwritten.
+#: - y, rates (shape (ny,)): Working memory.
+LEFT = record_type(
+    "Left",
+    __name__,
+    ("times", _A),
+    ("selected", _I),
+    ("seen", _C),
+    ("first", _I8),
+    ("places", _I),
+    ("ps ws", _M),
+    ("y rates", _A),
+)
+Left: Any = LEFT.made
 
 
 @jit()

@@ -24,14 +24,14 @@ from symgen.runtime.closing import (
 from symgen.runtime.exact import exact
 from symgen.runtime.joint_starts import JOINTS, Further, copied_scratch, fill_further
 from symgen.runtime.scales import extent_of, free_scale, larger, measure_lengths, row_weight, speed_of
-from symgen.runtime.start_records import ASKED, INSTANT, MODEL, WORK, Closing, Instant, StartConditions
+from symgen.runtime.start_records import INSTANT, MODEL, START_CONDITIONS, WORK, Closing, Instant, StartConditions
 
 _A, _I = types.float64[::1], types.int64[::1]
 #: A model, its ``observe``, and the joint coordinates that starts hold.
 _HOLDING = types.RecordType((MODEL, abi.OBSERVE, JOINTS))
 
 
-@exact(types.int64(_HOLDING, INSTANT, ASKED, WORK), once=True)
+@exact(types.int64(_HOLDING, INSTANT, START_CONDITIONS, WORK), once=True)
 def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
     """Make the start of a run consistent.
 
@@ -210,7 +210,7 @@ def _is_given(closing: Any, layout: Any, now: Any, asked: Any, work: Any, nothin
     return False
 
 
-@exact(types.int64(_HOLDING, INSTANT, ASKED, WORK, _I, _I))
+@exact(types.int64(_HOLDING, INSTANT, START_CONDITIONS, WORK, _I, _I))
 def close_rows(model: Any, all_of_now: Any, all_asked: Any, work: Any, selected: Any, control: Any) -> int:
     """Make the starts of many rows consistent.
 

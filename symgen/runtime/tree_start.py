@@ -6,7 +6,7 @@ Rows of loops may vanish as a whole there, for ever (a hinge beside another on o
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,39 +21,26 @@ from symgen.runtime.exact import compiled_form, exact, plain_form
 from symgen.runtime.joint_starts import Further
 from symgen.runtime.probe import Ready
 from symgen.runtime.scales import mean_mass
-from symgen.runtime.start_records import INSTANT, MODEL, WORK, Closing, Instant
+from symgen.runtime.start_records import INSTANT, MODEL, WORK, Closing, Instant, record_type
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
+_I, _A = types.int64[::1], types.float64[::1]
 
 #: A product of Euler parameters below this is one of orientations more than 120 degrees apart.
 TURNED_OVER = 0.5
 
 
-class Carrying(NamedTuple):
-    """Where what stands in rows of bodies and of a tree.
-
-    Attributes
-    ----------
-    work, outs : int
-        Elements of a tree's state before the work; numbers that ``observe`` writes.
-    places : Array of int, shape (2 work,)
-        Of each of these elements: 0 and where it stands in the state of bodies, or 1 and where ``observe`` writes it.
-    windings, gauges, spins : Array of int
-        Where angles that count turns, and squares of lengths, stand in the scratch of bodies; -1 where that is 1. Where
-        Euler parameters begin among the coordinates of bodies.
-    """
-
-    work: int
-    outs: int
-    places: Any
-    windings: Any
-    gauges: Any
-    spins: Any
+#: Where what stands in rows of bodies and of a tree.
+#: - work, outs: Elements of a tree's state before the work; numbers that ``observe`` writes.
+#: - places (shape (2 work,)): Of each of these elements: 0 and where it stands in the state of bodies, or 1 and where
+#:   ``observe`` writes it.
+#: - windings, gauges, spins: Where angles that count turns, and squares of lengths, stand in the scratch of bodies;
+#:   -1 where that is 1. Where Euler parameters begin among the coordinates of bodies.
+_CARRYING = record_type("Carrying", __name__, ("work outs", types.int64), ("places windings gauges spins", _I))
+Carrying: Any = _CARRYING.made
 
 
-_I, _A = types.int64[::1], types.float64[::1]
-_CARRYING = types.RecordType((types.int64, types.int64, *(_I,) * 4), Carrying)
 #: A tree with the ``observe`` of bodies, the function that carries its motion to bodies, and where what stands.
 _TREE = types.RecordType((MODEL, abi.OBSERVE, abi.OBSERVE, _CARRYING))
 
