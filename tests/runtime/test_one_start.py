@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 from support.emitted import mechanism_of
-from support.models import parallelogram
+from support.models import circles, parallelogram
 from support.random_closed import make
 
 import symgen
@@ -116,10 +116,7 @@ def test_a_held_angle_takes_the_others_along():
         q = dict(zip(names, start.y, strict=False))
         assert q["crank.theta"] == angle
         b, d = 2.0 * np.array([np.cos(angle), np.sin(angle)]), np.array([10.0, 0.0])
-        distance = np.linalg.norm(d - b)
-        along = (8.0**2 - 5.0**2 + distance**2) / (2 * distance)
-        toward = (d - b) / distance
-        c = b + along * toward + np.sqrt(8.0**2 - along**2) * np.array([-toward[1], toward[0]])
+        c = circles(b, d, 8.0, 5.0, 1.0)
         np.testing.assert_allclose([q["rocker.x"], q["rocker.y"]], (c + d) / 2, atol=1e-12)
         assert start.notes[0].startswith(f"the start holds crank.theta = {angle:g} rad; ") and len(start.notes) == 1
         assert {"crank.theta", "rocker.x"} <= {change.name for change in start.changes}
