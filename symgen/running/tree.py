@@ -24,11 +24,10 @@ from symgen.lower.windings import winding_order
 from symgen.running.continuation import choice_after, taken_up
 from symgen.running.starts import compiled_for
 from symgen.runtime import abi
-from symgen.runtime.assembler import Assembly
+from symgen.runtime.assembler import ALONE, Assembly, one_row
 from symgen.runtime.assembly import Start
 from symgen.runtime.outcome import Outcome
 from symgen.runtime.probe import Ready
-from symgen.runtime.start_records import Instant
 from symgen.runtime.start_words import turned_over
 from symgen.runtime.tree_start import TURNED_OVER, Carried
 
@@ -361,14 +360,14 @@ def begin_on_tree(
     bodies, compiled = carried.bodies, carried.assembly.compiled
     names = (x.name for x in bodies.info.parameters)
     p = compiled.parameter_array(dict(zip(names, start.p, strict=False)), method_parameters)
-    now = Instant(np.zeros(compiled.info.ny), p, compiled.scratch())
-    over = np.flatnonzero(np.abs(carried.settle(Instant(start.y, start.p, start.w), now)) < TURNED_OVER)
-    now.y[compiled.info.work :] = start.y[bodies.info.work :]
+    y, w = np.zeros(compiled.info.ny), compiled.scratch()
+    alike = carried.settle(one_row(start.y, start.p, start.w), one_row(y, p, w), *ALONE)[0]
+    over = np.flatnonzero(np.abs(alike) < TURNED_OVER)
+    y[compiled.info.work :] = start.y[bodies.info.work :]
     notes = start.notes, start.changes, start.light, start.warnings
-    rank, redundant = compiled.rank(now.w), compiled.redundant(now.w)
-    found = Start(now.y, p, now.w, rank, redundant, *notes, t=start.t, work=start.work)
+    own = Start(y, p, w, compiled.rank(w), compiled.redundant(w), *notes, t=start.t, work=start.work)
     first = int(over[0]) if len(over) else -1
-    return TreeRun(whole, mechanism, compiled, found, bodies, start, events, watched, first)
+    return TreeRun(whole, mechanism, compiled, own, bodies, start, events, watched, first)
 
 
 def tree_taken_up(plan: Plan, last: LastState) -> TreeRun | None:

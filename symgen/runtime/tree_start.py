@@ -17,7 +17,7 @@ from symgen.runtime.assembler import Assembly
 from symgen.runtime.bare import bare, part
 from symgen.runtime.closing import mask_redundant
 from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.exact import compiled_form, exact, plain_form
+from symgen.runtime.exact import exact, plain_form
 from symgen.runtime.joint_starts import Further
 from symgen.runtime.probe import Ready
 from symgen.runtime.scales import mean_mass
@@ -146,44 +146,24 @@ class Carried:
     assembly: Assembly
     carrying: Carrying
 
-    def settle(self, of_bodies: Instant, now: Instant) -> Array:
-        """Carry one start; return the products of Euler parameters, see `settle_row`.
-
-        Parameters
-        ----------
-        of_bodies, now : Instant
-            The start of bodies, and that of the tree, which is written.
-        """
-        assembly, alike = self.assembly, np.zeros(len(self.carrying.spins))
-        ends = self.bodies.model.observe, assembly.compiled.model.bodies
-        with np.errstate(all="ignore"):
-            assembly.prepare(now)
-            functions, form = assembly.functions(self.assembly.layout.m)
-            if form is plain_form:
-                ends = Ready(ends[0], abi.OBSERVE), Ready(ends[1], abi.OBSERVE)
-            tree = (assembly.layout, *functions[:-1]), *ends, self.carrying
-            form(settle_row)(tree, of_bodies, now, assembly.memory()[1], self._room(of_bodies), alike)
-        return alike
-
-    def settle_all(self, of_bodies: Instant, now: Instant, selected: Integers, control: Integers) -> Array:
+    def settle(self, of_bodies: Instant, now: Instant, selected: Integers, control: Integers) -> Array:
         """Carry the starts of the selected rows; return the products of Euler parameters, shape (rows, spins).
 
         Parameters
         ----------
         of_bodies, now : Instant
-            Of all rows, one row of a matrix for each.
+            Of all rows, one row of a matrix for each: the starts of bodies, and those of the tree, which are written.
         selected, control : Array of int
             Rows to work on; what the watching thread shares.
         """
         assembly, alike = self.assembly, np.zeros((len(now.y), len(self.carrying.spins)))
-        flat = Instant(*(array.ravel() for array in now))
-        assembly.prepare_all(flat, len(now.y), selected)
-        functions = (compiled_form(f) for f in assembly.own[:-1])
-        tree = (assembly.layout, *functions), self.bodies.model.observe, assembly.compiled.model.bodies, self.carrying
-        memory = assembly.memory()[1], self._room(Instant(*(array[0] for array in of_bodies)))
-        ends = Instant(*(array.ravel() for array in of_bodies)), flat
-        compiled_form(settle_rows)(tree, *ends, *memory, alike.reshape(-1), selected, control)
+        flat, functions, form = assembly.prepare(now, selected, assembly.layout.m)
+        ends = self.bodies.model.observe, assembly.compiled.model.bodies
+        if form is plain_form:
+            ends = Ready(ends[0], abi.OBSERVE), Ready(ends[1], abi.OBSERVE)
+        tree = (assembly.layout, *functions[:-1]), *ends, self.carrying
+        room = np.zeros(of_bodies.y.shape[1] + self.carrying.outs + of_bodies.w.shape[1])
+        starts = Instant(*(array.ravel() for array in of_bodies)), flat
+        with np.errstate(all="ignore"):
+            form(settle_rows)(tree, *starts, assembly.memory()[1], room, alike.reshape(-1), selected, control)
         return alike
-
-    def _room(self, of_bodies: Instant) -> Array:
-        return np.zeros(len(of_bodies.y) + self.carrying.outs + len(of_bodies.w))

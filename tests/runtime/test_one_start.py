@@ -16,7 +16,7 @@ from symgen.ensemble.row_starts import make_rows
 from symgen.errors import AssemblyError, InputError
 from symgen.runtime import decisions
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.assembler import Assembly
+from symgen.runtime.assembler import ALONE, Assembly, one_row
 from symgen.runtime.held import Held
 from symgen.runtime.start_records import Instant, StartConditions
 
@@ -46,12 +46,12 @@ def one_by_one(compiled, rows, p, targets, held):
     found = []
     for i in range(len(p)):
         assembly = Assembly(compiled, Held(dict.fromkeys(held, 0.0)), ask_light=True)
-        state = Instant(np.zeros(compiled.info.ny), p[i].copy(), compiled.scratch())
-        state.y[: compiled.info.nq] = rows.q[i]
-        summary = np.zeros(e.N_SUMMARY)
-        assembly.close_one(state, StartConditions(rows.v[i].copy(), targets[i].copy(), summary))
+        y, summary = np.zeros(compiled.info.ny), np.zeros((1, e.N_SUMMARY))
+        y[: compiled.info.nq] = rows.q[i]
+        state = one_row(y, p[i].copy(), compiled.scratch())
+        assembly.close_all(state, StartConditions(rows.v[i : i + 1].copy(), targets[i : i + 1].copy(), summary), *ALONE)
         found.append((*state, summary))
-    return tuple(np.stack(part) for part in zip(*found, strict=True))
+    return tuple(np.concatenate(part) for part in zip(*found, strict=True))
 
 
 def all_at_once(compiled, rows, p, targets, held):
