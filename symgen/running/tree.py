@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from symgen.runtime.events import Happening, Watched
     from symgen.runtime.last_state import LastState
     from symgen.runtime.records import State
+    from symgen.runtime.resets import Impact
 
 Array = NDArray[np.float64]
 
@@ -131,48 +132,41 @@ class TreeRun:
 
     def _happened(self, outcome: Outcome) -> tuple[Happening, ...]:
         """Return the events of a run as those of bodies; the impulses of resets are those of all rows of these."""
-        found: list[Happening] = []
-        struck = dict[int, tuple[Array, Array]]()
+        result: list[Happening] = []
+        impacts: dict[int, Impact] = {}
         numbers = {event.name: i for i, event in enumerate(self.events)}
         watched = None
         for event in outcome.happened:
             p = next((own for until, own in outcome.held if event.t <= until), outcome.p)
-            state = self._of_bodies(event.t, event.state, p)
-            if event.after is None or event.impulses is None:
-                found.append(replace(event, state=state))
-                continue
-            if watched is None:
-                watched = self._of_run(p)
-            if id(event.impulses) not in struck:  # resets at the same time share what they do
-                together = [numbers[x.name] for x in outcome.happened if x.impulses is event.impulses]
-                struck[id(event.impulses)] = self._struck(watched, together, event, state, p)
-            after, impulses = struck[id(event.impulses)]
-            found.append(replace(event, state=state, after=after, impulses=impulses))
-        return tuple(found)
+            state, impact = self._of_bodies(event.t, event.state, p), event.impact
+            if impact is not None:
+                watched = watched or self._of_run(p)
+                if id(impact) not in impacts:  # resets at the same time share what they do
+                    together = [numbers[x.name] for x in outcome.happened if x.impact is impact]
+                    impacts[id(impact)] = self._impact(watched, together, event, impact.v, state, p)
+                impact = impacts[id(impact)]
+            result.append(replace(event, state=state, impact=impact))
+        return tuple(result)
 
     def _of_run(self, p: Array) -> Watched:
         """Return the events as bodies have them, with the masses of some parameters."""
         from symgen.compiling.events import compile_events, masses_of
 
         values = dict(zip((x.name for x in self.bodies.info.parameters), p.tolist(), strict=False))
-        if self.watched is None:
-            found = compile_events(self.whole, self.bodies, self.events, values)
-        else:
-            found = self.watched()
-        assert found is not None, "there are events"
-        return replace(found, masses=masses_of(self.whole, values))
+        watched = self.watched() if self.watched else compile_events(self.whole, self.bodies, self.events, values)
+        assert watched is not None, "there are events"
+        return replace(watched, masses=masses_of(self.whole, values))
 
-    def _struck(
-        self, watched: Watched, numbers: Sequence[int], event: Happening, state: Array, p: Array
-    ) -> tuple[Array, Array]:
-        """Return velocities of bodies after a reset, and the impulses of their rows and of what was given."""
-        assert event.after is not None, "it is a reset"
+    def _impact(
+        self, watched: Watched, numbers: Sequence[int], event: Happening, after: Array, state: Array, p: Array
+    ) -> Impact:
+        """Return what resets do to bodies in a state, where joints have some velocities afterwards."""
         own, info = self.compiled.info, self.bodies.info
-        after = self._of_bodies(event.t, np.concatenate([event.state[: own.nq], event.after]), p)[info.nq :]
+        v = self._of_bodies(event.t, np.concatenate([event.state[: own.nq], after]), p)[info.nq :]
         y = np.zeros(info.ny)
         y[: info.work] = state
         blow = watched.impact(self.bodies, numbers, event.t, y, self._parameters(p), self.body_start.w.copy())
-        return after, blow.impulses
+        return replace(blow, v=v)
 
     def _parameters(self, numbers: Array) -> Array:
         """Return the parameters of a piece of the run as the code for bodies takes them, prepared."""
