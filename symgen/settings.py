@@ -61,16 +61,16 @@ _shape, _coordinates = partial(arguments.one_of, known=SHAPES), partial(argument
 
 
 def _values(where: str, value: object) -> dict[str, float]:
-    found = arguments.mapping(where, value, "numbers by the names of parameters")
-    return {name: arguments.number(f"{where} '{name}'", item) for name, item in found.items()}
+    values = arguments.mapping(where, value, "numbers by the names of parameters")
+    return {name: arguments.number(f"{where} '{name}'", item) for name, item in values.items()}
 
 
 def _start(where: str, value: object) -> Mapping[str, float]:
     # what another run ended with is checked by who takes it up
     if value is not None and not isinstance(value, Mapping) and hasattr(value, "last_state"):
         return value  # type: ignore[return-value]  # a result
-    found = arguments.mapping(where, value, "values by the names of coordinates and velocities, or a result")
-    return {name: arguments.number(f"{where} '{name}'", item) for name, item in found.items()}
+    values = arguments.mapping(where, value, "values by the names of coordinates and velocities, or a result")
+    return {name: arguments.number(f"{where} '{name}'", item) for name, item in values.items()}
 
 
 def _inputs(where: str, value: object) -> dict[str, Any]:
@@ -84,13 +84,13 @@ def _conditions(where: str, value: object) -> tuple[str, ...]:
 
 def _events(where: str, value: object) -> dict[str, dict[str, Any]]:
     expected = "tables by the names of events, such as {'low': {'when': 'ball.y < 0.1'}}"
-    found = arguments.mapping(where, value, expected)
-    return {name: arguments.mapping(f"{where} '{name}'", table, expected) for name, table in found.items()}
+    tables = arguments.mapping(where, value, expected)
+    return {name: arguments.mapping(f"{where} '{name}'", table, expected) for name, table in tables.items()}
 
 
 def _options(where: str, value: object) -> dict[str, str | float]:
-    found = arguments.mapping(where, value, "values by the names of options, such as 'method.alpha'")
-    return {k: v if isinstance(v, str) else arguments.number(f"{where} '{k}'", v) for k, v in found.items()}
+    values = arguments.mapping(where, value, "values by the names of options, such as 'method.alpha'")
+    return {k: v if isinstance(v, str) else arguments.number(f"{where} '{k}'", v) for k, v in values.items()}
 
 
 def _times(where: str, value: object) -> Sequence[float]:

@@ -182,23 +182,23 @@ class TreeRun:
     def _signs(self) -> Array:
         """What makes the Euler parameters of bodies, of two signs, go on from those of the start: 1 or -1 each."""
         info = self.bodies.info
-        found, signs = self.bodies_at(self.start.t, self.start.y, self.start.p, self.start.w), np.ones(info.nq)
+        here, signs = self.bodies_at(self.start.t, self.start.y, self.start.p, self.start.w), np.ones(info.nq)
         for first, _ in info.spins:
-            if found[first : first + 4] @ self.body_start.y[first : first + 4] < 0.0:
+            if here[first : first + 4] @ self.body_start.y[first : first + 4] < 0.0:
                 signs[first : first + 4] = -1.0
         return signs
 
     def _moving(self, outcome: Outcome) -> Array:
         info = self.bodies.info
-        found = outcome.observed(self.compiled.model.bodies, info.nq + 2 * info.nv)
-        found[:, : info.nq] *= self._signs
-        return found
+        motion = outcome.observed(self.compiled.model.bodies, info.nq + 2 * info.nv)
+        motion[:, : info.nq] *= self._signs
+        return motion
 
     def _of_bodies(self, t: float, y: Array, p: Array) -> Array:
         """Return coordinates and velocities of bodies at one state."""
-        found = self.bodies_at(t, y, p, self.start.w)
-        found[: self.bodies.info.nq] *= self._signs
-        return found
+        state = self.bodies_at(t, y, p, self.start.w)
+        state[: self.bodies.info.nq] *= self._signs
+        return state
 
     def bodies_at(self, t: float, y: Array, p: Array, w: Array) -> Array:
         """Return coordinates and velocities of bodies at one state of joints."""
@@ -234,16 +234,16 @@ class TreeRun:
 
     def _turns(self, states: Array, windings: Array) -> list[Array]:
         """Return the angles that count turns as the code for bodies remembers them, at the outputs."""
-        known = known_coordinates(self.mechanism, self.topology)
+        coordinates = known_coordinates(self.mechanism, self.topology)
         own = {m: i for i, m in enumerate(winding_order(self.mechanism, "straight"))}
-        found = list[Array]()
+        turns = list[Array]()
         for measure in winding_order(self.whole, self.bodies.shape):
-            if measure in known:
-                i, _, sign = known[measure]
-                found.append(sign * states[:, i])
+            if measure in coordinates:
+                i, _, sign = coordinates[measure]
+                turns.append(sign * states[:, i])
             else:
-                found.append(windings[:, own[measure]])
-        return found
+                turns.append(windings[:, own[measure]])
+        return turns
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

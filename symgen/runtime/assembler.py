@@ -125,11 +125,11 @@ class Assembly:
         p : Array
             Parameters.
         """
-        held, given = self.held, v.copy()
-        given[list(held.velocities)] = list(held.velocities.values())
+        held, velocities = self.held, v.copy()
+        velocities[list(held.velocities)] = list(held.velocities.values())
         targets = np.array([*held.coordinates.values(), *held.joints.values(), *held.rates.values()], dtype=np.float64)
         now = one_row(y, p, self.compiled.scratch())
-        conditions = StartConditions(*one_row(given, targets, np.zeros(e.N_SUMMARY)))
+        conditions = StartConditions(*one_row(velocities, targets, np.zeros(e.N_SUMMARY)))
         self.close_all(now, conditions, *ALONE)
         return now.w[0], conditions.summary[0]
 

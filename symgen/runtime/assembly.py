@@ -74,8 +74,8 @@ class Start:
     saved: Mapping[str, NDArray[Any]] | None = None
 
     def __repr__(self) -> str:
-        told = f", {len(self.warnings)} warnings" if self.warnings else ""
-        return f"<Start at {self.t:g} s: {len(self.y)} numbers of the state, rank {self.rank}{told}>"
+        warnings = f", {len(self.warnings)} warnings" if self.warnings else ""
+        return f"<Start at {self.t:g} s: {len(self.y)} numbers of the state, rank {self.rank}{warnings}>"
 
 
 def state_scales(compiled: CompiledModel, w: Array, until: float) -> Array:
@@ -148,14 +148,14 @@ def assemble(
     fixed = held or Held()
     info, start = compiled.info, Assembly(compiled, fixed, strict, ask_light, *instant)
     y = _described(info, q)
-    given = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
-    w, summary = start.close(y, given, p)
+    velocities = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
+    w, summary = start.close(y, velocities, p)
     if summary[e.START] != e.ASSEMBLED:
         error = without_derivative(compiled, q, p) or refusal(summary, info, fixed)
         reached = y[: info.nq] if np.all(np.isfinite(y[: info.nq])) else q
         raise error.stopped_at(reached.tolist()) if isinstance(error, AssemblyError) else error
-    given[list(fixed.velocities)] = list(fixed.velocities.values())
-    changes = changes_of(info, np.concatenate([q, given]), y, state_scales(compiled, w, math.inf))
+    velocities[list(fixed.velocities)] = list(fixed.velocities.values())
+    changes = changes_of(info, np.concatenate([q, velocities]), y, state_scales(compiled, w, math.inf))
     return Start(
         *(y, p, w, compiled.rank(w), compiled.redundant(w)),
         notes=notes_of(fixed, summary, changes, info),

@@ -259,18 +259,18 @@ class Events:
 
     def _latest_resets(self, count: int, name: str | None = None) -> Array:
         """Return the last times of resets, of all or of one event, each once: any number of them may stand at one."""
-        found = list[float]()
+        times = list[float]()
         for event in reversed(self.happened):
-            if event.action == RESET and name in (None, event.name) and (not found or event.t != found[-1]):
-                found.append(event.t)
-                if len(found) == count:
+            if event.action == RESET and name in (None, event.name) and (not times or event.t != times[-1]):
+                times.append(event.t)
+                if len(times) == count:
                     break
-        return np.array(found[::-1])
+        return np.array(times[::-1])
 
     def _is_back(self, numbers: Sequence[int], state: hunting.HuntingState) -> bool:
         """Return whether the rebound from a reset is lost in rounding; note that time does not get on from here."""
-        asked = [(number, self.watched.directions[number]) for number in numbers]
-        if not are_lost(self.compiled, self.watched.function, asked, state, self.until):
+        directions = [(number, self.watched.directions[number]) for number in numbers]
+        if not are_lost(self.compiled, self.watched.function, directions, state, self.until):
             return False
         now = float(state.clock[abi.TIME])
         times = [event.t for event in self.happened if event.name == self.watched.names[numbers[0]]][-3:]
@@ -301,8 +301,8 @@ def _rest(before: float, last: float) -> float:
 
 def gathered(names: Sequence[str], t: float) -> str:
     """Return why a run ended whose events of some names accumulate at a time [s]."""
-    told = " and ".join(f"'{name}'" for name in names)
-    return f"events of {told} accumulate at t = {t:.13g} s: nothing says how the motion goes on behind that"
+    events = " and ".join(f"'{name}'" for name in names)
+    return f"events of {events} accumulate at t = {t:.13g} s: nothing says how the motion goes on behind that"
 
 
 def undefined(name: str, t: float) -> str:

@@ -232,10 +232,10 @@ def sign_of(course: Any, w: Any, dense: Any) -> float:
     n, m, row = course.nv, course.m, 0
     for i in range(n * n):
         dense[i] = 0.0
-    kept = 0
+    count = 0
     for i in range(m):
-        kept += 1 if w[course.mask + i] == 0.0 else 0
-    if kept != n:
+        count += 1 if w[course.mask + i] == 0.0 else 0
+    if count != n:
         return 0.0
     place, last = -1, -1
     for k in range(course.constants.shape[0]):

@@ -67,8 +67,8 @@ class InTime:
         line = line_of(jump, self._values)
         times = np.linspace(first, until, 2 if line is not None else _FIRST)
         values = self.over(jump.argument, times)
-        known = values[np.isfinite(values)]
-        return (float(known.min()), float(known.max())) if len(known) else (math.nan, math.nan)
+        finite = values[np.isfinite(values)]
+        return (float(finite.min()), float(finite.max())) if len(finite) else (math.nan, math.nan)
 
 
 def crossings(
@@ -112,8 +112,8 @@ def crossings(
         looks = _Samples(times, samples := over(times), sorted_levels)
         if len(looks.passes) > MOST_PIECES:
             raise InputError("inputs", f"at most {MOST_PIECES} jumps", often)
-        passed, known = -1, samples[np.isfinite(samples)]
-        if _LOOKS * (len(looks.passes) + looks.near(float(np.ptp(known)) if len(known) else 0.0)) <= count:
+        passed, finite = -1, samples[np.isfinite(samples)]
+        if _LOOKS * (len(looks.passes) + looks.near(float(np.ptp(finite)) if len(finite) else 0.0)) <= count:
             low, high, at = looks.around(over)
             passed = len(at)
             if passed == before:

@@ -35,5 +35,5 @@ def address(function: Any, machine: ModuleType, signature: types.Signature = KER
         from symgen.native import numba_judge
 
         return numba_judge.address(function, signature)
-    found: int = function.address(signature)
-    return found
+    place: int = function.address(signature)
+    return place

@@ -59,8 +59,8 @@ def metric_of(info: ModelInfo, sizes: Sizes) -> Array:
 
 def new_outputs(info: ModelInfo, times: Array) -> Outputs:
     """Return room for the outputs of a run at some times [s]."""
-    k, kept = len(times), abi.N_STATUS + info.windings
-    return Outputs(np.ascontiguousarray(times, dtype=np.float64), np.empty((k, info.ny)), np.empty((k, kept)))
+    k, columns = len(times), abi.N_STATUS + info.windings
+    return Outputs(np.ascontiguousarray(times, dtype=np.float64), np.empty((k, info.ny)), np.empty((k, columns)))
 
 
 def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> State:

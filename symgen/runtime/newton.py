@@ -184,8 +184,8 @@ def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
 def constraint_forces(pattern: Pattern) -> tuple[Indices, Indices, Indices]:
     """Return row, velocity and source of the entries of D^T in the equations of motion."""
     width = pattern.width
-    found = np.flatnonzero(pattern.dynamic & (pattern.columns >= width) & (pattern.columns < width + pattern.m))
-    return pattern.columns[found] - width, pattern.rows[found] - pattern.nq, found
+    sources = np.flatnonzero(pattern.dynamic & (pattern.columns >= width) & (pattern.columns < width + pattern.m))
+    return pattern.columns[sources] - width, pattern.rows[sources] - pattern.nq, sources
 
 
 def mass_diagonal(pattern: Pattern) -> Indices:
@@ -260,13 +260,13 @@ def make_plan(
     Redundant rows depend on the others where the constraints hold only: near them such a row is independent by as much
     as they are violated, so a threshold on pivots would take it for a regular one, with multipliers of any size.
     """
-    size, given = n * stages, products or Products()
-    kept = ~np.isin(terms.rows, left_out)
+    size, sums = n * stages, products or Products()
+    independent = ~np.isin(terms.rows, left_out)
     nothing = np.zeros(len(left_out), dtype=np.int64)
-    rows, columns = (np.concatenate([x[kept], left_out]) for x in (terms.rows, terms.columns))
+    rows, columns = (np.concatenate([x[independent], left_out]) for x in (terms.rows, terms.columns))
     factors, sources = (
-        np.concatenate([terms.factors[kept], nothing]),
-        np.concatenate([terms.sources[kept], one + nothing]),
+        np.concatenate([terms.factors[independent], nothing]),
+        np.concatenate([terms.sources[independent], one + nothing]),
     )
     within, fill = elimination_order(n, rows % n, columns % n)
     order = (np.array(within, dtype=np.int64)[:, None] + n * np.arange(stages)).ravel()
@@ -284,13 +284,13 @@ def make_plan(
     plan = [
         *((sparse.COLUMNS, begins), (sparse.ROWS, entries % size), (sparse.PLACES, np.zeros(len(entries)))),
         *((sparse.ORDER, order), (sparse.SLOTS, slots), (sparse.FACTORS, factors), (sparse.SOURCES, sources)),
-        *((sparse.TARGETS, given.targets), (sparse.LEFT, given.left), (sparse.RIGHT, given.right)),
-        *((sparse.TRIPLES, given.triples), (sparse.OWN, own)),
+        *((sparse.TARGETS, sums.targets), (sparse.LEFT, sums.left), (sparse.RIGHT, sums.right)),
+        *((sparse.TRIPLES, sums.triples), (sparse.OWN, own)),
         *((sparse.WORK, np.zeros(9 * size)), (sparse.POOL, np.zeros(room))),
     ]
     head = np.zeros(sparse.N_HEAD, dtype=np.int64)
     head[[sparse.SIZE, sparse.ENTRIES, sparse.TERMS]] = size, len(entries), len(sources)
-    head[[sparse.PRODUCTS, sparse.TURNS, sparse.ROOM]] = len(given.targets), len(given.triples) // 4, room
+    head[[sparse.PRODUCTS, sparse.TURNS, sparse.ROOM]] = len(sums.targets), len(sums.triples) // 4, room
     at = sparse.N_HEAD
     for where, part in plan:
         head[where] = at

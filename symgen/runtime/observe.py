@@ -147,10 +147,10 @@ Left: Any = LEFT.made
 
 
 @jit()
-def bring(seen: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any, w: Any) -> bool:
+def bring(columns: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any, w: Any) -> bool:
     """Put what a run left at an output where functions of the motion read it; return whether it got there."""
     for c in range(places.shape[0] // 2):
-        value, at = seen[r, first + c, k], places[2 * c + 1]
+        value, at = columns[r, first + c, k], places[2 * c + 1]
         if places[2 * c] == e.OF_Y:
             y[at] = value
         elif places[2 * c] == e.OF_RATES:
@@ -164,29 +164,29 @@ def bring(seen: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any
 
 
 @jit(_I8(types.RecordType((LEFT, abi.OBSERVE, abi.MEASURE)), _C, _I8, _C))
-def measure_rows(model: Any, found: Any, at: int, entries: Any) -> int:
+def measure_rows(model: Any, values: Any, at: int, entries: Any) -> int:
     """Evaluate formulas of a run, and the entries of D that vary, at all outputs of runs.
 
     Parameters
     ----------
     model : tuple
         A `Left`, then a function of the formulas and ``geometry`` (`symgen.runtime.abi`).
-    found : Array, shape (runs, times, numbers)
+    values : Array, shape (runs, times, numbers)
         Written; nan where a run did not get there.
     at : int
         Where the entries begin in ``w``.
     entries : Array, shape (runs, times, entries)
         Written likewise; where it has no runs, nobody asks for them.
     """
-    (times, selected, seen, first, places, ps, ws, y, rates), observe, geometry = model
+    (times, selected, columns, first, places, ps, ws, y, rates), observe, geometry = model
     for s in range(selected.shape[0]):
         r = selected[s]
         for k in range(times.shape[0]):
-            reached = bring(seen, r, k, first, places, y, rates, ws[r])
-            if reached and found.shape[2] > 0:
-                observe(times[k], y, ps[r], ws[r], rates, found[r, k])
-            for i in range(0 if reached else found.shape[2]):
-                found[r, k, i] = math.nan
+            reached = bring(columns, r, k, first, places, y, rates, ws[r])
+            if reached and values.shape[2] > 0:
+                observe(times[k], y, ps[r], ws[r], rates, values[r, k])
+            for i in range(0 if reached else values.shape[2]):
+                values[r, k, i] = math.nan
             if entries.shape[0] > 0:
                 if reached:
                     geometry(times[k], y, ps[r], ws[r])

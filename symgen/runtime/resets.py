@@ -103,10 +103,10 @@ def impact_of(
     Ready(compiled.model.geometry, abi.MEASURE)(t, y, p, w)
     labels, rows, values = list[str](), [compiled.jacobian(w)], [compiled.section(w, "nu").copy()]
     for reset in resets:
-        own, asked = _rows(compiled, reset, t, y, p, w)
+        own, wanted = _rows(compiled, reset, t, y, p, w)
         labels += reset.labels
         rows.append(own)
-        values.append(asked)
+        values.append(wanted)
     v, every, right = y[info.nq : info.nq + info.nv], np.concatenate(rows), np.concatenate(values)
     carry, rest, bodies = masses(compiled, t, y, p, w)
     after, impulses, contradictory = strike(carry.T @ bodies @ carry, every, right, v)
@@ -139,12 +139,12 @@ def linear_in_v(info: ModelInfo, y: Array, function: Callable[[Array], Array]) -
     return columns, rest
 
 
-def _refusal(names: str, labels: Sequence[str], found: Array, values: Array, t: float) -> InputError:
-    asked, nearest = (
-        ", ".join(f"{label} = {x:.6g}" for label, x in zip(labels, numbers, strict=True)) for numbers in (values, found)
+def _refusal(names: str, labels: Sequence[str], near: Array, values: Array, t: float) -> InputError:
+    wanted, nearest = (
+        ", ".join(f"{label} = {x:.6g}" for label, x in zip(labels, numbers, strict=True)) for numbers in (values, near)
     )
     expected = "velocities that the joints and each other allow"
-    return InputError(names, expected, f"{asked} at t = {t:.6g} s", f"the nearest are {nearest}")
+    return InputError(names, expected, f"{wanted} at t = {t:.6g} s", f"the nearest are {nearest}")
 
 
 def strike(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Array, bool]:
@@ -179,25 +179,25 @@ def strike(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Ar
     unit = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, usual))  # velocities in units of equal kinetic energy
     long = np.linalg.norm(rows * unit, axis=1)
     # a row that repeats what the joints of a tree hold by construction is rounding: made long, it would hold something
-    said = long > _ROUNDING * long.max(initial=0.0)
-    scale = np.where(said, 1.0 / np.where(said, long, 1.0), 0.0)
+    counts = long > _ROUNDING * long.max(initial=0.0)
+    scale = np.where(counts, 1.0 / np.where(counts, long, 1.0), 0.0)
     scaled, target = scale[:, np.newaxis] * rows * unit, scale * (values - rows @ v)
     metric = unit[:, np.newaxis] * mass * unit
     left_vectors, sizes, vectors = np.linalg.svd(scaled, full_matrices=True)
     rank = int(np.count_nonzero(sizes > _ROUNDING * sizes.max(initial=0.0)))
-    seen, unseen = vectors[:rank], vectors[rank:].T
+    span, free = vectors[:rank], vectors[rank:].T
     back = left_vectors[:, :rank] / sizes[:rank]
     change = np.zeros(len(v))
     for _ in range(2):  # once more for what rounding has left
-        change += seen.T @ (back.T @ (target - scaled @ change))
-        change += unseen @ np.linalg.lstsq(unseen.T @ metric @ unseen, -unseen.T @ (metric @ change), rcond=None)[0]
+        change += span.T @ (back.T @ (target - scaled @ change))
+        change += free @ np.linalg.lstsq(free.T @ metric @ free, -free.T @ (metric @ change), rcond=None)[0]
     after = v + unit * change
     left = rows @ after - values
     largest = float(np.max(np.abs(scale * values), initial=0.0) + np.max(np.abs(scale * (rows @ v)), initial=0.0))
     # what is asked of a slow body may be less than the rounding of fast ones beside it
     noise = _NOISE * float(np.max(scale * (np.abs(rows) @ (np.abs(v) + np.abs(after))), initial=0.0))
     contradictory = bool(np.any(np.abs(scale * left) > _MET * largest + noise))
-    return after, scale * (back @ (seen @ (metric @ change))), contradictory
+    return after, scale * (back @ (span @ (metric @ change))), contradictory
 
 
 def are_lost(

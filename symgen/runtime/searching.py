@@ -125,14 +125,14 @@ def settle(hunt: A, n: int, ends: int) -> int:
 @plain
 def crossed(hunt: A, n: int, column: int, least: int) -> int:
     """Return the action, at least `least`, of what is passed between the bracket's beginning and a column; -1: none."""
-    at, found = N_HEAD, -1
+    at, highest = N_HEAD, -1
     for k in range(n):
         if passes(hunt, n, k, column) == 1:
             action = int(hunt[at + ACTION * n + k])
             if action == LEAVE:
                 return LEAVE
-            found = max(found, action)
-    return found if found >= least else -1
+            highest = max(highest, action)
+    return highest if highest >= least else -1
 
 
 @plain

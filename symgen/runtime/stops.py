@@ -73,11 +73,11 @@ def stops_of(
             raise InputError(f"input '{name}'", f"data from {first:g} to {until:g} s, as curves end where they do", got)
 
     until *= 1.0 + behind
-    found = {t for data in driven.samples.values() for t in data.t}
+    jumps = {t for data in driven.samples.values() for t in data.t}
     for jump in driven.jumps:
-        found.update(formulas.crossings(jump, until, first))
+        jumps.update(formulas.crossings(jump, until, first))
     times = [first]
-    for t in sorted(found):
+    for t in sorted(jumps):
         if t - times[-1] > SAME * until and until - t > SAME * until:
             times.append(t)
     if len(times) > MOST_PIECES:
@@ -99,13 +99,13 @@ def merged(stops: tuple[Stop, ...], kinks: tuple[Stop, ...]) -> tuple[Stop, ...]
     """Return stops where numbers change together with those at which none does, one of each two at the same time."""
     if not (stops and kinks):
         return stops or kinks
-    found, apart = list[Stop](), SAME * kinks[-1].t
+    result, apart = list[Stop](), SAME * kinks[-1].t
     for stop in sorted([*stops, *kinks], key=lambda stop: stop.t):
-        if found and stop.t - found[-1].t <= apart:  # one of the two changes no number
-            found[-1] = Stop(found[-1].t, {**found[-1].values, **stop.values})
+        if result and stop.t - result[-1].t <= apart:  # one of the two changes no number
+            result[-1] = Stop(result[-1].t, {**result[-1].values, **stop.values})
         else:
-            found.append(stop)
-    return tuple(found)
+            result.append(stop)
+    return tuple(result)
 
 
 @dataclass(frozen=True)
@@ -239,14 +239,14 @@ def times_between(
     bool
         Whether nothing was left out.
     """
-    formulas, found, apart, whole = InTime(mechanism, values), set[float](), SAME * until, True
+    formulas, crossings, apart, whole = InTime(mechanism, values), set[float](), SAME * until, True
     for jump in jumps:
         try:
-            found.update(formulas.crossings(_unrolled(jump, formulas, until), until))
+            crossings.update(formulas.crossings(_unrolled(jump, formulas, until), until))
         except InputError:
             whole = False
     times = list[float]()
-    for t in sorted(found):
+    for t in sorted(crossings):
         if t - (times[-1] if times else 0.0) > apart and until - t > apart:
             times.append(t)
     return (tuple(times), whole) if len(times) <= MOST_PIECES else ((), False)

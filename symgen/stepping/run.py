@@ -113,8 +113,8 @@ class SteppedRun:
     @property
     def events(self) -> tuple[EventRecord, ...]:
         """What has happened since the start, as in results; of a run that was taken back, up to where it stands."""
-        found = self._loop.events
-        return () if found is None else tuple(record_of(self._compiled.info, event) for event in found.happened)
+        events = self._loop.events
+        return () if events is None else tuple(record_of(self._compiled.info, event) for event in events.happened)
 
     def __repr__(self) -> str:
         law, integrator = self._compiled.law.method, self._plan.integrator.name
@@ -227,34 +227,34 @@ class SteppedRun:
             If a name or a value is wrong, a mass is not above 0, or the state does not satisfy the constraints with
             these parameters. Nothing is changed then.
         """
-        asked = {**arguments.mapping("set", values, "numbers by the names of parameters"), **more}
-        if asked.keys() <= self._inputs.keys():
-            self._set_inputs(asked)
+        changes = {**arguments.mapping("set", values, "numbers by the names of parameters"), **more}
+        if changes.keys() <= self._inputs.keys():
+            self._set_inputs(changes)
             return
-        for name in asked:
+        for name in changes:
             if name in self._given:
                 raise InputError(f"set: '{name}'", "an input that is a number in this run", f"'{self._given[name]}'")
-        changed = {**self._changed, **asked}
-        found = parameter_values(self._mechanism, changed)
+        changed = {**self._changed, **changes}
+        parameters = parameter_values(self._mechanism, changed)
         self._advance.recover()
-        loop, count = self._loop, len(found)
-        p = self._compiled.parameter_array(found, self._plan.method_parameters)
+        loop, count = self._loop, len(parameters)
+        p = self._compiled.parameter_array(parameters, self._plan.method_parameters)
         p[self._varying] = loop.state.p[self._varying]
         if not np.array_equal(p[:count], loop.state.p[:count]):
             refuse_jumps(self._plan.mechanism, changed, loop.spec.until)
-            spec = self._divided(found)
+            spec = self._divided(parameters)
             if self._tree is not None:
                 self._tree.refuse_moves(self.t, loop.state, p[:count])
             self._advance.begin()
             loop.changes.set(p[:count])
             loop.divide(spec)
-        self._changed = {name: found[name] for name in changed}
+        self._changed = {name: parameters[name] for name in changed}
 
-    def _set_inputs(self, asked: Mapping[str, float]) -> None:
+    def _set_inputs(self, values: Mapping[str, float]) -> None:
         """Give inputs other values, which takes no look at the state."""
         numbers = {
             name: value if type(value) is float and math.isfinite(value) else arguments.number(f"input '{name}'", value)
-            for name, value in asked.items()
+            for name, value in values.items()
         }
         self._advance.recover()
         loop = self._loop
@@ -270,8 +270,8 @@ class SteppedRun:
         """Return all that the run remembers, as a value that can be pickled."""
         self._advance.recover()
         clocks = tuple((c.start, c.interval, c.beat) for c in self._clocks)
-        found = self._loop.events
-        happened = () if found is None else tuple(found.happened)
+        events = self._loop.events
+        happened = () if events is None else tuple(events.happened)
         return Saved(self._owner, self._loop.save(), self._loop.span.step, dict(self._changed), clocks, happened)
 
     def restore(self, saved: Saved) -> None:
