@@ -246,15 +246,9 @@ class Model(Analysed):
                 view=view,
                 caption=str(error),
             )
-        closed = closed_start.y[: len(described)]
-        if closed_start.warnings:
-            return Drawing.of(
-                *(self.mechanism, closed, values),
-                view=view,
-                ghosts=[described.tolist()],
-                caption="; ".join(closed_start.warnings),
-            )
-        return Drawing.of(self.mechanism, closed, values, view=view)
+        closed, words = closed_start.y[: len(described)], closed_start.warnings
+        ghosts = [described.tolist()] if words else []
+        return Drawing.of(self.mechanism, closed, values, view=view, ghosts=ghosts, caption="; ".join(words))
 
     def _repr_svg_(self) -> str:
         return self.draw().svg

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -98,15 +98,21 @@ class Terms:
         return cls(rows, columns, np.concatenate(whole), sources)
 
 
-@dataclass(frozen=True)
+@dataclass
 class Products:
     """Sources that are sums of products of others, and triples of them that belong to rotation vectors."""
 
-    targets: tuple[int, ...] = ()
-    left: tuple[int, ...] = ()
-    right: tuple[int, ...] = ()
-    triples: tuple[int, ...] = ()
+    targets: list[int] = field(default_factory=list)
+    left: list[int] = field(default_factory=list)
+    right: list[int] = field(default_factory=list)
+    triples: list[int] = field(default_factory=list)
     count: int = 0
+
+    def add(self, target: int, left: int, right: int) -> None:
+        """Add a product to a source."""
+        self.targets.append(target)
+        self.left.append(left)
+        self.right.append(right)
 
 
 def stage_plan(pattern: Pattern, a: Array, one: int) -> tuple[Indices, Array]:
@@ -161,24 +167,14 @@ def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
         by_row.setdefault(c, []).append((j, e))
     place: dict[tuple[int, int], int] = {}
     first = pattern.size + products.count
-    targets, left, right = list[int](), list[int](), list[int]()
     for entries in by_row.values():
         for i, a in entries:
             for j, b in entries:
-                targets.append(first + place.setdefault((i, j), len(place)))
-                left.append(a)
-                right.append(b)
+                products.add(first + place.setdefault((i, j), len(place)), a, b)
     pairs = np.array(list(place), dtype=np.int64).reshape(-1, 2)
     parts.append((pairs[:, 0], pairs[:, 1], 4, first + np.arange(len(place))))
-    everything = Products(
-        (*products.targets, *targets),
-        (*products.left, *left),
-        (*products.right, *right),
-        products.triples,
-        products.count + len(place),
-    )
-    one, nothing = pattern.size + everything.count, np.zeros(0, dtype=np.int64)
-    return *make_plan(pattern.nv, 1, Terms.joined(parts), nothing, one, everything), one + 1
+    one, nothing = first + len(place), np.zeros(0, dtype=np.int64)
+    return *make_plan(pattern.nv, 1, Terms.joined(parts), nothing, one, products), one + 1
 
 
 def constraint_forces(pattern: Pattern) -> tuple[Indices, Indices, Indices]:
@@ -213,19 +209,16 @@ def _along_motion(
     for e in np.flatnonzero((pattern.rows < nq) & (pattern.columns >= n + nq)).tolist():
         map_entries.setdefault(int(pattern.rows[e]), []).append((int(pattern.columns[e]) - n - nq, e))
     place: dict[tuple[int, int], int] = {}
-    targets, left, right = list[int](), list[int](), list[int]()
+    products = Products()
     for e in by_q.tolist():
         for j, other in map_entries.get(int(pattern.columns[e]) - n, ()):
-            targets.append(pattern.size + place.setdefault((int(pattern.rows[e]), j), len(place)))
-            left.append(e)
-            right.append(other)
-    triples = list[int]()
+            products.add(pattern.size + place.setdefault((int(pattern.rows[e]), j), len(place)), e, other)
     starts = {int(j) + i: int(j) for j in pattern.spins for i in range(3)}
     for r, j in dict.fromkeys((r, starts[j]) for r, j in list(place) if j in starts):
-        triples += [pattern.size + place.setdefault((r, j + i), len(place)) for i in range(3)] + [j]
+        products.triples += [pattern.size + place.setdefault((r, j + i), len(place)) for i in range(3)] + [j]
     pairs = np.array(list(place), dtype=np.int64).reshape(-1, 2)
     turned = pairs[:, 0] - nq, pairs[:, 1], 3, pattern.size + np.arange(len(place))
-    products = Products(tuple(targets), tuple(left), tuple(right), tuple(triples), len(place))
+    products.count = len(place)
     return [by_rate, turned, unknown], products
 
 
