@@ -13,16 +13,15 @@ from numpy.typing import NDArray
 
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
+from symgen.runtime import start_solvers as solvers
 from symgen.runtime.exact import compiled_form, plain_form
 from symgen.runtime.held import Held
 from symgen.runtime.joint_starts import Joints, joints_held
-from symgen.runtime.least_norm import dense_change, iterated_change, sparse_change
 from symgen.runtime.manifold import stay
 from symgen.runtime.model_arrays import entries_of, joints_of, lengths_of, spins_of, velocity_of
 from symgen.runtime.probe import Ready
 from symgen.runtime.start_records import Instant, Layout, StartConditions, Work, new_work
 from symgen.runtime.starting import close_rows, follow_nothing, observe_nothing, prepare_rows
-from symgen.runtime.turning import choose_no_turns, choose_turns
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
@@ -217,8 +216,8 @@ class Assembly:
             model.measure if layout.windings else follow_nothing,
             model.move if layout.nq != layout.nv else stay,
             model.spread if layout.sparse else stay,
-            (iterated_change if held else sparse_change) if layout.sparse else dense_change,
-            choose_turns if layout.windings else choose_no_turns,
+            (solvers.iterated_change if held else solvers.sparse_change) if layout.sparse else solvers.dense_change,
+            solvers.choose_turns if layout.windings else solvers.choose_no_turns,
             law.rhs,
             model.observe if held else observe_nothing,
         )

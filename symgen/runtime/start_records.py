@@ -73,7 +73,7 @@ StartConditions: Any = START_CONDITIONS.made
 
 
 class Closing(NamedTuple):
-    """What the pieces of a start call: emitted functions, and a solver of `symgen.runtime.least_norm`.
+    """What the pieces of a start call: emitted functions, and a solver of `symgen.runtime.start_solvers`.
 
     ``geometry`` comes before ``measure`` and ``spread`` at the same state.
     """
@@ -106,9 +106,9 @@ def new_work(layout: Layout, nw: int) -> Work:
     return Work._make((*(np.zeros(size) for size in sizes), *integers))
 
 
-#: solve(spread, layout, now, work): see `symgen.runtime.least_norm`.
+#: solve(spread, layout, now, work): see `symgen.runtime.start_solvers`.
 SOLVE = types.FunctionType(types.int64(abi.MOVE, LAYOUT, INSTANT, WORK))
-#: turns(geometry, measure, layout, now, work): see `symgen.runtime.turning`.
+#: turns(geometry, measure, layout, now, work): see `symgen.runtime.start_solvers`.
 TURNS = types.FunctionType(types.int64(abi.MEASURE, abi.MEASURE, LAYOUT, INSTANT, WORK))
 #: A model as `symgen.runtime.starting.close_row` takes it: its layout, what a `Closing` is made of, the choice of turns
 #: and ``rhs``.

@@ -44,7 +44,7 @@ def close_row(model: Any, now: Any, conditions: Any, work: Any) -> int:
     ----------
     model : tuple
         First a `Layout`, then ``geometry``, ``measure``, ``move``, ``spread``, `solve`, `turns` and ``rhs``: emitted
-        ones (`symgen.runtime.abi`), one of `symgen.runtime.least_norm` and one of `symgen.runtime.turning`. Behind
+        ones (`symgen.runtime.abi`) and two of `symgen.runtime.start_solvers`. Behind
         these ``observe``, and `symgen.runtime.joint_starts.Joints`.
     now, conditions, work : Instant, StartConditions, Work
         See `symgen.runtime.start_records`. The state holds the described coordinates and velocities of 0; parameters
