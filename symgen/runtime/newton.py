@@ -274,7 +274,7 @@ def make_plan(
     masses = np.flatnonzero((order[column] == entries % size) & (place >= first) & (place < end))
     own[column[masses]] = masses
     room = 2 * stages * stages * (fill + n)
-    plan = [
+    plan: list[tuple[int, Indices | Array | list[int]]] = [
         *((sparse.COLUMNS, begins), (sparse.ROWS, entries % size), (sparse.PLACES, np.zeros(len(entries)))),
         *((sparse.ORDER, order), (sparse.SLOTS, slots), (sparse.FACTORS, factors), (sparse.SOURCES, sources)),
         *((sparse.TARGETS, sums.targets), (sparse.LEFT, sums.left), (sparse.RIGHT, sums.right)),
