@@ -108,8 +108,8 @@ class Model(Analysed):
         from symgen.compiling.choices import on_tree
         from symgen.reading.symbolic_equations import SymbolicEquations
 
-        asked = arguments.one_of("coordinates", coordinates, ("absolute", "joint"))
-        return SymbolicEquations(on_tree(self.mechanism) if asked == "joint" else self.mechanism)
+        kind = arguments.one_of("coordinates", coordinates, ("absolute", "joint"))
+        return SymbolicEquations(on_tree(self.mechanism) if kind == "joint" else self.mechanism)
 
     def compile(
         self, method: str = "direct-correction", options: Mapping[str, str] | None = None, shape: str = "straight"
@@ -125,8 +125,8 @@ class Model(Analysed):
         shape : {"straight", "looped"}
             Code for this mechanism alone, or loops over tables that all mechanisms share.
         """
-        asked = arguments.mapping("options", options, "texts by the names of options")
-        texts = {name: arguments.text(f"option '{name}'", value) for name, value in asked.items()}
+        values = arguments.mapping("options", options, "texts by the names of options")
+        texts = {name: arguments.text(f"option '{name}'", value) for name, value in values.items()}
         shape = arguments.one_of("shape", shape, SHAPES[1:])
         return self.compiled(replace(choose_method(method, texts), shape=shape))
 
@@ -186,8 +186,8 @@ class Model(Analysed):
                 raise InputError("method_parameters", expected, f"'{name}'", nearest(name, own) or "it has none")
         strict = arguments.switch("strict", strict)
         if held is None or isinstance(held, Mapping):
-            asked = Settings(start=held or {}).start
-            held = holds_of(self.mechanism, "start", asked)  # type: ignore[assignment]  # of names, by index later
+            settings = Settings(start=held or {}).start
+            held = holds_of(self.mechanism, "start", settings)  # type: ignore[assignment]  # of names, by index later
         return start_of(self.mechanism, compiled, parameters, method_parameters, strict, held, ask_light)  # type: ignore[arg-type]
 
     def draw(
@@ -234,7 +234,7 @@ class Model(Analysed):
             return Drawing.of(self.mechanism, q, values, view=view)
         try:
             settings = Settings(start=start or {}, parameters=parameters or {})
-            found = prepare(self.mechanism, settings, Purpose.STATE).start
+            closed_start = prepare(self.mechanism, settings, Purpose.STATE).start
         except AssemblyError as error:
             q = error.q or described
             scene = Drawing.of(self.mechanism, q, values).scene
@@ -246,15 +246,9 @@ class Model(Analysed):
                 view=view,
                 caption=str(error),
             )
-        closed = found.y[: len(described)]
-        if found.warnings:
-            return Drawing.of(
-                *(self.mechanism, closed, values),
-                view=view,
-                ghosts=[described.tolist()],
-                caption="; ".join(found.warnings),
-            )
-        return Drawing.of(self.mechanism, closed, values, view=view)
+        closed, words = closed_start.y[: len(described)], closed_start.warnings
+        ghosts = [described.tolist()] if words else []
+        return Drawing.of(self.mechanism, closed, values, view=view, ghosts=ghosts, caption="; ".join(words))
 
     def _repr_svg_(self) -> str:
         return self.draw().svg

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
+from functools import partial
 from typing import Any, cast
 
 from symgen import arguments
@@ -53,42 +54,28 @@ class About:
         return self.text.format(unit=f" [{self.unit}]" if self.unit else "")
 
 
-def _positive(where: str, value: object) -> float:
-    return arguments.number(where, value, positive=True)
-
-
-def _name(where: str, value: object) -> str:
-    return arguments.text(where, value, "a name")
+_positive = partial(arguments.number, positive=True)
+_name = partial(arguments.text, expected="a name")
+_repeat = partial(arguments.whole, least=1, most=1000)
+_shape, _coordinates = partial(arguments.one_of, known=SHAPES), partial(arguments.one_of, known=COORDINATES)
 
 
 def _values(where: str, value: object) -> dict[str, float]:
-    found = arguments.mapping(where, value, "numbers by the names of parameters")
-    return {name: arguments.number(f"{where} '{name}'", item) for name, item in found.items()}
+    values = arguments.mapping(where, value, "numbers by the names of parameters")
+    return {name: arguments.number(f"{where} '{name}'", item) for name, item in values.items()}
 
 
 def _start(where: str, value: object) -> Mapping[str, float]:
     # what another run ended with is checked by who takes it up
     if value is not None and not isinstance(value, Mapping) and hasattr(value, "last_state"):
         return value  # type: ignore[return-value]  # a result
-    found = arguments.mapping(where, value, "values by the names of coordinates and velocities, or a result")
-    return {name: arguments.number(f"{where} '{name}'", item) for name, item in found.items()}
+    values = arguments.mapping(where, value, "values by the names of coordinates and velocities, or a result")
+    return {name: arguments.number(f"{where} '{name}'", item) for name, item in values.items()}
 
 
 def _inputs(where: str, value: object) -> dict[str, Any]:
     # what is given for each is looked at where the mechanism is known
     return arguments.mapping(where, value, "numbers, formulas or data by the names of inputs")
-
-
-def _repeat(where: str, value: object) -> int:
-    return arguments.whole(where, value, 1, 1000)
-
-
-def _shape(where: str, value: object) -> str:
-    return arguments.one_of(where, value, SHAPES)
-
-
-def _coordinates(where: str, value: object) -> str:
-    return arguments.one_of(where, value, COORDINATES)
 
 
 def _conditions(where: str, value: object) -> tuple[str, ...]:
@@ -97,13 +84,13 @@ def _conditions(where: str, value: object) -> tuple[str, ...]:
 
 def _events(where: str, value: object) -> dict[str, dict[str, Any]]:
     expected = "tables by the names of events, such as {'low': {'when': 'ball.y < 0.1'}}"
-    found = arguments.mapping(where, value, expected)
-    return {name: arguments.mapping(f"{where} '{name}'", table, expected) for name, table in found.items()}
+    tables = arguments.mapping(where, value, expected)
+    return {name: arguments.mapping(f"{where} '{name}'", table, expected) for name, table in tables.items()}
 
 
 def _options(where: str, value: object) -> dict[str, str | float]:
-    found = arguments.mapping(where, value, "values by the names of options, such as 'method.alpha'")
-    return {k: v if isinstance(v, str) else arguments.number(f"{where} '{k}'", v) for k, v in found.items()}
+    values = arguments.mapping(where, value, "values by the names of options, such as 'method.alpha'")
+    return {k: v if isinstance(v, str) else arguments.number(f"{where} '{k}'", v) for k, v in values.items()}
 
 
 def _times(where: str, value: object) -> Sequence[float]:
@@ -116,6 +103,10 @@ def _setting(default: object, text: str, kind: type, check: Callable[[str, Any],
     if isinstance(default, dict):
         return field(default_factory=dict, metadata=about)
     return field(default=default, metadata=about)
+
+
+_number = partial(_setting, kind=float, check=_positive)
+_switch = partial(_setting, kind=bool, check=arguments.switch)
 
 
 @dataclass(frozen=True)
@@ -132,26 +123,18 @@ class Settings:
     integrator: str | None = _setting(
         None, "Integrator, or auto.", str, _name, otherwise="the method's own, mostly rk4"
     )
-    step: float | None = _setting(
+    step: float | None = _number(
         None,
         "Step{unit}: constant, or the first one of an adaptive integrator.",
-        float,
-        _positive,
         unit="s",
         otherwise="of the mechanism; chosen",
     )
-    rtol: float | None = _setting(
-        None, "Relative tolerance of an adaptive integrator.", float, _positive, otherwise="1e-8"
-    )
-    atol: float | None = _setting(
-        None, "Absolute tolerance of an adaptive integrator.", float, _positive, otherwise="1e-10"
-    )
-    until: float | None = _setting(None, "End time{unit}.", float, _positive, unit="s", otherwise="of the mechanism")
-    output_step: float | None = _setting(
+    rtol: float | None = _number(None, "Relative tolerance of an adaptive integrator.", otherwise="1e-8")
+    atol: float | None = _number(None, "Absolute tolerance of an adaptive integrator.", otherwise="1e-10")
+    until: float | None = _number(None, "End time{unit}.", unit="s", otherwise="of the mechanism")
+    output_step: float | None = _number(
         None,
         "Time between outputs{unit}.",
-        float,
-        _positive,
         unit="s",
         otherwise="of the mechanism; every step, or 1001 times of an adaptive run",
     )
@@ -186,32 +169,23 @@ class Settings:
     events: Mapping[str, Mapping[str, Any]] = _setting(
         {}, "Events beside those of the mechanism, as tables by name.", dict, _events
     )
-    strict: bool = _setting(False, "Refuse a start that is not consistent.", bool, arguments.switch)
-    verify: bool = _setting(
-        False, "Estimate the error by a second run with finer steps, and settle doubts by it.", bool, arguments.switch
+    strict: bool = _switch(False, "Refuse a start that is not consistent.")
+    verify: bool = _switch(False, "Estimate the error by a second run with finer steps, and settle doubts by it.")
+    max_violation: float = _number(
+        1e-6, "Largest violation of positions and of velocities, as fractions of the mechanism's length and speed."
     )
-    max_violation: float = _setting(
-        1e-6,
-        "Largest violation of positions and of velocities, as fractions of the mechanism's length and speed.",
-        float,
-        _positive,
+    max_energy_error: float = _number(
+        0.05, "Largest energy error that is tolerated, as a fraction of the energy in motion."
     )
-    max_energy_error: float = _setting(
-        0.05, "Largest energy error that is tolerated, as a fraction of the energy in motion.", float, _positive
-    )
-    max_step: float | None = _setting(
+    max_step: float | None = _number(
         None,
         "Largest step{unit} of an adaptive integrator.",
-        float,
-        _positive,
         unit="s",
         otherwise="of the mechanism; none, or a thousandth of the run where formulas of t may pass something short",
     )
-    max_attempts: float | None = _setting(
+    max_attempts: float | None = _number(
         None,
         "Attempts at steps after which a run ends as failed; constant steps that would be more are refused.",
-        float,
-        _positive,
         otherwise="1e8 adaptive, 2e9 constant",
     )
     repeat: int = _setting(1, "Warm up and time that many runs.", int, _repeat, metavar="N")

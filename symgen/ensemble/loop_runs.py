@@ -179,7 +179,7 @@ class TreeRuns:
         scratch = np.zeros((runs, len(self.loop.compiled.scratch())))
         now, count = Instant(np.zeros((runs, own.ny)), np.tile(self.p, (runs, 1)), scratch), len(info.parameters)
         now.p[:, :count] = starts.p[:, :count]
-        alike = self.carried.settle_all(starts, now, selected, control)
+        alike = self.carried.settle(starts, now, selected, control)
         over = np.abs(alike[selected]) < TURNED_OVER
         for k in reversed(range(over.shape[1])):  # the first one stays
             out.summary[selected[over[:, k]], [[e.START], [e.START_WHERE]]] = [[e.TURNED_OVER], [k]]

@@ -1,7 +1,7 @@
 """Points, force elements, drivers, formulas of ``[outputs]`` and reactions of the runs of an ensemble.
 
 Loops leave the states, and what else formulas read, as further columns of each run; behind the loops, the side module
-of single runs is called for all of them by one compiled loop (`symgen.runtime.measured_rows`). Loops of no target know
+of single runs is called for all of them by one compiled loop (`symgen.runtime.observe`). Loops of no target know
 anything of it, and where nothing of it is asked for, there is none of it.
 """
 
@@ -118,7 +118,7 @@ class Measures:
     reads : tuple of RowQuantity
         What loops leave for it.
     places : tuple of int
-        Where each of these goes, see `symgen.runtime.measured_rows.Left`.
+        Where each of these goes, see `symgen.runtime.observe.Left`.
     joints : mapping of str to Place
         Where reactions act; empty where none are kept.
     """
@@ -176,7 +176,7 @@ class Measures:
         ps, ws : Array, shapes (runs, np), (runs, nw)
             Parameters, and scratch, which is overwritten.
         """
-        from symgen.runtime.measured_rows import Left, measure_rows
+        from symgen.runtime.observe import Left, measure_rows
         from symgen.runtime.rows import observe_nothing
 
         info, runs, n_times = compiled.info, len(ps), len(times)

@@ -221,7 +221,7 @@ def note_events(row: Array, outcome: Outcome, code: int) -> None:
         row[e.ACCUMULATION] = outcome.accumulation
         row[e.GATHERING] = sum(2.0 ** numbers[name] for name in watch.recent)
     # a reset that was made has velocities behind it
-    refused = [x for x in outcome.happened if x.t == outcome.end and x.action == RESET and x.after is None]
+    refused = [x for x in outcome.happened if x.t == outcome.end and x.action == RESET and x.impact is None]
     if code == e.IMPOSSIBLE and refused:
         row[e.IMPOSSIBLE_EVENT] = numbers[refused[-1].name]
     elif code == abi.UNDEFINED:

@@ -7,7 +7,7 @@ choice to the program has not looked at tolerances either.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,46 +29,9 @@ HALF, TENTH = 0.5, 0.1
 SMALLEST_RTOL = 1e-13
 
 
-@dataclass(frozen=True)
-class Rerun:
-    """A run repeated with finer steps.
-
-    Attributes
-    ----------
-    run, outcome : Prepared, Outcome
-        The second run.
-    agreement : Agreement or None
-        With the first one; None where the second one did not come to its end.
-    """
-
-    run: Prepared
-    outcome: Outcome
-    agreement: Agreement | None
-
-    @property
-    def name(self) -> str:
-        """Its step or tolerance, in words."""
-        return f"a run with {_steps_of(self.run)}"
-
-    @property
-    def error(self) -> float | None:
-        """Estimated error of the first run [m], None where nothing is known.
-
-        With half the step h of a scheme of order p, errors c h^p and c (h/2)^p are apart by (1 - 2^-p) c h^p. With
-        smaller tolerances the error of the second run is left out.
-        """
-        if self.agreement is None or not math.isfinite(self.agreement.apart):
-            return None
-        share = 0.0 if self.run.spec.adaptive else HALF**self.run.plan.integrator.order
-        return self.agreement.apart / (1.0 - share)
-
-    @property
-    def end(self) -> str:
-        """Why it did not come to its end."""
-        return "it takes too many evaluations" if self.outcome.code == abi.STOPPED else self.outcome.reason
-
-
-def run_again(run: Prepared, outcome: Outcome, points: Points, tolerance: float = TENTH) -> Rerun:
+def run_again(
+    run: Prepared, outcome: Outcome, points: Points, tolerance: float
+) -> tuple[Prepared, Outcome, Agreement | None]:
     """Run again from the same start with finer steps, and compare positions at all outputs.
 
     Parameters
@@ -77,8 +40,15 @@ def run_again(run: Prepared, outcome: Outcome, points: Points, tolerance: float 
         A run that came to its end.
     points : Points
         What distances are measured between.
-    tolerance : float, optional
+    tolerance : float
         Tolerances of an adaptive run are multiplied by it; a constant step is halved.
+
+    Returns
+    -------
+    run, outcome : Prepared, Outcome
+        The second run.
+    agreement : Agreement or None
+        With the first one; None where the second one did not come to its end.
     """
     spec = run.spec
     if spec.adaptive:
@@ -88,9 +58,9 @@ def run_again(run: Prepared, outcome: Outcome, points: Points, tolerance: float 
         finer = run.with_spec(step=spec.step * HALF)
     second = finer.integrate(start=replace(outcome.start, saved=None))  # another grid of steps begins there
     if second.code != abi.DONE:
-        return Rerun(finer, second, None)
+        return finer, second, None
     a, b = _comparable(outcome, second)
-    return Rerun(finer, second, agreement(points, run.positions(outcome)[a], run.positions(second)[b]))
+    return finer, second, agreement(points, run.positions(outcome)[a], run.positions(second)[b])
 
 
 def _comparable(first: Outcome, second: Outcome) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -134,25 +104,31 @@ def verified(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Prepa
     if outcome.code != abi.DONE:
         return run, outcome, Verification(None, None, None, total)
     points = Points.of(run.plan.mechanism, parameter_values(run.plan.mechanism, run.plan.parameters))
+    # with half the step h of a scheme of order p, errors c h^p and c (h/2)^p are apart by (1 - 2^-p) c h^p; with
+    # smaller tolerances the error of the second run is left out
+    apart_of_error = 1.0 - (0.0 if run.spec.adaptive else HALF**run.plan.integrator.order)
     free, share, error = free and run.spec.adaptive, TENTH, None
     while True:
         if error is not None and run.spec.rtol * share < SMALLEST_RTOL:
             doubt = f"two runs still differ by {error:.2g} m at {_steps_of(run)}"
             return run, outcome, Verification(doubt, None, error, total)
-        second = run_again(run, outcome, points, share)
-        total += second.outcome.evaluations
-        if second.outcome.interrupted:
+        finer, second, agreed = run_again(run, outcome, points, share)
+        total += second.evaluations
+        name = f"a run with {_steps_of(finer)}"
+        if second.interrupted:
             doubt = "the check with finer steps was interrupted"
             return run, replace(outcome, interrupted=True), Verification(doubt, None, error, total)
-        if second.agreement is None:
-            doubt = f"a check by {second.name} did not come to its end: {second.end}"
+        if agreed is None:
+            end = "it takes too many evaluations" if second.code == abi.STOPPED else second.reason
+            doubt = f"a check by {name} did not come to its end: {end}"
             return run, outcome, Verification(doubt, None, error, total)
-        apart, error = second.agreement.apart, second.error
-        if second.agreement.holds:
-            verification = Verification(None, f"verified: {second.name} agrees within {apart:.2g} m", error, total)
-            return (second.run, second.outcome, verification) if free else (run, outcome, verification)
+        apart = agreed.apart
+        error = apart / apart_of_error if math.isfinite(apart) else None
+        if agreed.holds:
+            verification = Verification(None, f"verified: {name} agrees within {apart:.2g} m", error, total)
+            return (finer, second, verification) if free else (run, outcome, verification)
         if not free or error is None:
-            return run, outcome, Verification(f"{second.name} differs by {apart:.2g} m", None, error, total)
+            return run, outcome, Verification(f"{name} differs by {apart:.2g} m", None, error, total)
         # errors fall about as tolerances do: far from agreement, the next but one is tried
-        share = TENTH**2 if apart > second.agreement.limit / TENTH else TENTH
-        run, outcome = second.run, second.outcome
+        share = TENTH**2 if apart > agreed.limit / TENTH else TENTH
+        run, outcome = finer, second

@@ -89,21 +89,21 @@ def linearised(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> A
     if form is None:
         return result
     w = start.w.copy()
-    lam, kept = compiled.section(w, "multipliers"), compiled.section(w, "mask") == 0.0
+    lam, independent = compiled.section(w, "multipliers"), compiled.section(w, "mask") == 0.0
     lam[:] = 0.0
     still = form.at(start.t, start.y, np.zeros(nv), start.p, w)
-    rows = still.by("accelerations", "a")[kept]
+    rows = still.by("accelerations", "a")[independent]
     matrix = np.block([[still.by("balance", "a"), rows.T], [rows, np.zeros((len(rows), len(rows)))]])
 
     def solved(balance: Array, accelerations: Array) -> Array:
-        right = -np.concatenate([balance, accelerations[kept]])
+        right = -np.concatenate([balance, accelerations[independent]])
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=1e-14)[0], dtype=np.float64)
 
     if not np.all(np.isfinite(still.out)):
         return np.full_like(result, np.nan)
-    found = solved(still.value("balance"), still.value("accelerations"))
-    lam[kept] = found[nv:]
-    e = form.at(start.t, start.y, found[:nv], start.p, w)
+    solution = solved(still.value("balance"), still.value("accelerations"))
+    lam[independent] = solution[nv:]
+    e = form.at(start.t, start.y, solution[:nv], start.p, w)
     if not np.all(np.isfinite(e.out)):
         return np.full_like(result, np.nan)
     by_state = [np.hstack([e.by(group, "q"), e.by(group, "v")]) for group in GROWTH]

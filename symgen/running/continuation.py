@@ -41,7 +41,7 @@ def made_of(compiled: CompiledModel, plan: Plan, spec: RunSpec) -> dict[str, Any
     law = compiled.law
     own = {name: float(plan.method_parameters.get(name, default)) for name, default in law.parameters}
     values = parameter_values(plan.mechanism, plan.parameters)
-    made = {
+    making = {
         "method": law.method,
         "options": {key: str(value) for key, value in law.options.items()},
         "method parameters": own,
@@ -57,7 +57,7 @@ def made_of(compiled: CompiledModel, plan: Plan, spec: RunSpec) -> dict[str, Any
         "coordinates": plan.coordinates,
         "symgen": f"{__version__}, format {FORMAT}",
     }
-    return made | {"tree": compiled.info.digest[:12]} if plan.coordinates == "joint" else made
+    return making | {"tree": compiled.info.digest[:12]} if plan.coordinates == "joint" else making
 
 
 def continued(plan: Plan, last: LastState) -> tuple[CompiledModel, Start]:
@@ -117,17 +117,17 @@ def taken_up(compiled: CompiledModel, plan: Plan, last: LastState) -> Start | No
     last : LastState
         Of the other run.
     """
-    made = made_of(compiled, plan, plan.spec)
-    if last.arrays is None or last.other_than({key: x for key, x in made.items() if key != "events"}):
+    making = made_of(compiled, plan, plan.spec)
+    if last.arrays is None or last.other_than({key: x for key, x in making.items() if key != "events"}):
         return None
     memory = plan.integrator.setup(compiled, plan.spec, compiled.scratch()).memory
     if not is_as_kept(compiled, memory, last.arrays):
         return None
-    other = last.other_than(made)
+    other = last.other_than(making)
     y, p, w = (last.arrays[name] for name in ("y", "p", "w"))
     arrays = {name: array for name, array in last.arrays.items() if name != "hunt" or not other}
     words = f" with all that it kept but its events: {'; '.join(other)}" if other else ""
     info, values = compiled.info, parameter_values(plan.mechanism, plan.parameters)
     own = compiled.parameter_array(values, plan.method_parameters)[: len(values)]  # others are inputs alone
-    kept = (y[: info.ny].copy(), np.concatenate([own, p[len(values) :]]), w.copy(), last.rank, compiled.redundant(w))
-    return Start(*kept, (_origin(last) + words,), t=last.t, work=last.work_before, saved=arrays)
+    state = (y[: info.ny].copy(), np.concatenate([own, p[len(values) :]]), w.copy(), last.rank, compiled.redundant(w))
+    return Start(*state, (_origin(last) + words,), t=last.t, work=last.work_before, saved=arrays)

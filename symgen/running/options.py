@@ -24,13 +24,13 @@ def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[
     structural: dict[str, str] = {}
     parameters: dict[str, float] = {}
     integrator: dict[str, str] = {}
-    seen = set[tuple[bool, str]]()
+    options = set[tuple[bool, str]]()
     for key, value in s.options.items():
         owner, _, name = key.partition(".")
         one = owner in ("method", base.name), name
-        if one in seen:
+        if one in options:
             raise InputError(f"option {key}", "each option once", f"{name} by two names of its owner")
-        seen.add(one)
+        options.add(one)
         if one[0]:
             if name in numeric:
                 parameters[name] = _number(key, value)
@@ -58,12 +58,12 @@ def _integrator_option(key: str, name: str, value: str | float, integrator: Inte
         return repr(number)
     if integrator.adaptive and name == "adaptive" and str(value).lower() in ("true", "false"):
         return str(value).lower()
-    known = [*numeric, *(("adaptive=true", "adaptive=false") if integrator.adaptive else ())]
+    names = [*numeric, *(("adaptive=true", "adaptive=false") if integrator.adaptive else ())]
     raise InputError(
         f"option {key}",
         f"an option of {integrator.name}",
         f"'{name}={value}'",
-        nearest(name, known) if known else "it has none",
+        nearest(name, names) if names else "it has none",
     )
 
 

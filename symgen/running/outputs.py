@@ -48,15 +48,16 @@ def output_times(
     size, (begin, until) = output_size(mechanism), span
     if s.times is not None:
         try:
-            given = np.asarray(s.times, dtype=np.float64)
+            wanted = np.asarray(s.times, dtype=np.float64)
         except (TypeError, ValueError):
             raise InputError("times", "finite, increasing output times", shown(s.times)) from None
-        if given.ndim != 1 or not np.all(np.isfinite(given)) or np.any(np.diff(given) <= 0.0):
+        if wanted.ndim != 1 or not np.all(np.isfinite(wanted)) or np.any(np.diff(wanted) <= 0.0):
             raise InputError("times", "finite, increasing output times", "others")
-        if len(given) and (given[0] < begin * (1.0 - 1e-12) or given[-1] > until * (1.0 + 1e-12)):
-            raise InputError("times", f"output times from {begin:g} to {until:g}", f"{given[0]:g} to {given[-1]:g}")
-        require("times", f"{len(given):.3g} outputs of {mechanism.name}", size * len(given))
-        return np.clip(given, begin, until)  # a multiple of a step may exceed the end by rounding
+        if len(wanted) and (wanted[0] < begin * (1.0 - 1e-12) or wanted[-1] > until * (1.0 + 1e-12)):
+            got = f"{wanted[0]:g} to {wanted[-1]:g}"
+            raise InputError("times", f"output times from {begin:g} to {until:g}", got)
+        require("times", f"{len(wanted):.3g} outputs of {mechanism.name}", size * len(wanted))
+        return np.clip(wanted, begin, until)  # a multiple of a step may exceed the end by rounding
     every = s.output_step if s.output_step is not None else mechanism.defaults.output_step
     if every is None:
         if adaptive:
@@ -64,8 +65,8 @@ def output_times(
             return np.linspace(begin, until, DEFAULT_OUTPUTS)
         assert step is not None, "a constant step is given"
         every = step
-    found = multiples(every, until, size)
-    return found if begin == 0.0 else np.concatenate([[begin], found[found > begin + 1e-9 * every]])
+    times = multiples(every, until, size)
+    return times if begin == 0.0 else np.concatenate([[begin], times[times > begin + 1e-9 * every]])
 
 
 def output_size(mechanism: Mechanism, saved: bool = False) -> float:

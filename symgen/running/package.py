@@ -89,7 +89,7 @@ def write_package(
     mechanism = msgspec.structs.replace(mechanism, outputs=())
     names = tuple(dict.fromkeys(METHODS.canonical(name, "--method") for name in methods or METHODS.names))
     own = _options_of(names, options)
-    chosen = [choose_method(name, given) for name, given in own.items()]
+    chosen = [choose_method(name, values) for name, values in own.items()]
     if not methods and mechanism.has_massless:
         chosen = [choice for choice in chosen if not choice.method.needs_regular_mass(choice.options)]
     coordinates = choose_coordinates(mechanism, coordinates, shape if target == "cpu" else "looped").name
@@ -125,10 +125,10 @@ def _options_of(names: Sequence[str], options: Mapping[str, str]) -> dict[str, d
         owner, _, name = key.partition(".")
         if owner not in own and not (owner == "method" and len(own) == 1):
             raise InputError(f"--option {key}", f"METHOD.NAME with one of {', '.join(own)}", f"'{key}'")
-        given = own[names[0] if owner == "method" else owner]
-        if name in given:
+        of_owner = own[names[0] if owner == "method" else owner]
+        if name in of_owner:
             raise InputError(f"--option {key}", "each option once", f"{name} twice")
-        given[name] = value
+        of_owner[name] = value
     return own
 
 
@@ -141,14 +141,14 @@ def _plan(mechanism: Mechanism, name: str, options: Mapping[str, str], coordinat
 
 def _by_method(modules: Modules, choices: Sequence[MethodChoice], suffix: str) -> tuple[Modules, list[str]]:
     """Return modules with those of laws named by their method alone, and these names."""
-    found, laws = dict(modules), [f"{_stem(choice)}{suffix}" for choice in choices]
-    _, tables = found.pop("mechanism", ("", {}))
+    result, laws = dict(modules), [f"{_stem(choice)}{suffix}" for choice in choices]
+    _, tables = result.pop("mechanism", ("", {}))
     for choice, law in zip(choices, laws, strict=True):
         looped = f"law_{choice.method.stem(choice.options)}"
-        source, info = found.pop(looped if tables else f"{choice.stem}{suffix}")
+        source, info = result.pop(looped if tables else f"{choice.stem}{suffix}")
         of_law = tables.get(f"{looped}_implicit" if choice.implicit else looped, {})
-        found[law] = source, {**info, **({"tables": of_law} if of_law else {})}
-    return found, laws
+        result[law] = source, {**info, **({"tables": of_law} if of_law else {})}
+    return result, laws
 
 
 def _stem(choice: MethodChoice) -> str:
@@ -210,8 +210,8 @@ def _metadata(modules: Modules, laws: Sequence[str], run: Mapping[str, Any] | No
     """Return what programs have to know of modules, and the start of a run, as JSON with short lists in one line."""
     others = {stem: info for stem, (_, info) in modules.items() if stem not in laws and info}
     model = next((others.pop(stem) for stem in list(others) if stem.startswith("model")), {"kernels": others})
-    found = {**model, "methods": {stem: modules[stem][1] for stem in laws}, **({"run": run} if run else {})}
-    text = json.dumps(found, allow_nan=False, indent=1)
+    content = {**model, "methods": {stem: modules[stem][1] for stem in laws}, **({"run": run} if run else {})}
+    text = json.dumps(content, allow_nan=False, indent=1)
     for innermost in (r"\{[^\[\]{}]*\}", r"\[[^\[\]{}]*\]"):
         text = re.sub(innermost, lambda match: re.sub(r"\s*\n\s*", " ", match[0]), text)
     return text + "\n"

@@ -297,8 +297,8 @@ def _refuse_other(mechanism: Mechanism, last: LastState) -> None:
 
 def _shape(s: Settings, last: LastState | None) -> str:
     """Return the shape of the settings; a run that goes on from another keeps that one's unless a shape is given."""
-    kept = {} if last is None or last.made is None else last.made
-    return str(kept.get("shape", s.shape)) if s.shape == "auto" else s.shape
+    before = {} if last is None or last.made is None else last.made
+    return str(before.get("shape", s.shape)) if s.shape == "auto" else s.shape
 
 
 def events_of_run(mechanism: Mechanism, s: Settings) -> tuple[Event, ...]:

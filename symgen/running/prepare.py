@@ -214,14 +214,11 @@ def begin(plan: Plan, assembled: Assembled) -> Prepared:
     """Return a run from its plan, its code and its start, which runs with an equal `Plan.key` may share."""
     start = replace(assembled.start, notes=(*plan.notes, *plan.bound, *assembled.start.notes))
     run = Prepared(plan, replace(assembled, start=start), plan.spec)
-    return run if plan.purpose is Purpose.STATE else replace(run, spec=_watching(run))
-
-
-def _watching(run: Prepared) -> RunSpec:
-    """Return what a run is to do, with the functions of its events and of the switches that steps end at."""
+    if plan.purpose is Purpose.STATE:
+        return run
     from symgen.compiling.events import compile_events
 
-    plan, values = run.plan, parameter_values(run.mechanism, run.plan.parameters)
-    rtol = plan.spec.rtol if plan.spec.adaptive else None
-    events = compile_events(run.mechanism, run.compiled, plan.events, values, rtol)
-    return replace(plan.spec, stops=plan.stops, events=events)
+    values, rtol = parameter_values(run.mechanism, plan.parameters), plan.spec.rtol if plan.spec.adaptive else None
+    return run.with_spec(
+        stops=plan.stops, events=compile_events(run.mechanism, run.compiled, plan.events, values, rtol)
+    )

@@ -116,8 +116,8 @@ def held_of(info: ModelInfo, holds: Sequence[Hold], numbers: Scalars, v: Sequenc
         elif name in coordinates:
             values[coordinates[name]] = float(value or 0.0)
         elif name in velocities:
-            given = v[velocities[name]] if value is None else value
-            speeds[velocities[name]] = float(given or 0.0)
+            speed = v[velocities[name]] if value is None else value
+            speeds[velocities[name]] = float(speed or 0.0)
         elif name in spins:
             fixed += range(spins[name], spins[name] + 3)
         else:
@@ -144,14 +144,14 @@ def begun(plan: Plan, near: NDArray[np.float64] | None = None) -> tuple[Compiled
     near : array, optional
         Coordinates that the mechanism is closed from.
     """
-    given = plan.parameters, plan.method_parameters, plan.settings.strict
+    settings = plan.parameters, plan.method_parameters, plan.settings.strict
 
     def close(compiled: CompiledModel, ask_light: bool) -> Start:
-        return start_of(plan.mechanism, compiled, *given, plan.holds, ask_light, near)
+        return start_of(plan.mechanism, compiled, *settings, plan.holds, ask_light, near)
 
-    asked = compiled_for(plan.mechanism, plan.choice)
-    compiled, start = closed_by(plan, asked, close)
-    if compiled is asked:
+    usual = compiled_for(plan.mechanism, plan.choice)
+    compiled, start = closed_by(plan, usual, close)
+    if compiled is usual:
         return compiled, start
     note = "light bodies make D M^-1 D^T nearly singular: accelerations are solved with M + W D^T D"
     return compiled, replace(start, notes=(*start.notes, note))

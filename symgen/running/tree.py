@@ -19,15 +19,15 @@ from symgen.compiling.carrying import carrying_of
 from symgen.compiling.choices import on_tree
 from symgen.describe.mechanism import Topology
 from symgen.describe.topology import known_coordinates
+from symgen.errors import InputError
 from symgen.lower.windings import winding_order
 from symgen.running.continuation import choice_after, taken_up
 from symgen.running.starts import compiled_for
 from symgen.runtime import abi
-from symgen.runtime.assembler import Assembly
+from symgen.runtime.assembler import ALONE, Assembly, one_row
 from symgen.runtime.assembly import Start
 from symgen.runtime.outcome import Outcome
 from symgen.runtime.probe import Ready
-from symgen.runtime.start_records import Instant
 from symgen.runtime.start_words import turned_over
 from symgen.runtime.tree_start import TURNED_OVER, Carried
 
@@ -38,11 +38,15 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Happening, Watched
     from symgen.runtime.last_state import LastState
+    from symgen.runtime.records import State
+    from symgen.runtime.resets import Impact
 
 Array = NDArray[np.float64]
 
 #: What both descriptions of a motion measure alike, taken over from the run.
 _SCALES = (abi.LENGTH, abi.SPEED, abi.MEAN_MASS)
+#: Places of bodies after a change of parameters, beside their size or that of the mechanism: what is rounding.
+MOVED = 1e-12
 
 #: What is kept of bodies for a run that goes on: state, parameters, scratch, and the rank at the start of the tree.
 _BODIES = ("body_y", "body_p", "body_w", "tree_rank")
@@ -128,48 +132,41 @@ class TreeRun:
 
     def _happened(self, outcome: Outcome) -> tuple[Happening, ...]:
         """Return the events of a run as those of bodies; the impulses of resets are those of all rows of these."""
-        found: list[Happening] = []
-        struck = dict[int, tuple[Array, Array]]()
+        result: list[Happening] = []
+        impacts: dict[int, Impact] = {}
         numbers = {event.name: i for i, event in enumerate(self.events)}
         watched = None
         for event in outcome.happened:
             p = next((own for until, own in outcome.held if event.t <= until), outcome.p)
-            state = self._of_bodies(event.t, event.state, p)
-            if event.after is None or event.impulses is None:
-                found.append(replace(event, state=state))
-                continue
-            if watched is None:
-                watched = self._of_run(p)
-            if id(event.impulses) not in struck:  # resets at the same time share what they do
-                together = [numbers[x.name] for x in outcome.happened if x.impulses is event.impulses]
-                struck[id(event.impulses)] = self._struck(watched, together, event, state, p)
-            after, impulses = struck[id(event.impulses)]
-            found.append(replace(event, state=state, after=after, impulses=impulses))
-        return tuple(found)
+            state, impact = self._of_bodies(event.t, event.state, p), event.impact
+            if impact is not None:
+                watched = watched or self._of_run(p)
+                if id(impact) not in impacts:  # resets at the same time share what they do
+                    together = [numbers[x.name] for x in outcome.happened if x.impact is impact]
+                    impacts[id(impact)] = self._impact(watched, together, event, impact.v, state, p)
+                impact = impacts[id(impact)]
+            result.append(replace(event, state=state, impact=impact))
+        return tuple(result)
 
     def _of_run(self, p: Array) -> Watched:
         """Return the events as bodies have them, with the masses of some parameters."""
         from symgen.compiling.events import compile_events, masses_of
 
         values = dict(zip((x.name for x in self.bodies.info.parameters), p.tolist(), strict=False))
-        if self.watched is None:
-            found = compile_events(self.whole, self.bodies, self.events, values)
-        else:
-            found = self.watched()
-        assert found is not None, "there are events"
-        return replace(found, masses=masses_of(self.whole, values))
+        watched = self.watched() if self.watched else compile_events(self.whole, self.bodies, self.events, values)
+        assert watched is not None, "there are events"
+        return replace(watched, masses=masses_of(self.whole, values))
 
-    def _struck(
-        self, watched: Watched, numbers: Sequence[int], event: Happening, state: Array, p: Array
-    ) -> tuple[Array, Array]:
-        """Return velocities of bodies after a reset, and the impulses of their rows and of what was given."""
-        assert event.after is not None, "it is a reset"
+    def _impact(
+        self, watched: Watched, numbers: Sequence[int], event: Happening, after: Array, state: Array, p: Array
+    ) -> Impact:
+        """Return what resets do to bodies in a state, where joints have some velocities afterwards."""
         own, info = self.compiled.info, self.bodies.info
-        after = self._of_bodies(event.t, np.concatenate([event.state[: own.nq], event.after]), p)[info.nq :]
+        v = self._of_bodies(event.t, np.concatenate([event.state[: own.nq], after]), p)[info.nq :]
         y = np.zeros(info.ny)
         y[: info.work] = state
         blow = watched.impact(self.bodies, numbers, event.t, y, self._parameters(p), self.body_start.w.copy())
-        return after, blow.impulses
+        return replace(blow, v=v)
 
     def _parameters(self, numbers: Array) -> Array:
         """Return the parameters of a piece of the run as the code for bodies takes them, prepared."""
@@ -185,44 +182,68 @@ class TreeRun:
     def _signs(self) -> Array:
         """What makes the Euler parameters of bodies, of two signs, go on from those of the start: 1 or -1 each."""
         info = self.bodies.info
-        found, signs = self._raw(self.start.t, self.start.y, self.start.p), np.ones(info.nq)
+        here, signs = self.bodies_at(self.start.t, self.start.y, self.start.p, self.start.w), np.ones(info.nq)
         for first, _ in info.spins:
-            if found[first : first + 4] @ self.body_start.y[first : first + 4] < 0.0:
+            if here[first : first + 4] @ self.body_start.y[first : first + 4] < 0.0:
                 signs[first : first + 4] = -1.0
         return signs
 
     def _moving(self, outcome: Outcome) -> Array:
         info = self.bodies.info
-        found = outcome.observed(self.compiled.model.bodies, info.nq + 2 * info.nv)
-        found[:, : info.nq] *= self._signs
-        return found
+        motion = outcome.observed(self.compiled.model.bodies, info.nq + 2 * info.nv)
+        motion[:, : info.nq] *= self._signs
+        return motion
 
     def _of_bodies(self, t: float, y: Array, p: Array) -> Array:
         """Return coordinates and velocities of bodies at one state."""
-        found = self._raw(t, y, p)
-        found[: self.bodies.info.nq] *= self._signs
-        return found
+        state = self.bodies_at(t, y, p, self.start.w)
+        state[: self.bodies.info.nq] *= self._signs
+        return state
 
-    def _raw(self, t: float, y: Array, p: Array) -> Array:
+    def bodies_at(self, t: float, y: Array, p: Array, w: Array) -> Array:
+        """Return coordinates and velocities of bodies at one state of joints."""
         own, info = self.compiled.info, self.bodies.info
         state, out = np.zeros(own.ny), np.zeros(info.nq + 2 * info.nv)
         state[: own.work] = y[: own.work]
-        observe = Ready(self.compiled.model.bodies, abi.OBSERVE)
-        observe(t, state, p, self.start.w.copy(), np.zeros(own.ny), out)
+        Ready(self.compiled.model.bodies, abi.OBSERVE)(t, state, p, w.copy(), np.zeros(own.ny), out)
         return out[: info.nq + info.nv]
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the coordinates and velocities of bodies."""
+        return [x.name for x in (*self.bodies.info.coordinates, *self.bodies.info.velocities)]
+
+    def refuse_moves(self, t: float, state: State, p: Array) -> None:
+        """Refuse parameters that move bodies at a state: joints of the tree hold wherever they are.
+
+        Raises
+        ------
+        InputError
+            If they do.
+        """
+        numbers = state.p.copy()
+        numbers[: len(p)] = p
+        with np.errstate(all="ignore"):
+            self.compiled.prepare(numbers)
+            before, after = (self.bodies_at(t, state.y, x, state.w) for x in (state.p, numbers))
+        by = np.abs(after - before) / np.maximum(np.abs(before), float(state.w[abi.LENGTH]))
+        if not by.max(initial=0.0) <= MOVED:
+            name = self.names[int(np.argmax(np.where(np.isfinite(by), by, np.inf)))]
+            expected = "parameters that leave the position of every joint as it is"
+            raise InputError("set", expected, f"some that move {name}", "start anew for another geometry")
 
     def _turns(self, states: Array, windings: Array) -> list[Array]:
         """Return the angles that count turns as the code for bodies remembers them, at the outputs."""
-        known = known_coordinates(self.mechanism, self.topology)
+        coordinates = known_coordinates(self.mechanism, self.topology)
         own = {m: i for i, m in enumerate(winding_order(self.mechanism, "straight"))}
-        found = list[Array]()
+        turns = list[Array]()
         for measure in winding_order(self.whole, self.bodies.shape):
-            if measure in known:
-                i, _, sign = known[measure]
-                found.append(sign * states[:, i])
+            if measure in coordinates:
+                i, _, sign = coordinates[measure]
+                turns.append(sign * states[:, i])
             else:
-                found.append(windings[:, own[measure]])
-        return found
+                turns.append(windings[:, own[measure]])
+        return turns
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -333,14 +354,14 @@ def begin_on_tree(
     bodies, compiled = carried.bodies, carried.assembly.compiled
     names = (x.name for x in bodies.info.parameters)
     p = compiled.parameter_array(dict(zip(names, start.p, strict=False)), method_parameters)
-    now = Instant(np.zeros(compiled.info.ny), p, compiled.scratch())
-    over = np.flatnonzero(np.abs(carried.settle(Instant(start.y, start.p, start.w), now)) < TURNED_OVER)
-    now.y[compiled.info.work :] = start.y[bodies.info.work :]
+    y, w = np.zeros(compiled.info.ny), compiled.scratch()
+    alike = carried.settle(one_row(start.y, start.p, start.w), one_row(y, p, w), *ALONE)[0]
+    over = np.flatnonzero(np.abs(alike) < TURNED_OVER)
+    y[compiled.info.work :] = start.y[bodies.info.work :]
     notes = start.notes, start.changes, start.light, start.warnings
-    rank, redundant = compiled.rank(now.w), compiled.redundant(now.w)
-    found = Start(now.y, p, now.w, rank, redundant, *notes, t=start.t, work=start.work)
+    own = Start(y, p, w, compiled.rank(w), compiled.redundant(w), *notes, t=start.t, work=start.work)
     first = int(over[0]) if len(over) else -1
-    return TreeRun(whole, mechanism, compiled, found, bodies, start, events, watched, first)
+    return TreeRun(whole, mechanism, compiled, own, bodies, start, events, watched, first)
 
 
 def tree_taken_up(plan: Plan, last: LastState) -> TreeRun | None:

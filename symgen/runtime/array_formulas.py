@@ -62,8 +62,8 @@ class Columns:
         if function not in _OPERATORS:
             work_out = np.frompyfunc(partial(_number, work_out), len(arguments), 1)
         with np.errstate(all="ignore"):
-            found = np.asarray(work_out(*arguments), dtype=np.float64)
-        return np.where(np.isfinite(found), found, np.nan)
+            values = np.asarray(work_out(*arguments), dtype=np.float64)
+        return np.where(np.isfinite(values), values, np.nan)
 
     def above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
         """Return `x`, nan where it is not above a limit."""
@@ -75,8 +75,8 @@ def _joined(deciding: bool, a: Any, b: Any) -> Any:
     values = np.asarray([*np.broadcast_arrays(a, b)], dtype=np.float64)
     undefined = np.isnan(values)
     decided = (~undefined & ((values != 0.0) == deciding)).any(axis=0)
-    found = np.where(decided, float(deciding), np.where(undefined.any(axis=0), np.nan, float(not deciding)))
-    return found if _varies((a, b)) else float(found)
+    result = np.where(decided, float(deciding), np.where(undefined.any(axis=0), np.nan, float(not deciding)))
+    return result if _varies((a, b)) else float(result)
 
 
 def _varies(arguments: Iterable[Any]) -> bool:
@@ -88,7 +88,7 @@ def _number(function: Callable[..., Any], *arguments: float) -> float:
     if any(a != a for a in arguments):
         return math.nan
     try:
-        found = function(*arguments)
+        value = function(*arguments)
     except (ArithmeticError, ValueError):
         return math.nan
-    return found if isinstance(found, float) and math.isfinite(found) else math.nan
+    return value if isinstance(value, float) and math.isfinite(value) else math.nan

@@ -13,22 +13,25 @@ from numpy.typing import NDArray
 
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
+from symgen.runtime import start_solvers as solvers
 from symgen.runtime.exact import compiled_form, plain_form
 from symgen.runtime.held import Held
 from symgen.runtime.joint_starts import Joints, joints_held
-from symgen.runtime.least_norm import dense_change, iterated_change, sparse_change
 from symgen.runtime.manifold import stay
 from symgen.runtime.model_arrays import entries_of, joints_of, lengths_of, spins_of, velocity_of
 from symgen.runtime.probe import Ready
 from symgen.runtime.start_records import Instant, Layout, StartConditions, Work, new_work
-from symgen.runtime.starting import close_row, close_rows, follow_nothing, observe_nothing, prepare_rows
-from symgen.runtime.turning import choose_no_turns, choose_turns
+from symgen.runtime.starting import close_rows, follow_nothing, observe_nothing, prepare_rows
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
+#: Compiled, or plain Python: see `symgen.runtime.exact`.
+Form = Callable[[Any], Any]
+#: The only row of one start, which nobody stops.
+ALONE = np.zeros(1, dtype=np.int64), np.zeros(e.N_CONTROL, dtype=np.int64)
 
 
 def layout_of(compiled: CompiledModel) -> Layout:
@@ -55,6 +58,11 @@ def layout_of(compiled: CompiledModel) -> Layout:
 def _marked(those: Sequence[int], count: int) -> Integers:
     """Return 1 where a number up to `count` is one of those, else 0."""
     return np.isin(np.arange(count), those).astype(np.int64)
+
+
+def one_row(y: Array, p: Array, w: Array) -> Instant:
+    """Return the arrays of one start as those of many that are one."""
+    return Instant(y[np.newaxis], p[np.newaxis], w[np.newaxis])
 
 
 @dataclass(frozen=True)
@@ -105,7 +113,7 @@ class Assembly:
         return joints, new_work(largest, len(scratch))
 
     def close(self, y: Array, v: Array, p: Array) -> tuple[Array, Array]:
-        """Make a state consistent, in place, with all that is held at its values; return scratch and what is told.
+        """Make one state consistent, in place, with all that is held at its values; return scratch and summary.
 
         Parameters
         ----------
@@ -116,20 +124,20 @@ class Assembly:
         p : Array
             Parameters.
         """
-        held, given = self.held, v.copy()
-        given[list(held.velocities)] = list(held.velocities.values())
-        targets = [*held.coordinates.values(), *held.joints.values(), *held.rates.values()]
-        asked = StartConditions(given, np.array(targets, dtype=np.float64), np.zeros(e.N_SUMMARY))
-        now = Instant(y, p, self.compiled.scratch())
-        self.close_one(now, asked)
-        return now.w, asked.summary
+        held, velocities = self.held, v.copy()
+        velocities[list(held.velocities)] = list(held.velocities.values())
+        targets = np.array([*held.coordinates.values(), *held.joints.values(), *held.rates.values()], dtype=np.float64)
+        now = one_row(y, p, self.compiled.scratch())
+        conditions = StartConditions(*one_row(velocities, targets, np.zeros(e.N_SUMMARY)))
+        self.close_all(now, conditions, *ALONE)
+        return now.w[0], conditions.summary[0]
 
-    def close_all(self, now: Instant, asked: StartConditions, selected: Integers, control: Integers) -> int:
-        """Make the selected rows consistent, in compiled code.
+    def close_all(self, now: Instant, conditions: StartConditions, selected: Integers, control: Integers) -> int:
+        """Make the selected rows consistent.
 
         Parameters
         ----------
-        now, asked : Instant, Asked
+        now, conditions : Instant, StartConditions
             Of all rows, one row of a matrix for each: described coordinates, and parameters not yet prepared.
         selected, control : Array of int
             Rows to work on; what the watching thread shares.
@@ -139,49 +147,48 @@ class Assembly:
         int
             Rows that were worked on.
         """
-        flat = Instant(*(array.ravel() for array in now))
-        self.prepare_all(flat, len(now.y), selected)
-        *functions, observe = (compiled_form(f) for f in self.own)
         joints, work = self.memory()
-        of_model, start = ((self.layout, *functions), observe, joints), compiled_form(close_rows)
-        done = int(start(of_model, flat, StartConditions(*(array.ravel() for array in asked)), work, selected, control))
-        self._judge(now.w, asked.summary)
+        flat, (*functions, observe), form = self.prepare(now, selected, len(work.right))
+        model, all_conditions = ((self.layout, *functions), observe, joints), (array.ravel() for array in conditions)
+        done = len(selected)
+        with np.errstate(all="ignore"):  # undefined numbers are nan or infinite in compiled code, without a warning
+            try:
+                done = int(form(close_rows)(model, flat, StartConditions(*all_conditions), work, selected, control))
+            except (ArithmeticError, ValueError):  # of one row, where nothing is compiled
+                conditions.summary[:, e.START] = e.UNDEFINED
+        self._judge(now.w, conditions.summary)
         return done
 
-    def prepare_all(self, flat: Instant, runs: int, selected: Integers) -> None:
-        """Fill parameters, masses and the rest of the scratch of the selected ones of many rows, in compiled code."""
-        model, law = self.compiled.model, self.compiled.law_module
-        functions = model.prepare, law.prepare, model.masses
-        compiled_form(prepare_rows)(*functions, self.compiled.scratch(), flat.p, flat.w, runs, selected)
+    def prepare(self, now: Instant, selected: Integers, m: int) -> tuple[Instant, tuple[Any, ...], Form]:
+        """Fill parameters, masses and the rest of the scratch of the selected rows; nan where they are not defined.
 
-    def close_one(self, now: Instant, asked: StartConditions) -> int:
-        """Make one start consistent, in place; return `symgen.runtime.ensemble_abi.ASSEMBLED` or why there is none."""
-        joints, work = self.memory()
-        with np.errstate(all="ignore"):  # undefined numbers are nan or infinite in compiled code, without a warning
-            self.prepare(now)
-            (*of_model, observe), form = self.functions(len(work.right))
+        Returns
+        -------
+        flat : Instant
+            The same arrays, one row behind the other.
+        functions : tuple
+            Those in `own`.
+        form : callable
+            The form of functions: plain Python for one start of up to so many rows of D, `m`, else compiled.
+        """
+        flat, model, law = Instant(*(array.ravel() for array in now)), self.compiled.model, self.compiled.law_module
+        if len(now.y) == 1:
+            flat.w[:] = self.compiled.scratch()
             try:
-                form(close_row)(((self.layout, *of_model), observe, joints), now, asked, work)
-            except (ArithmeticError, ValueError):
-                asked.summary[e.START] = e.UNDEFINED
-        self._judge(now.w[np.newaxis], asked.summary[np.newaxis])
-        return int(asked.summary[e.START])
-
-    def functions(self, m: int) -> tuple[tuple[Any, ...], Callable[[Any], Any]]:
-        """Return `own` for one start, and the form of functions then: plain Python for up to so many rows, or not."""
-        n, kinds = self.layout.nv, (abi.MEASURE, abi.MEASURE, abi.MOVE, None, None, None, abi.RHS, abi.OBSERVE)
-        if self.layout.sparse or m * n * min(m, n) > decisions.LARGEST_INTERPRETED:
-            return tuple(compiled_form(f) for f in self.own), compiled_form
+                with np.errstate(all="ignore"):
+                    self.compiled.prepare(flat.p)
+                    Ready(model.masses, abi.MOVE)(flat.p, flat.w)
+            except (ArithmeticError, ValueError):  # errors where nothing is compiled
+                flat.p[:] = np.nan
+        else:
+            functions = model.prepare, law.prepare, model.masses
+            compiled_form(prepare_rows)(*functions, self.compiled.scratch(), flat.p, flat.w, len(now.y), selected)
+        n = self.layout.nv
+        if len(now.y) > 1 or self.layout.sparse or m * n * min(m, n) > decisions.LARGEST_INTERPRETED:
+            return flat, tuple(compiled_form(f) for f in self.own), compiled_form
+        kinds = abi.MEASURE, abi.MEASURE, abi.MOVE, None, None, None, abi.RHS, abi.OBSERVE
         plain = zip(map(plain_form, self.own), kinds, strict=True)
-        return tuple(f if kind is None else Ready(f, kind) for f, kind in plain), plain_form
-
-    def prepare(self, now: Instant) -> None:
-        """Fill parameters and masses of one start; nan where they are not defined."""
-        try:
-            self.compiled.prepare(now.p)
-            Ready(self.compiled.model.masses, abi.MOVE)(now.p, now.w)
-        except (ArithmeticError, ValueError):  # errors where nothing is compiled
-            now.p[:] = np.nan
+        return flat, tuple(f if kind is None else Ready(f, kind) for f, kind in plain), plain_form
 
     def _judge(self, ws: Array, summaries: Array) -> None:
         """Name the joint that stays open most; refuse starts that were changed, where that is asked for."""
@@ -209,8 +216,8 @@ class Assembly:
             model.measure if layout.windings else follow_nothing,
             model.move if layout.nq != layout.nv else stay,
             model.spread if layout.sparse else stay,
-            (iterated_change if held else sparse_change) if layout.sparse else dense_change,
-            choose_turns if layout.windings else choose_no_turns,
+            (solvers.iterated_change if held else solvers.sparse_change) if layout.sparse else solvers.dense_change,
+            solvers.choose_turns if layout.windings else solvers.choose_no_turns,
             law.rhs,
             model.observe if held else observe_nothing,
         )

@@ -74,8 +74,8 @@ class Start:
     saved: Mapping[str, NDArray[Any]] | None = None
 
     def __repr__(self) -> str:
-        told = f", {len(self.warnings)} warnings" if self.warnings else ""
-        return f"<Start at {self.t:g} s: {len(self.y)} numbers of the state, rank {self.rank}{told}>"
+        warnings = f", {len(self.warnings)} warnings" if self.warnings else ""
+        return f"<Start at {self.t:g} s: {len(self.y)} numbers of the state, rank {self.rank}{warnings}>"
 
 
 def state_scales(compiled: CompiledModel, w: Array, until: float) -> Array:
@@ -148,14 +148,14 @@ def assemble(
     fixed = held or Held()
     info, start = compiled.info, Assembly(compiled, fixed, strict, ask_light, *instant)
     y = _described(info, q)
-    given = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
-    w, summary = start.close(y, given, p)
+    velocities = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
+    w, summary = start.close(y, velocities, p)
     if summary[e.START] != e.ASSEMBLED:
         error = without_derivative(compiled, q, p) or refusal(summary, info, fixed)
         reached = y[: info.nq] if np.all(np.isfinite(y[: info.nq])) else q
         raise error.stopped_at(reached.tolist()) if isinstance(error, AssemblyError) else error
-    given[list(fixed.velocities)] = list(fixed.velocities.values())
-    changes = changes_of(info, np.concatenate([q, given]), y, state_scales(compiled, w, math.inf))
+    velocities[list(fixed.velocities)] = list(fixed.velocities.values())
+    changes = changes_of(info, np.concatenate([q, velocities]), y, state_scales(compiled, w, math.inf))
     return Start(
         *(y, p, w, compiled.rank(w), compiled.redundant(w)),
         notes=notes_of(fixed, summary, changes, info),
@@ -184,20 +184,16 @@ def moved_far(
     moved : callable, optional
         As for `assemble`.
     """
-    info = start.compiled.info
-    if not changes or _asked_far(start, q, p, w):
+    info, held, length = start.compiled.info, start.held, float(w[abi.LENGTH])
+    if not changes:
         return ()
-    return warnings_of(changes, info, float(w[abi.LENGTH]), moved(q, y[: info.nq]) if moved else ())
-
-
-def _asked_far(start: Assembly, q: Array, p: Array, w: Array) -> bool:
-    """Whether positions were asked for that are far from the described ones, so that others have to follow."""
-    info, held, y = start.compiled.info, start.held, _described(start.compiled.info, q)
-    values = joint_values(start.compiled, start.t, y, p, w.copy()) if held.joints else y
-    asked = [(info.coordinates[i].unit, x - q[i]) for i, x in held.coordinates.items()]
-    asked += [(info.joint_coordinates[k].unit, x - values[2 * k]) for k, x in held.joints.items()]
-    limits = {"m": decisions.FAR * float(w[abi.LENGTH]), "rad": decisions.FAR_TURNED}
-    return any(not abs(change) <= limits[unit] for unit, change in asked)
+    values = joint_values(start.compiled, start.t, _described(info, q), p, w.copy()) if held.joints else q
+    distances = [(info.coordinates[i].unit, x - q[i]) for i, x in held.coordinates.items()]
+    distances += [(info.joint_coordinates[k].unit, x - values[2 * k]) for k, x in held.joints.items()]
+    limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED}
+    if any(not abs(distance) <= limits[unit] for unit, distance in distances):
+        return ()  # other positions have to follow
+    return warnings_of(changes, info, length, moved(q, y[: info.nq]) if moved else ())
 
 
 def _described(info: ModelInfo, q: Array) -> Array:

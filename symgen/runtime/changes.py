@@ -102,13 +102,13 @@ class Changes:
             If some formula is not finite with these values. Nothing is changed then.
         """
         state, places = self.simulation.state, self.inputs
-        p, kept = state.p, None
+        p, before = state.p, None
         for name, value in values.items():
             place = places[name]
             if p[place] != value:
-                kept = p.copy() if kept is None else kept
+                before = p.copy() if before is None else before
                 p[place] = value
-        if kept is None:
+        if before is None:
             return False
         try:
             with np.errstate(all="ignore"):
@@ -116,7 +116,7 @@ class Changes:
             if not np.isfinite(p).all():
                 raise InputError("inputs", "values for which every formula is finite", "others")
         except BaseException:
-            p[:] = kept
+            p[:] = before
             raise
         if state.control[abi.BEGUN] == 1:
             state.control[abi.BEGUN] = abi.AFRESH
@@ -141,7 +141,7 @@ class Changes:
         """
         simulation, state = self.simulation, self.simulation.state
         front = simulation.snapshot.front
-        kept, events = front.copy(), state.events.copy() if state.control[abi.EVENTS] > 0 else None
+        before, events = front.copy(), state.events.copy() if state.control[abi.EVENTS] > 0 else None
         try:
             with np.errstate(all="ignore"):
                 self._check(p)
@@ -149,7 +149,7 @@ class Changes:
             if code != abi.DONE:
                 raise InputError("set", "parameters with which the run can go on", abi.REASONS[code])
         except BaseException:
-            front[:] = kept
+            front[:] = before
             if events is not None:
                 state.events[:] = events
             raise

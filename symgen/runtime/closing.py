@@ -16,7 +16,6 @@ from symgen.runtime.bare import part
 from symgen.runtime.decisions import is_dependent, is_poor
 from symgen.runtime.exact import exact
 from symgen.runtime.joint_starts import fill_further
-from symgen.runtime.least_norm import multiply
 from symgen.runtime.redundancy import choose_rows, farthest
 from symgen.runtime.scales import (
     VANISHED,
@@ -30,6 +29,7 @@ from symgen.runtime.scales import (
     weigh_rows,
 )
 from symgen.runtime.start_records import Instant
+from symgen.runtime.start_solvers import multiply
 
 
 @exact()

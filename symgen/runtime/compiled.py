@@ -121,8 +121,8 @@ class CompiledModel(ABC):
 
     def __repr__(self) -> str:
         info = self.info
-        told = f"{info.nq} coordinates, {info.nv} velocities, {info.m} rows"
-        return f"<CompiledModel {info.name}, {self.law.key}, {self.shape}: {told}>"
+        sizes = f"{info.nq} coordinates, {info.nv} velocities, {info.m} rows"
+        return f"<CompiledModel {info.name}, {self.law.key}, {self.shape}: {sizes}>"
 
     @abstractmethod
     def scratch(self) -> Array:

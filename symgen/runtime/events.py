@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from symgen.describe.events import RECORD, RESET, STOP
 from symgen.runtime import abi, hunting
 from symgen.runtime import search_records as searching
-from symgen.runtime.rebounds import are_lost
-from symgen.runtime.resets import Impact, Masses, Reset, impact_of
+from symgen.runtime.resets import Impact, Masses, Reset, are_lost, impact_of
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo
@@ -135,23 +134,17 @@ class Happening:
         Of the event.
     state : Array, shape (nq + nv,)
         Coordinates and velocities, before they change.
-    after : Array, shape (nv,), or None
-        Velocities after a reset.
-    impulses : Array, or None
-        Of each row of D, then of each velocity that was given a value.
-    given : tuple of str
-        These velocities.
+    impact : Impact or None
+        What a reset has done; resets at the same time share it.
     energy : float
-        What the reset adds to the energy [J].
+        What the reset adds to the energy [J]; resets at the same time are one, whose energy the first of them has.
     """
 
     t: float
     name: str
     action: str
     state: Array
-    after: Array | None = None
-    impulses: Array | None = None
-    given: tuple[str, ...] = ()
+    impact: Impact | None = None
     energy: float = 0.0
 
 
@@ -187,22 +180,22 @@ class Events:
 
     def take(self, state: hunting.HuntingState) -> list[tuple[int, Happening]]:
         """Return what a loop has noted since it was last asked, with numbers of events, and remember it."""
-        info, found = self.compiled.info, []
-        for t, number, y in hunting.taken_notes(state.hunt, len(state.y), len(state.w)):
-            action = self.watched.actions[number]
-            event = Happening(t, self.watched.names[number], action, y[: info.nq + info.nv])
-            found.append((number, event))
-            self.happened.append(event)
-        return found
+        names, actions, size = self.watched.names, self.watched.actions, self.compiled.info.work
+        events = [
+            (number, Happening(t, names[number], actions[number], y[:size]))
+            for t, number, y in hunting.taken_notes(state.hunt, len(state.y), len(state.w))
+        ]
+        self.happened += (event for _, event in events)
+        return events
 
-    def meet(self, state: hunting.HuntingState, found: Sequence[tuple[int, Happening]]) -> int:
+    def meet(self, state: hunting.HuntingState, events: Sequence[tuple[int, Happening]]) -> int:
         """Do what the events ask for that a loop was left at; return `DONE` where it may be entered again.
 
         Parameters
         ----------
         state : State
             At the events; changed by resets.
-        found : sequence of (int, Happening)
+        events : sequence of (int, Happening)
             From `take`.
 
         Raises
@@ -211,7 +204,7 @@ class Events:
             If a reset asks for velocities that the constraints, or other resets at the same time, do not allow.
         """
         now = float(state.clock[abi.TIME])
-        here = [(number, event) for number, event in found if event.t == now]
+        here = [(number, event) for number, event in events if event.t == now]
         resets = [number for number, event in here if event.action == RESET]
         if resets:
             self._reset(state, resets)
@@ -226,22 +219,19 @@ class Events:
     def _reset(self, state: hunting.HuntingState, numbers: Sequence[int]) -> None:
         info, watched, now = self.compiled.info, self.watched, float(state.clock[abi.TIME])
         y, w = state.y[: info.ny].copy(), state.w.copy()
-        found = watched.impact(self.compiled, numbers, now, y, state.p, w)
-        state.y[info.nq : info.nq + info.nv] = found.v
-        state.y[info.work] += found.energy  # done by the impulses: the balance goes on behind it
-        state.w[abi.KINETIC] += found.energy
+        impact = watched.impact(self.compiled, numbers, now, y, state.p, w)
+        state.y[info.nq : info.nq + info.nv] = impact.v
+        state.y[info.work] += impact.energy  # done by the impulses: the balance goes on behind it
+        state.w[abi.KINETIC] += impact.energy
         state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
         state.clock[abi.ALLOWED] = 0.0
-        names = {watched.names[number] for number in numbers}
-        energy = found.energy
+        names, energy = {watched.names[number] for number in numbers}, impact.energy
         first = len(self.happened)
         while first > 0 and self.happened[first - 1].t == now:
             first -= 1
         for i, event in enumerate(self.happened[first:], first):
             if event.action == RESET and event.name in names:
-                self.happened[i] = replace(
-                    event, after=found.v, impulses=found.impulses, given=found.given, energy=energy
-                )
+                self.happened[i] = replace(event, impact=impact, energy=energy)
                 energy = 0.0
 
     # -- events that accumulate ----------------------------------------------------------------------------------------
@@ -269,18 +259,18 @@ class Events:
 
     def _latest_resets(self, count: int, name: str | None = None) -> Array:
         """Return the last times of resets, of all or of one event, each once: any number of them may stand at one."""
-        found = list[float]()
+        times = list[float]()
         for event in reversed(self.happened):
-            if event.action == RESET and name in (None, event.name) and (not found or event.t != found[-1]):
-                found.append(event.t)
-                if len(found) == count:
+            if event.action == RESET and name in (None, event.name) and (not times or event.t != times[-1]):
+                times.append(event.t)
+                if len(times) == count:
                     break
-        return np.array(found[::-1])
+        return np.array(times[::-1])
 
     def _is_back(self, numbers: Sequence[int], state: hunting.HuntingState) -> bool:
         """Return whether the rebound from a reset is lost in rounding; note that time does not get on from here."""
-        asked = [(number, self.watched.directions[number]) for number in numbers]
-        if not are_lost(self.compiled, self.watched.function, asked, state, self.until):
+        directions = [(number, self.watched.directions[number]) for number in numbers]
+        if not are_lost(self.compiled, self.watched.function, directions, state, self.until):
             return False
         now = float(state.clock[abi.TIME])
         times = [event.t for event in self.happened if event.name == self.watched.names[numbers[0]]][-3:]
@@ -296,15 +286,11 @@ class Events:
         names = {e.name for e in self.happened[-_SHRINKING:] if e.action == RESET}
         return tuple(name for name in self.watched.names if name in names)
 
-    def undefined(self, state: Any, t: float) -> str:
-        """Return why a run ended that met an event whose condition is undefined."""
+    def reason(self, code: int, state: Any, t: float) -> str:
+        """Return why a run ended at a time [s] at which events accumulate, or a condition is undefined."""
+        if code == abi.GATHERED:
+            return gathered(self.recent, self.accumulation or t)
         return undefined(self.watched.names[hunting.undefined_event(state)], t)
-
-    @property
-    def reason(self) -> str:
-        """Why a run ended whose events accumulate."""
-        assert self.accumulation is not None, "events accumulate"
-        return gathered(self.recent, self.accumulation)
 
 
 def _rest(before: float, last: float) -> float:
@@ -315,8 +301,8 @@ def _rest(before: float, last: float) -> float:
 
 def gathered(names: Sequence[str], t: float) -> str:
     """Return why a run ended whose events of some names accumulate at a time [s]."""
-    told = " and ".join(f"'{name}'" for name in names)
-    return f"events of {told} accumulate at t = {t:.13g} s: nothing says how the motion goes on behind that"
+    events = " and ".join(f"'{name}'" for name in names)
+    return f"events of {events} accumulate at t = {t:.13g} s: nothing says how the motion goes on behind that"
 
 
 def undefined(name: str, t: float) -> str:
@@ -377,10 +363,11 @@ def record_of(info: ModelInfo, event: Happening) -> EventRecord:
     """Label an event of a run."""
     q = {c.name: float(x) for c, x in zip(info.coordinates, event.state[: info.nq], strict=True)}
     v = {c.name: float(x) for c, x in zip(info.velocities, event.state[info.nq :], strict=True)}
-    if event.after is None or event.impulses is None:
+    impact = event.impact
+    if impact is None:
         return EventRecord(event.t, event.name, event.action, q, v)
-    after = {c.name: float(x) for c, x in zip(info.velocities, event.after, strict=True)}
-    signs = [-1.0] * info.m + [1.0] * len(event.given)  # D^T lambda stands on the left of the equations of motion
-    names = [*(row.name for row in info.rows), *event.given]
-    impulses = {name: float(s * x) for name, s, x in zip(names, signs, event.impulses, strict=True)}
+    after = {c.name: float(x) for c, x in zip(info.velocities, impact.v, strict=True)}
+    signs = [-1.0] * info.m + [1.0] * len(impact.given)  # D^T lambda stands on the left of the equations of motion
+    names = [*(row.name for row in info.rows), *impact.given]
+    impulses = {name: float(s * x) for name, s, x in zip(names, signs, impact.impulses, strict=True)}
     return EventRecord(event.t, event.name, event.action, q, v, after, impulses, event.energy)

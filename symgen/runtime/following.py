@@ -8,12 +8,13 @@ leads, and a step that would need a far correction is taken in shorter ones, so 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime.bare import bare
 from symgen.runtime.redundancy import FALLEN
+from symgen.runtime.start_records import record_type
 from symgen.store.jit import jit
 
 #: Newton's iteration at one time ends after so many steps; the state that it corrects may be at most this far off, in
@@ -46,89 +47,46 @@ N_COUNTS = 3
 _A, _K, _M, _I8, _F = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.int64, types.float64
 
 
-class Course(NamedTuple):
-    """What the loop has to know of a model.
-
-    Attributes
-    ----------
-    nq, nv, m, ny, windings : int
-        Coordinates, velocities, constraint rows, length of the state, angles whose turns are counted.
-    residual, change, mask, jacobian : int
-        Where these sections of ``w`` begin.
-    masked, rank : int
-        Rows that depend on others for ever, and the rank of D where the position is not singular: as many as there are
-        velocities.
-    tolerance, least : float
-        Of the violation of positions [m], and the shortest step [s].
-    entries, constants : Array
-        D's structural entries, see `symgen.runtime.model_arrays.entries_of`.
-    scale : Array, shape (nv,)
-        What makes numbers of changes: 1 for angles, one over the length of the mechanism for lengths.
-    """
-
-    nq: int
-    nv: int
-    m: int
-    ny: int
-    windings: int
-    residual: int
-    change: int
-    mask: int
-    jacobian: int
-    masked: int
-    rank: int
-    tolerance: float
-    least: float
-    entries: Any
-    constants: Any
-    scale: Any
+#: What the loop has to know of a model.
+#: - nq, nv, m, ny, windings: Coordinates, velocities, constraint rows, length of the state, angles whose turns are
+#:   counted.
+#: - residual, change, mask, jacobian: Where these sections of ``w`` begin.
+#: - masked, rank: Rows that depend on others for ever, and the rank of D where the position is not singular: as many
+#:   as there are velocities.
+#: - tolerance, least: Of the violation of positions [m], and the shortest step [s].
+#: - entries, constants: D's structural entries, see `symgen.runtime.model_arrays.entries_of`.
+#: - scale (shape (nv,)): What makes numbers of changes: 1 for angles, one over the length of the mechanism for
+#:   lengths.
+COURSE = record_type(
+    "Course",
+    __name__,
+    ("nq nv m ny windings", _I8),
+    ("residual change mask jacobian masked rank", _I8),
+    ("tolerance least", _F),
+    ("entries", _K),
+    ("constants scale", _A),
+)
+Course: Any = COURSE.made
 
 
-class Stand(NamedTuple):
-    """Where the loop stands, and room for what it tries.
-
-    Attributes
-    ----------
-    y, a, jerk : Array, shapes (ny,), (nv,), (nv,)
-        State, accelerations, and how these changed in the last step over its length.
-    clock, counts : Array
-        See `TIME` and `AT`, and what stands beside them.
-    trial, rates : Array, shape (ny,)
-        The state that is tried, and its rates.
-    rows : Array
-        What ``observe`` writes.
-    turned : Array, shape (windings,)
-        Angles whose turns are counted, as they are in the accepted state.
-    dense : Array
-        A square D.
-    """
-
-    y: Any
-    a: Any
-    jerk: Any
-    clock: Any
-    counts: Any
-    trial: Any
-    rates: Any
-    rows: Any
-    turned: Any
-    dense: Any
+#: Where the loop stands, and room for what it tries.
+#: - y, a, jerk (shapes (ny,), (nv,), (nv,)): State, accelerations, and how these changed in the last step over its
+#:   length.
+#: - clock, counts: See `TIME` and `AT`, and what stands beside them.
+#: - trial, rates (shape (ny,)): The state that is tried, and its rates.
+#: - rows: What ``observe`` writes.
+#: - turned (shape (windings,)): Angles whose turns are counted, as they are in the accepted state.
+#: - dense: A square D.
+STAND = record_type("Stand", __name__, ("y a jerk clock", _A), ("counts", _K), ("trial rates rows turned dense", _A))
+Stand: Any = STAND.made
 
 
-class Followed(NamedTuple):
-    """What the loop writes: states, accelerations and status, one row a time.
-
-    The status is that of `symgen.runtime.outcome.Motion`.
-    """
-
-    states: Any
-    accelerations: Any
-    status: Any
+#: What the loop writes: states, accelerations and status, one row a time. The status is that of
+#: `symgen.runtime.outcome.Motion`.
+FOLLOWED = record_type("Followed", __name__, ("states accelerations status", _M))
+Followed: Any = FOLLOWED.made
 
 
-COURSE = types.RecordType((*(_I8,) * 11, _F, _F, _K, _A, _A), Course)
-STAND = types.RecordType((*(_A,) * 4, _K, *(_A,) * 5), Stand)
-FOLLOWED = types.RecordType((_M,) * 3, Followed)
 _MODEL = types.RecordType((COURSE, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE))
 
 
@@ -274,10 +232,10 @@ def sign_of(course: Any, w: Any, dense: Any) -> float:
     n, m, row = course.nv, course.m, 0
     for i in range(n * n):
         dense[i] = 0.0
-    kept = 0
+    count = 0
     for i in range(m):
-        kept += 1 if w[course.mask + i] == 0.0 else 0
-    if kept != n:
+        count += 1 if w[course.mask + i] == 0.0 else 0
+    if count != n:
         return 0.0
     place, last = -1, -1
     for k in range(course.constants.shape[0]):

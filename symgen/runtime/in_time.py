@@ -67,8 +67,8 @@ class InTime:
         line = line_of(jump, self._values)
         times = np.linspace(first, until, 2 if line is not None else _FIRST)
         values = self.over(jump.argument, times)
-        known = values[np.isfinite(values)]
-        return (float(known.min()), float(known.max())) if len(known) else (math.nan, math.nan)
+        finite = values[np.isfinite(values)]
+        return (float(finite.min()), float(finite.max())) if len(finite) else (math.nan, math.nan)
 
 
 def crossings(
@@ -109,59 +109,46 @@ def crossings(
         # anywhere in equal parts, so that what is faster than the looks is seen to be, whatever its frequency
         anywhere = np.random.default_rng(count).random(count)
         times = np.concatenate([[first], first + span * (np.arange(count) + anywhere) / count, [until]])
-        looks = _Samples(times, samples := over(times), sorted_levels)
-        if len(looks.passes) > MOST_PIECES:
+        samples = over(times)
+        below = _below(sorted_levels, samples)
+        passes, of_passes = _counted(below[:-1], below[1:])
+        if len(passes) > MOST_PIECES:
             raise InputError("inputs", f"at most {MOST_PIECES} jumps", often)
-        passed, known = -1, samples[np.isfinite(samples)]
-        if _LOOKS * (len(looks.passes) + looks.near(float(np.ptp(known)) if len(known) else 0.0)) <= count:
-            low, high, at = looks.around(over)
-            passed = len(at)
+        turns, sign = _turns(samples, below, len(levels))
+        beyond, finite, passed = sorted_levels[below[turns] - (sign > 0.0)], samples[np.isfinite(samples)], -1
+        near = np.abs(beyond - samples[turns]) < (float(np.ptp(finite)) if len(finite) else 0.0)
+        if _LOOKS * (len(passes) + np.count_nonzero(near)) <= count:
+            # turning points may pass a level twice
+            begin, end = times[np.maximum(turns - 1, 0)], times[np.minimum(turns + 1, len(times) - 1)]
+            middle = _lowest(over, sign, begin, end)
+            twice, of_twice = _counted(below[turns], _below(sorted_levels, over(middle)))
+            low = np.concatenate([times[passes], begin[twice], middle[twice]])
+            high = np.concatenate([times[passes + 1], middle[twice], end[twice]])
+            passed = len(low)
             if passed == before:
+                at = sorted_levels[np.concatenate([of_passes, of_twice, of_twice])]
                 return [float(x) for x in _bisected(over, low, high, at)]
         count, before = 2 * count, passed
     raise InputError("inputs", f"at most {MOST_PIECES} jumps", f"{often} than can be told apart")
 
 
-class _Samples:
-    """What is seen of a function at some times: where it passes levels, and where it may do so twice.
+def _below(levels: Array, samples: Array) -> Integers:
+    """Return how many levels are below each value; what is undefined is above none."""
+    return np.searchsorted(levels, np.where(np.isnan(samples), -math.inf, samples))
 
-    Parameters
-    ----------
-    times, samples, levels : Array
-        Times, the function there, and levels, increasing.
+
+def _turns(samples: Array, below: Integers, levels: int) -> tuple[Integers, Array]:
+    """Return samples beyond which a level may be passed for a moment, and the sign that makes them smallest.
+
+    They are largest or smallest among their neighbours, but not all along a plateau.
     """
-
-    def __init__(self, times: Array, samples: Array, levels: Array) -> None:
-        self.times, self.samples, self.levels = times, samples, levels
-        self.below = self._below(samples)
-        self.passes, self._of_passes = _counted(self.below[:-1], self.below[1:])
-        # largest or smallest among its neighbours, but not all along a plateau: what lies beyond may be passed there
-        padded = np.concatenate([[np.nan], samples, [np.nan]])
-        before, after = padded[:-2], padded[2:]
-        lower, higher = np.fmin(before, after), np.fmax(before, after)
-        ends = np.isnan(before) | np.isnan(after)
-        top = (samples >= higher) & (ends | (samples > lower)) & (self.below < len(levels))
-        bottom = (samples <= lower) & (ends | (samples < higher)) & (self.below > 0)
-        self.turns, self._sign = np.flatnonzero(top | bottom), np.where(top, -1.0, 1.0)[top | bottom]
-
-    def _below(self, samples: Array) -> Integers:
-        """Return how many levels are below each value; what is undefined is above none."""
-        return np.searchsorted(self.levels, np.where(np.isnan(samples), -math.inf, samples))
-
-    def near(self, distance: float) -> int:
-        """Return how many turning points are nearer than that to the level beyond."""
-        beyond = self.levels[self.below[self.turns] - (self._sign > 0.0)]
-        return int(np.count_nonzero(np.abs(beyond - self.samples[self.turns]) < distance))
-
-    def around(self, over: Over) -> tuple[Array, Array, Array]:
-        """Return times before and behind each passage, and the level: turning points are looked for first."""
-        times, turns = self.times, self.turns
-        first, last = times[np.maximum(turns - 1, 0)], times[np.minimum(turns + 1, len(times) - 1)]
-        middle = _lowest(over, self._sign, first, last)
-        twice, of_twice = _counted(self.below[turns], self._below(over(middle)))
-        low = np.concatenate([times[self.passes], first[twice], middle[twice]])
-        high = np.concatenate([times[self.passes + 1], middle[twice], last[twice]])
-        return low, high, self.levels[np.concatenate([self._of_passes, of_twice, of_twice])]
+    padded = np.concatenate([[np.nan], samples, [np.nan]])
+    before, after = padded[:-2], padded[2:]
+    lower, higher = np.fmin(before, after), np.fmax(before, after)
+    ends = np.isnan(before) | np.isnan(after)
+    top = (samples >= higher) & (ends | (samples > lower)) & (below < levels)
+    bottom = (samples <= lower) & (ends | (samples < higher)) & (below > 0)
+    return np.flatnonzero(top | bottom), np.where(top, -1.0, 1.0)[top | bottom]
 
 
 def _counted(a: Integers, b: Integers) -> tuple[Integers, Integers]:

@@ -16,12 +16,13 @@ from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime.exact import exact
 from symgen.runtime.probe import Ready
-from symgen.runtime.start_records import LAYOUT, Layout
+from symgen.runtime.start_records import LAYOUT, Layout, record_type
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo
 
 Array = NDArray[np.float64]
+_I, _A = types.int64[::1], types.float64[::1]
 
 
 def joint_values(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array) -> Array:
@@ -40,28 +41,14 @@ def joint_values(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array
     return out[info.m :]
 
 
-class Joints(NamedTuple):
-    """The joint coordinates that starts of a model hold.
-
-    Attributes
-    ----------
-    values, rates : Layout
-        The layout of the model with further rows: of joint coordinates that are held, and of rates that are.
-    held : Array of int
-        These joint coordinates, those of `values` before those of `rates`.
-    goals, origins : Array
-        Values of the rows on the way from those of the described positions; the latter.
-    w, out : Array
-        Scratch with room for the further rows; what ``observe`` writes.
-    """
-
-    values: Any
-    rates: Any
-    held: Any
-    goals: Any
-    origins: Any
-    w: Any
-    out: Any
+#: The joint coordinates that starts of a model hold.
+#: - values, rates: The layout of the model with further rows: of joint coordinates that are held, and of rates that
+#:   are.
+#: - held: These joint coordinates, those of `values` before those of `rates`.
+#: - goals, origins: Values of the rows on the way from those of the described positions; the latter.
+#: - w, out: Scratch with room for the further rows; what ``observe`` writes.
+JOINTS = record_type("Joints", __name__, ("values rates", LAYOUT), ("held", _I), ("goals origins w out", _A))
+Joints: Any = JOINTS.made
 
 
 class Further(NamedTuple):
@@ -73,10 +60,6 @@ class Further(NamedTuple):
     out: Any
     residual: Any
     nu: Any
-
-
-_I, _A = types.int64[::1], types.float64[::1]
-JOINTS = types.RecordType((LAYOUT, LAYOUT, _I, *(_A,) * 4), Joints)
 
 
 def joints_held(info: ModelInfo, base: Layout, values: Sequence[int], rates: Sequence[int], scratch: Array) -> Joints:

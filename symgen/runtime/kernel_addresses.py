@@ -31,5 +31,5 @@ def address(function: Any, machine: ModuleType, signature: types.Signature = KER
     if interpreted():
         machine.KERNELS.append(function)
         return len(machine.KERNELS) - 1
-    found: int = function.address(signature)
-    return found
+    place: int = function.address(signature)
+    return place

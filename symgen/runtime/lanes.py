@@ -26,8 +26,7 @@ from symgen.runtime.loop_instances import Instances
 from symgen.runtime.loop_instances import loop as compiled_loop
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Outputs, Run, State
 from symgen.runtime.redundancy import FALLEN, never
-from symgen.runtime.row_variants import take
-from symgen.runtime.rows import begin_run, end_run
+from symgen.runtime.rows import begin_run, end_run, take
 from symgen.runtime.scales import still
 from symgen.runtime.schemes import explicit
 from symgen.runtime.vectors import combine, copied

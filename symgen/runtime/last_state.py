@@ -72,54 +72,54 @@ class LastState:
             return [f"that run failed ({self.failed})"]
         if self.made is None or not self.arrays:
             return ["nothing else was kept"]
-        found = []
+        differences = list[str]()
         for key, value in made.items():
             before = self.made.get(key, _BEFORE.get(key))
             if before == value:
                 continue
             if isinstance(value, Mapping) and isinstance(before, Mapping):
                 names = [n for n in (*before, *(n for n in value if n not in before)) if before.get(n) != value.get(n)]
-                found += [f"{n} {_said(value.get(n))} instead of {_said(before.get(n))}" for n in names]
+                differences += [f"{n} {_word(value.get(n))} instead of {_word(before.get(n))}" for n in names]
             else:
-                found.append(f"{key} {_said(value)} instead of {_said(before)}")
-        return found
+                differences.append(f"{key} {_word(value)} instead of {_word(before)}")
+        return differences
 
     def header(self) -> dict[str, Any]:
         """Return everything but the arrays as what JSON can express, with a digest of all of it."""
         names = ("mechanism", "digest", "t", "work", "work_before", "rank", "failed")
-        said: dict[str, Any] = {name: getattr(self, name) for name in names}
-        said |= {"q": dict(self.q), "v": dict(self.v), "windings": list(self.windings), "made": self.made}
-        said["sizes"] = {name: [str(a.dtype), len(a)] for name, a in (self.arrays or {}).items()}
-        return said | {"sha256": _digest(said, self.arrays or {})}
+        header: dict[str, Any] = {name: getattr(self, name) for name in names}
+        header |= {"q": dict(self.q), "v": dict(self.v), "windings": list(self.windings), "made": self.made}
+        header["sizes"] = {name: [str(a.dtype), len(a)] for name, a in (self.arrays or {}).items()}
+        return header | {"sha256": _digest(header, self.arrays or {})}
 
     @classmethod
-    def of_header(cls, said: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> LastState | None:
+    def of_header(cls, header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> LastState | None:
         """Return what `header` and the arrays that have elements stand for, None where they are not what was written.
 
         Parameters
         ----------
-        said : mapping
+        header : mapping
             From `header`.
         arrays : mapping of str to Array
             By name.
         """
-        given = {key: value for key, value in said.items() if key != "sha256"}
+        entries = {key: value for key, value in header.items() if key != "sha256"}
         whole = {
             name: np.ascontiguousarray(arrays.get(name, np.zeros(0)), dtype=np.dtype(kind))
-            for name, (kind, _) in given["sizes"].items()
+            for name, (kind, _) in entries["sizes"].items()
         }
-        if _digest(given, whole) != said.get("sha256"):
+        if _digest(entries, whole) != header.get("sha256"):
             return None
-        fields = {key: value for key, value in given.items() if key not in ("sizes", "windings")}
-        return cls(**fields, windings=tuple(given["windings"]), arrays=whole)
+        fields = {key: value for key, value in entries.items() if key not in ("sizes", "windings")}
+        return cls(**fields, windings=tuple(entries["windings"]), arrays=whole)
 
 
-def _said(value: Any) -> str:
+def _word(value: Any) -> str:
     return "none" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _digest(said: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> str:
-    found = hashlib.sha256(json.dumps(said, sort_keys=True).encode())
+def _digest(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> str:
+    digest = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
     for name in sorted(arrays):
-        found.update(name.encode() + b"\0" + np.ascontiguousarray(arrays[name]).tobytes())
-    return found.hexdigest()
+        digest.update(name.encode() + b"\0" + np.ascontiguousarray(arrays[name]).tobytes())
+    return digest.hexdigest()

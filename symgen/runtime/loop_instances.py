@@ -99,29 +99,29 @@ class Instances:
             If it calls what is made for processors only.
         """
         names = {name: self.meaning(name, function) for name in function.__code__.co_names}
-        found = {**function.__globals__, **{name: value for name, value in names.items() if value is not None}}
-        result = python.FunctionType(function.__code__, found, function.__name__, function.__defaults__)
+        meanings = {**function.__globals__, **{name: value for name, value in names.items() if value is not None}}
+        result = python.FunctionType(function.__code__, meanings, function.__name__, function.__defaults__)
         result.__module__, result.__qualname__ = function.__module__, function.__qualname__
         return result
 
     def meaning(self, name: str, function: Any) -> Any:
         """Return what a global name of a function means in its copy, None where that is no matter."""
-        given = name in self.meanings
-        value = self.meanings[name] if given else function.__globals__.get(name)
+        replaced = name in self.meanings
+        value = self.meanings[name] if replaced else function.__globals__.get(name)
         plain = getattr(value, "py_func", None)
-        if self.everything and not given and isinstance(value, Piece):
+        if self.everything and not replaced and isinstance(value, Piece):
             raise ValueError(f"{function.__name__} needs '{name}' as a device function")
         if isinstance(value, python.FunctionType):
             return self.of(value)
-        if plain is not None and not given and (self.everything or self.changes(value, set())):
+        if plain is not None and not replaced and (self.everything or self.changes(value, set())):
             return self.of(value)
         return value
 
-    def changes(self, value: Any, seen: set[Any]) -> bool:
+    def changes(self, value: Any, visited: set[Any]) -> bool:
         """Whether a compiled function, or one that it calls, would see a difference."""
         plain = getattr(value, "py_func", None)
-        if plain is None or plain in seen:
+        if plain is None or plain in visited:
             return False
-        seen.add(plain)
+        visited.add(plain)
         names = plain.__code__.co_names
-        return any(n in self.meanings or self.changes(plain.__globals__.get(n), seen) for n in names)
+        return any(n in self.meanings or self.changes(plain.__globals__.get(n), visited) for n in names)

@@ -35,10 +35,10 @@ def lengths_of(info: ModelInfo) -> Array:
 
 def spins_of(info: ModelInfo) -> list[int]:
     """Return the body's first angular velocity for each angular velocity, -1 for others."""
-    found = [j if quantity.unit == "rad/s" else -1 for j, quantity in enumerate(info.velocities)]
+    firsts = [j if quantity.unit == "rad/s" else -1 for j, quantity in enumerate(info.velocities)]
     for _, first in info.spins:
-        found[first : first + 3] = [first] * 3
-    return found
+        firsts[first : first + 3] = [first] * 3
+    return firsts
 
 
 def joints_of(info: ModelInfo) -> list[str]:

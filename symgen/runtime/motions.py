@@ -49,8 +49,11 @@ def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: f
     InputError
         With the driver, and when and by how much its value or rate jumps.
     """
-    if _moved(mechanism) and (told := jump_of(mechanism, parameter_values(mechanism, parameters), until)) is not None:
-        raise told
+    if (
+        _moved(mechanism)
+        and (refusal := jump_of(mechanism, parameter_values(mechanism, parameters), until)) is not None
+    ):
+        raise refusal
 
 
 def names_of_motions(mechanism: Mechanism) -> frozenset[str]:
@@ -72,13 +75,13 @@ def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> 
     """
     formulas = InTime(mechanism, values)
     for joint, unit, formula, changes in _moved(mechanism):
-        found = set[float]()
+        crossings = set[float]()
         for change in changes:
             try:
-                found.update(formulas.crossings(change, until))
+                crossings.update(formulas.crossings(change, until))
             except InputError:  # more often than can be told
                 continue
-        times = [0.0, *sorted(t for t in found if 1e-9 * until < t < (1.0 - 1e-9) * until), until]
+        times = [0.0, *sorted(t for t in crossings if 1e-9 * until < t < (1.0 - 1e-9) * until), until]
         for (before, t), (_, after) in zip(pairwise(times), pairwise(times[1:]), strict=False):
             h = min(_NEAR * until, _APART * (t - before), _APART * (after - t))
             kind, size = _jump(partial(formulas.at, formula), t, h, until)
@@ -120,9 +123,9 @@ def _sides(f: Callable[[float], float], t: float, h: float) -> tuple[float, floa
 @remembered
 def _moved(mechanism: Mechanism) -> tuple[tuple[str, str, Expr, tuple[Jump, ...]], ...]:
     """Return drivers whose formulas may jump: name, unit, formula, and where it changes."""
-    found = list[tuple[str, str, Expr, tuple[Jump, ...]]]()
+    drivers = list[tuple[str, str, Expr, tuple[Jump, ...]]]()
     for joint in mechanism.joints:
         row = joint.rows[0] if joint.kind == "driver" and joint.rows else None
         if isinstance(row, Holonomic) and (changes := changes_of(row.value)):
-            found.append((joint.name, row.unit, row.value, changes))
-    return tuple(found)
+            drivers.append((joint.name, row.unit, row.value, changes))
+    return tuple(drivers)

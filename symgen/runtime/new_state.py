@@ -1,4 +1,4 @@
-"""What a run keeps before it has a start: its arrays, the sizes that loops have to know, how far it goes."""
+"""What a run keeps: new arrays, the sizes that loops need, how far it goes, and a copy that it can return to."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from symgen.runtime import abi
 from symgen.runtime.model_arrays import lengths_of
 from symgen.runtime.padding import padded
-from symgen.runtime.records import Outputs, Sizes, Span, State
+from symgen.runtime.records import KEPT, Outputs, Sizes, Span, State
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo
@@ -20,11 +20,15 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+#: Arrays of a state that stand behind those which are always copied: passages are few, and working memory is not kept.
+_BEHIND = ("events", "room")
+
 
 def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: float = np.inf) -> Span:
     """Return how far a loop goes, to the end of the run by default, and by which steps."""
     end = spec.until if until is None else until
-    numbers = setup.step, spec.largest_step, end, spec.until, spec.scale_time, spec.rtol, spec.atol, spec.relative
+    duration = spec.until if spec.duration is None else spec.duration
+    numbers = setup.step, spec.largest_step, end, spec.until, duration, spec.rtol, spec.atol, spec.relative
     return Span(*(float(number) for number in (*numbers, setup.safety, spec.max_attempts, pause)))
 
 
@@ -46,13 +50,6 @@ def share_of(sizes: Sizes) -> Array:
     return share
 
 
-def scales_of(sizes: Sizes) -> Array:
-    """Return room for the scales of a state; integrals of outputs have units of their own, of which 1 is the scale."""
-    scales = np.zeros(sizes.width)
-    scales[sizes.nq + sizes.nv + 1 : sizes.ny] = 1.0
-    return scales
-
-
 def metric_of(info: ModelInfo, sizes: Sizes) -> Array:
     """Return 1 for coordinates that are lengths, else 0; see `symgen.runtime.scales.settle` for the velocities."""
     metric = np.zeros(sizes.width)
@@ -62,8 +59,8 @@ def metric_of(info: ModelInfo, sizes: Sizes) -> Array:
 
 def new_outputs(info: ModelInfo, times: Array) -> Outputs:
     """Return room for the outputs of a run at some times [s]."""
-    k, kept = len(times), abi.N_STATUS + info.windings
-    return Outputs(np.ascontiguousarray(times, dtype=np.float64), np.empty((k, info.ny)), np.empty((k, kept)))
+    k, columns = len(times), abi.N_STATUS + info.windings
+    return Outputs(np.ascontiguousarray(times, dtype=np.float64), np.empty((k, info.ny)), np.empty((k, columns)))
 
 
 def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> State:
@@ -78,13 +75,14 @@ def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> 
     memory, room : int
         As in `symgen.runtime.integrator.Setup`.
     """
-    law = compiled.law
+    law, scales = compiled.law, np.zeros(sizes.width)
+    scales[sizes.nq + sizes.nv + 1 : sizes.ny] = 1.0  # integrals of outputs have units of their own
     control, counters = np.zeros(abi.N_CONTROL, dtype=np.int64), np.zeros(abi.N_COUNTERS, dtype=np.int64)
     p = np.zeros(max(1, law.parameter_offset + len(law.parameters) + law.hoisted))
     return State(
         *(np.zeros(sizes.width), p, np.zeros(max(1, law.nw)), counters, np.zeros(abi.N_CLOCK)),
         *(np.zeros(abi.N_GAUGES), control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)),
-        *(np.zeros(memory), share_of(sizes), metric_of(compiled.info, sizes), scales_of(sizes)),
+        *(np.zeros(memory), share_of(sizes), metric_of(compiled.info, sizes), scales),
         np.zeros(sizes.width + room),
     )
 
@@ -103,3 +101,74 @@ def is_as_kept(compiled: CompiledModel, memory: int, arrays: Mapping[str, NDArra
     """
     own = new_state(compiled, sizes_of(compiled), memory, 0)._asdict()
     return all(name in arrays and arrays[name].shape == a.shape for name, a in own.items() if name != "room")
+
+
+class Snapshot:
+    """A state whose arrays stand one behind the other, and a copy of what they held at some time.
+
+    Parameters
+    ----------
+    state : State
+        Its arrays are copied; all hold numbers of eight bytes.
+
+    Attributes
+    ----------
+    state : State
+        The same numbers in one piece of memory.
+    front, copy : Array
+        The part of it that is always copied, and its copy.
+    rows : int
+        Numbers of the table of passages that belong to the copy.
+    """
+
+    def __init__(self, state: State) -> None:
+        arrays = state._asdict()
+        names = [*(name for name in arrays if name not in _BEHIND), *_BEHIND]
+        ends = np.cumsum([padded(len(arrays[name])) for name in names])
+        block, views = np.zeros(ends[-1]), dict[str, Any]()
+        for name, end in zip(names, ends, strict=True):
+            first = end - padded(len(arrays[name]))
+            views[name] = block[first : first + len(arrays[name])].view(arrays[name].dtype)
+            views[name][:] = arrays[name]
+        self.state = type(state)(**views)
+        self.front = block[: ends[-len(_BEHIND) - 1]]
+        self.copy, self._events = self.front.copy(), self.state.events.copy()
+        self.rows, self._kept = 0, dict[str, NDArray[Any]]()
+        self._names: tuple[str, ...] | None = None
+
+    def take(self, scheme: Any) -> None:
+        """Copy what the state holds, and what a scheme's record keeps."""
+        self.copy[:] = self.front
+        self.rows = min(int(self.state.control[abi.EVENTS]), abi.MAX_EVENTS) * abi.N_EVENT
+        self._events[: self.rows] = self.state.events[: self.rows]
+        if self._names is None:
+            self._names = names_kept(scheme)
+        for name in self._names:
+            array, there = getattr(scheme, name), self._kept.get(name)
+            if there is None or len(there) != len(array):
+                self._kept[name] = array.copy()
+            else:
+                there[:] = array
+
+    def put_back(self, scheme: Any) -> Any:
+        """Give the state what was copied, and return the scheme's record with what it kept then."""
+        self.front[:] = self.copy
+        self.state.events[: self.rows] = self._events[: self.rows]
+        self.state.events[self.rows :] = 0.0
+        for name, array in self._kept.items():
+            scheme = with_kept(scheme, name, array)
+        return scheme
+
+
+def names_kept(scheme: Any) -> tuple[str, ...]:
+    """Return the fields of a scheme's record that belong to what a run keeps."""
+    return tuple(name for name in KEPT if hasattr(scheme, name))
+
+
+def with_kept(scheme: Any, name: str, array: NDArray[Any]) -> Any:
+    """Return a scheme's record with numbers that it kept, in the same memory where there is room for just these."""
+    there = getattr(scheme, name)
+    if there.shape != array.shape:
+        return scheme._replace(**{name: array.copy()})
+    there[:] = array
+    return scheme

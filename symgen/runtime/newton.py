@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -98,15 +98,21 @@ class Terms:
         return cls(rows, columns, np.concatenate(whole), sources)
 
 
-@dataclass(frozen=True)
+@dataclass
 class Products:
     """Sources that are sums of products of others, and triples of them that belong to rotation vectors."""
 
-    targets: tuple[int, ...] = ()
-    left: tuple[int, ...] = ()
-    right: tuple[int, ...] = ()
-    triples: tuple[int, ...] = ()
+    targets: list[int] = field(default_factory=list)
+    left: list[int] = field(default_factory=list)
+    right: list[int] = field(default_factory=list)
+    triples: list[int] = field(default_factory=list)
     count: int = 0
+
+    def add(self, target: int, left: int, right: int) -> None:
+        """Add a product to a source."""
+        self.targets.append(target)
+        self.left.append(left)
+        self.right.append(right)
 
 
 def stage_plan(pattern: Pattern, a: Array, one: int) -> tuple[Indices, Array]:
@@ -161,31 +167,21 @@ def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
         by_row.setdefault(c, []).append((j, e))
     place: dict[tuple[int, int], int] = {}
     first = pattern.size + products.count
-    targets, left, right = list[int](), list[int](), list[int]()
     for entries in by_row.values():
         for i, a in entries:
             for j, b in entries:
-                targets.append(first + place.setdefault((i, j), len(place)))
-                left.append(a)
-                right.append(b)
+                products.add(first + place.setdefault((i, j), len(place)), a, b)
     pairs = np.array(list(place), dtype=np.int64).reshape(-1, 2)
     parts.append((pairs[:, 0], pairs[:, 1], 4, first + np.arange(len(place))))
-    everything = Products(
-        (*products.targets, *targets),
-        (*products.left, *left),
-        (*products.right, *right),
-        products.triples,
-        products.count + len(place),
-    )
-    one, nothing = pattern.size + everything.count, np.zeros(0, dtype=np.int64)
-    return *make_plan(pattern.nv, 1, Terms.joined(parts), nothing, one, everything), one + 1
+    one, nothing = first + len(place), np.zeros(0, dtype=np.int64)
+    return *make_plan(pattern.nv, 1, Terms.joined(parts), nothing, one, products), one + 1
 
 
 def constraint_forces(pattern: Pattern) -> tuple[Indices, Indices, Indices]:
     """Return row, velocity and source of the entries of D^T in the equations of motion."""
     width = pattern.width
-    found = np.flatnonzero(pattern.dynamic & (pattern.columns >= width) & (pattern.columns < width + pattern.m))
-    return pattern.columns[found] - width, pattern.rows[found] - pattern.nq, found
+    sources = np.flatnonzero(pattern.dynamic & (pattern.columns >= width) & (pattern.columns < width + pattern.m))
+    return pattern.columns[sources] - width, pattern.rows[sources] - pattern.nq, sources
 
 
 def mass_diagonal(pattern: Pattern) -> Indices:
@@ -213,19 +209,16 @@ def _along_motion(
     for e in np.flatnonzero((pattern.rows < nq) & (pattern.columns >= n + nq)).tolist():
         map_entries.setdefault(int(pattern.rows[e]), []).append((int(pattern.columns[e]) - n - nq, e))
     place: dict[tuple[int, int], int] = {}
-    targets, left, right = list[int](), list[int](), list[int]()
+    products = Products()
     for e in by_q.tolist():
         for j, other in map_entries.get(int(pattern.columns[e]) - n, ()):
-            targets.append(pattern.size + place.setdefault((int(pattern.rows[e]), j), len(place)))
-            left.append(e)
-            right.append(other)
-    triples = list[int]()
+            products.add(pattern.size + place.setdefault((int(pattern.rows[e]), j), len(place)), e, other)
     starts = {int(j) + i: int(j) for j in pattern.spins for i in range(3)}
     for r, j in dict.fromkeys((r, starts[j]) for r, j in list(place) if j in starts):
-        triples += [pattern.size + place.setdefault((r, j + i), len(place)) for i in range(3)] + [j]
+        products.triples += [pattern.size + place.setdefault((r, j + i), len(place)) for i in range(3)] + [j]
     pairs = np.array(list(place), dtype=np.int64).reshape(-1, 2)
     turned = pairs[:, 0] - nq, pairs[:, 1], 3, pattern.size + np.arange(len(place))
-    products = Products(tuple(targets), tuple(left), tuple(right), tuple(triples), len(place))
+    products.count = len(place)
     return [by_rate, turned, unknown], products
 
 
@@ -260,13 +253,13 @@ def make_plan(
     Redundant rows depend on the others where the constraints hold only: near them such a row is independent by as much
     as they are violated, so a threshold on pivots would take it for a regular one, with multipliers of any size.
     """
-    size, given = n * stages, products or Products()
-    kept = ~np.isin(terms.rows, left_out)
+    size, sums = n * stages, products or Products()
+    independent = ~np.isin(terms.rows, left_out)
     nothing = np.zeros(len(left_out), dtype=np.int64)
-    rows, columns = (np.concatenate([x[kept], left_out]) for x in (terms.rows, terms.columns))
+    rows, columns = (np.concatenate([x[independent], left_out]) for x in (terms.rows, terms.columns))
     factors, sources = (
-        np.concatenate([terms.factors[kept], nothing]),
-        np.concatenate([terms.sources[kept], one + nothing]),
+        np.concatenate([terms.factors[independent], nothing]),
+        np.concatenate([terms.sources[independent], one + nothing]),
     )
     within, fill = elimination_order(n, rows % n, columns % n)
     order = (np.array(within, dtype=np.int64)[:, None] + n * np.arange(stages)).ravel()
@@ -281,16 +274,16 @@ def make_plan(
     masses = np.flatnonzero((order[column] == entries % size) & (place >= first) & (place < end))
     own[column[masses]] = masses
     room = 2 * stages * stages * (fill + n)
-    plan = [
+    plan: list[tuple[int, Indices | Array | list[int]]] = [
         *((sparse.COLUMNS, begins), (sparse.ROWS, entries % size), (sparse.PLACES, np.zeros(len(entries)))),
         *((sparse.ORDER, order), (sparse.SLOTS, slots), (sparse.FACTORS, factors), (sparse.SOURCES, sources)),
-        *((sparse.TARGETS, given.targets), (sparse.LEFT, given.left), (sparse.RIGHT, given.right)),
-        *((sparse.TRIPLES, given.triples), (sparse.OWN, own)),
+        *((sparse.TARGETS, sums.targets), (sparse.LEFT, sums.left), (sparse.RIGHT, sums.right)),
+        *((sparse.TRIPLES, sums.triples), (sparse.OWN, own)),
         *((sparse.WORK, np.zeros(9 * size)), (sparse.POOL, np.zeros(room))),
     ]
     head = np.zeros(sparse.N_HEAD, dtype=np.int64)
     head[[sparse.SIZE, sparse.ENTRIES, sparse.TERMS]] = size, len(entries), len(sources)
-    head[[sparse.PRODUCTS, sparse.TURNS, sparse.ROOM]] = len(given.targets), len(given.triples) // 4, room
+    head[[sparse.PRODUCTS, sparse.TURNS, sparse.ROOM]] = len(sums.targets), len(sums.triples) // 4, room
     at = sparse.N_HEAD
     for where, part in plan:
         head[where] = at

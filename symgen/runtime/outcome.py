@@ -102,22 +102,22 @@ class Motion:
         for first, last, p in self.parameters:
             # the rows that stand for all follow the position
             for k, count in [(first, last - first)] if choose is None else [(k, 1) for k in range(first, last)]:
-                here, seen = _rows_of(outputs, k, k + count), _rows_of(observed, k, k + count)
-                observe_rates(model, here, count, p, w, iw, seen, room)
+                here, there = _rows_of(outputs, k, k + count), _rows_of(observed, k, k + count)
+                observe_rates(model, here, count, p, w, iw, there, room)
                 if choose is not None and choose(w):
-                    observe_rates(model, here, count, p, w, iw, seen, room)
+                    observe_rates(model, here, count, p, w, iw, there, room)
         return observed
 
     @property
     def parameters(self) -> list[tuple[int, int, Array]]:
         """First and last output (exclusive) of each piece, and its parameters."""
-        found, first = list[tuple[int, int, Array]](), 0
+        pieces, first = list[tuple[int, int, Array]](), 0
         for until, p in (*self.held, (np.inf, self.p)):
             last = int(np.searchsorted(self.times, until, side="right"))
             if last > first:
-                found.append((first, last, p))
+                pieces.append((first, last, p))
             first = last
-        return found
+        return pieces
 
     @cached_property
     def _rows(self) -> Array:
@@ -138,14 +138,14 @@ class Motion:
         from symgen.runtime.observe import observe_rows
 
         (sizes, outputs, _), rates = self._seen, self._rates
-        found = rates._replace(rows=np.zeros((len(self.times), length)))
+        result = rates._replace(rows=np.zeros((len(self.times), length)))
         if multipliers is not None:
-            found = found._replace(multipliers=np.ascontiguousarray(multipliers))
+            result = result._replace(multipliers=np.ascontiguousarray(multipliers))
         room, w = np.zeros(2 * sizes.ny + length), self.w.copy()
         for first, last, p in self.parameters:
-            here, seen = _rows_of(outputs, first, last), _rows_of(found, first, last)
-            observe_rows(function, sizes, here, last - first, p, w, seen, room)
-        return np.asarray(found.rows)
+            here, there = _rows_of(outputs, first, last), _rows_of(result, first, last)
+            observe_rows(function, sizes, here, last - first, p, w, there, room)
+        return np.asarray(result.rows)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -165,10 +165,10 @@ class PrescribedMotion(Motion):
 
     @cached_property
     def _rates(self) -> Observed:
-        given = np.ascontiguousarray(self.given)
+        accelerations = np.ascontiguousarray(self.given)
         if self.found is not None:
-            return self._seen[2]._replace(accelerations=given, multipliers=np.ascontiguousarray(self.found))
-        return super()._rates._replace(accelerations=given)
+            return self._seen[2]._replace(accelerations=accelerations, multipliers=np.ascontiguousarray(self.found))
+        return super()._rates._replace(accelerations=accelerations)
 
     @cached_property
     def responses(self) -> Observed:
@@ -236,8 +236,8 @@ class Outcome(Motion, Ended):
     energy_drift_max: float
     interrupted: bool
     run_seconds: float
-    compile_seconds: float
     simulation: Simulation = field(repr=False)
+    compile_seconds: float = 0.0
     happened: tuple[Happening, ...] = ()
     accumulation: float | None = None
 

@@ -1,20 +1,22 @@
-"""What resets make of a state: the smallest impulse that gives velocities the values that are asked for."""
+"""Resets: the smallest impulse that gives velocities their new values, and rebounds that are lost in rounding."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.errors import InputError
 from symgen.runtime import abi
-from symgen.runtime.probe import Ready
+from symgen.runtime.probe import Ready, rate_function
+from symgen.runtime.search_records import COUNT, N_VALUES
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.hunting import HuntingState
 
 Array = NDArray[np.float64]
 
@@ -22,6 +24,12 @@ Array = NDArray[np.float64]
 _ROUNDING, _MET = 1e-11, 1e-9
 #: Rounding of velocities of joints, as a part of the velocities that these are differences of.
 _NOISE = 1e-14
+_EPSILON = 2.0**-52
+#: A rebound of fewer roundings than this, of the switching function or of the time, is lost: where it ends is known to
+#: a thousandth of it.
+_FEWEST = 1e3
+#: Changes of a state by which derivatives are found: of each coordinate, and of the time as a part of the run.
+_RELATIVE, _AHEAD = 1e-6, 1e-9
 
 
 @dataclass(frozen=True)
@@ -95,10 +103,10 @@ def impact_of(
     Ready(compiled.model.geometry, abi.MEASURE)(t, y, p, w)
     labels, rows, values = list[str](), [compiled.jacobian(w)], [compiled.section(w, "nu").copy()]
     for reset in resets:
-        own, asked = _rows(compiled, reset, t, y, p, w)
+        own, wanted = _rows(compiled, reset, t, y, p, w)
         labels += reset.labels
         rows.append(own)
-        values.append(asked)
+        values.append(wanted)
     v, every, right = y[info.nq : info.nq + info.nv], np.concatenate(rows), np.concatenate(values)
     carry, rest, bodies = masses(compiled, t, y, p, w)
     after, impulses, contradictory = strike(carry.T @ bodies @ carry, every, right, v)
@@ -131,12 +139,12 @@ def linear_in_v(info: ModelInfo, y: Array, function: Callable[[Array], Array]) -
     return columns, rest
 
 
-def _refusal(names: str, labels: Sequence[str], found: Array, values: Array, t: float) -> InputError:
-    asked, nearest = (
-        ", ".join(f"{label} = {x:.6g}" for label, x in zip(labels, numbers, strict=True)) for numbers in (values, found)
+def _refusal(names: str, labels: Sequence[str], near: Array, values: Array, t: float) -> InputError:
+    wanted, nearest = (
+        ", ".join(f"{label} = {x:.6g}" for label, x in zip(labels, numbers, strict=True)) for numbers in (values, near)
     )
     expected = "velocities that the joints and each other allow"
-    return InputError(names, expected, f"{asked} at t = {t:.6g} s", f"the nearest are {nearest}")
+    return InputError(names, expected, f"{wanted} at t = {t:.6g} s", f"the nearest are {nearest}")
 
 
 def strike(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Array, bool]:
@@ -171,22 +179,79 @@ def strike(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Ar
     unit = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, usual))  # velocities in units of equal kinetic energy
     long = np.linalg.norm(rows * unit, axis=1)
     # a row that repeats what the joints of a tree hold by construction is rounding: made long, it would hold something
-    said = long > _ROUNDING * long.max(initial=0.0)
-    scale = np.where(said, 1.0 / np.where(said, long, 1.0), 0.0)
+    counts = long > _ROUNDING * long.max(initial=0.0)
+    scale = np.where(counts, 1.0 / np.where(counts, long, 1.0), 0.0)
     scaled, target = scale[:, np.newaxis] * rows * unit, scale * (values - rows @ v)
     metric = unit[:, np.newaxis] * mass * unit
     left_vectors, sizes, vectors = np.linalg.svd(scaled, full_matrices=True)
     rank = int(np.count_nonzero(sizes > _ROUNDING * sizes.max(initial=0.0)))
-    seen, unseen = vectors[:rank], vectors[rank:].T
+    span, free = vectors[:rank], vectors[rank:].T
     back = left_vectors[:, :rank] / sizes[:rank]
     change = np.zeros(len(v))
     for _ in range(2):  # once more for what rounding has left
-        change += seen.T @ (back.T @ (target - scaled @ change))
-        change += unseen @ np.linalg.lstsq(unseen.T @ metric @ unseen, -unseen.T @ (metric @ change), rcond=None)[0]
+        change += span.T @ (back.T @ (target - scaled @ change))
+        change += free @ np.linalg.lstsq(free.T @ metric @ free, -free.T @ (metric @ change), rcond=None)[0]
     after = v + unit * change
     left = rows @ after - values
     largest = float(np.max(np.abs(scale * values), initial=0.0) + np.max(np.abs(scale * (rows @ v)), initial=0.0))
     # what is asked of a slow body may be less than the rounding of fast ones beside it
     noise = _NOISE * float(np.max(scale * (np.abs(rows) @ (np.abs(v) + np.abs(after))), initial=0.0))
     contradictory = bool(np.any(np.abs(scale * left) > _MET * largest + noise))
-    return after, scale * (back @ (seen @ (metric @ change))), contradictory
+    return after, scale * (back @ (span @ (metric @ change))), contradictory
+
+
+def are_lost(
+    compiled: CompiledModel, function: Any, events: Sequence[tuple[int, int]], state: HuntingState, duration: float
+) -> bool:
+    """Return whether a switching function comes back so soon after a reset that rounding decides when.
+
+    Right after the reset g is 0 up to rounding and leaves with the rate g'; with g'' against it, it gets as far as
+    g'^2 / (2 g'') and is back after 2 g' / g''. What rounding is of g is worked out from how it changes with each
+    coordinate, and with the time.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    function : emitted function
+        Switching functions, then their rates.
+    events : sequence of (int, int)
+        Numbers of the events whose resets have just been made, and the directions in which these happen, 0 for both.
+    state : HuntingState
+        Of the run, behind the resets; as it was on return.
+    duration : float
+        Of the run [s].
+    """
+    info, t = compiled.info, float(state.clock[abi.TIME])
+    rates, happens = rate_function(compiled), Ready(function, abi.OBSERVE)
+    w, iw, p = state.w.copy(), state.iw.copy(), state.p
+
+    def at(moment: float, y: Array, rate: Array) -> tuple[Array, Array]:
+        n = int(state.hunt[COUNT])
+        out = np.zeros(N_VALUES * n)
+        happens(moment, y, p, w, rate, out)
+        return out[:n], out[n : 2 * n]
+
+    y, rate = state.y.copy(), np.zeros_like(state.y)
+    rates(t, y, p, w, iw, rate)
+    g, slope = at(t, y, rate)
+    rounding = np.abs(at(t + _RELATIVE * abs(t), y, rate)[0] - g)
+    index, other = np.arange(info.nq), y.copy()
+    # with signs by the digits of their numbers, so that no two coordinates hide each other, in few evaluations
+    for digit in range(info.nq.bit_length() + 1):
+        signs = 1.0 - 2.0 * (index >> digit & 1)
+        other[: info.nq] = y[: info.nq] * (1.0 + _RELATIVE * signs)
+        rounding += np.abs(at(t, other, rate)[0] - g)
+    rounding *= _EPSILON / _RELATIVE
+    ahead = _AHEAD * duration
+    y += ahead * rate
+    rates(t + ahead, y, p, w, iw, rate)
+    curve = (at(t + ahead, y, rate)[1] - slope) / ahead
+    for k, direction in events:
+        back = -np.sign(slope[k])  # the direction in which it would happen again
+        if direction not in (0, back) or not slope[k] * curve[k] < 0.0 or abs(g[k]) > _FEWEST * rounding[k]:
+            continue
+        far, long = 0.5 * slope[k] ** 2 / abs(curve[k]), 2.0 * abs(slope[k] / curve[k])
+        if far < _FEWEST * rounding[k] or long < _FEWEST * _EPSILON * abs(t):
+            return True
+    return False

@@ -17,7 +17,6 @@ from symgen.runtime.assembly import Start
 from symgen.runtime.model_arrays import triplets_of
 from symgen.runtime.outcome import Outcome, RankEvent
 from symgen.runtime.simulation import Simulation
-from symgen.store.stats import cache_stats
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
@@ -101,11 +100,6 @@ class RunSpec:
     compares: bool = False
 
     @property
-    def scale_time(self) -> float:
-        """Time by which the speed of a motion at rest is judged [s]."""
-        return self.until if self.duration is None else self.duration
-
-    @property
     def velocity_limit(self) -> float:
         """Largest |D v - nu| that is tolerated, as a fraction of the largest speed."""
         return self.max_violation if self.max_velocity_violation is None else self.max_velocity_violation
@@ -132,24 +126,17 @@ def integrate(
     Outcome
         Also after an interruption (KeyboardInterrupt): with everything up to there and code `STOPPED`.
     """
-    before = cache_stats()
     simulation = Simulation(compiled, integrator, start, spec)
     outputs = simulation.outputs(spec.times)
     if start.saved is not None:
         simulation.store_first(outputs)
     simulation.warm(outputs)
     code, seconds, interrupted = _in_thread(simulation, outputs, progress, spec.max_evaluations)
-    after = cache_stats()
-    compiling = sum(after[name] - before[name] for name in ("compile_seconds", "load_seconds"))
-    return outcome_of(simulation, outputs, code, (seconds, compiling), interrupted)
+    return outcome_of(simulation, outputs, code, seconds, interrupted)
 
 
 def outcome_of(
-    simulation: Simulation,
-    outputs: Outputs,
-    code: int,
-    seconds: tuple[float, float] = (0.0, 0.0),
-    interrupted: bool = False,
+    simulation: Simulation, outputs: Outputs, code: int, seconds: float = 0.0, interrupted: bool = False
 ) -> Outcome:
     """Return what a run gave whose loop has ended.
 
@@ -159,8 +146,8 @@ def outcome_of(
         The run, and what it wrote.
     code : int
         How its loop ended, see `symgen.runtime.abi`.
-    seconds : tuple of float
-        What running and compiling took [s].
+    seconds : float
+        Time that the loop took [s].
     interrupted : bool
         Whether it was stopped from outside.
     """
@@ -201,8 +188,7 @@ def outcome_of(
         rank_events=tuple(RankEvent(float(a), float(b), int(r), float(s)) for a, b, r, s in table),
         rank_event_count=int(control[abi.EVENTS]),
         interrupted=interrupted,
-        run_seconds=seconds[0],
-        compile_seconds=seconds[1],
+        run_seconds=seconds,
         compiled=compiled,
         start=start,
         p=state.p,
@@ -220,10 +206,8 @@ def reason_of(simulation: Simulation, code: int, end: float) -> str:
     measures = (abi.PHI_MEASURE, abi.DRIFT_MEASURE, abi.LENGTH, abi.SPEED)
     attempts = int(state.control[abi.STEPS] + state.control[abi.REJECTED])
     scale = float(state.gauges[abi.ENERGY_SCALE])
-    if code == abi.GATHERED and simulation.events is not None:
-        return simulation.events.reason
-    if code == abi.UNDEFINED and simulation.events is not None:
-        return simulation.events.undefined(state, end)
+    if code in (abi.GATHERED, abi.UNDEFINED) and simulation.events is not None:
+        return simulation.events.reason(code, state, end)
     reason = end_reason(code, end, tuple(float(state.w[i]) for i in measures), scale, attempts, simulation.spec)
     return reason + (f" (row {_shortest_row(simulation.compiled, state.w)})" if code == abi.VANISHED else "")
 

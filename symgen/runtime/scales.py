@@ -201,5 +201,5 @@ def with_work(span: Any, run: Any, at: int, error: float, others: float) -> floa
     if span.relative != 0.0:
         least *= run.w[abi.KINETIC] + abs(run.w[abi.POTENTIAL])
     allowed = least + span.rtol * max(run.gauges[abi.ENERGY_SCALE], abs(run.y[at]), abs(run.trial[at]))
-    found = abs(error) / allowed if allowed > 0.0 else 0.0
-    return found if found > others else others  # nan of the others stays nan
+    ratio = abs(error) / allowed if allowed > 0.0 else 0.0
+    return ratio if ratio > others else others  # nan of the others stays nan

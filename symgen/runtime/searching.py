@@ -13,32 +13,15 @@ are; a step ends where it is passed, and the scheme begins anew.
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from symgen.runtime import abi
-from symgen.runtime.frame import (
-    CROWD,
-    DOUBT,
-    FAIL,
-    HOLD,
-    LOOK,
-    LOW,
-    MEET,
-    NOTHING,
-    RECALL,
-    REMEMBER,
-    RESTART,
-    SEEK,
-    TAKE,
-    TRY,
-)
+from symgen.runtime.frame import CROWD, DOUBT, FAIL, HOLD, LOOK, LOW, MEET, NOTHING, REMEMBER, RESTART, SEEK, TAKE, TRY
 from symgen.runtime.search_records import (
     ACCEPTED,
     ACTION,
     AIM,
     ANEW,
-    ARGUMENT,
     BLUR,
     D_END,
     D_HIGH,
@@ -51,12 +34,11 @@ from symgen.runtime.search_records import (
     G_HIGH,
     G_LOW,
     G_START,
-    GRAIN,
+    GIVE_BACK,
     GRAZING,
     HIGH,
     KEEP,
     LEAVE,
-    LEVEL,
     LOCAL,
     N_COLUMNS,
     N_HEAD,
@@ -72,13 +54,10 @@ from symgen.runtime.search_records import (
     SIDE,
     SINCE,
     SIZE,
-    SLOPE,
-    WAY,
     WHOLE,
-    WIDTH,
 )
-from symgen.runtime.switching import asked, dip, first_root, is_finite, side_of
-from symgen.runtime.table_points import SHORT_OF, aim, arrive, bend, ends_at, face, short
+from symgen.runtime.switching import candidate, concealed, is_sought, passes, side_of
+from symgen.runtime.table_points import SHORT_OF, aim, arrive, bend, ends_near, is_before, switch_values
 from symgen.store.emitted import plain
 
 A = Any
@@ -86,136 +65,12 @@ A = Any
 #: before a jump, so that its stages are on one side of it.
 _LOOKING, _WHOLE_STEP, _TO_EVENT, _BEFORE = range(4)
 _COUNTERS, _RESOLVED = abi.N_COUNTERS, abi.RESOLVED_TIME
-#: A search ends in a bracket that is so many times as wide each time that the root seems to be at an end of it.
-_WIDER = 8.0
 #: A reset changes g by rounding alone below this part of its size in the step before.
 _SAME = 1e-6
-#: Attempts at extrema and rounds in a bracket, at most.
-_MOST_PROBES, _MOST_ROUNDS = 12, 200
-#: A switch within this part of the size of its terms is on the side that it was on before.
-_ROUNDING = 1e-13
 #: So many switches within this part of the time hold a motion back.
 _CROWDED, _HEAP = 50.0, 1e-7
-
-
-@plain
-def switch_values(hunt: A, n: int, h: float, hunting: int) -> int:
-    """Have the values of switches as they count: those within rounding of zero, or undefined, as on the same side."""
-    at, out = N_HEAD, N_HEAD + N_COLUMNS * n
-    for k in range(n):
-        if hunt[at + ACTION * n + k] != float(ANEW):
-            continue
-        if hunt[at + POINTS * n + k] > 0.0:
-            s, rate = hunt[out + k], hunt[out + n + k]
-            hunt[at + ARGUMENT * n + k], hunt[at + SLOPE * n + k] = s, rate
-            if hunting == NOTHING or hunting == DOUBT:
-                face(hunt, n, k, h)
-            way = hunt[at + WAY * n + k]
-            hunt[out + k], hunt[out + n + k] = way * (hunt[at + LEVEL * n + k] - s), -way * rate
-        hunt[at + GRAIN * n + k] = _ROUNDING * hunt[out + 2 * n + k]
-        if is_finite(hunt[out + k] + hunt[out + n + k]) == 0:
-            hunt[out + k], hunt[out + n + k] = 0.0, 0.0
-        elif abs(hunt[out + k]) <= hunt[at + GRAIN * n + k]:
-            hunt[out + k] = 0.0
-    return 0
-
-
-@plain
-def ends_near(hunt: A, n: int) -> int:
-    """Return 1 where the bracket ends near enough behind everything that it passes, all of it switches, else 0."""
-    at = N_HEAD
-    for k in range(n):
-        side = hunt[at + LOCAL * n + k]
-        if asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[at + G_HIGH * n + k], side)) == 1:
-            if hunt[at + POINTS * n + k] > 0.0:
-                if ends_at(hunt, n, k, hunt[HIGH]) == 0:
-                    return 0
-            elif hunt[at + ACTION * n + k] != float(ANEW) or hunt[HIGH] > 2.0 * short(hunt, n, k):
-                return 0
-    return 1
-
-
-@plain
-def is_before(hunt: A, n: int) -> int:
-    """Return 1 where a jump is passed in the bracket, whose beginning is nearly there, but no event; else 0."""
-    at, jumps = N_HEAD, 0
-    for k in range(n):
-        side = hunt[at + LOCAL * n + k]
-        if asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[at + G_HIGH * n + k], side)) == 1:
-            if hunt[at + ACTION * n + k] != float(ANEW):
-                return 0
-            if hunt[at + POINTS * n + k] == 0.0 and hunt[LOW] > short(hunt, n, k):
-                jumps = 1
-    return 1 if jumps == 1 and hunt[HIGH] - hunt[LOW] <= (1.0 - SHORT_OF) * hunt[LOW] else 0
-
-
-# -- the search --------------------------------------------------------------------------------------------------------
-
-
-@plain
-def beyond_low(hunt: A, n: int, k: int, otherwise: float) -> float:
-    """Return the part of the bracket at which g leaves its side, by what is known before the bracket alone.
-
-    Behind a jump, rates at the end of the bracket are others.
-    """
-    at, low, width = N_HEAD, hunt[LOW], hunt[HIGH] - hunt[LOW]
-    g, d, bent = hunt[at + G_LOW * n + k], hunt[at + D_LOW * n + k], 0.0
-    if low > 0.0:
-        rise = (g - hunt[at + G_START * n + k]) / low
-        bent = (2.0 * hunt[at + D_START * n + k] + 4.0 * d - 6.0 * rise) / low
-    square = d * d - 2.0 * bent * g
-    if not (g * d < 0.0 and square >= 0.0):
-        return otherwise
-    x = -2.0 * g / (d + math.copysign(math.sqrt(square), d)) / width
-    return float(x) if x > 0.0 and x < 1.0 else otherwise
-
-
-@plain
-def candidate(hunt: A, n: int) -> float:
-    """Return where to look next for the first change of sides in a bracket."""
-    at = N_HEAD
-    low, high, rounds = hunt[LOW], hunt[HIGH], int(hunt[ROUNDS])
-    width = high - low
-    if rounds % 3 == 0:
-        before = hunt[WIDTH]
-        hunt[WIDTH] = width
-        if rounds > 0 and width > 0.25 * before:
-            return float(0.5 * (low + high))
-    x = 1.0
-    for k in range(n):
-        side, g1 = hunt[at + LOCAL * n + k], hunt[at + G_HIGH * n + k]
-        if asked(hunt[at + DIRECTION * n + k], side, side_of(g1, side)) == 1:
-            d0, d1 = width * hunt[at + D_LOW * n + k], width * hunt[at + D_HIGH * n + k]
-            root = first_root(hunt[at + G_LOW * n + k], d0, g1, d1, side) if is_finite(d0 + d1) == 1 else 0.5
-            if rounds % 2 == 1 and hunt[at + ACTION * n + k] == float(ANEW):
-                root = beyond_low(hunt, n, k, root)
-            x = min(x, root)
-    x = low + x * width
-    # a little beyond the root, seen from the nearer end, so that the bracket has it between two near ends
-    ahead = 1 if x - low < high - x else 0
-    distance = x - low if ahead == 1 else high - x
-    beyond = distance * min(0.1, math.sqrt(distance / hunt[WHOLE])) if rounds > 0 else 0.0
-    x += beyond if ahead == 1 else -beyond
-    least = 0.5 * hunt[BLUR]
-    if distance < least:  # at the end of the bracket: rounding of g hides it in more time than time resolves
-        hunt[BLUR] *= _WIDER
-    return float(min(max(x, low + least), high - least))
-
-
-@plain
-def concealed(hunt: A, n: int) -> float:
-    """Return where in a bracket to look for events that its end does not show; its end where there are none."""
-    at = N_HEAD
-    low, high = hunt[LOW], hunt[HIGH]
-    x = 2.0
-    if hunt[PROBES] < _MOST_PROBES and high - low > 8.0 * hunt[RESOLUTION]:
-        for k in range(n):
-            g0, g1 = hunt[at + G_LOW * n + k], hunt[at + G_HIGH * n + k]
-            d0, d1 = (high - low) * hunt[at + D_LOW * n + k], (high - low) * hunt[at + D_HIGH * n + k]
-            side, direction = hunt[at + LOCAL * n + k], hunt[at + DIRECTION * n + k]
-            if is_finite(d0 + d1) == 1 and asked(direction, side, side_of(g1, side)) == 0:
-                x = min(x, dip(g0, d0, g1, d1, side))
-    return float(low + x * (high - low)) if x < 1.0 else float(high)
+#: Rounds in a bracket, at most.
+_MOST_ROUNDS = 200
 
 
 @plain
@@ -237,10 +92,7 @@ def note(hunt: A, n: int, notes: int, t: float, width: int, y: A) -> int:
     """Note the time and the state of all events that happen at the end of the bracket."""
     at = N_HEAD
     for k in range(n):
-        side = hunt[at + LOCAL * n + k]
-        if hunt[at + ACTION * n + k] == float(ANEW):
-            continue
-        if asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[at + G_HIGH * n + k], side)) == 1:
+        if hunt[at + ACTION * n + k] != float(ANEW) and passes(hunt, n, k, G_HIGH) == 1:
             to = notes + int(hunt[NOTED]) * (2 + width)
             hunt[to], hunt[to + 1] = t, float(k)
             for j in range(width):
@@ -256,7 +108,7 @@ def settle(hunt: A, n: int, ends: int) -> int:
     g, d = G_END if ends == 1 else G_HIGH, D_END if ends == 1 else D_HIGH
     for k in range(n):
         local, side = hunt[at + LOCAL * n + k], side_of(hunt[at + g * n + k], hunt[at + LOCAL * n + k])
-        fired = asked(hunt[at + DIRECTION * n + k], local, side)
+        fired = is_sought(hunt[at + DIRECTION * n + k], local, side)
         hunt[at + FIRED * n + k] = 1.0 if ends == 0 and fired == 1 else 0.0
         hunt[at + GRAZING * n + k] *= 1.0 if side * hunt[N_HEAD + N_COLUMNS * n + k] < 0.0 else 0.0
         hunt[at + SIDE * n + k] = side
@@ -273,15 +125,14 @@ def settle(hunt: A, n: int, ends: int) -> int:
 @plain
 def crossed(hunt: A, n: int, column: int, least: int) -> int:
     """Return the action, at least `least`, of what is passed between the bracket's beginning and a column; -1: none."""
-    at, found = N_HEAD, -1
+    at, highest = N_HEAD, -1
     for k in range(n):
-        side = hunt[at + LOCAL * n + k]
-        if asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[at + column * n + k], side)) == 1:
+        if passes(hunt, n, k, column) == 1:
             action = int(hunt[at + ACTION * n + k])
             if action == LEAVE:
                 return LEAVE
-            found = max(found, action)
-    return found if found >= least else -1
+            highest = max(highest, action)
+    return highest if highest >= least else -1
 
 
 @plain
@@ -313,7 +164,7 @@ def take_in(hunt: A, n: int, h: float, following: float, hunting: int) -> int:
     inside = 1 if h == hunt[HIGH] else 0
     for k in range(n):
         side = hunt[at + LOCAL * n + k]
-        inside = max(inside, asked(hunt[at + DIRECTION * n + k], side, side_of(taken_for(hunt, n, k, h), side)))
+        inside = max(inside, is_sought(hunt[at + DIRECTION * n + k], side, side_of(taken_for(hunt, n, k, h), side)))
     g, d = G_HIGH if inside == 1 else G_LOW, D_HIGH if inside == 1 else D_LOW
     for k in range(n):
         if inside == 0:
@@ -348,7 +199,7 @@ def look(hunt: A, n: int) -> int:
             side = side_of(rate, -side)
             hunt[at + SIDE * n + k] = side
             hunt[at + GRAZING * n + k] = 1.0 if side * g < 0.0 and rate != 0.0 else 0.0
-        elif hunt[at + FIRED * n + k] != 0.0 or asked(hunt[at + DIRECTION * n + k], side, side_of(g, side)) == 0:
+        elif hunt[at + FIRED * n + k] != 0.0 or is_sought(hunt[at + DIRECTION * n + k], side, side_of(g, side)) == 0:
             hunt[at + SIDE * n + k] = side_of(g, side)  # what velocities jump to is no event
             hunt[at + GRAZING * n + k] = 0.0
         hunt[at + G_START * n + k], hunt[at + D_START * n + k] = g, rate
@@ -437,20 +288,18 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
             return NOTHING if hunting == DOUBT else FAIL
         switch_values(hunt, n, h, hunting)
     if hunting >= LOOK:
-        first = N_HEAD + (N_COLUMNS + N_VALUES) * n + 2 * width
-        size = (notes - first) // 2
         if hunting == LOOK:
             return int(look(hunt, n))
-        if hunting == REMEMBER:
-            hunt[NOTED] = hunt[ACCEPTED]  # those of an attempt that was refused are none
-            return int(keep(hunt, first, size - _COUNTERS, w, iw))
-        if hunting == RECALL:
-            return int(give_back(hunt, first, size - _COUNTERS, w, iw))
-        if hunting == KEEP:
-            return int(keep(hunt, first + size, size - _COUNTERS, w, iw))
         if hunting == AIM:
             return int(aim(hunt, n, h))
-        return int(give_back(hunt, first + size, size - _COUNTERS, w, iw))
+        if hunting == REMEMBER:
+            hunt[NOTED] = hunt[ACCEPTED]  # those of an attempt that was refused are none
+        first = N_HEAD + (N_COLUMNS + N_VALUES) * n + 2 * width
+        size = (notes - first) // 2
+        first += size if hunting == KEEP or hunting == GIVE_BACK else 0
+        if hunting == REMEMBER or hunting == KEEP:
+            return int(keep(hunt, first, size - _COUNTERS, w, iw))
+        return int(give_back(hunt, first, size - _COUNTERS, w, iw))
     if hunting == TAKE and hunt[DOING] != _TO_EVENT:
         if hunt[DOING] == _BEFORE:
             end_before(hunt, n, h)

@@ -14,10 +14,9 @@ from symgen.errors import InputError
 from symgen.ir.numerics import WARN
 from symgen.runtime import abi
 from symgen.runtime.changes import Changes
-from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
+from symgen.runtime.new_state import Snapshot, names_kept, new_outputs, new_state, sizes_of, span_of, with_kept
 from symgen.runtime.probe import rates_of
 from symgen.runtime.redundancy import row_chooser
-from symgen.runtime.snapshot import Snapshot, names_kept, with_kept
 
 if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
@@ -131,8 +130,8 @@ class Simulation:
         """Go on from what another run has kept, with the limits, outputs and inputs of this one."""
         info = self.compiled.info
         state: Any = self.state  # a `HuntingState` where there are events
-        kept = {*state._fields, *names_kept(self.scheme)}  # files of before hold empty arrays beside these
-        taken = {name: array for name, array in saved.items() if name in kept}
+        names = {*state._fields, *names_kept(self.scheme)}  # files of before hold empty arrays beside these
+        taken = {name: array for name, array in saved.items() if name in names}
         # other events, or these as another version kept them: on which side they are is to be seen
         anew = self.events is not None and len(taken.get("hunt", ())) != len(state.hunt)
         if anew:
@@ -208,19 +207,19 @@ class Simulation:
             Of outputs; parts without outputs and events are left out.
         """
         happened = () if self.events is None else (event.t for event in self.events.happened)
-        marks, found, count = np.sort([*times, *happened]), list[tuple[float, Array]](), 0
+        marks, pieces, count = np.sort([*times, *happened]), list[tuple[float, Array]](), 0
         p, places = self._first_p.copy(), self.changes.inputs
         for stop in self.spec.stops[self._first_stop : self.state.control[abi.PASSED]]:
             near = abi.RESOLVED_TIME * stop.t if self.spec.adaptive else self.same(stop.t)
             before, count = count, int(np.searchsorted(marks, stop.t + near, side="right"))
             if stop.values and count > before:
-                found.append((stop.t + near, p.copy()))
-                self.compiled.prepare(found[-1][1])
+                pieces.append((stop.t + near, p.copy()))
+                self.compiled.prepare(pieces[-1][1])
             elif not stop.values:
                 count = before
             for name, value in stop.values.items():
                 p[places[name]] = value
-        return tuple(found)
+        return tuple(pieces)
 
     def is_ahead(self, moment: float) -> bool:
         """Whether a time is far enough from the present one for a step between the two."""
@@ -287,9 +286,9 @@ class Simulation:
         """Do what a loop asks for; return how it ended, None where it is to be entered again."""
         if self.events is not None:
             state: Any = self.state  # a `HuntingState` where there are events
-            found = self.events.take(state)
+            events = self.events.take(state)
             if code == abi.MET:
-                code = self.events.meet(state, found)
+                code = self.events.meet(state, events)
                 return None if code == abi.DONE else code
         if code == abi.NO_ROOM:
             self.scheme = _with_room(self.scheme)
@@ -337,16 +336,16 @@ class Simulation:
         if (entry := entry_of(self.setup.loop, arguments)) is not None:
             self._prepared = outputs, entry
             return
-        kept = self.save()
+        saved = self.save()
         self.state.control[abi.STOP] = 1
         self.enter(type(outputs)(*(array[:0] for array in outputs)))
-        self.restore(kept)
+        self.restore(saved)
 
     def save(self) -> dict[str, NDArray[Any]]:
         """Return copies of all arrays that the run keeps, by name."""
-        found = {name: array for name, array in self.state._asdict().items() if name != "room"}
-        found |= {name: getattr(self.scheme, name) for name in names_kept(self.scheme)}
-        return {name: array.copy() for name, array in found.items()}
+        arrays = {name: array for name, array in self.state._asdict().items() if name != "room"}
+        arrays |= {name: getattr(self.scheme, name) for name in names_kept(self.scheme)}
+        return {name: array.copy() for name, array in arrays.items()}
 
     def restore(self, saved: Mapping[str, NDArray[Any]], spec: RunSpec | None = None) -> None:
         """Take up what `save` returned, for the same model, method, integrator, limits and events, with other stops."""

@@ -245,7 +245,7 @@ def factorise_anew(plan: Any, numbers: Any) -> int:
     upper, lower = part(plan, work + _UPPER * n, n), part(plan, work + _LOWER * n, n)
     end = part(plan, work + _END * n, n)
     place, pivot_row = part(plan, work + _PLACE * n, n), part(plan, work + _PIVOT_ROW * n, n)
-    found, mark = part(plan, work + _FOUND * n, n), part(plan, work + _MARK * n, n)
+    reached, mark = part(plan, work + _FOUND * n, n), part(plan, work + _MARK * n, n)
     positions = part(plan, plan[POOL], room)
     values, inverse, x = part(numbers, 0, size), part(numbers, size + 2 * n, n), part(numbers, size + 3 * n, n)
     least, pool = part(numbers, size + 4 * n, n), part(numbers, size + 5 * n, room)
@@ -258,14 +258,14 @@ def factorise_anew(plan: Any, numbers: Any) -> int:
         if used + n - top > room:
             return -1
         for f in range(top, n):
-            x[found[f]] = 0.0
+            x[reached[f]] = 0.0
         for i in range(columns[k], columns[k + 1]):
             x[rows[i]] = values[i]
         upper[k] = used
         for f in range(top, n):
-            j = place[found[f]]
+            j = place[reached[f]]
             if j >= 0:
-                u = x[found[f]]
+                u = x[reached[f]]
                 positions[used] = j
                 pool[used] = u
                 used += 1
@@ -274,7 +274,7 @@ def factorise_anew(plan: Any, numbers: Any) -> int:
         lower[k] = used
         best, diagonal, at = 0.0, 0.0, -1
         for f in range(top, n):
-            r = found[f]
+            r = reached[f]
             if place[r] < 0:
                 if abs(x[r]) > best:
                     best, at = abs(x[r]), r
@@ -291,13 +291,13 @@ def factorise_anew(plan: Any, numbers: Any) -> int:
             place[at] = k
             pivot_row[k] = at
             for f in range(top, n):
-                if place[found[f]] < 0:
-                    positions[used] = found[f]
-                    pool[used] = x[found[f]] * inverse[k]
+                if place[reached[f]] < 0:
+                    positions[used] = reached[f]
+                    pool[used] = x[reached[f]] * inverse[k]
                     used += 1
             end[k] = used
         for f in range(top, n):
-            x[found[f]] = 0.0
+            x[reached[f]] = 0.0
     free = 0
     for i in range(n):  # rows that no column has taken stand where the pivots were skipped
         if place[i] < 0:
@@ -327,7 +327,7 @@ def reach(plan: Any, k: int) -> int:
     columns, rows, positions = plan[COLUMNS], plan[ROWS], plan[POOL]
     place, lower = part(plan, work + _PLACE * n, n), part(plan, work + _LOWER * n, n)
     end = part(plan, work + _END * n, n)
-    found, mark = part(plan, work + _FOUND * n, n), part(plan, work + _MARK * n, n)
+    reached, mark = part(plan, work + _FOUND * n, n), part(plan, work + _MARK * n, n)
     stack, following = part(plan, work + _STACK * n, n), part(plan, work + _NEXT * n, n)
     top = n
     for i in range(plan[columns + k], plan[columns + k + 1]):
@@ -354,7 +354,7 @@ def reach(plan: Any, k: int) -> int:
                         deeper = True
             if not deeper:
                 top -= 1
-                found[top] = stack[depth]
+                reached[top] = stack[depth]
                 depth -= 1
     return int(top)
 

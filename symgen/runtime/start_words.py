@@ -69,14 +69,14 @@ def warnings_of(
     names = {quantity.name for quantity in info.coordinates}
     limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED, "1": 0.5 * decisions.FAR_TURNED}
     far = [c for c in changes if c.name in names and abs(c.after - c.before) > limits[c.unit]]
-    told, bodies = ([_listed(far)] if far else []), {c.name.partition(".")[0] for c in far}
+    moves, bodies = ([_listed(far)] if far else []), {c.name.partition(".")[0] for c in far}
     for name, size, unit in moved:  # of each body the coordinates, or else the first of its points
         if size > limits[unit] and name.partition(".")[0] not in bodies:
             bodies.add(name.partition(".")[0])
-            told.append(f"{name} by {size:.6g} {unit}")
-    if not told:
+            moves.append(f"{name} by {size:.6g} {unit}")
+    if not moves:
         return ()
-    return (f"closing the initial positions moved bodies far from where they are described: {'; '.join(told)}",)
+    return (f"closing the initial positions moved bodies far from where they are described: {'; '.join(moves)}",)
 
 
 def notes_of(held: Held, summary: Array, changes: Sequence[Change], info: ModelInfo) -> tuple[str, ...]:
@@ -107,8 +107,8 @@ def opposite(joint: str) -> str:
 
 def _listed(changes: Sequence[Change]) -> str:
     """Return the first changes one by one, and how many more there are."""
-    told = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:_LISTED])
-    return told + (f"; and {len(changes) - _LISTED} more" if len(changes) > _LISTED else "")
+    words = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:_LISTED])
+    return words + (f"; and {len(changes) - _LISTED} more" if len(changes) > _LISTED else "")
 
 
 def _from_to(change: Change) -> str:
@@ -157,19 +157,19 @@ def refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> Assemb
         return half_turn(info, joints_of(info)[where])
     if code == e.TURNED_OVER:
         return turned_over(info, where)
-    found = "given velocities contradicted by the constraints"
+    reason = "given velocities contradicted by the constraints"
     if code == e.MOVED:
-        found = f"positions that closing moves by up to {float(summary[e.START_MOVED]):.3g}"
-    return InputError("initial state", "a consistent start (--strict)", found)
+        reason = f"positions that closing moves by up to {float(summary[e.START_MOVED]):.3g}"
+    return InputError("initial state", "a consistent start (--strict)", reason)
 
 
 def _stays_open(info: ModelInfo, held: Held, joint: str, size: float) -> AssemblyError:
     """Return why there is no start where a joint stays open by a size [m or rad]."""
     described = held.described(info)
-    kept = [words for words in (held.positions(info), f"{described} as described" if described else "") if words]
-    what = f" with {' and '.join(kept)} held" if kept else ""
+    holds = [words for words in (held.positions(info), f"{described} as described" if described else "") if words]
+    what = f" with {' and '.join(holds)} held" if holds else ""
     # joints and drivers may leave nothing free, so that a coordinate has one of a few values
-    ways = f"; {OTHER_WAYS}" if kept and info.m >= info.nv else ""
+    ways = f"; {OTHER_WAYS}" if holds and info.m >= info.nv else ""
     return AssemblyError(
         f"{info.name}: the mechanism cannot be assembled from this start{what}: joint '{joint}' stays open by "
         f"{size:.3g} m or rad; check its points and the positions of the bodies it joins{ways}",

@@ -24,15 +24,15 @@ from symgen.runtime.closing import (
 from symgen.runtime.exact import exact
 from symgen.runtime.joint_starts import JOINTS, Further, copied_scratch, fill_further
 from symgen.runtime.scales import extent_of, free_scale, larger, measure_lengths, row_weight, speed_of
-from symgen.runtime.start_records import ASKED, INSTANT, MODEL, WORK, Closing, Instant, StartConditions
+from symgen.runtime.start_records import INSTANT, MODEL, START_CONDITIONS, WORK, Closing, Instant, StartConditions
 
 _A, _I = types.float64[::1], types.int64[::1]
 #: A model, its ``observe``, and the joint coordinates that starts hold.
 _HOLDING = types.RecordType((MODEL, abi.OBSERVE, JOINTS))
 
 
-@exact(types.int64(_HOLDING, INSTANT, ASKED, WORK), once=True)
-def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
+@exact(types.int64(_HOLDING, INSTANT, START_CONDITIONS, WORK), once=True)
+def close_row(model: Any, now: Any, conditions: Any, work: Any) -> int:
     """Make the start of a run consistent.
 
     Positions are closed by shortest changes from those described, those that are fixed staying where they are; then the
@@ -44,9 +44,9 @@ def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
     ----------
     model : tuple
         First a `Layout`, then ``geometry``, ``measure``, ``move``, ``spread``, `solve`, `turns` and ``rhs``: emitted
-        ones (`symgen.runtime.abi`), one of `symgen.runtime.least_norm` and one of `symgen.runtime.turning`. Behind
+        ones (`symgen.runtime.abi`) and two of `symgen.runtime.start_solvers`. Behind
         these ``observe``, and `symgen.runtime.joint_starts.Joints`.
-    now, asked, work : Instant, Asked, Work
+    now, conditions, work : Instant, StartConditions, Work
         See `symgen.runtime.start_records`. The state holds the described coordinates and velocities of 0; parameters
         and masses are prepared, the pivots are 1.
 
@@ -56,7 +56,7 @@ def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
         `ASSEMBLED`, or why there is no start; see `symgen.runtime.ensemble_abi`.
     """
     (layout, geometry, measure, move, spread, solve, turns, rhs), observe, joints = model
-    closing, y, w, summary = Closing(geometry, measure, move, spread, solve), now.y, now.w, asked.summary
+    closing, y, w, summary = Closing(geometry, measure, move, spread, solve), now.y, now.w, conditions.summary
     values = joints.values.m - layout.m
     nothing = Further(observe, part(joints.held, 0, 0), joints.goals, joints.out, layout.residual, layout.nu)
     code = check_numbers(layout, now, summary)
@@ -68,17 +68,17 @@ def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
             if math.isfinite(layout.branches[i]):
                 w[abi.WINDING + i] = layout.branches[i]
     if code == e.ASSEMBLED:
-        code = _reach(closing, layout, now, asked, work, joints, nothing)
+        code = _reach(closing, layout, now, conditions, work, joints, nothing)
     h = layout.held.shape[0] // 2
-    if code == e.OPEN and h > 0 and values == 0 and _is_given(closing, layout, now, asked, work, nothing):
+    if code == e.OPEN and h > 0 and values == 0 and _is_given(closing, layout, now, conditions, work, nothing):
         if layout.windings > 0:
             turns(geometry, measure, layout, now, work)
         code = e.ASSEMBLED
     if code == e.ASSEMBLED:
         if joints.rates.m == layout.m:
-            code = complete_velocities(closing, layout, now, work, asked.given)
+            code = complete_velocities(closing, layout, now, work, conditions.given)
         else:
-            code = _complete_with_rates(closing, layout, now, asked, work, joints, observe)
+            code = _complete_with_rates(closing, layout, now, conditions, work, joints, observe)
     if code == e.PROJECTED:
         summary[e.START_VELOCITIES] = 1.0
         code = e.ASSEMBLED
@@ -113,9 +113,9 @@ def check_numbers(layout: Any, now: Any, summary: Any) -> int:
 
 
 @exact()
-def _reach(closing: Any, layout: Any, now: Any, asked: Any, work: Any, joints: Any, nothing: Any) -> int:
+def _reach(closing: Any, layout: Any, now: Any, conditions: Any, work: Any, joints: Any, nothing: Any) -> int:
     """Close the described positions, then positions with what is held on the way to its values."""
-    y, first, scale, held, targets = now.y, work.first, work.scale, layout.held, asked.targets
+    y, first, scale, held, targets = now.y, work.first, work.scale, layout.held, conditions.targets
     h, values, strides, nw = layout.held.shape[0] // 2, joints.values.m - layout.m, 0, now.w.shape[0]
     of = part(joints.held, 0, values)
     further = Further(nothing.observe, of, joints.goals, joints.out, layout.residual, layout.nu)
@@ -145,7 +145,7 @@ def _reach(closing: Any, layout: Any, now: Any, asked: Any, work: Any, joints: A
                 change = abs(y[i] - first[i])
                 if change > moved and change > decisions.MOVED * (length if layout.lengths[i] != 0.0 else 1.0):
                     moved = change
-            asked.summary[e.START_MOVED] = moved
+            conditions.summary[e.START_MOVED] = moved
             for c in range(h):
                 i = held[2 * c]
                 first[i] = y[i]
@@ -173,21 +173,21 @@ def _reach(closing: Any, layout: Any, now: Any, asked: Any, work: Any, joints: A
 
 
 @exact()
-def _complete_with_rates(closing: Any, layout: Any, now: Any, asked: Any, work: Any, joints: Any, observe: Any) -> int:
+def _complete_with_rates(closing: Any, layout: Any, now: Any, goal: Any, work: Any, joints: Any, observe: Any) -> int:
     """Complete the velocities of a state in which rates of joint coordinates are held."""
     values, rates = joints.values.m - layout.m, joints.rates.m - layout.m
     of, goals, first = part(joints.held, values, rates), part(joints.goals, values, rates), layout.held.shape[0] // 2
     for c in range(rates):
-        goals[c] = asked.targets[first + values + c]
+        goals[c] = goal.targets[first + values + c]
     state = Instant(now.y, now.p, joints.w)
     copied_scratch(now.w, joints.w, now.w.shape[0])
     further = Further(observe, of, goals, joints.out, layout.residual, layout.nu)
     place(closing, joints.rates, state, work, further)
-    return int(complete_velocities(closing, joints.rates, state, work, asked.given))
+    return int(complete_velocities(closing, joints.rates, state, work, goal.given))
 
 
 @exact()
-def _is_given(closing: Any, layout: Any, now: Any, asked: Any, work: Any, nothing: Any) -> bool:
+def _is_given(closing: Any, layout: Any, now: Any, conditions: Any, work: Any, nothing: Any) -> bool:
     """Put held coordinates to their values at once; whether all is closed then, the others as they were described.
 
     If not, the state is what it was.
@@ -196,7 +196,7 @@ def _is_given(closing: Any, layout: Any, now: Any, asked: Any, work: Any, nothin
     for i in range(layout.nq):
         before[i], y[i] = y[i], first[i]
     for c in range(layout.held.shape[0] // 2):
-        y[layout.held[2 * c]] = asked.targets[c]
+        y[layout.held[2 * c]] = conditions.targets[c]
         work.scale[layout.held[2 * c + 1]] = 0.0
     closing.geometry(layout.t, y, now.p, w)
     square, length = 0.0, larger(w[abi.LENGTH], extent_of(layout, y))
@@ -210,15 +210,15 @@ def _is_given(closing: Any, layout: Any, now: Any, asked: Any, work: Any, nothin
     return False
 
 
-@exact(types.int64(_HOLDING, INSTANT, ASKED, WORK, _I, _I))
-def close_rows(model: Any, all_of_now: Any, all_asked: Any, work: Any, selected: Any, control: Any) -> int:
+@exact(types.int64(_HOLDING, INSTANT, START_CONDITIONS, WORK, _I, _I))
+def close_rows(model: Any, all_of_now: Any, all_conditions: Any, work: Any, selected: Any, control: Any) -> int:
     """Make the starts of many rows consistent.
 
     Parameters
     ----------
     model, work
         As for `close_row`.
-    all_of_now, all_asked : Instant, Asked
+    all_of_now, all_conditions : Instant, StartConditions
         Of all rows, one behind the other.
     selected : Array of int
         Rows to work on.
@@ -232,7 +232,7 @@ def close_rows(model: Any, all_of_now: Any, all_asked: Any, work: Any, selected:
     """
     (layout, geometry, measure, move, spread, solve, turns, rhs), observe, joints = model
     layout, joints, work = bare(layout), bare(joints), bare(work)
-    (ys, ps, ws), rest = bare(all_of_now), bare(all_asked)
+    (ys, ps, ws), rest = bare(all_of_now), bare(all_conditions)
     model = (layout, geometry, measure, move, spread, solve, turns, rhs), observe, joints
     n, ny, h = layout.nv, layout.ny, layout.held.shape[0] // 2 + joints.held.shape[0]
     runs = ys.shape[0] // ny
@@ -243,8 +243,8 @@ def close_rows(model: Any, all_of_now: Any, all_asked: Any, work: Any, selected:
         r = selected[s]
         now = Instant(part(ys, r * ny, ny), part(ps, r * n_p, n_p), part(ws, r * nw, nw))
         summary = part(rest.summary, r * e.N_SUMMARY, e.N_SUMMARY)
-        asked = StartConditions(part(rest.given, r * n, n), part(rest.targets, r * h, h), summary)
-        close_row(model, now, asked, work)
+        conditions = StartConditions(part(rest.given, r * n, n), part(rest.targets, r * h, h), summary)
+        close_row(model, now, conditions, work)
     return int(selected.shape[0])
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from symgen.runtime.bare import bare
 from symgen.runtime.loop_instances import loop as compiled_loop
 from symgen.runtime.loop_instances import signature_of
 from symgen.runtime.records import Span
+from symgen.runtime.start_records import record_type
 from symgen.store.jit import jit
 
 if TYPE_CHECKING:
@@ -27,35 +28,17 @@ if TYPE_CHECKING:
 
 #: Numbers of `Stops.head`: the row that runs, and 1 where steps are adaptive.
 ROW, ADAPTIVE = range(2)
-
-
-class Stops(NamedTuple):
-    """The stops of all rows one after the other; a single run is one row.
-
-    Attributes
-    ----------
-    head : Array of int64
-        `ROW` and `ADAPTIVE`.
-    rows : Array of int64, shape (rows + 1,)
-        First stop of each row.
-    times : Array
-        Of stops, in order in each row [s].
-    changes : Array of int64, shape (stops + 1,)
-        First change of each stop.
-    places, values : Array
-        Changes: an index in ``p``, and the number that stands there from then on.
-    """
-
-    head: Any
-    rows: Any
-    times: Any
-    changes: Any
-    places: Any
-    values: Any
-
-
 _A, _K = types.float64[::1], types.int64[::1]
-STOPS = types.RecordType((_K, _K, _A, _K, _K, _A), Stops)
+
+
+#: The stops of all rows one after the other; a single run is one row.
+#: - head: `ROW` and `ADAPTIVE`.
+#: - rows (shape (rows + 1,)): First stop of each row.
+#: - times: Of stops, in order in each row [s].
+#: - changes (shape (stops + 1,)): First change of each stop.
+#: - places, values: Changes: an index in ``p``, and the number that stands there from then on.
+STOPS = record_type("Stops", __name__, ("head rows", _K), ("times", _A), ("changes places", _K), ("values", _A))
+Stops: Any = STOPS.made
 
 
 def due(stops: Any, count: int) -> float:

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import DrivenMechanism, Jump
@@ -73,11 +73,11 @@ def stops_of(
             raise InputError(f"input '{name}'", f"data from {first:g} to {until:g} s, as curves end where they do", got)
 
     until *= 1.0 + behind
-    found = {t for data in driven.samples.values() for t in data.t}
+    jumps = {t for data in driven.samples.values() for t in data.t}
     for jump in driven.jumps:
-        found.update(formulas.crossings(jump, until, first))
+        jumps.update(formulas.crossings(jump, until, first))
     times = [first]
-    for t in sorted(found):
+    for t in sorted(jumps):
         if t - times[-1] > SAME * until and until - t > SAME * until:
             times.append(t)
     if len(times) > MOST_PIECES:
@@ -99,20 +99,13 @@ def merged(stops: tuple[Stop, ...], kinks: tuple[Stop, ...]) -> tuple[Stop, ...]
     """Return stops where numbers change together with those at which none does, one of each two at the same time."""
     if not (stops and kinks):
         return stops or kinks
-    found, apart = list[Stop](), SAME * kinks[-1].t
+    result, apart = list[Stop](), SAME * kinks[-1].t
     for stop in sorted([*stops, *kinks], key=lambda stop: stop.t):
-        if found and stop.t - found[-1].t <= apart:  # one of the two changes no number
-            found[-1] = Stop(found[-1].t, {**found[-1].values, **stop.values})
+        if result and stop.t - result[-1].t <= apart:  # one of the two changes no number
+            result[-1] = Stop(result[-1].t, {**result[-1].values, **stop.values})
         else:
-            found.append(stop)
-    return tuple(found)
-
-
-class _Found(NamedTuple):
-    """The stops of a run, and whether these are all that formulas pass."""
-
-    stops: tuple[Stop, ...] = ()
-    all: bool = True
+            result.append(stop)
+    return tuple(result)
 
 
 @dataclass(frozen=True)
@@ -127,14 +120,16 @@ class Foreseen:
         Whose tables they may read.
     kinks, sides : tuple of Jump
         From `symgen.describe.kinks.known_in_time`.
-    known : dict
-        What was found last, by what it depends on.
+    latest : dict
+        The latest result, by what it depends on.
     """
 
     mechanism: Mechanism
     kinks: tuple[Jump, ...] = ()
     sides: tuple[Jump, ...] = ()
-    known: dict[tuple[float, ...], _Found] = field(default_factory=dict, repr=False, compare=False)
+    latest: dict[tuple[float, ...], tuple[tuple[Stop, ...], bool]] = field(
+        default_factory=dict, repr=False, compare=False
+    )
 
     def __bool__(self) -> bool:
         """Whether there is anything."""
@@ -155,28 +150,24 @@ class Foreseen:
         until : float
             End of the run [s].
         """
-        return self._found(values, until).stops
+        return self._stops(values, until)[0]
 
-    def are_all(self, values: Mapping[str, float], until: float) -> bool:
-        """Return whether `stops` are at all that formulas pass; with too many times they are at none.
-
-        Parameters
-        ----------
-        values, until
-            As for `stops`.
-        """
-        return self._found(values, until).all
-
-    def _found(self, values: Mapping[str, float], until: float) -> _Found:
+    def _stops(self, values: Mapping[str, float], until: float) -> tuple[tuple[Stop, ...], bool]:
+        """Return the stops, and whether these are all that formulas pass: of too many there are none."""
         if not self:
-            return _Found()
+            return (), True
         key = until, *(values[name] for name in sorted(self.reads & values.keys()))
-        found = self.known.get(key)
-        if found is None:  # runs that are compared, or of a sweep, often differ in nothing of that
-            found = self._looked_for(values, until)
-            self.known.clear()  # threads of a sweep do so, too
-            self.known[key] = found
-        return found
+        result = self.latest.get(key)
+        if result is None:  # runs that are compared, or of a sweep, often differ in nothing of that
+            kinks, all_kinks = times_between(self.kinks, self.mechanism, values, until)
+            sides, all_sides = times_between(self.sides, self.mechanism, values, until)
+            # a short part around each: no stage of those beside it is at the very time, which belongs to one side
+            beside = (t + way * _BESIDE * until for t in sides for way in (-1.0, 1.0))
+            times = sorted({*kinks, *(t for t in beside if 0.0 < t < until)})
+            result = tuple(Stop(t, {}) for t in (0.0, *times)) if times else (), all_kinks and all_sides
+            self.latest.clear()  # threads of a sweep do so, too
+            self.latest[key] = result
+        return result
 
     def missed(self, values: Mapping[str, float], until: float, step: float | None) -> list[str]:
         """Return what steps of a run may not see, in words: constant ones what is shorter than one.
@@ -188,41 +179,18 @@ class Foreseen:
         step : float or None
             The constant step [s]; none where steps are adaptive.
         """
-        if not self.are_all(values, until):
+        if not self._stops(values, until)[1]:
             often = "formulas change, or pass points of tables, more often than can be told apart"
             return [f"{often}: steps do not end there, and may miss what is short"]
         if step is None:
             return []
-        near = self.closest(values, until)
-        if near is None or near[1] - near[0] >= step:
+        jumps = [*self.sides, *(kink for kink in self.kinks if kink.levels == (0.0,))]  # not points of tables
+        times, _ = times_between(jumps, self.mechanism, values, until)
+        near = min(pairwise(times), key=lambda pair: pair[1] - pair[0], default=(0.0, step))
+        if near[1] - near[0] >= step:
             return []
         what = f"formulas change at t = {near[0]:.9g} and {near[1]:.9g} s, within one step of {step:g} s"
         return [f"{what}: constant steps may miss what lies between; adaptive ones do not"]
-
-    def closest(self, values: Mapping[str, float], until: float) -> tuple[float, float] | None:
-        """Return the two times inside a run [s] that are closest to each other, points of tables left aside.
-
-        Parameters
-        ----------
-        values, until
-            As for `stops`.
-        """
-        jumps = [*self.sides, *(kink for kink in self.kinks if kink.levels == (0.0,))]
-        times, _ = times_between(jumps, self.mechanism, values, until)
-        return min(pairwise(times), key=_length, default=None)
-
-    def _looked_for(self, values: Mapping[str, float], until: float) -> _Found:
-        kinks, all_kinks = times_between(self.kinks, self.mechanism, values, until)
-        sides, all_sides = times_between(self.sides, self.mechanism, values, until)
-        times = set(kinks)
-        # a short part around each: no stage of those beside it is at the very time, which belongs to one side
-        for t in sides:
-            times |= {beside for way in (-1.0, 1.0) if 0.0 < (beside := t + way * _BESIDE * until) < until}
-        return _Found(tuple(Stop(t, {}) for t in (0.0, *sorted(times))) if times else (), all_kinks and all_sides)
-
-
-def _length(pair: tuple[float, float]) -> float:
-    return pair[1] - pair[0]
 
 
 def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
@@ -271,14 +239,14 @@ def times_between(
     bool
         Whether nothing was left out.
     """
-    formulas, found, apart, whole = InTime(mechanism, values), set[float](), SAME * until, True
+    formulas, crossings, apart, whole = InTime(mechanism, values), set[float](), SAME * until, True
     for jump in jumps:
         try:
-            found.update(formulas.crossings(_unrolled(jump, formulas, until), until))
+            crossings.update(formulas.crossings(_unrolled(jump, formulas, until), until))
         except InputError:
             whole = False
     times = list[float]()
-    for t in sorted(found):
+    for t in sorted(crossings):
         if t - (times[-1] if times else 0.0) > apart and until - t > apart:
             times.append(t)
     return (tuple(times), whole) if len(times) <= MOST_PIECES else ((), False)

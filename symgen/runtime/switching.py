@@ -1,15 +1,42 @@
-"""Switching functions between two states: the cubic through their values and slopes, and where it changes sides."""
+"""Switching functions in a bracket: the cubic through values and slopes at its ends, and where to look next."""
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
+from symgen.runtime.frame import LOW
+from symgen.runtime.search_records import (
+    ACTION,
+    ANEW,
+    BLUR,
+    D_HIGH,
+    D_LOW,
+    D_START,
+    DIRECTION,
+    G_HIGH,
+    G_LOW,
+    G_START,
+    HIGH,
+    LOCAL,
+    N_HEAD,
+    PROBES,
+    RESOLUTION,
+    ROUNDS,
+    WHOLE,
+    WIDTH,
+)
 from symgen.store.emitted import plain
 
+A = Any
 #: Iterations for the root of a cubic, most of which halve a part at worst.
 _ITERATIONS = 60
 #: What is below this part of g at both ends is rounding.
 _ROUNDING = 1e-14
+#: A search ends in a bracket that is so many times as wide each time that the root seems to be at an end of it.
+_WIDER = 8.0
+#: Attempts at extrema in a bracket, at most.
+_MOST_PROBES = 12
 
 
 @plain
@@ -42,8 +69,8 @@ def side_of(g: float, before: float) -> float:
 
 
 @plain
-def asked(direction: float, before: float, after: float) -> int:
-    """Return 1 where a change of sides is one that is asked for, else 0."""
+def is_sought(direction: float, before: float, after: float) -> int:
+    """Return 1 where a change of sides is in the direction that is sought, else 0."""
     return 1 if before != after and (direction == 0.0 or direction == after) else 0
 
 
@@ -100,3 +127,75 @@ def dip(g0: float, d0: float, g1: float, d1: float, side: float) -> float:
         first = x
     x = (g1 - d1 - g0) / (d0 - d1)
     return min(first, x) if x > 0.0 and side * (g0 + d0 * x) < least else first
+
+
+@plain
+def passes(hunt: A, n: int, k: int, column: int) -> int:
+    """Return 1 where a function changes sides, as is sought, between the bracket's beginning and a column; else 0."""
+    side = hunt[N_HEAD + LOCAL * n + k]
+    return int(is_sought(hunt[N_HEAD + DIRECTION * n + k], side, side_of(hunt[N_HEAD + column * n + k], side)))
+
+
+@plain
+def beyond_low(hunt: A, n: int, k: int, otherwise: float) -> float:
+    """Return the part of the bracket at which g leaves its side, by what is known before the bracket alone.
+
+    Behind a jump, rates at the end of the bracket are others.
+    """
+    at, low, width = N_HEAD, hunt[LOW], hunt[HIGH] - hunt[LOW]
+    g, d, bent = hunt[at + G_LOW * n + k], hunt[at + D_LOW * n + k], 0.0
+    if low > 0.0:
+        rise = (g - hunt[at + G_START * n + k]) / low
+        bent = (2.0 * hunt[at + D_START * n + k] + 4.0 * d - 6.0 * rise) / low
+    square = d * d - 2.0 * bent * g
+    if not (g * d < 0.0 and square >= 0.0):
+        return otherwise
+    x = -2.0 * g / (d + math.copysign(math.sqrt(square), d)) / width
+    return float(x) if x > 0.0 and x < 1.0 else otherwise
+
+
+@plain
+def candidate(hunt: A, n: int) -> float:
+    """Return where to look next for the first change of sides in a bracket."""
+    at = N_HEAD
+    low, high, rounds = hunt[LOW], hunt[HIGH], int(hunt[ROUNDS])
+    width = high - low
+    if rounds % 3 == 0:
+        before = hunt[WIDTH]
+        hunt[WIDTH] = width
+        if rounds > 0 and width > 0.25 * before:
+            return float(0.5 * (low + high))
+    x = 1.0
+    for k in range(n):
+        if passes(hunt, n, k, G_HIGH) == 1:
+            side, g1 = hunt[at + LOCAL * n + k], hunt[at + G_HIGH * n + k]
+            d0, d1 = width * hunt[at + D_LOW * n + k], width * hunt[at + D_HIGH * n + k]
+            root = first_root(hunt[at + G_LOW * n + k], d0, g1, d1, side) if is_finite(d0 + d1) == 1 else 0.5
+            if rounds % 2 == 1 and hunt[at + ACTION * n + k] == float(ANEW):
+                root = beyond_low(hunt, n, k, root)
+            x = min(x, root)
+    x = low + x * width
+    # a little beyond the root, seen from the nearer end, so that the bracket has it between two near ends
+    ahead = 1 if x - low < high - x else 0
+    distance = x - low if ahead == 1 else high - x
+    beyond = distance * min(0.1, math.sqrt(distance / hunt[WHOLE])) if rounds > 0 else 0.0
+    x += beyond if ahead == 1 else -beyond
+    least = 0.5 * hunt[BLUR]
+    if distance < least:  # at the end of the bracket: rounding of g hides it in more time than time resolves
+        hunt[BLUR] *= _WIDER
+    return float(min(max(x, low + least), high - least))
+
+
+@plain
+def concealed(hunt: A, n: int) -> float:
+    """Return where in a bracket to look for events that its end does not show; its end where there are none."""
+    at = N_HEAD
+    low, high = hunt[LOW], hunt[HIGH]
+    x = 2.0
+    if hunt[PROBES] < _MOST_PROBES and high - low > 8.0 * hunt[RESOLUTION]:
+        for k in range(n):
+            g0, g1 = hunt[at + G_LOW * n + k], hunt[at + G_HIGH * n + k]
+            d0, d1 = (high - low) * hunt[at + D_LOW * n + k], (high - low) * hunt[at + D_HIGH * n + k]
+            if is_finite(d0 + d1) == 1 and passes(hunt, n, k, G_HIGH) == 0:
+                x = min(x, dip(g0, d0, g1, d1, hunt[at + LOCAL * n + k]))
+    return float(low + x * (high - low)) if x < 1.0 else float(high)

@@ -1,4 +1,4 @@
-"""Points of tables that the state passes: the interval that an argument is in, and a step that ends at the next point.
+"""Switches and points of tables that the state passes: where an argument is, and steps that end at the next point.
 
 Where a table is read over the state, nobody knows beforehand when its next point is passed, but nearly, at an accepted
 state: with s, s' and s'' of the argument, at the root of s + s' h + s'' h^2 / 2 = point. Steps are made to end there.
@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from symgen.runtime.frame import TRY
+from symgen.runtime.frame import DOUBT, LOW, NOTHING, TRY
 from symgen.runtime.search_records import (
     ACTION,
     ANEW,
@@ -19,10 +19,13 @@ from symgen.runtime.search_records import (
     CURVE,
     D_START,
     FIRST,
+    G_HIGH,
     G_START,
     GRAIN,
+    HIGH,
     LEVEL,
     MISSED,
+    N_COLUMNS,
     N_HEAD,
     PERIOD,
     PLACE,
@@ -35,7 +38,7 @@ from symgen.runtime.search_records import (
     TABLES,
     WAY,
 )
-from symgen.runtime.switching import is_finite
+from symgen.runtime.switching import is_finite, passes
 from symgen.store.emitted import plain
 
 A = Any
@@ -49,6 +52,8 @@ SHORT_OF = 0.99
 _MOST = 1e6
 #: Beyond the points of a table.
 _FAR = 1e300
+#: A switch within this part of the size of its terms is on the side that it was on before.
+_ROUNDING = 1e-13
 
 
 @plain
@@ -139,11 +144,17 @@ def through(hunt: A, n: int, k: int) -> float:
 
 
 @plain
+def curvature(rise: float, before: float, after: float, h: float) -> float:
+    """Return the rate of the rate at the end of a step: that of the cubic through values and rates at both ends."""
+    curve = (2.0 * before + 4.0 * after - 6.0 * rise / h) / h
+    return curve if is_finite(curve) == 1 else 0.0
+
+
+@plain
 def bend(hunt: A, n: int, k: int, g: float, d: float, h: float) -> int:
-    """Keep the rate of the rate at the end of a step of h: that of the cubic through values and rates at both ends."""
-    rise = g - hunt[N_HEAD + G_START * n + k]
-    curve = (2.0 * hunt[N_HEAD + D_START * n + k] + 4.0 * d - 6.0 * rise / h) / h
-    hunt[N_HEAD + CURVE * n + k] = curve if is_finite(curve) == 1 else 0.0
+    """Keep the rate of the rate at the end of a step of h."""
+    rise, before = g - hunt[N_HEAD + G_START * n + k], hunt[N_HEAD + D_START * n + k]
+    hunt[N_HEAD + CURVE * n + k] = curvature(rise, before, d, h)
     return 0
 
 
@@ -154,9 +165,8 @@ def arrive(hunt: A, n: int, k: int, h: float) -> int:
     rate = rate if is_finite(rate) == 1 else 0.0
     if is_finite(s) == 1:
         if h > 0.0:
-            moved = s - hunt[N_HEAD + ARGUMENT_START * n + k]
-            curve = (2.0 * hunt[N_HEAD + SLOPE_START * n + k] + 4.0 * rate - 6.0 * moved / h) / h
-            hunt[N_HEAD + CURVE * n + k] = curve if is_finite(curve) == 1 else 0.0
+            rise, before = s - hunt[N_HEAD + ARGUMENT_START * n + k], hunt[N_HEAD + SLOPE_START * n + k]
+            hunt[N_HEAD + CURVE * n + k] = curvature(rise, before, rate, h)
         hunt[N_HEAD + PLACE * n + k] = float(place_of(hunt, n, k, s, rate))
         hunt[N_HEAD + ARGUMENT_START * n + k], hunt[N_HEAD + SLOPE_START * n + k] = s, rate
     hunt[N_HEAD + SIDE * n + k] = 1.0
@@ -211,3 +221,51 @@ def aim(hunt: A, n: int, h: float) -> int:
     else:
         hunt[TRY] = h
     return 0
+
+
+@plain
+def switch_values(hunt: A, n: int, h: float, hunting: int) -> int:
+    """Have the values of switches as they count: those within rounding of zero, or undefined, as on the same side."""
+    at, out = N_HEAD, N_HEAD + N_COLUMNS * n
+    for k in range(n):
+        if hunt[at + ACTION * n + k] != float(ANEW):
+            continue
+        if hunt[at + POINTS * n + k] > 0.0:
+            s, rate = hunt[out + k], hunt[out + n + k]
+            hunt[at + ARGUMENT * n + k], hunt[at + SLOPE * n + k] = s, rate
+            if hunting == NOTHING or hunting == DOUBT:
+                face(hunt, n, k, h)
+            way = hunt[at + WAY * n + k]
+            hunt[out + k], hunt[out + n + k] = way * (hunt[at + LEVEL * n + k] - s), -way * rate
+        hunt[at + GRAIN * n + k] = _ROUNDING * hunt[out + 2 * n + k]
+        if is_finite(hunt[out + k] + hunt[out + n + k]) == 0:
+            hunt[out + k], hunt[out + n + k] = 0.0, 0.0
+        elif abs(hunt[out + k]) <= hunt[at + GRAIN * n + k]:
+            hunt[out + k] = 0.0
+    return 0
+
+
+@plain
+def ends_near(hunt: A, n: int) -> int:
+    """Return 1 where the bracket ends near enough behind everything that it passes, all of it switches, else 0."""
+    for k in range(n):
+        if passes(hunt, n, k, G_HIGH) == 1:
+            if hunt[N_HEAD + POINTS * n + k] > 0.0:
+                if ends_at(hunt, n, k, hunt[HIGH]) == 0:
+                    return 0
+            elif hunt[N_HEAD + ACTION * n + k] != float(ANEW) or hunt[HIGH] > 2.0 * short(hunt, n, k):
+                return 0
+    return 1
+
+
+@plain
+def is_before(hunt: A, n: int) -> int:
+    """Return 1 where a jump is passed in the bracket, whose beginning is nearly there, but no event; else 0."""
+    jumps = 0
+    for k in range(n):
+        if passes(hunt, n, k, G_HIGH) == 1:
+            if hunt[N_HEAD + ACTION * n + k] != float(ANEW):
+                return 0
+            if hunt[N_HEAD + POINTS * n + k] == 0.0 and hunt[LOW] > short(hunt, n, k):
+                jumps = 1
+    return 1 if jumps == 1 and hunt[HIGH] - hunt[LOW] <= (1.0 - SHORT_OF) * hunt[LOW] else 0

@@ -64,5 +64,5 @@ def timed(run: Callable[[], Outcome], repeat: int, at_least: float = 0.0) -> Tim
             return Timed(replace(outcome, run_seconds=shortest, interrupted=True), tuple(seconds))
         outcome = last
         seconds.append(last.run_seconds)
-    best = replace(outcome, run_seconds=min(seconds), compile_seconds=first.compile_seconds)
+    best = replace(outcome, run_seconds=min(seconds))
     return Timed(best, tuple(seconds))

@@ -6,7 +6,7 @@ Rows of loops may vanish as a whole there, for ever (a hinge beside another on o
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,43 +17,30 @@ from symgen.runtime.assembler import Assembly
 from symgen.runtime.bare import bare, part
 from symgen.runtime.closing import mask_redundant
 from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.exact import compiled_form, exact, plain_form
+from symgen.runtime.exact import exact, plain_form
 from symgen.runtime.joint_starts import Further
 from symgen.runtime.probe import Ready
 from symgen.runtime.scales import mean_mass
-from symgen.runtime.start_records import INSTANT, MODEL, WORK, Closing, Instant
+from symgen.runtime.start_records import INSTANT, MODEL, WORK, Closing, Instant, record_type
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
+_I, _A = types.int64[::1], types.float64[::1]
 
 #: A product of Euler parameters below this is one of orientations more than 120 degrees apart.
 TURNED_OVER = 0.5
 
 
-class Carrying(NamedTuple):
-    """Where what stands in rows of bodies and of a tree.
-
-    Attributes
-    ----------
-    work, outs : int
-        Elements of a tree's state before the work; numbers that ``observe`` writes.
-    places : Array of int, shape (2 work,)
-        Of each of these elements: 0 and where it stands in the state of bodies, or 1 and where ``observe`` writes it.
-    windings, gauges, spins : Array of int
-        Where angles that count turns, and squares of lengths, stand in the scratch of bodies; -1 where that is 1. Where
-        Euler parameters begin among the coordinates of bodies.
-    """
-
-    work: int
-    outs: int
-    places: Any
-    windings: Any
-    gauges: Any
-    spins: Any
+#: Where what stands in rows of bodies and of a tree.
+#: - work, outs: Elements of a tree's state before the work; numbers that ``observe`` writes.
+#: - places (shape (2 work,)): Of each of these elements: 0 and where it stands in the state of bodies, or 1 and where
+#:   ``observe`` writes it.
+#: - windings, gauges, spins: Where angles that count turns, and squares of lengths, stand in the scratch of bodies;
+#:   -1 where that is 1. Where Euler parameters begin among the coordinates of bodies.
+_CARRYING = record_type("Carrying", __name__, ("work outs", types.int64), ("places windings gauges spins", _I))
+Carrying: Any = _CARRYING.made
 
 
-_I, _A = types.int64[::1], types.float64[::1]
-_CARRYING = types.RecordType((types.int64, types.int64, *(_I,) * 4), Carrying)
 #: A tree with the ``observe`` of bodies, the function that carries its motion to bodies, and where what stands.
 _TREE = types.RecordType((MODEL, abi.OBSERVE, abi.OBSERVE, _CARRYING))
 
@@ -159,44 +146,24 @@ class Carried:
     assembly: Assembly
     carrying: Carrying
 
-    def settle(self, of_bodies: Instant, now: Instant) -> Array:
-        """Carry one start; return the products of Euler parameters, see `settle_row`.
-
-        Parameters
-        ----------
-        of_bodies, now : Instant
-            The start of bodies, and that of the tree, which is written.
-        """
-        assembly, alike = self.assembly, np.zeros(len(self.carrying.spins))
-        ends = self.bodies.model.observe, assembly.compiled.model.bodies
-        with np.errstate(all="ignore"):
-            assembly.prepare(now)
-            functions, form = assembly.functions(self.assembly.layout.m)
-            if form is plain_form:
-                ends = Ready(ends[0], abi.OBSERVE), Ready(ends[1], abi.OBSERVE)
-            tree = (assembly.layout, *functions[:-1]), *ends, self.carrying
-            form(settle_row)(tree, of_bodies, now, assembly.memory()[1], self._room(of_bodies), alike)
-        return alike
-
-    def settle_all(self, of_bodies: Instant, now: Instant, selected: Integers, control: Integers) -> Array:
+    def settle(self, of_bodies: Instant, now: Instant, selected: Integers, control: Integers) -> Array:
         """Carry the starts of the selected rows; return the products of Euler parameters, shape (rows, spins).
 
         Parameters
         ----------
         of_bodies, now : Instant
-            Of all rows, one row of a matrix for each.
+            Of all rows, one row of a matrix for each: the starts of bodies, and those of the tree, which are written.
         selected, control : Array of int
             Rows to work on; what the watching thread shares.
         """
         assembly, alike = self.assembly, np.zeros((len(now.y), len(self.carrying.spins)))
-        flat = Instant(*(array.ravel() for array in now))
-        assembly.prepare_all(flat, len(now.y), selected)
-        functions = (compiled_form(f) for f in assembly.own[:-1])
-        tree = (assembly.layout, *functions), self.bodies.model.observe, assembly.compiled.model.bodies, self.carrying
-        memory = assembly.memory()[1], self._room(Instant(*(array[0] for array in of_bodies)))
-        ends = Instant(*(array.ravel() for array in of_bodies)), flat
-        compiled_form(settle_rows)(tree, *ends, *memory, alike.reshape(-1), selected, control)
+        flat, functions, form = assembly.prepare(now, selected, assembly.layout.m)
+        ends = self.bodies.model.observe, assembly.compiled.model.bodies
+        if form is plain_form:
+            ends = Ready(ends[0], abi.OBSERVE), Ready(ends[1], abi.OBSERVE)
+        tree = (assembly.layout, *functions[:-1]), *ends, self.carrying
+        room = np.zeros(of_bodies.y.shape[1] + self.carrying.outs + of_bodies.w.shape[1])
+        starts = Instant(*(array.ravel() for array in of_bodies)), flat
+        with np.errstate(all="ignore"):
+            form(settle_rows)(tree, *starts, assembly.memory()[1], room, alike.reshape(-1), selected, control)
         return alike
-
-    def _room(self, of_bodies: Instant) -> Array:
-        return np.zeros(len(of_bodies.y) + self.carrying.outs + len(of_bodies.w))

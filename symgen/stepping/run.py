@@ -19,11 +19,9 @@ from symgen.runtime.changes import begin_with_step
 from symgen.runtime.events import EventRecord, record_of
 from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.stops import Foreseen, foreseen, merged, stops_of
-from symgen.stepping.advance import Advance
-from symgen.stepping.clock import Clock, Controller
+from symgen.stepping.advance import Advance, Clock, Controller
 from symgen.stepping.named import Named
 from symgen.stepping.saved_state import Saved
-from symgen.stepping.tree_state import CarriedBodies
 from symgen.version import __version__
 
 if TYPE_CHECKING:
@@ -65,7 +63,7 @@ class SteppedRun:
         self._loop = prepared.simulation()
         self._loop.span = self._loop.span._replace(end=math.inf)  # `until` is none
         state = self._loop.state
-        self._carried = CarriedBodies(mechanism, compiled, self._loop) if mechanism.topology is not None else None
+        self._tree = prepared.tree
         self._clock, self._control = memoryview(state.clock), memoryview(state.control)
         self._clocks, self._calling, self._advance = list[Clock](), False, Advance(self._loop)
         inputs, self._driven = plan.inputs.words, plan.inputs.driven
@@ -99,9 +97,12 @@ class SteppedRun:
     @property
     def bodies(self) -> dict[str, float]:
         """Present coordinates and velocities of bodies by name, whatever the state is made of."""
-        if self._carried is None:
-            return dict(zip(self.state.names, self.state.tolist(), strict=True))
-        return dict(zip(self._carried.names, self._carried.at().tolist(), strict=True))
+        if self._tree is None:
+            return self.state.to_dict()
+        state = self._loop.state
+        return dict(
+            zip(self._tree.names, self._tree.bodies_at(self.t, state.y, state.p, state.w).tolist(), strict=True)
+        )
 
     @property
     def parameters(self) -> dict[str, float]:
@@ -112,8 +113,8 @@ class SteppedRun:
     @property
     def events(self) -> tuple[EventRecord, ...]:
         """What has happened since the start, as in results; of a run that was taken back, up to where it stands."""
-        found = self._loop.events
-        return () if found is None else tuple(record_of(self._compiled.info, event) for event in found.happened)
+        events = self._loop.events
+        return () if events is None else tuple(record_of(self._compiled.info, event) for event in events.happened)
 
     def __repr__(self) -> str:
         law, integrator = self._compiled.law.method, self._plan.integrator.name
@@ -226,34 +227,34 @@ class SteppedRun:
             If a name or a value is wrong, a mass is not above 0, or the state does not satisfy the constraints with
             these parameters. Nothing is changed then.
         """
-        asked = {**arguments.mapping("set", values, "numbers by the names of parameters"), **more}
-        if asked.keys() <= self._inputs.keys():
-            self._set_inputs(asked)
+        changes = {**arguments.mapping("set", values, "numbers by the names of parameters"), **more}
+        if changes.keys() <= self._inputs.keys():
+            self._set_inputs(changes)
             return
-        for name in asked:
+        for name in changes:
             if name in self._given:
                 raise InputError(f"set: '{name}'", "an input that is a number in this run", f"'{self._given[name]}'")
-        changed = {**self._changed, **asked}
-        found = parameter_values(self._mechanism, changed)
+        changed = {**self._changed, **changes}
+        parameters = parameter_values(self._mechanism, changed)
         self._advance.recover()
-        loop, count = self._loop, len(found)
-        p = self._compiled.parameter_array(found, self._plan.method_parameters)
+        loop, count = self._loop, len(parameters)
+        p = self._compiled.parameter_array(parameters, self._plan.method_parameters)
         p[self._varying] = loop.state.p[self._varying]
         if not np.array_equal(p[:count], loop.state.p[:count]):
             refuse_jumps(self._plan.mechanism, changed, loop.spec.until)
-            spec = self._divided(found)
-            if self._carried is not None:
-                self._carried.check(p[:count])
+            spec = self._divided(parameters)
+            if self._tree is not None:
+                self._tree.refuse_moves(self.t, loop.state, p[:count])
             self._advance.begin()
             loop.changes.set(p[:count])
             loop.divide(spec)
-        self._changed = {name: found[name] for name in changed}
+        self._changed = {name: parameters[name] for name in changed}
 
-    def _set_inputs(self, asked: Mapping[str, float]) -> None:
+    def _set_inputs(self, values: Mapping[str, float]) -> None:
         """Give inputs other values, which takes no look at the state."""
         numbers = {
             name: value if type(value) is float and math.isfinite(value) else arguments.number(f"input '{name}'", value)
-            for name, value in asked.items()
+            for name, value in values.items()
         }
         self._advance.recover()
         loop = self._loop
@@ -269,8 +270,8 @@ class SteppedRun:
         """Return all that the run remembers, as a value that can be pickled."""
         self._advance.recover()
         clocks = tuple((c.start, c.interval, c.beat) for c in self._clocks)
-        found = self._loop.events
-        happened = () if found is None else tuple(found.happened)
+        events = self._loop.events
+        happened = () if events is None else tuple(events.happened)
         return Saved(self._owner, self._loop.save(), self._loop.span.step, dict(self._changed), clocks, happened)
 
     def restore(self, saved: Saved) -> None:

@@ -67,11 +67,11 @@ class Saved:
             if self.owner.get(what) != own:
                 raise InputError("restore", f"a state of {what} {own}", f"one of {self.owner.get(what, 'another')}")
         for name in {**arrays, **self.arrays}:
-            given, own_array = self.arrays.get(name), arrays.get(name, np.zeros(0))
-            if name not in arrays and isinstance(given, np.ndarray) and len(given) == 0:
+            array, own_array = self.arrays.get(name), arrays.get(name, np.zeros(0))
+            if name not in arrays and isinstance(array, np.ndarray) and len(array) == 0:
                 continue  # as runs without events kept of them once
-            fits = isinstance(given, np.ndarray) and given.dtype == own_array.dtype and given.ndim == 1
-            if not fits or (name in FIXED and len(given) != len(own_array)):  # type: ignore[arg-type]  # an array
+            fits = isinstance(array, np.ndarray) and array.dtype == own_array.dtype and array.ndim == 1
+            if not fits or (name in FIXED and len(array) != len(own_array)):  # type: ignore[arg-type]  # an array
                 raise InputError("restore", f"'{name}' as this run has it", "another size or kind")
         saved = tuple(interval for _, interval, _ in self.clocks)
         if saved != intervals:

@@ -86,7 +86,7 @@ def test_pieces_are_those_asked_for_whatever_other_threads_ask():
             pass
 
     known = foreseen(pushed(PUSH, at=0.123, long=1.0).mechanism)
-    other = replace(known, known=Forgetful())
+    other = replace(known, latest=Forgetful())
     for values in ({"at": 0.2, "long": 0.1}, {"at": 0.5, "long": 0.1}):
         assert other.stops(values, 1.0) == known.stops(values, 1.0) != ()
 

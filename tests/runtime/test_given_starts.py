@@ -4,19 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from support.models import circles
 
 import symgen
 from symgen.errors import AssemblyError
-
-
-def circles(a, b, p, q, side):
-    """Return where circles about a and b with radii p and q meet, on one side."""
-    away = b - a
-    distance = math.hypot(*away)
-    along = (p * p - q * q + distance * distance) / (2.0 * distance)
-    across = math.sqrt(p * p - along * along)
-    ahead = away / distance
-    return a + along * ahead + side * across * np.array([-ahead[1], ahead[0]])
 
 
 def four_bar(model, crank, side):

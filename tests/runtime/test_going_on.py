@@ -13,21 +13,13 @@ import pytest
 import xarray as xr
 from support.emitted import mechanism_of
 from support.models import parallelogram
+from support.remembering import PAIRS
 
 import symgen
 from symgen.cli import main
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
-from symgen.methods import METHODS
 
-#: A method for each integrator, and methods that remember something beside the state.
-PAIRS = [
-    *(("direct-correction", name) for name in ("euler", "heun", "rk4", "rkmk4", "abm4", "abm", "dopri5", "dop853")),
-    *(("direct-correction", name) for name in ("sdirk", "radau5", "trapezoidal", "newmark")),
-    *(("ggl", "radau5"), ("generalized-alpha", "generalized-alpha"), ("index3-augmented-lagrangian", "trapezoidal")),
-    *((m, i) for m in ("coordinate-partitioning", "null-space") for i in ("rk4", "abm4", "abm")),
-    *(("augmented-hamiltonian", "dopri5"), ("augmented-lagrangian", "rk4")),
-]
 STEP, FIRST, LAST = 2e-3, 12, 30
 TABLES = ("t", "kinetic", "potential", "work", "energy_error", "smallest_pivot")
 
@@ -58,11 +50,6 @@ def assert_the_rest(found, whole, rounding=0.0):
         if name == "control":
             continue  # counts outputs
         np.testing.assert_array_equal(found.last_state.arrays[name], array, err_msg=name)
-
-
-def test_every_integrator_is_among_them():
-    assert {integrator for _, integrator in PAIRS} == set(INTEGRATORS.names)
-    assert {method for method, _ in PAIRS} >= {name for name in METHODS.names if METHODS.get(name).integrates != "all"}
 
 
 @pytest.mark.parametrize(("method", "integrator"), PAIRS)

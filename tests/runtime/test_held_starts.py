@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from support.checks import assert_same_motion
 from support.emitted import mechanism_of
+from support.models import circles
 
 import symgen
 from symgen.errors import AssemblyError, InputError
@@ -41,12 +42,7 @@ def started(tables, held=None, method="lagrange", shape="straight"):
 def wiper_angles(crank: float, side: float = 1.0) -> tuple[float, float]:
     """Angles of link and arm where two circles meet, about the crank's tip and the arm's pivot."""
     tip = CRANK * np.array([math.cos(crank), math.sin(crank)])
-    away = PIVOT - tip
-    distance = float(np.hypot(*away))
-    along = (LINK**2 - ROCKER**2 + distance**2) / (2.0 * distance)
-    across = math.sqrt(LINK**2 - along**2)
-    x, y = away / distance
-    b = tip + along * np.array([x, y]) + side * across * np.array([-y, x])
+    b = circles(tip, PIVOT, LINK, ROCKER, side)
     link, rocker = b - tip, b - PIVOT
     return math.atan2(link[1], link[0]), math.atan2(-rocker[0], rocker[1])
 

@@ -15,7 +15,6 @@ from symgen.describe.load import load as load_mechanism
 from symgen.ensemble.sweep import sweep
 from symgen.errors import InputError
 from symgen.runtime import stops
-from symgen.runtime.in_time import crossings
 from symgen.runtime.stops import stops_of
 
 STIFFNESS = 40.0
@@ -298,17 +297,6 @@ def test_times_of_jumps(model, formula, expected):
     found = driven(model.mechanism, {"push": formula})
     pieces = stops_of(found, model.parameters() | {s.switch: 0.0 for s in found.jumps}, 1.0)
     assert [p.t for p in pieces[1:]] == pytest.approx(expected, abs=1e-12)
-
-
-def test_random_crossings_are_all_found():
-    """Sums of sines with known crossings of a level, wider than the distance of first looks."""
-    random = np.random.default_rng(5)
-    for _ in range(20):
-        omega, phase = random.uniform(1.0, 300.0), random.uniform(0.0, 6.0)
-        found = crossings(lambda t, w=omega, p=phase: np.sin(w * t + p), None, (0.0,), 3.0)
-        first, last = math.ceil(phase / math.pi), math.floor((3.0 * omega + phase) / math.pi)
-        expected = [(k * math.pi - phase) / omega for k in range(first, last + 1)]
-        np.testing.assert_allclose(sorted(found), expected, rtol=0.0, atol=1e-13)
 
 
 # -- what cannot be ----------------------------------------------------------------------------------------------------

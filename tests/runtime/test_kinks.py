@@ -13,28 +13,15 @@ from support.checks import assert_same_motion
 from support.pushed import pushed_mass
 
 import symgen
+from symgen import catalogue
 from symgen.describe.inputs import Jump
-from symgen.describe.kinks import known_in_time
+from symgen.describe.kinks import compares_state, discontinuities_of, known_in_time
 from symgen.describe.parser import FormulaNames, parse
 from symgen.ensemble.sweep import sweep
 from symgen.runtime.stops import Stop, merged, times_between
 
 #: Force over time, linear between points that no step would meet, and beyond them constant.
 X, Y = (0.13, 0.29, 0.41, 0.77), (0.0, 5.0, -3.0, 2.0)
-JUMP = """[mechanism]
-name = "jump"
-gravity = [0.0, 0.0]
-[parameters]
-turn = 0.2468
-[bodies.bob]
-type = "point"
-mass = 2.0
-position = [1.0, 0.0]
-[forces.push]
-type = "force"
-body = "bob"
-force = ["-40*bob.x", "3 if CONDITION else -5"]
-"""
 SLIDER = pushed_mass("pushed", "push(pace*t)", X, Y, "pace")
 
 
@@ -61,29 +48,6 @@ def pushed_by(
     x = np.concatenate([[0.0], np.cumsum(h * v[:-1] + h * h * (2.0 * a + b) / 6.0)])
     at = np.searchsorted(edges, times)
     return x[at], v[at]
-
-
-@pytest.mark.parametrize("integrator", ["sdirk", "radau5"])
-@pytest.mark.parametrize("condition", ["t < turn", "turn - 2*t > -turn", "sin(t*pi/turn) >= 0.0"])
-def test_implicit_schemes_see_forces_that_jump(tmp_path: Path, integrator: str, condition: str) -> None:
-    """A step that began just before a jump went over it before its first stage: off by 2e-3 m, and `ok`."""
-    file = tmp_path / "jump.toml"
-    file.write_text(JUMP.replace("CONDITION", condition), encoding="utf-8")
-    times = np.array([0.1, 0.2, 0.3, 0.4])
-    # a longer run ends elsewhere, so that not one lucky step is tried
-    for until in (0.4, 0.41, 0.45):
-        result = symgen.load(file).simulate(
-            integrator=integrator, rtol=1e-8, until=until, times=times[times <= until], method="lagrange"
-        )
-        behind = np.maximum(times - 0.2468, 0.0)
-        expected = 0.75 * times**2 - 2.0 * behind**2
-        assert result.status == "ok", result.reason
-        np.testing.assert_allclose(result["bob.y"], expected, rtol=0.0, atol=1e-9)
-
-
-def test_what_is_compared_too_often_is_left_to_the_steps() -> None:
-    often = Jump(parse("sin(1e7*t)", FormulaNames("a formula", {"t": "t"}, {}, {}), "here"))
-    assert times_between([often], symgen.load("pendulum").mechanism, {}, 1.0) == ((), False)
 
 
 @pytest.mark.parametrize("integrator", ["dop853", "dopri5", "radau5"])
@@ -157,11 +121,17 @@ def test_the_follower_of_a_cam_keeps_to_the_spline(integrator: str) -> None:
     np.testing.assert_allclose(result.v["follower.vy"], speed * spline(speed * times, 1), rtol=0.0, atol=1e-9)
 
 
-def test_which_kinks_are_known() -> None:
-    for name in ("cam-follower", "scissor-lift"):  # a table over an angle in time, a ramp that ends
-        assert len(known_in_time(symgen.load(name).mechanism)[0]) == 1
-    for name in ("engine", "wiper", "four-bar"):  # over an angle, over a speed, none
-        assert known_in_time(symgen.load(name).mechanism)[0] == ()
+def test_what_formulas_of_the_catalogue_pass() -> None:
+    """Runs of all others are entered once."""
+    every = {
+        entry.name: symgen.load(entry.name).mechanism
+        for entry in (*catalogue.entries(), *catalogue.entries(catalogue.MACHINES))
+    }
+    assert {name for name, m in every.items() if compares_state(m)} == {"inverted-pendulum"}
+    assert {name for name, m in every.items() if any(x.table for x in discontinuities_of(m))} == {"engine", "wiper"}
+    # a table over an angle in time, a ramp that ends; none over an angle, over a speed
+    counts = [len(known_in_time(every[name])[0]) for name in ("cam-follower", "scissor-lift", "engine", "wiper")]
+    assert counts == [1, 1, 0, 0]
 
 
 def _jump(text: str, levels: tuple[float, ...], period: float = 0.0) -> Jump:

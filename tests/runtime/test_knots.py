@@ -17,7 +17,7 @@ from support.pushed import pushed_mass
 import symgen
 from symgen import catalogue
 from symgen.compiling.events import switch_of
-from symgen.describe.kinks import Discontinuity, discontinuities_of
+from symgen.describe.kinks import Discontinuity
 from symgen.describe.tables import Table
 from symgen.ensemble.sweep import sweep
 
@@ -179,14 +179,6 @@ def test_constant_steps_keep_their_grid(passing: symgen.Model) -> None:
     assert passing.simulate(method="lagrange", integrator="rk4").steps == 100
 
 
-def test_tables_over_the_state_are_those_of_two_machines() -> None:
-    entries = (*catalogue.entries(), *catalogue.entries(catalogue.MACHINES))
-    found = {
-        entry.name for entry in entries if any(x.table for x in discontinuities_of(symgen.load(entry.name).mechanism))
-    }
-    assert found == {"engine", "wiper"}
-
-
 def test_the_engine_keeps_to_an_equation_of_its_crank_alone() -> None:
     """Over the angle, whose points are known: d(omega)/d(theta), piece by piece between them, by SciPy."""
     model, raw = symgen.load("engine"), catalogue.raw("engine")["tables"]["pressure"]
@@ -254,21 +246,6 @@ narrow = "integral(max(0, 0.004 - abs(bob.x - place)))"
 [parameters]
 place = 0.5
 """
-
-
-@pytest.mark.parametrize("integrator", ["dop853", "dopri5"])
-def test_narrow_parts_of_integrands_are_not_stepped_over(tmp_path: Path, integrator: str) -> None:
-    """They lay between two evaluations of a step: nothing was added up, and the run was `ok`."""
-    file = tmp_path / "dip.toml"
-    file.write_text(DIP, encoding="utf-8")
-    t = np.linspace(0.0, 1.0, 1_000_001)
-    for place in (0.3, 0.5, 0.7):
-        dip = np.maximum(0.0, 0.004 - np.abs(t - 0.2 * t**2 - place))
-        result = symgen.load(file).simulate(
-            method="lagrange", integrator=integrator, rtol=1e-8, until=1.0, times=[1.0], parameters={"place": place}
-        )
-        assert result.status == "ok", result.reason
-        assert abs(result["narrow"][-1] - float(np.sum(dip)) * 1e-6) < 1e-8
 
 
 def test_rows_done_one_by_one_take_the_steps_of_integrals_nobody_asks_for(tmp_path: Path) -> None:

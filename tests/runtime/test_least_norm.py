@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from symgen.runtime.exact import compiled_form, plain_form
-from symgen.runtime.least_norm import least_norm
+from symgen.runtime.start_solvers import least_norm
 
 compiled = compiled_form(least_norm)
 

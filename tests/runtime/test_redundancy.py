@@ -16,9 +16,9 @@ from symgen.api import Model
 from symgen.describe import MechanismBuilder
 from symgen.running.prepare import prepare
 from symgen.running.tree import carried_of
+from symgen.runtime.assembler import ALONE, one_row
 from symgen.runtime.exact import plain_form
 from symgen.runtime.redundancy import choose_rows
-from symgen.runtime.start_records import Instant
 from symgen.settings import Settings
 from tests.verification.running import DEFECTS, off, raw, reference
 
@@ -100,7 +100,7 @@ def test_rows_of_which_rounding_is_left_stand_for_none() -> None:
     for _ in range(100):  # as other processors may round
         y, nq, w = bodies.y.copy(), run.bodies.info.nq, compiled.scratch()
         y[:nq] += rng.uniform(-2e-16, 2e-16, nq)
-        carried.settle(Instant(y, bodies.p, bodies.w), Instant(start.y.copy(), start.p.copy(), w))
+        carried.settle(one_row(y, bodies.p, bodies.w), one_row(start.y.copy(), start.p.copy(), w), *ALONE)
         kept = compiled.section(w, "mask") == 0.0
         assert (compiled.rank(w), len(compiled.redundant(w)), kept.sum()) == (2, 3, 2)
         assert np.linalg.svd(compiled.jacobian(w)[kept], compute_uv=False)[-1] > 0.05

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from support.checks import assert_same_motion
+from support.pushed import pushed_point
 
 import symgen
 from symgen.describe.parser import FormulaNames, parse
@@ -164,22 +165,10 @@ def test_passages_of_any_frequency_are_found() -> None:
         np.testing.assert_allclose(there, kept, rtol=0.0, atol=sure)
 
 
-def pulsed(folder: Path, force: str, until: float, tables: str = "") -> symgen.Model:
-    """A point of 1 kg without weight under a force over the time."""
-    text = (
-        f'[mechanism]\nname = "pulsed"\ngravity = [0.0, 0.0]\n[run]\nuntil = {until}\n[parameters]\nf = 50.0\n{tables}'
-    )
-    text += '[bodies.a]\ntype = "point"\nmass = 1.0\nposition = [0.0, 0.0]\nvelocity = [0.1, 0.0]\n'
-    text += f'[forces.push]\ntype = "force"\nbody = "a"\nforce = ["{force}", "0"]\n'
-    file = folder / "pulsed.toml"
-    file.write_text(text, encoding="utf-8")
-    return symgen.load(file)
-
-
 @pytest.mark.parametrize("integrator", ["dop853", "radau5"])
 def test_thousands_of_pushes_are_seen(tmp_path: Path, integrator: str) -> None:
     """A hundredth of each period at 50 Hz for 30 s: 3000 times on and off."""
-    model = pulsed(tmp_path, "10 if sin(2*pi*f*t) > cos(0.01*pi) else 0", 30.0)
+    model = pushed_point(tmp_path, "10 if sin(2*pi*f*t) > cos(0.01*pi) else 0", 30.0)
     result = model.simulate(method="lagrange", integrator=integrator, rtol=1e-8)
     assert (result.status, result.warnings) == ("ok", ())
     assert result["a.vx"][-1] == pytest.approx(0.1 + 10.0 * 0.01 * 30.0, abs=1e-6)
@@ -192,7 +181,9 @@ def test_a_spike_of_a_long_table_is_seen(tmp_path: Path) -> None:
     y[3210] = 300.0
     tables = f"[tables.spike]\nx = {x.tolist()}\ny = {y.tolist()}\n"
     for formula, until in (("spike(t)", 10.0), ("spike(10*sin(pi*t/20))", 20.0)):
-        result = pulsed(tmp_path, formula, until, tables).simulate(method="lagrange", integrator="dop853", rtol=1e-8)
+        result = pushed_point(tmp_path, formula, until, tables).simulate(
+            method="lagrange", integrator="dop853", rtol=1e-8
+        )
         times = np.linspace(0.0, until, 2_000_001)
         there = np.interp(times if until == 10.0 else 10.0 * np.sin(math.pi * times / 20.0), x, y)
         # each flank is off by half a step of the sum, 5e-6 s, times how far the force is from a line there
@@ -201,7 +192,7 @@ def test_a_spike_of_a_long_table_is_seen(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("settings", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 0.01}])
 def test_what_cannot_be_told_apart_is_told(tmp_path: Path, settings: dict[str, Any]) -> None:
-    model = pulsed(tmp_path, "10 if sin(2e7*t) > 0.999 else 0", 1.0)
+    model = pushed_point(tmp_path, "10 if sin(2e7*t) > 0.999 else 0", 1.0)
     expected = "formulas change, or pass points of tables, more often than can be told apart"
     assert any(expected in warning for warning in model.simulate(method="lagrange", **settings).warnings)
     found = symgen.sweep(model, {"f": [1.0, 2.0]}, method="lagrange", **settings)
@@ -211,7 +202,7 @@ def test_what_cannot_be_told_apart_is_told(tmp_path: Path, settings: dict[str, A
 @pytest.mark.parametrize("integrator", SCHEMES)
 def test_events_that_come_and_go_within_a_step_are_seen(tmp_path: Path, integrator: str) -> None:
     """Conditions of the time alone: of one that is true 500 times for 90 us `dop853` saw none."""
-    model = pulsed(tmp_path, "0.1", 10.0)
+    model = pushed_point(tmp_path, "0.1", 10.0)
     often, once = "sin(2*pi*f*t) > 0.9999", "max(0, 1 - abs(t - 3.337)/1e-4) > 0.5"
     result = model.simulate(method="lagrange", integrator=integrator, rtol=1e-8, record_when=[often, once])
     found = [np.array([event.t for event in result.events if event.name == name]) for name in (often, once)]
@@ -223,7 +214,7 @@ def test_events_that_come_and_go_within_a_step_are_seen(tmp_path: Path, integrat
 
 
 def test_rows_of_sweeps_see_them_too(tmp_path: Path) -> None:
-    model = pulsed(tmp_path, "0.1", 10.0)
+    model = pushed_point(tmp_path, "0.1", 10.0)
     often = "sin(2*pi*f*t) > 0.9999"
     found = sweep(
         model, vary={"f": [50.0, 7.0]}, method="lagrange", integrator="dop853", rtol=1e-8, record_when=[often]
@@ -233,6 +224,6 @@ def test_rows_of_sweeps_see_them_too(tmp_path: Path) -> None:
 
 def test_runs_step_by_step_see_them_too(tmp_path: Path) -> None:
     once = "max(0, 1 - abs(t - 3.337)/1e-4) > 0.5"
-    run = pulsed(tmp_path, "0.1", 10.0).start(method="lagrange", integrator="dop853", rtol=1e-8, stop_when=[once])
+    run = pushed_point(tmp_path, "0.1", 10.0).start(method="lagrange", integrator="dop853", rtol=1e-8, stop_when=[once])
     event = run.run(5.0)
     assert event is not None and event.t == pytest.approx(3.33695, abs=1e-9)

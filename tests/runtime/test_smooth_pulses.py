@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from support.checks import assert_same_motion
+from support.pushed import pushed_point
 
 import symgen
 from symgen.catalogue import MACHINES, entries
@@ -59,16 +60,6 @@ def pushed(tmp_path_factory: pytest.TempPathFactory) -> symgen.Model:
     return symgen.load(file)
 
 
-def alone(folder: Path, force: str, until: float = END) -> symgen.Model:
-    """A point of 1 kg under a force over the time."""
-    text = f'[mechanism]\nname = "alone"\ngravity = [0.0, 0.0]\n[run]\nuntil = {until}\n[parameters]\nf = 50.0\n'
-    text += '[bodies.a]\ntype = "point"\nmass = 1.0\nposition = [0.0, 0.0]\nvelocity = [0.1, 0.0]\n'
-    text += f'[forces.push]\ntype = "force"\nbody = "a"\nforce = ["{force}", 0.0]\n'
-    file = folder / "alone.toml"
-    file.write_text(text, encoding="utf-8")
-    return symgen.load(file)
-
-
 def bounds(result: symgen.Result | symgen.SteppedRun) -> list[str]:
     """The notes of a run on a bound that nobody set."""
     return [note for note in result.notes if "may pass something short" in note]
@@ -77,7 +68,7 @@ def bounds(result: symgen.Result | symgen.SteppedRun) -> list[str]:
 @pytest.mark.parametrize("integrator", SCHEMES)
 def test_a_pulse_is_seen_by_default_and_with_a_largest_step(tmp_path: Path, integrator: str) -> None:
     """The run's length over a thousand is twice its width."""
-    model, exact = alone(tmp_path, "exp(-((t - 1.3)/1e-3)**2)", 2.0), 1e-3 * math.sqrt(math.pi)
+    model, exact = pushed_point(tmp_path, "exp(-((t - 1.3)/1e-3)**2)", 2.0), 1e-3 * math.sqrt(math.pi)
     found = model.simulate(method="lagrange", integrator=integrator)
     (note,) = bounds(found)
     assert "formulas of t in forces" in note and "at most 0.002 s" in note and "needs --max-step" in note
@@ -95,7 +86,7 @@ def test_runs_miss_none(tmp_path: Path, name: str, integrator: str) -> None:
     for w, max_step in ((1e-4, 2e-4), (3e-3, None)):
         at = float(random.uniform(0.5, 9.5))
         force = FORCES[name].replace("t - at", "t - f").replace("w", repr(w))
-        result = alone(tmp_path, force).simulate(
+        result = pushed_point(tmp_path, force).simulate(
             method="lagrange", integrator=integrator, rtol=1e-8, parameters={"f": at}, times=[END], max_step=max_step
         )
         assert result.status == "ok"
@@ -112,7 +103,7 @@ def test_runs_step_by_step_miss_none(pushed: symgen.Model, integrator: str) -> N
 
 
 def test_steps_from_python_are_bounded_by_default(tmp_path: Path) -> None:
-    run = alone(tmp_path, "exp(-((t - 1.3)/1e-3)**2)", 2.0).start(method="lagrange", integrator="dop853")
+    run = pushed_point(tmp_path, "exp(-((t - 1.3)/1e-3)**2)", 2.0).start(method="lagrange", integrator="dop853")
     assert bounds(run)
     run.run(2.0)
     assert run.bodies["a.vx"] - 0.1 == pytest.approx(1e-3 * math.sqrt(math.pi), abs=1e-8)
@@ -135,7 +126,7 @@ def test_thousands_of_pulses_are_seen(tmp_path: Path) -> None:
     """At 50 Hz for 12 s, each some 0.1 ms wide: integrals of a bell of a sine are Bessel functions."""
     from scipy.special import ive
 
-    result = alone(tmp_path, "10*exp(-(sin(2*pi*f*t)/0.03)**2)", 12.0).simulate(
+    result = pushed_point(tmp_path, "10*exp(-(sin(2*pi*f*t)/0.03)**2)", 12.0).simulate(
         method="lagrange", integrator="dop853", rtol=1e-8, max_step=2e-4
     )
     assert (result.status, result.warnings) == ("ok", ())
@@ -147,11 +138,11 @@ def test_what_is_compared_may_be_a_pulse(tmp_path: Path) -> None:
     half = 1e-4 * math.sqrt(-math.log(0.99))
     asked = "exp(-((t - 3.337)/1e-4)**2) > 0.99"
     settings: dict[str, Any] = {"method": "lagrange", "integrator": "dop853", "rtol": 1e-8, "max_step": 1e-4}
-    model = alone(tmp_path, f"1e4 if {asked} else 0")
+    model = pushed_point(tmp_path, f"1e4 if {asked} else 0")
     result = model.simulate(record_when=[asked], **settings)
     assert result["a.vx"][-1] - 0.1 == pytest.approx(2e4 * half, abs=1e-6)
     assert [event.t for event in result.events] == pytest.approx([3.337 - half], abs=1e-9)
-    text = (tmp_path / "alone.toml").read_text(encoding="utf-8").replace(f"1e4 if {asked} else 0", "u")
+    text = (tmp_path / "pushed.toml").read_text(encoding="utf-8").replace(f"1e4 if {asked} else 0", "u")
     (tmp_path / "given.toml").write_text(text + "[inputs]\nu = 0.0\n", encoding="utf-8")
     given = symgen.load(tmp_path / "given.toml").simulate(inputs={"u": f"1e4 if {asked} else 0"}, **settings)
     assert given["a.vx"][-1] - 0.1 == pytest.approx(2e4 * half, abs=1e-6)
@@ -182,8 +173,8 @@ def test_what_is_compared_may_be_a_pulse(tmp_path: Path) -> None:
     ],
 )
 def test_polynomials_and_one_sine_need_no_bound(tmp_path: Path, text: str, bound: bool) -> None:
-    file = tmp_path / "alone.toml"
-    alone(tmp_path, text.replace("profile", "abs"), 2.0)
+    file = tmp_path / "pushed.toml"
+    pushed_point(tmp_path, text.replace("profile", "abs"), 2.0)
     table = "[tables.profile]\nx = [0.0, 1.0, 4.0]\ny = [0.0, 1.0, 0.0]\n"
     file.write_text(file.read_text(encoding="utf-8").replace("abs(2*t)", "profile(2*t)") + table, encoding="utf-8")
     longest, note = longest_step(symgen.load(file).mechanism, 2.0)
@@ -192,11 +183,11 @@ def test_polynomials_and_one_sine_need_no_bound(tmp_path: Path, text: str, bound
 
 def test_notes_name_the_formulas(tmp_path: Path) -> None:
     """Only where adaptive steps have a bound that nobody set."""
-    model = alone(tmp_path, "0.1", 2.0)
+    model = pushed_point(tmp_path, "0.1", 2.0)
     asked: dict[str, Any] = {"method": "lagrange", "integrator": "dop853", "times": [2.0]}
     assert not bounds(model.simulate(**asked)) and not bounds(model.simulate(**asked, stop_when=["t > 1.5"]))
     assert "formulas of t in events may" in bounds(model.simulate(**asked, record_when=["exp(-t) > 0.5"]))[0]
-    text = (tmp_path / "alone.toml").read_text(encoding="utf-8").replace('"0.1"', '"u"')
+    text = (tmp_path / "pushed.toml").read_text(encoding="utf-8").replace('"0.1"', '"u"')
     text += '[inputs]\nu = 0.0\n[outputs]\nwork = "integral(exp(-t)*a.vx)"\n'
     (tmp_path / "more.toml").write_text(text, encoding="utf-8")
     more = symgen.load(tmp_path / "more.toml")

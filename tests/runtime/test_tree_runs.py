@@ -49,14 +49,10 @@ def check_same(bodies, joints, motion=MOTION):
     assert joints.rank == bodies.rank
 
 
-@pytest.mark.parametrize("name", QUICK)
+@pytest.mark.parametrize(
+    "name", [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in SPANS]
+)
 def test_motions_of_the_catalogue(name):
-    check_same(*both(name, SPANS[name], **TIGHT))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name in SPANS if name not in QUICK])
-def test_other_motions_of_the_catalogue(name):
     check_same(*both(name, SPANS[name], **TIGHT))
 
 
@@ -68,14 +64,6 @@ def pairs(methods, integrators):
                 yield name, integrator
 
 
-def check_pair(model, method, integrator):
-    adaptive = INTEGRATORS.get(integrator, "").adaptive
-    steps = {"rtol": 1e-9, "atol": 1e-11} if adaptive else {"step": 1e-3}
-    bodies, joints = both(model, 0.25, method, integrator=integrator, **steps)
-    # penalties give by 1e-7, and schemes of second order are off by as much at this step
-    check_same(bodies, joints, 2e-5)
-
-
 SAMPLED = (
     ("augmented-hamiltonian", "rk4"),
     ("coordinate-partitioning", "rk4"),
@@ -84,27 +72,29 @@ SAMPLED = (
 )
 
 
-@pytest.mark.parametrize(("method", "integrator"), SAMPLED)
-def test_methods_where_the_mass_matrix_changes(method, integrator):
-    check_pair("four-bar", method, integrator)
-
-
 #: Every method with an explicit scheme and an implicit one, where it has such forms; every integrator with one method,
 #: but Euler's, whose runs fail at this step in both coordinates.
 OTHERS = [name for name in INTEGRATORS.names if name != "euler"]
 ALL = {*pairs(METHODS.names, ("rk4", "radau5")), *pairs(("lagrange", "generalized-alpha"), OTHERS)}
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("method", "integrator"), sorted(ALL - {*SAMPLED}))
-def test_all_methods_and_integrators(method, integrator):
-    check_pair("four-bar", method, integrator)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("method", sorted(name for name, _ in pairs(METHODS.names, ("rk4",))))
-def test_all_methods_in_space(method):
-    check_pair("spatial-slider-crank", method, "rk4")
+@pytest.mark.parametrize(
+    ("name", "method", "integrator"),
+    [
+        *(("four-bar", *pair) for pair in SAMPLED),  # the mass matrix changes
+        *(pytest.param("four-bar", *pair, marks=pytest.mark.slow) for pair in sorted(ALL - {*SAMPLED})),
+        *(
+            pytest.param("spatial-slider-crank", *pair, marks=pytest.mark.slow)
+            for pair in sorted(pairs(METHODS.names, ("rk4",)))
+        ),
+    ],
+)
+def test_methods_and_integrators(name, method, integrator):
+    adaptive = INTEGRATORS.get(integrator, "").adaptive
+    steps = {"rtol": 1e-9, "atol": 1e-11} if adaptive else {"step": 1e-3}
+    bodies, joints = both(name, 0.25, method, integrator=integrator, **steps)
+    # penalties give by 1e-7, and schemes of second order are off by as much at this step
+    check_same(bodies, joints, 2e-5)
 
 
 def test_what_the_state_is():

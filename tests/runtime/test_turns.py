@@ -11,7 +11,7 @@ from symgen.integrators import INTEGRATORS
 from symgen.runtime import abi
 from symgen.runtime.exact import plain_form
 from symgen.runtime.run import RunSpec, integrate
-from symgen.runtime.turning import whole_turns
+from symgen.runtime.start_solvers import whole_turns
 
 
 def wheel(position=(0.0, 0.0, 0.0), angle=0.0, **keys):

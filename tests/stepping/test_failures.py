@@ -8,6 +8,7 @@ import threading
 
 import numpy as np
 import pytest
+from support.checks import assert_same_arrays
 
 import symgen
 from symgen.runtime import abi
@@ -65,16 +66,14 @@ def test_a_step_that_fails_leaves_the_last_accepted_state(four_bar, name):
     other = four_bar.start(**settings)
     other._loop.enter(other._loop.outputs(np.zeros(0)), 20.0, sim.steps)  # the loop itself, told to pause
     assert other.t == sim.t
-    for array, expected in other.save().arrays.items():
-        np.testing.assert_array_equal(reached.arrays[array], expected, err_msg=array)
+    assert_same_arrays(reached.arrays, other.save().arrays)
     with pytest.raises(symgen.StepError) as later:
         sim.step(20.0)
     if name == "most":  # so many attempts are those of a call
         assert later.value.time > error.value.time
         return
     assert later.value.reason == error.value.reason
-    for array, expected in sim.save().arrays.items():
-        np.testing.assert_array_equal(reached.arrays[array], expected, err_msg=array)
+    assert_same_arrays(reached.arrays, sim.save().arrays)
 
 
 def test_a_run_goes_on_after_a_failure_where_the_cause_is_removed(four_bar):
@@ -134,9 +133,7 @@ def test_an_interrupt_between_a_failure_and_what_is_done_about_it_loses_no_state
     other = four_bar.start(**settings)
     other.step(0.01)
     other._loop.enter(other._loop.outputs(np.zeros(0)), 20.0, sim.steps)
-    expected = other.save().arrays
-    for name, array in sim.save().arrays.items():
-        np.testing.assert_array_equal(array, expected[name], err_msg=name)
+    assert_same_arrays(other.save().arrays, sim.save().arrays)
 
 
 # -- arguments ---------------------------------------------------------------------------------------------------------
@@ -177,8 +174,7 @@ def test_what_has_no_sense_is_refused_in_one_sentence(four_bar):
         with pytest.raises(symgen.InputError) as error:
             call()
         assert sentence in str(error.value)
-        for name, array in sim.save().arrays.items():
-            np.testing.assert_array_equal(state.arrays[name], array, err_msg=name)
+        assert_same_arrays(state.arrays, sim.save().arrays)
 
 
 def test_what_is_damaged_is_refused(four_bar):

@@ -1,6 +1,7 @@
 """How often random tests try, and how numbers are compared."""
 
 import os
+from collections.abc import Mapping
 
 import numpy as np
 from hypothesis import Phase, settings
@@ -27,3 +28,9 @@ def close(found, expected, what: str, tolerance: float = 2e-11) -> None:
     expected = np.asarray(expected, dtype=float)
     scale = max(1.0, float(np.abs(expected[np.isfinite(expected)]).max(initial=0.0)))
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=tolerance * scale, err_msg=what)
+
+
+def assert_same_arrays(found: Mapping[str, np.ndarray], expected: Mapping[str, np.ndarray]) -> None:
+    """Arrays by name are equal bit for bit."""
+    for name, array in expected.items():
+        np.testing.assert_array_equal(found[name], array, err_msg=name)

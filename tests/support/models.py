@@ -1,5 +1,9 @@
 """Fixed descriptions: mechanisms that hold every joint and force kind, and small ones for single questions."""
 
+import math
+
+import numpy as np
+
 #: Every joint kind but the weld and every force kind, all rows independent, everything smooth: SymPy can take it.
 EVERYTHING = {
     "mechanism": {"name": "everything", "gravity": ["0.3*k1", -9.81]},
@@ -159,3 +163,13 @@ def parallelogram() -> dict:
         "bodies": bodies,
         "joints": joints,
     }
+
+
+def circles(a, b, p, q, side):
+    """Return where circles about a and b with radii p and q meet, on one side."""
+    away = b - a
+    distance = math.hypot(*away)
+    along = (p * p - q * q + distance * distance) / (2.0 * distance)
+    across = math.sqrt(p * p - along * along)
+    ahead = away / distance
+    return a + along * ahead + side * across * np.array([-ahead[1], ahead[0]])

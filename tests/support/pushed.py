@@ -1,8 +1,11 @@
-"""A mass on a straight guide, pushed by a table: the equation of tests that are judged by closed forms."""
+"""Masses that are pushed, on a guide or free: the equations of tests that are judged by closed forms."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
+
+import symgen
 
 
 def pushed_mass(
@@ -53,3 +56,15 @@ type = "force"
 body = "mass"
 force = ["{force}", 0.0]
 """
+
+
+def pushed_point(folder: Path, force: str, until: float = 10.0, tables: str = "") -> symgen.Model:
+    """A point of 1 kg without weight under a force along x over the time, at 0.1 m/s; `f` is a parameter of 50."""
+    file = folder / "pushed.toml"
+    file.write_text(
+        f'[mechanism]\nname = "pushed"\ngravity = [0.0, 0.0]\n[run]\nuntil = {until}\n[parameters]\nf = 50.0\n{tables}'
+        '[bodies.a]\ntype = "point"\nmass = 1.0\nposition = [0.0, 0.0]\nvelocity = [0.1, 0.0]\n'
+        f'[forces.push]\ntype = "force"\nbody = "a"\nforce = ["{force}", 0.0]\n',
+        encoding="utf-8",
+    )
+    return symgen.load(file)
