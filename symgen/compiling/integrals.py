@@ -16,7 +16,7 @@ from symgen.compiling.pipeline import folder_of
 from symgen.compiling.side import beside, stem_of
 from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.outputs import integrals
+from symgen.describe.readings import integrals
 from symgen.errors import InputError, finite_numbers
 from symgen.runtime import abi
 from symgen.runtime.compiled import CompiledModel

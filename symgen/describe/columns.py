@@ -12,7 +12,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from symgen.describe.mechanism import ACCELERATIONS
-from symgen.describe.outputs import elements, points
+from symgen.describe.readings import elements, points
 from symgen.errors import InputError
 
 if TYPE_CHECKING:

@@ -1,18 +1,22 @@
-"""The number an expression stands for, given numbers for its names: for starts, sizes and checks, not for run time."""
+"""Values of expressions, given numbers for their names: for starts, sizes and checks, not for run time."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Container, Iterable, Mapping
+from graphlib import CycleError, TopologicalSorter
 
 from symgen import arguments
-from symgen.describe.derived_parameters import derived
 from symgen.describe.formula_text import to_text
-from symgen.describe.mechanism import Mechanism
-from symgen.describe.numbers import Scalars
+from symgen.describe.mechanism import Mechanism, Parameter
+from symgen.describe.start import Scalars
 from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest
-from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, table_of
+from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, names, table_of
+
+
+#: What is wrong with a value, by what evaluating it raises.
+_FAULTS: dict[type[Exception], str] = {ZeroDivisionError: "divides by zero", OverflowError: "is too large"}
 
 
 def evaluate(
@@ -52,12 +56,8 @@ def evaluate(
     operands = [evaluate(argument, values, where, tables) for argument in expression.arguments]
     try:
         value = _apply(expression, operands, tables or {})
-    except ZeroDivisionError:
-        raise _undefined(expression, operands, where, "divides by zero") from None
-    except OverflowError:
-        raise _undefined(expression, operands, where, "is too large") from None
-    except ValueError:
-        raise _undefined(expression, operands, where, "is not defined") from None
+    except (ArithmeticError, ValueError) as error:
+        raise _undefined(expression, operands, where, _FAULTS.get(type(error), "is not defined")) from None
     if isinstance(value, complex) or not math.isfinite(value):
         raise _undefined(expression, operands, where, "is not a finite real number")
     return float(value)
@@ -120,3 +120,49 @@ def _undefined(expression: Call, operands: list[float], where: str, why: str) ->
     text, shown = to_text(expression), to_text(at)
     got = f"'{text}', which {why}" if text == shown else f"'{text}' = {shown}, which {why}"
     return InputError(where, "a finite number", got)
+
+
+#: Parameters that a message about a circle of them lists.
+_LISTED = 8
+
+
+def in_order(formulas: Mapping[str, Expr | None], where: str) -> list[str]:
+    """Return names so that each stands behind those that its formula depends on.
+
+    Parameters
+    ----------
+    formulas : mapping of str to Expr or None
+        The formula of each, None for numbers.
+    where : str
+        File and section, for the message.
+
+    Raises
+    ------
+    InputError
+        If formulas lead back to where they began; says by which way.
+    """
+    needs = {name: () if formula is None else dict.fromkeys(names(formula)) for name, formula in formulas.items()}
+    try:
+        return list(TopologicalSorter(needs).static_order())
+    except CycleError as error:
+        circle: list[str] = error.args[1][:0:-1]  # each leads to the next one
+        first = circle.index(min(circle, key=list(formulas).index))
+        circle = [*circle[first:], *circle[: first + 1]]
+        way = circle if len(circle) <= _LISTED else [*circle[: _LISTED - 1], "...", circle[0]]
+        expected = "a formula that does not lead back to its own parameter"
+        raise InputError(f"{where}.{circle[0]}", expected, " -> ".join(way)) from None
+
+
+def derived(parameters: Iterable[Parameter], given: Container[str] = ()) -> list[tuple[str, Expr]]:
+    """Return name and formula of the parameters that follow from others, each behind those it depends on.
+
+    Parameters
+    ----------
+    parameters : iterable of Parameter
+        Of a mechanism.
+    given : container of str
+        Those that have numbers in place of their formulas.
+    """
+    formulas = {p.name: None if p.name in given else p.formula for p in parameters}
+    ordered = in_order(formulas, "parameters") if any(formulas.values()) else []
+    return [(name, formula) for name in ordered if (formula := formulas[name]) is not None]

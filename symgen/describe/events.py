@@ -7,13 +7,12 @@ from typing import Any, Literal
 
 import msgspec
 
-from symgen.describe.context import Context
 from symgen.describe.fields import Condition, NewVelocities, found, read
 from symgen.describe.formula_text import to_text
 from symgen.describe.inputs import put
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.names import check_identifier
-from symgen.describe.scope import Scope
+from symgen.describe.scope import Context, Scope
 from symgen.errors import InputError, quoted
 from symgen.vocabulary.expressions import Call, Expr, Name, Number, call, names
 

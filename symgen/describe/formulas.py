@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from symgen.describe.mechanism import Mechanism
-from symgen.ir.expression import build
+from symgen.ir.formula import Functions
 from symgen.ir.graph import Graph
-from symgen.vocabulary.expressions import Expr, Reading, call
+from symgen.vocabulary.expressions import Expr, Name, Number, Reading, call
 from symgen.vocabulary.measures import GROUND, Direction, Marker
+
+#: Functions that are arithmetic, by the graph's names for them.
+_ARITHMETIC = {"add": "add", "sub": "sub", "mul": "mul", "div": "div", "pow": "power", "neg": "neg"}
 
 
 @dataclass
@@ -41,7 +44,20 @@ class Formulas:
     def expression(self, e: Expr, **placeholders: int) -> int:
         """Return the node of a formula of the file."""
         names = {**self.names, **placeholders} if placeholders else self.names
-        return build(self.graph, e, names, self.reading)
+        functions = Functions(self.graph)
+
+        def node(e: Expr) -> int:
+            if isinstance(e, Number):
+                return self.graph.constant(e.value)
+            if isinstance(e, Name):
+                return names[e.name]
+            if isinstance(e, Reading):
+                return self.reading(e)
+            arguments = [node(a) for a in e.arguments]
+            method = _ARITHMETIC.get(e.function)
+            return functions.call(e.function, *arguments) if method is None else getattr(self.graph, method)(*arguments)
+
+        return node(e)
 
     def reading(self, r: Reading) -> int:
         """Return the node of a measure's value or rate.

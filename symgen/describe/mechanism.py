@@ -8,11 +8,11 @@ from typing import TypeVar
 import msgspec
 
 from symgen.arguments import shown
-from symgen.describe.orientation import IDENTITY, Orientation
 from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import ZERO, Expr
 from symgen.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Row
+from symgen.vocabulary.rotations import IDENTITY, Orientation
 
 T = TypeVar("T")
 

@@ -11,17 +11,17 @@
 | ``spring.length``, ``.angle``, ``.rate`` | of a force along one measure | outputs, events |
 | ``spring.force``, ``.torque``, ``.Fx`` ..., ``.power`` | what a force exerts | outputs |
 
-`symgen.describe.outputs` makes columns of results from the same table.
+`symgen.describe.readings` makes columns of results from the same table.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from symgen.describe.mechanism import Force, Joint
-from symgen.vocabulary.expressions import ZERO, Expr, Reading
+from symgen.describe.mechanism import Force, Joint, Mechanism
+from symgen.vocabulary.expressions import ZERO, Expr, Reading, readings
 from symgen.vocabulary.measures import (
     GROUND,
     AnyAngle,
@@ -32,6 +32,7 @@ from symgen.vocabulary.measures import (
     Effort,
     Exerted,
     Holonomic,
+    Integral,
     Marker,
     Source,
     Spin,
@@ -40,7 +41,8 @@ from symgen.vocabulary.measures import (
 )
 
 if TYPE_CHECKING:
-    from symgen.describe.context import Context
+    from symgen.describe.scope import Context
+
 
 #: What begins the names of a point's coordinates, by the order of the derivative, and their units.
 ORDERS = {"": "m", "v": "m/s", "a": "m/s^2"}
@@ -182,3 +184,58 @@ class Readings:
         if owner in self._context.joint_names:
             return of_joint(self._context.joint(owner, where), self._order)
         return of_force(self._context.forces[owner], self._order)
+
+
+class Column(NamedTuple):
+    """A reported quantity: its name, unit and formula."""
+
+    name: str
+    unit: str
+    formula: Expr
+
+
+def points(mechanism: Mechanism) -> tuple[Column, ...]:
+    """Return coordinates, velocities and accelerations of all named points: ``arm.tip.x``, ``.vx``, ``.ax``."""
+    dimension = len(mechanism.gravity)
+    return tuple(
+        column
+        for body in mechanism.bodies
+        for point, place in body.points
+        for column in _columns(of_point(f"{body.name}.{point}", Marker(body.name, place), dimension, OUTPUT))
+    )
+
+
+def elements(mechanism: Mechanism) -> tuple[Column, ...]:
+    """Return measures, forces and power of force elements and drivers: ``spring.length``, ``.force``, ``.power``."""
+    forces = (column for force in mechanism.forces for column in _columns(of_force(force, OUTPUT)))
+    drivers = (column for j in mechanism.joints if j.kind == "driver" for column in _driver(of_joint(j, OUTPUT)))
+    return (*forces, *drivers)
+
+
+def outputs(mechanism: Mechanism) -> tuple[Column, ...]:
+    """Return the formulas of ``[outputs]``."""
+    return tuple(Column(o.name, o.unit, o.value) for o in mechanism.outputs)
+
+
+def integrals(mechanism: Mechanism) -> dict[Integral, int]:
+    """Return the integrals that outputs ask for, numbered in their order, each once."""
+    found = (r.source for output in mechanism.outputs for r in readings(output.value))
+    return {source: i for i, source in enumerate(dict.fromkeys(s for s in found if isinstance(s, Integral)))}
+
+
+def integrated(mechanism: Mechanism) -> tuple[Any, ...]:
+    """Return what a run integrates: joints, forces, and the formulas of integrals."""
+    return mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
+
+
+def _columns(table: Table) -> Iterator[Column]:
+    return (Column(reading.name, unit, reading) for reading, unit in table.values())
+
+
+def _driver(table: Table) -> Iterator[Column]:
+    """Yield the columns of a driver: its only coordinate's rate has its short name."""
+    return _columns({label: entry for label, entry in table.items() if not label.endswith(".rate")})
+
+
+#: Table of a result -> its columns.
+TABLES = {"points": points, "elements": elements, "outputs": outputs}

@@ -1,24 +1,105 @@
-"""What a joint or force kind may ask while it is resolved: bodies, points, directions, formulas."""
+"""The mechanism as far as it is read, and the bodies, points, directions and formulas that a kind resolves in it."""
 
 from __future__ import annotations
 
 import math
 import re
 from collections import ChainMap
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import cached_property
 
-from symgen.describe.context import Context
+import msgspec
+
 from symgen.describe.evaluate import evaluate
 from symgen.describe.fields import found
-from symgen.describe.mechanism import ACCELERATIONS, Joint, Vec
+from symgen.describe.mechanism import ACCELERATIONS, AnyBody, Force, Joint, Mechanism, Vec
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import OUTPUT, Readings
+from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import ZERO, Expr, Number, call
 from symgen.vocabulary.measures import GROUND, Direction, Marker, Measure
 
 #: The name by which a file means a body's centre of mass.
 CENTRE = "centre"
+
+
+class Context(msgspec.Struct, frozen=True, dict=True):
+    """What is known of the mechanism when joints and forces are resolved.
+
+    What every formula asks for is worked out once: a file may have thousands of parameters, bodies and formulas.
+    """
+
+    source: str
+    values: Mapping[str, float]  # parameters with their defaults
+    tables: Mapping[str, Table]
+    bodies: Mapping[str, AnyBody]
+    joint: Callable[[str, str], Joint]  # (name, where) -> the joint, resolved if it was not yet
+    space: str = "planar"
+    joint_names: frozenset[str] = frozenset()
+    forces: Mapping[str, Force] = {}  # empty while forces are resolved
+    inputs: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, mechanism: Mechanism, source: str = "") -> Context:
+        """Return what is known of a mechanism that was read already, for formulas that come later."""
+        joints = {joint.name: joint for joint in mechanism.joints}
+        return cls(
+            source or mechanism.name,
+            {p.name: p.value for p in mechanism.parameters if not p.input},
+            {table.name: table for table in mechanism.tables},
+            {body.name: body for body in mechanism.bodies},
+            lambda name, where: joints[name],
+            mechanism.space,
+            frozenset(joints),
+            {force.name: force for force in mechanism.forces},
+            mechanism.inputs,
+        )
+
+    @cached_property
+    def coordinates(self) -> dict[str, tuple[str, ...]]:
+        """Body -> coordinates and velocities that formulas may use."""
+        return {name: body.coordinates + body.speeds for name, body in self.bodies.items()}
+
+    @cached_property
+    def points(self) -> dict[str, dict[str, Vec]]:
+        """Body -> its points by name."""
+        return {name: dict(body.points) for name, body in self.bodies.items()}
+
+    @cached_property
+    def constants(self) -> FormulaNames:
+        """Names of a formula of parameters."""
+        plain = {name: name for name in self.values}
+        elsewhere = frozenset({"t", *self.tables, *self.inputs})
+        return FormulaNames(
+            "a number or an expression of parameters", plain, elsewhere=elsewhere, hints=self._of_inputs
+        )
+
+    @cached_property
+    def times(self) -> FormulaNames:
+        """Names of a formula of t and parameters."""
+        plain = {name: name for name in (*self.values, "t")}
+        smooth = {name: t.function for name, t in self.tables.items() if t.interpolation == "cubic"}
+        others = frozenset(self.tables) - frozenset(smooth)
+        hints = dict.fromkeys(others, "a motion needs two continuous derivatives, which interpolation = 'cubic' has")
+        what = "a number or an expression of t and parameters"
+        elsewhere = others | frozenset(self.inputs)
+        return FormulaNames(what, plain, tables=smooth, elsewhere=elsewhere, hints=hints | self._of_inputs)
+
+    @cached_property
+    def states(self) -> dict[str, str]:
+        """Names of a formula of t, parameters, inputs and state, coordinates apart."""
+        return {name: name for name in (*self.values, *self.inputs, "t")}
+
+    @property
+    def _of_inputs(self) -> dict[str, str]:
+        """What is said of inputs where they may not stand."""
+        return dict.fromkeys(self.inputs, "an input may stand in forces, torques and actuators")
+
+    @cached_property
+    def functions(self) -> dict[str, str]:
+        """Tables -> functions of a tree."""
+        return {name: table.function for name, table in self.tables.items()}
 
 
 class Scope:

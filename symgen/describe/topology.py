@@ -12,7 +12,7 @@ import msgspec
 
 from symgen.describe.kinds import JOINTS
 from symgen.describe.mechanism import Articulation, Joint, Link, Mechanism, Prescribed, SpatialBody, Topology
-from symgen.describe.outputs import integrals
+from symgen.describe.readings import integrals
 from symgen.vocabulary.expressions import Number, readings
 from symgen.vocabulary.measures import GROUND, Angle, Driven, Holonomic, Measure, Sum
 from symgen.vocabulary.quantities import Quantity

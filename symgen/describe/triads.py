@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from symgen.describe.evaluate import scalars
 from symgen.describe.fields import found
 from symgen.describe.mechanism import SpatialBody
-from symgen.describe.orientation import euler_parameters
+from symgen.describe.start import euler_parameters
 from symgen.vocabulary.expressions import Number, number
 from symgen.vocabulary.measures import GROUND, Direction
 from symgen.vocabulary.rotations import matrix, rotate, rotate_back

@@ -8,12 +8,9 @@ from typing import Any
 
 import msgspec
 
-from symgen.describe.bodies import planar_body, spatial_body
-from symgen.describe.bounds import DEEPEST
+from symgen.describe.bodies import planar_body, shapes_of, spatial_body
 from symgen.describe.columns import check_columns
-from symgen.describe.context import Context
-from symgen.describe.derived_parameters import in_order
-from symgen.describe.evaluate import evaluate
+from symgen.describe.evaluate import evaluate, in_order
 from symgen.describe.events import read_event
 from symgen.describe.fields import Flag, JointStart, OutputFunction, Scalar, found, read, read_value
 from symgen.describe.holds import body_holds, holds_of, joint_holds
@@ -21,7 +18,7 @@ from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
 from symgen.describe.parser import FormulaNames, parse
-from symgen.describe.scope import Scope
+from symgen.describe.scope import Context, Scope
 from symgen.describe.sections import (
     NAMED,
     SECTIONS,
@@ -32,7 +29,6 @@ from symgen.describe.sections import (
     RunSection,
     TableSection,
 )
-from symgen.describe.shapes import shapes_of
 from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
 from symgen.errors import InputError, nearest, quoted
@@ -40,6 +36,8 @@ from symgen.vocabulary.expressions import names
 from symgen.vocabulary.measures import Marker
 
 Raw = Mapping[str, Any]
+#: Levels of tables in a file, and joints in a chain of references.
+DEEPEST = 20
 
 
 def validate(raw: Raw, source: str) -> Mechanism:

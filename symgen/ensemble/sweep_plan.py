@@ -16,8 +16,8 @@ from symgen.compiling.choose_shape import LARGEST_STRAIGHT
 from symgen.compiling.choose_tree import on_tree
 from symgen.compiling.integrals import can_integrate, with_integrals
 from symgen.compiling.pipeline import compile_model
-from symgen.describe.derived_parameters import derived
 from symgen.describe.digest import identity
+from symgen.describe.evaluate import derived
 from symgen.describe.events import RECORD, RESET, STOP
 from symgen.describe.kinks import discontinuities_of
 from symgen.describe.sides import sides_of

@@ -13,9 +13,8 @@ from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import UNITS, quantities
 from symgen.errors import finite_numbers
 from symgen.formulate.carried import carried_energies
-from symgen.formulate.efforts import exertion
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission
-from symgen.formulate.measures import ModelNodes
+from symgen.formulate.measures import ModelNodes, exertion
 from symgen.formulate.of_time import time_function
 from symgen.ir.program import of_table
 from symgen.vocabulary.expressions import ZERO

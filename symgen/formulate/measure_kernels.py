@@ -14,8 +14,7 @@ from typing import Any
 
 import sympy as sp
 
-from symgen.formulate.frames import AnyFrame, along_motion, frame
-from symgen.formulate.spatial import SpatialFrame, cross
+from symgen.formulate.frames import Frame, SpatialFrame, along_motion, cross, frame
 from symgen.formulate.translate import Translator
 from symgen.ir.graph import Graph
 
@@ -29,7 +28,7 @@ class Kernel:
     """
 
     graph: Graph
-    frames: tuple[AnyFrame, ...]
+    frames: tuple[Frame, ...]
     constants: int
     value: int
     row: tuple[tuple[int, ...], ...]
@@ -41,7 +40,7 @@ class Kernel:
         return (self.value, *(n for part in self.row for n in part), self.bias)
 
 
-Frames = tuple[AnyFrame, ...]
+Frames = tuple[Frame, ...]
 #: Points and directions as tuples of components, lengths as symbols.
 Constants = tuple[Any, ...]
 _Build = Callable[[Frames, Constants], Any]

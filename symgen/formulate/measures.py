@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from symgen.describe.formulas import Formulas
 from symgen.formulate.carried import TreeBodies
 from symgen.formulate.euler_parameters import matrix_of, turning
-from symgen.formulate.frames import FRAME_SLOTS
+from symgen.formulate.frames import FRAME_SLOTS, SPATIAL_SLOTS
 from symgen.formulate.measure_kernels import derive
-from symgen.formulate.spatial import SPATIAL_SLOTS
+from symgen.formulate.of_time import potential_of
 from symgen.formulate.tree_plane import PlanarTree
 from symgen.formulate.tree_space import SpatialTree
 from symgen.ir.graph import Graph
-from symgen.vocabulary.expressions import Reading
+from symgen.vocabulary.expressions import ZERO, Reading
 from symgen.vocabulary.measures import (
     GROUND,
     Angle,
@@ -24,6 +24,7 @@ from symgen.vocabulary.measures import (
     Direction,
     Dot,
     Driven,
+    Effort,
     Exerted,
     Integral,
     Marker,
@@ -296,3 +297,40 @@ class ModelNodes(Formulas):
                     row[self.first[body] + offset] = nodes[position]
                 position += 1
         return DerivedMeasure(nodes[0], row, nodes[-1])
+
+
+@dataclass(frozen=True)
+class Exertion:
+    """An effort in a model, as nodes.
+
+    Attributes
+    ----------
+    row : mapping of int to int
+        Velocity index -> entry of J, with s' = J v.
+    rate : int
+        s'.
+    total : int
+        -dU/ds + F.
+    magnitude : int
+        F, the part without potential.
+    energy : int
+        U.
+    """
+
+    row: Mapping[int, int]
+    rate: int
+    total: int
+    magnitude: int
+    energy: int
+
+
+def exertion(model: ModelNodes, effort: Effort) -> Exertion:
+    """Return what an effort exerts."""
+    measure = model.motion(effort.measure)
+    rate = measure.rate(model.graph, model.velocities)
+    zero = model.graph.zero
+    conservative, energy = (
+        (zero, zero) if effort.potential == ZERO else potential_of(model, effort.potential, measure.value)
+    )
+    magnitude = model.expression(effort.magnitude, s=measure.value, rate=rate)
+    return Exertion(measure.row, rate, model.graph.add(conservative, magnitude), magnitude, energy)

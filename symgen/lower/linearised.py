@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from symgen.describe.derived_parameters import derived
+from symgen.describe.evaluate import derived
 from symgen.describe.mechanism import Mechanism
-from symgen.formulate.efforts import exertion
 from symgen.formulate.equations import Equations
 from symgen.formulate.formulate import formulate
+from symgen.formulate.measures import exertion
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Target

@@ -11,10 +11,9 @@ from dataclasses import dataclass, field
 
 from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import ACCELERATIONS, Mechanism
-from symgen.describe.outputs import integrals
+from symgen.describe.readings import integrals
 from symgen.describe.topology import quantities
-from symgen.formulate.efforts import exertion
-from symgen.formulate.measures import ModelNodes
+from symgen.formulate.measures import ModelNodes, exertion
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.interpolation import Interpolation

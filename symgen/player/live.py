@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.compiling.checked import checked
-from symgen.describe.derived_parameters import derived
-from symgen.describe.evaluate import said
+from symgen.describe.evaluate import derived, said
 from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
 from symgen.drawing.scene import Array

@@ -12,7 +12,7 @@ import numpy as np
 
 from symgen.describe.evaluate import parameter_values, said
 from symgen.describe.events import DOES
-from symgen.describe.input_data import are_words_of_data
+from symgen.describe.inputs import are_words_of_data
 from symgen.errors import AssemblyError, InputError
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.motion_page import Page, page

@@ -13,9 +13,9 @@ from measured import Posed
 
 from symgen import catalogue
 from symgen.describe import load
+from symgen.describe.builder import to_toml
 from symgen.describe.load import read_raw
 from symgen.describe.template import template
-from symgen.describe.toml import to_toml
 from symgen.describe.validate import validate
 from symgen.errors import InputError
 from symgen.forces import FORCES

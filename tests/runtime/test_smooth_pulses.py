@@ -13,7 +13,7 @@ from support.checks import assert_same_motion
 import symgen
 from symgen.catalogue import MACHINES, entries
 from symgen.catalogue import names as names_of_catalogue
-from symgen.describe.unforeseen import longest_step
+from symgen.describe.kinks import longest_step
 from symgen.ensemble.sweep import sweep
 
 SCHEMES = ["dop853", "dopri5", "abm", "sdirk", "radau5"]

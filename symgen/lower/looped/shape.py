@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
+from symgen.lower.factor import Elimination
 from symgen.lower.looped.instances import Instance
 from symgen.lower.looped.kernels import KernelInfo
-from symgen.lower.looped.pattern import Elimination
 from symgen.vocabulary.expressions import Expr
 from symgen.vocabulary.measures import Measure
 

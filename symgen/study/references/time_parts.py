@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.unforeseen import longest_step
+from symgen.describe.kinks import longest_step
 from symgen.runtime.stops import foreseen
 
 if TYPE_CHECKING:
