@@ -14,7 +14,6 @@ from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, names, table_of
 
-
 #: What is wrong with a value, by what evaluating it raises.
 _FAULTS: dict[type[Exception], str] = {ZeroDivisionError: "divides by zero", OverflowError: "is too large"}
 
@@ -127,7 +126,7 @@ _LISTED = 8
 
 
 def in_order(formulas: Mapping[str, Expr | None], where: str) -> list[str]:
-    """Return names so that each stands behind those that its formula depends on.
+    """Return names so that each stands behind those that its formula depends on, else in their own order.
 
     Parameters
     ----------
@@ -143,7 +142,7 @@ def in_order(formulas: Mapping[str, Expr | None], where: str) -> list[str]:
     """
     needs = {name: () if formula is None else dict.fromkeys(names(formula)) for name, formula in formulas.items()}
     try:
-        return list(TopologicalSorter(needs).static_order())
+        TopologicalSorter(needs).prepare()
     except CycleError as error:
         circle: list[str] = error.args[1][:0:-1]  # each leads to the next one
         first = circle.index(min(circle, key=list(formulas).index))
@@ -151,6 +150,15 @@ def in_order(formulas: Mapping[str, Expr | None], where: str) -> list[str]:
         way = circle if len(circle) <= _LISTED else [*circle[: _LISTED - 1], "...", circle[0]]
         expected = "a formula that does not lead back to its own parameter"
         raise InputError(f"{where}.{circle[0]}", expected, " -> ".join(way)) from None
+    ordered = dict.fromkeys(name for name, formula in formulas.items() if formula is None)
+    waiting = list(reversed(formulas))
+    while waiting:
+        name = next((need for need in needs[waiting[-1]] if need not in ordered), None)
+        if name is None:
+            ordered.setdefault(waiting.pop())
+        else:
+            waiting.append(name)
+    return list(ordered)
 
 
 def derived(parameters: Iterable[Parameter], given: Container[str] = ()) -> list[tuple[str, Expr]]:

@@ -12,10 +12,10 @@ from symgen.describe.mechanism import Mechanism, SpatialBody
 from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import UNITS, quantities
 from symgen.errors import finite_numbers
-from symgen.formulate.carried import carried_energies
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission
 from symgen.formulate.measures import ModelNodes, exertion
 from symgen.formulate.of_time import time_function
+from symgen.formulate.tree import energies_on_tree
 from symgen.ir.program import of_table
 from symgen.vocabulary.expressions import ZERO
 from symgen.vocabulary.measures import Holonomic, Row
@@ -49,7 +49,7 @@ def formulate(mechanism: Mechanism) -> Equations:
     if model.tree is None:
         mass, kinetic, gravity_potential = _inertia(model, forces)
     else:
-        kinetic, gravity_potential = carried_energies(model, forces)
+        kinetic, gravity_potential = energies_on_tree(model, forces)
         mass, forces, driving = model.tree.dynamics(forces)
     joint_coordinates = _joint_coordinates(model)
     coordinates, velocities = quantities(mechanism)
@@ -96,7 +96,7 @@ def _bodies(model: ModelNodes) -> tuple[int, ...]:
 def _spins(model: ModelNodes) -> tuple[tuple[int, int], ...]:
     """Return where Euler parameters begin in q, and their angular velocities in v."""
     if model.tree is not None:
-        return model.tree.spins
+        return tuple(model.tree.spins)
     return tuple(
         (model.first_q[b.name] + 3, model.first[b.name] + 3)
         for b in model.mechanism.bodies

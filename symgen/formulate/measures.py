@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from symgen.describe.formulas import Formulas
-from symgen.formulate.carried import TreeBodies
 from symgen.formulate.euler_parameters import matrix_of, turning
 from symgen.formulate.frames import FRAME_SLOTS, SPATIAL_SLOTS
 from symgen.formulate.measure_kernels import derive
 from symgen.formulate.of_time import potential_of
+from symgen.formulate.tree import Tree
 from symgen.formulate.tree_plane import PlanarTree
 from symgen.formulate.tree_space import SpatialTree
 from symgen.ir.graph import Graph
@@ -61,11 +61,11 @@ class ModelNodes(Formulas):
         self.time = self.names["t"]
         self.spatial = self.mechanism.space == "spatial"
         self.velocities = tuple(self.graph.input("v", i) for i in range(self.size))
-        self.tree: TreeBodies | None = None
+        self.tree: Tree | None = None
         if self.mechanism.topology is not None:
-            tree: TreeBodies = SpatialTree(self) if self.spatial else PlanarTree(self)
-            self.tree, self.velocities = tree, tree.velocities
-            self.names |= tree.names
+            self.tree = SpatialTree(self) if self.spatial else PlanarTree(self)
+            self.velocities = self.tree.velocities
+            self.names |= self.tree.names
         self._memo: dict[object, DerivedMeasure] = {}
         self._frames: dict[str, list[int]] = {}
         #: Raw angles of measures that count turns, in the order of their slots in the section ``winding``.
@@ -106,7 +106,7 @@ class ModelNodes(Formulas):
     def q_rates(self) -> tuple[int, ...]:
         """Return q' = N v: in space e' = G^T omega / 2, which keeps the length of e."""
         if self.tree is not None:
-            return self.tree.q_rates
+            return tuple(self.tree.q_rates)
         g, rates = self.graph, list[int]()
         for body in self.mechanism.bodies:
             j = self.first[body.name]
@@ -144,9 +144,8 @@ class ModelNodes(Formulas):
         g, rates = self.graph, self.state_rates
         if self.tree is None:
             return rates
-        columns = (self.tree.column(i) for i in range(self.size + self.tree.size))
-        found = (g.total(g.mul(node, rates[j]) for j, node in sorted(c.items()) if j >= 0) for c in columns)
-        return tuple(g.add(a, b) for a, b in zip(found, self.tree.biases, strict=True))
+        products = (g.total(g.mul(n, rates[j]) for j, n in sorted(c.items()) if j >= 0) for c in self.tree.columns)
+        return tuple(g.add(a, b) for a, b in zip(products, self.tree.biases, strict=True))
 
     @property
     def state_rates(self) -> tuple[int, ...]:
@@ -160,7 +159,7 @@ class ModelNodes(Formulas):
             return dict(row), bias, self.graph.zero
         g, found, drift = self.graph, dict[int, int](), self.graph.zero
         for i, node in sorted(row.items()):
-            for j, entry in sorted(self.tree.column(i).items()):
+            for j, entry in sorted(self.tree.columns[i].items()):
                 found[j] = g.add(found.get(j, g.zero), g.mul(node, entry))
             bias = g.add(bias, g.mul(node, self.tree.biases[i]))
         for j in sorted(j for j in found if j < 0):
@@ -178,9 +177,9 @@ class ModelNodes(Formulas):
 
     def _coordinate(self, m: Measure) -> DerivedMeasure | None:
         """Return a measure that is a coordinate of the state: its rate stands behind the velocities of bodies."""
-        if self.tree is None or m not in self.tree.known:
+        if self.tree is None or m not in self.tree.measures:
             return None
-        g, (coordinate, velocity, sign) = self.graph, self.tree.known[m]
+        g, (coordinate, velocity, sign) = self.graph, self.tree.measures[m]
         factor = g.constant(sign)
         return DerivedMeasure(g.mul(factor, g.input("q", coordinate)), {self.size + velocity: factor}, g.zero)
 

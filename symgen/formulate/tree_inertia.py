@@ -9,8 +9,9 @@ mass and moves no entry of M or f (base parameters; Khalil and Dombre, Modeling,
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from symgen.describe.mechanism import Link, SpatialBody
 from symgen.formulate.vector_algebra import Matrix, Triple, Vectors
@@ -30,20 +31,58 @@ class BodyVelocity:
     along: Triple
 
 
-class Placed(Protocol):
-    """What is asked of a body in its place; see `symgen.formulate.tree_space`."""
+@dataclass
+class Placed:
+    """A body where its joint holds it, as nodes; vectors in the body's axes unless said otherwise.
+
+    Attributes
+    ----------
+    turn : Matrix
+        From the body's axes to those of what carries it.
+    arm : Triple
+        From the point of what carries it to its own, in the axes of what carries it.
+    own : bool
+        Whether its orientation is its own, so that what carries it does not turn it.
+    axes : Matrix
+        From its axes to the ground's.
+    at : Triple
+        Its point, in ground axes.
+    omega, velocity : Triple
+        Angular velocity, and velocity of its point.
+    alpha, bias : Triple
+        Angular acceleration, and acceleration of its point less gravity, where v' is 0.
+    whirl : Matrix
+        What makes of a place in the body the acceleration against that of its point, where v' is 0.
+    motions : mapping of int to BodyVelocity
+        Velocities of the state that belong to its link.
+    columns : mapping of int to (Triple, Triple)
+        Velocity of the state -> derivative of `omega` and `velocity` by it.
+    centre : Triple
+        Its centre of mass, from its point.
+    euler : sequence of int
+        Euler parameters.
+    hinge : (Triple, Triple) or None
+        Of a body that turns about an axis alone: this axis, in its own axes and in those of what carries it; zeros
+        where it turns about a point alone.
+    """
 
     link: Link
     turn: Matrix
     arm: Triple
     own: bool
     axes: Matrix
+    at: Triple
+    omega: Triple
+    velocity: Triple
+    alpha: Triple
     bias: Triple
     whirl: Matrix
     motions: dict[int, BodyVelocity]
+    columns: dict[int, tuple[Triple, Triple]]
     centre: Triple
-    hinge: tuple[Triple, Triple] | None
-    children: list[str]
+    euler: Sequence[int]
+    hinge: tuple[Triple, Triple] | None = None
+    children: list[str] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
