@@ -151,7 +151,7 @@ def in_order(formulas: Mapping[str, Expr | None], where: str) -> list[str]:
         expected = "a formula that does not lead back to its own parameter"
         raise InputError(f"{where}.{circle[0]}", expected, " -> ".join(way)) from None
     ordered = dict.fromkeys(name for name, formula in formulas.items() if formula is None)
-    waiting = list(reversed(formulas))
+    waiting = list(formulas)[::-1]
     while waiting:
         name = next((need for need in needs[waiting[-1]] if need not in ordered), None)
         if name is None:

@@ -15,13 +15,11 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from symgen.errors import InputError, nearest
 from symgen.ir.program import Correction
-
-if TYPE_CHECKING:
-    from symgen.methods._formula import Scalar, System, Vector
+from symgen.methods._formula import Scalar, System, Vector
 
 
 @dataclass(frozen=True)
@@ -320,6 +318,10 @@ def augmented_iteration(system: System, penalty: Scalar | Vector, target: Vector
     )
 
 
+TOLERANCE = MethodParameter(
+    "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times the mechanism's length"
+)
+WEIGHT = MethodOption("weight", ("identity", "mass", "body"), "metric of the correction")
 SOLVER = MethodOption(
     "solver",
     ("elimination", "augmented", "dense"),
