@@ -86,9 +86,9 @@ def described(struct: type[Any]) -> str:
     """Return what a table is and what its keys mean; those that kinds share are described by the struct they share."""
     shared = [base for base in struct.__bases__ if base is not msgspec.Struct]
     own = inspect.cleandoc(struct.__doc__ or "")
-    if not shared:
+    keys = described(shared[0]).partition(_KEYS)[2] if shared else ""
+    if not keys:
         return own
-    keys = described(shared[0]).partition(_KEYS)[2]
     before, found, after = own.partition(_KEYS)
     if found:
         return f"{before}{_KEYS}{keys}\n{after}"

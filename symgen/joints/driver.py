@@ -52,7 +52,7 @@ class Driver(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
             raise scope.error("", "either the key joint or the key body", got)
         bodies, measure, unit = self._of_joint(scope) if self.joint is not None else self._of_body(scope)
         row = Holonomic("driver", measure, scope.of_time("value", self.value), unit)
-        return Joint(name=scope.name, kind=scope.kind, bodies=bodies, rows=(row,))
+        return Joint(scope.name, scope.kind, bodies, (row,))
 
     def _of_joint(self, scope: Scope) -> tuple[tuple[str, ...], Measure, str]:
         if self.point is not None:
