@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from symgen.describe.fields import found, read
+from symgen.describe.fields import read, words_of
 from symgen.describe.mechanism import Body, Shape, SpatialBody, Vec
 from symgen.describe.names import check_identifier
 from symgen.describe.scope import CENTRE
@@ -72,7 +72,7 @@ def _check_type(scope: Scope, section: BodySection | SpatialBodySection, keys: t
     if section.type == "point":
         for key in keys:
             if getattr(section, key) is not None:
-                raise scope.error(key, "no such key, as a point mass has none", found(getattr(section, key)))
+                raise scope.error(key, "no such key, as a point mass has none", words_of(getattr(section, key)))
     elif section.inertia is None:
         hint = 'a body without one is written type = "point"'
         raise scope.error("inertia", "the inertia about the centre of mass", "no such key", hint)
@@ -109,20 +109,20 @@ def _orientation(scope: Scope, key: str, section: OrientationSection | None) -> 
     if section is None:
         return IDENTITY
     ways = ("quaternion", "rotation_vector", "euler_angles", "x_axis", "start")
-    given = [way for way in ways if getattr(section, way) is not None]
-    if len(given) != 1:
-        got = "none" if not given else " and ".join(given)
+    written = [way for way in ways if getattr(section, way) is not None]
+    if len(written) != 1:
+        got = "none" if not written else " and ".join(written)
         raise scope.error(key, f"one of the keys {', '.join(ways)}", got)
-    way = given[0]
+    way = written[0]
     needs = {"euler_angles": ("convention",), "x_axis": ("y_axis",), "start": ("end", "y_axis")}.get(way, ())
     for other in ("convention", "y_axis", "end"):
         if (getattr(section, other) is None) == (other in needs):
-            got = "no such key" if other in needs else found(getattr(section, other))
+            got = "no such key" if other in needs else words_of(getattr(section, other))
             raise scope.error(f"{key}.{other}", "a value" if other in needs else f"no such key beside {way}", got)
     if way == "quaternion":
         four = section.quaternion or ()
         if len(four) != 4 or any(isinstance(e, tuple) for e in four):
-            raise scope.error(f"{key}.quaternion", "four numbers [e0, e1, e2, e3]", found(four))
+            raise scope.error(f"{key}.quaternion", "four numbers [e0, e1, e2, e3]", words_of(four))
         values = tuple(scope.constant(f"{key}.quaternion", e) for e in four if not isinstance(e, tuple))
     else:
         parts = [(way, getattr(section, way)), *((n, getattr(section, n)) for n in needs if n != "convention")]
@@ -166,9 +166,9 @@ def _check_definite(scope: Scope, tensor: Tensor) -> None:
         raise scope.error("inertia", "a positive definite tensor about the centre of mass", "one that is not")
 
 
-def _entries(scope: Scope, given: tuple[float | str | tuple[float | str, ...], ...]) -> Tensor:
-    rows = [e for e in given if isinstance(e, tuple)]
-    flat = [scope.constant("inertia", e) for e in given if not isinstance(e, tuple)]
+def _entries(scope: Scope, entries: tuple[float | str | tuple[float | str, ...], ...]) -> Tensor:
+    rows = [e for e in entries if isinstance(e, tuple)]
+    flat = [scope.constant("inertia", e) for e in entries if not isinstance(e, tuple)]
     if not rows and len(flat) == 3:
         return flat[0], flat[1], flat[2], ZERO, ZERO, ZERO
     if not rows and len(flat) == 6:
@@ -182,7 +182,7 @@ def _entries(scope: Scope, given: tuple[float | str | tuple[float | str, ...], .
                 )
         return m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2]
     expected = "[Ixx, Iyy, Izz], [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] or three rows of three"
-    raise scope.error("inertia", expected, found(given))
+    raise scope.error("inertia", expected, words_of(entries))
 
 
 def _point(scope: Scope, point: str | tuple[float | str, ...], points: dict[str, Vec], centre: Vec) -> Vec:
@@ -260,9 +260,9 @@ _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 def shapes_of(scope: Scope, raw: object) -> tuple[Shape, ...]:
     """Return the shapes of the body that a scope names: those of the key ``shape`` of its table, one or a list."""
-    given = raw.get("shape", ()) if isinstance(raw, Mapping) else ()
-    several = isinstance(given, list | tuple)
-    tables = given if several else (given,)
+    shapes = raw.get("shape", ()) if isinstance(raw, Mapping) else ()
+    several = isinstance(shapes, list | tuple)
+    tables = shapes if several else (shapes,)
     if len(tables) > MOST:
         raise scope.error("shape", f"at most {MOST} shapes", str(len(tables)))
     return tuple(_shape(scope, table, f"shape[{i}]" if several else "shape") for i, table in enumerate(tables))
@@ -271,16 +271,16 @@ def shapes_of(scope: Scope, raw: object) -> tuple[Shape, ...]:
 def _shape(scope: Scope, raw: object, key: str) -> Shape:
     section = read(ShapeSection, raw, scope.where(key))
     needed, allowed = KEYS[section.type]
-    given = set(raw) - {"type", "colour"} if isinstance(raw, Mapping) else set()
+    keys = set(raw) - {"type", "colour"} if isinstance(raw, Mapping) else set()
     if not scope.spatial and section.type == "cylinder":
         allowed = ("at",)
     if scope.spatial and section.type == "cylinder":
         needed, allowed = (*needed, "length"), ("at", "axis")
     for name in needed:
-        if name not in given:
+        if name not in keys:
             raise scope.error(f"{key}.{name}", f"a value, as a {section.type} needs it", "no such key")
-    for name in sorted(given - {*needed, *allowed}):
-        raise scope.error(f"{key}.{name}", f"no such key for a {section.type} here", found(getattr(section, name)))
+    for name in sorted(keys - {*needed, *allowed}):
+        raise scope.error(f"{key}.{name}", f"no such key for a {section.type} here", words_of(getattr(section, name)))
     if section.colour and not _COLOUR.fullmatch(section.colour):
         raise scope.error(f"{key}.colour", "a colour such as '#3a7bd5'", quoted(section.colour))
     points = section.points or ()
@@ -288,7 +288,7 @@ def _shape(scope: Scope, raw: object, key: str) -> Shape:
         raise scope.error(f"{key}.points", f"2 to {MOST_POINTS} points", str(len(points)))
     sizes = section.size or ()
     if section.size is not None and len(sizes) != scope.dimension:
-        raise scope.error(f"{key}.size", f"{scope.dimension} lengths", found(section.size))
+        raise scope.error(f"{key}.size", f"{scope.dimension} lengths", words_of(section.size))
     numbers = [*(("size", e) for e in sizes), ("radius", section.radius), ("length", section.length)]
     up = (ZERO,) * (scope.dimension - 1) + (ONE,)
     return Shape(

@@ -43,10 +43,10 @@ class MechanismBuilder:
         self._raw: dict[str, dict[str, Any]] = {"mechanism": {"name": name} | _plain(keys)}
 
     def __repr__(self) -> str:
-        told = ", ".join(
+        counts = ", ".join(
             f"{len(entries)} {section}" for section, entries in self._raw.items() if section != "mechanism"
         )
-        return f"<MechanismBuilder {str(self._raw['mechanism']['name'])[:60]}: {told or 'nothing yet'}>"
+        return f"<MechanismBuilder {str(self._raw['mechanism']['name'])[:60]}: {counts or 'nothing yet'}>"
 
     def run(self, **keys: float) -> Self:
         """Set run defaults: ``until``, ``step``, ``output_step``, ``max_step``, ``predictable_until`` [s]."""

@@ -87,7 +87,7 @@ def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None =
     return values
 
 
-def said(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
+def independent_values(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
     """Return of all parameter values those that the others follow from: of formulas only the ones that are set."""
     following = {name for name, formula in derived(mechanism.parameters) if evaluate(formula, values) == values[name]}
     return {name: value for name, value in values.items() if name not in following}
@@ -161,16 +161,16 @@ def in_order(formulas: Mapping[str, Expr | None], where: str) -> list[str]:
     return list(ordered)
 
 
-def derived(parameters: Iterable[Parameter], given: Container[str] = ()) -> list[tuple[str, Expr]]:
+def derived(parameters: Iterable[Parameter], values: Container[str] = ()) -> list[tuple[str, Expr]]:
     """Return name and formula of the parameters that follow from others, each behind those it depends on.
 
     Parameters
     ----------
     parameters : iterable of Parameter
         Of a mechanism.
-    given : container of str
+    values : container of str
         Those that have numbers in place of their formulas.
     """
-    formulas = {p.name: None if p.name in given else p.formula for p in parameters}
+    formulas = {p.name: None if p.name in values else p.formula for p in parameters}
     ordered = in_order(formulas, "parameters") if any(formulas.values()) else []
     return [(name, formula) for name in ordered if (formula := formulas[name]) is not None]

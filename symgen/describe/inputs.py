@@ -73,7 +73,7 @@ class DrivenMechanism:
         Inputs that are smooth between samples, and nothing beyond them.
     jumps : tuple of Jump
         Of all formulas.
-    told : mapping of str to str or float
+    descriptions : mapping of str to str or float
         Every input of the mechanism in words, or its number.
     declared : Mechanism
         With the names of inputs where these are read.
@@ -84,7 +84,7 @@ class DrivenMechanism:
     samples: Mapping[str, Data]
     curves: Mapping[str, Data]
     jumps: tuple[Jump, ...]
-    told: Mapping[str, str | float]
+    descriptions: Mapping[str, str | float]
     declared: Mechanism
 
     @property
@@ -95,14 +95,14 @@ class DrivenMechanism:
         return msgspec.structs.replace(self.mechanism, **parts)
 
 
-def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> DrivenMechanism:
+def driven(mechanism: Mechanism, sources: Mapping[str, Any]) -> DrivenMechanism:
     """Return a mechanism with what a run gives its inputs.
 
     Parameters
     ----------
     mechanism : Mechanism
         Declares inputs.
-    given : mapping
+    sources : mapping
         By name: a number; a text, which is a number, a formula of t, parameters and state, or
         ``FILE.csv:COLUMN[:INTERPOLATION]``; a pair of times and values; or a mapping of one of these, see
         `symgen.describe.inputs.data_of`.
@@ -114,24 +114,24 @@ def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> DrivenMechanism:
     """
     inputs = {p.name: p.value for p in mechanism.parameters if p.input}
     numbers, samples, curves, formulas = dict[str, float](), dict[str, Data](), dict[str, Data](), dict[str, Expr]()
-    told: dict[str, str | float] = dict(inputs)
+    words: dict[str, str | float] = dict(inputs)
     tables, jumps = list(mechanism.tables), list[Jump]()
-    for name, value in given.items():
+    for name, value in sources.items():
         where = f"input '{name}'"
         if name not in inputs:
             hint = nearest(name, inputs) if inputs else "it declares none, in a section [inputs]"
             raise InputError(where, f"an input of {mechanism.name}", "none of that name", hint)
         data = data_of(where, value)
         if data is None and not isinstance(value, str):
-            numbers[name] = told[name] = arguments.number(where, value)
+            numbers[name] = words[name] = arguments.number(where, value)
         elif data is None:
             number = _number(value)
             if number is None:
-                formulas[name], told[name] = parse(value, _names(mechanism), where), value
+                formulas[name], words[name] = parse(value, _names(mechanism), where), value
             else:
-                numbers[name] = told[name] = arguments.number(where, number)
+                numbers[name] = words[name] = arguments.number(where, number)
         else:
-            told[name] = data.words
+            words[name] = data.words
             if data.interpolation == "hold":
                 samples[name] = data
             else:
@@ -140,15 +140,15 @@ def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> DrivenMechanism:
                     curves[name] = data
                 tables.append(table)
                 formulas[name] = Call(table.function, (Name("t"),))
-    known = msgspec.structs.replace(mechanism, tables=tuple(tables))
-    changed = {name: _Switching(known, name, jumps).expression(e) for name, e in formulas.items()}
+    with_tables = msgspec.structs.replace(mechanism, tables=tuple(tables))
+    changed = {name: _Switching(with_tables, name, jumps).expression(e) for name, e in formulas.items()}
     switches = tuple(Parameter(j.switch, 0.0, input=True) for j in jumps if j.switch)
     if not changed:
-        return DrivenMechanism(mechanism, numbers, samples, curves, (), told, mechanism)
-    parts = {part: put(getattr(known, part), changed) for part in _READING}
-    parameters, put_in = (*known.parameters, *switches), tuple(changed.items())
-    whole = msgspec.structs.replace(known, **parts, parameters=parameters, given=put_in)
-    return DrivenMechanism(whole, numbers, samples, curves, tuple(jumps), told, known)
+        return DrivenMechanism(mechanism, numbers, samples, curves, (), words, mechanism)
+    parts = {part: put(getattr(with_tables, part), changed) for part in _READING}
+    parameters, put_in = (*with_tables.parameters, *switches), tuple(changed.items())
+    whole = msgspec.structs.replace(with_tables, **parts, parameters=parameters, given=put_in)
+    return DrivenMechanism(whole, numbers, samples, curves, tuple(jumps), words, with_tables)
 
 
 def put(value: T, formulas: Mapping[str, Expr]) -> T:
@@ -205,7 +205,7 @@ class _Switching:
         if not isinstance(e, Call):
             return e
         arguments = tuple(self.expression(a) for a in e.arguments)
-        if "t" in (found := set(names(e))) and found <= self.timely:
+        if "t" in (used := set(names(e))) and used <= self.timely:
             if e.function in (*_COMPARISONS, "sign"):
                 return self.switch(e)
             table = self.tables.get(table_of(e.function) or "")
@@ -291,8 +291,8 @@ def data_of(where: str, value: object) -> Data | None:
         If it means data that are not there or make no sense.
     """
     if isinstance(value, str):
-        found = _FILE.fullmatch(value.strip())
-        return None if found is None else _read(where, found["file"], found["column"].strip(), found["how"])
+        match = _FILE.fullmatch(value.strip())
+        return None if match is None else _read(where, match["file"], match["column"].strip(), match["how"])
     if isinstance(value, Mapping):
         return _of_mapping(where, value)
     if isinstance(value, list | tuple) or len(getattr(value, "shape", "")) > 0:
@@ -305,18 +305,18 @@ def data_of(where: str, value: object) -> Data | None:
 
 def _of_mapping(where: str, value: Mapping[Any, Any]) -> Data:
     keys = ("t", "u", "file", "column", "interpolation")
-    given = arguments.mapping(where, value, "t and u, or file and column, and interpolation")
-    for key in given:
+    entries = arguments.mapping(where, value, "t and u, or file and column, and interpolation")
+    for key in entries:
         if key not in keys:
             raise InputError(where, f"the keys {', '.join(keys)}", f"the unknown key {quoted(key)}", nearest(key, keys))
-    how = arguments.one_of(f"{where} interpolation", given.get("interpolation", "linear"), INTERPOLATIONS)
-    pairs = [pair for pair in (("t", "u"), ("file", "column")) if any(key in given for key in pair)]
-    if len(pairs) != 1 or not all(key in given for key in pairs[0]):
-        raise InputError(where, "either t and u or file and column", ", ".join(given) or "no keys")
-    if "t" in given:
-        return _checked(where, given["t"], given["u"], how, "")
-    file = arguments.path(f"{where} file", given["file"])
-    return _read(where, str(file), arguments.text(f"{where} column", given["column"]), how)
+    how = arguments.one_of(f"{where} interpolation", entries.get("interpolation", "linear"), INTERPOLATIONS)
+    pairs = [pair for pair in (("t", "u"), ("file", "column")) if any(key in entries for key in pair)]
+    if len(pairs) != 1 or not all(key in entries for key in pairs[0]):
+        raise InputError(where, "either t and u or file and column", ", ".join(entries) or "no keys")
+    if "t" in entries:
+        return _checked(where, entries["t"], entries["u"], how, "")
+    file = arguments.path(f"{where} file", entries["file"])
+    return _read(where, str(file), arguments.text(f"{where} column", entries["column"]), how)
 
 
 def _read(where: str, file: str, column: str, how: str | None) -> Data:
@@ -335,7 +335,7 @@ def _read(where: str, file: str, column: str, how: str | None) -> Data:
         rows = [row for row in csv.reader(content.decode("utf-8-sig").splitlines()) if any(map(str.strip, row))]
     except (UnicodeDecodeError, csv.Error):
         raise InputError(f"{where}: {path.name}", "a CSV file in UTF-8", "something else") from None
-    headings = [found["name"] if (found := _HEADING.fullmatch(cell)) else cell for cell in rows[0]] if rows else []
+    headings = [match["name"] if (match := _HEADING.fullmatch(cell)) else cell for cell in rows[0]] if rows else []
     if column not in headings:
         raise InputError(f"{where}: {path.name}", "a column of the file", quoted(column), nearest(column, headings))
     times = next((headings.index(name) for name in ("t", "time") if name in headings), 0)
@@ -366,6 +366,6 @@ def _checked(where: str, t: object, u: object, how: str, source: str) -> Data:
     return Data(times, values, how, f"{source or f'{len(times)} samples'} ({how})")
 
 
-def are_words_of_data(told: str | float) -> bool:
-    """Return whether what is told of an input are the words of data, which are no formula."""
-    return isinstance(told, str) and _WORDS.fullmatch(told) is not None
+def are_words_of_data(text: str | float) -> bool:
+    """Return whether the description of an input names data, which are no formula."""
+    return isinstance(text, str) and _WORDS.fullmatch(text) is not None

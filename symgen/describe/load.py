@@ -72,8 +72,8 @@ def with_parameters(raw: Mapping[str, Any], values: Mapping[str, float], source:
     source : str
         File name or other origin, for messages.
     """
-    known = raw.get("parameters", {})
-    entries = dict(known) if isinstance(known, Mapping) else {}
+    section = raw.get("parameters", {})
+    entries = dict(section) if isinstance(section, Mapping) else {}
     for name, value in values.items():
         if name not in entries:
             got = f"the unknown parameter {quoted(name)}"
@@ -99,8 +99,8 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
         return read_toml(path), path.name
     if path.suffix == ".toml" or "/" in text or os.sep in text:
         raise InputError("model", "a catalogue name or the path of a file", f"{quoted(text)}, which is no file")
-    known = catalogue.known()
-    hint = nearest(text.partition(":")[0], known)
+    entries = catalogue.known()
+    hint = nearest(text.partition(":")[0], entries)
     if ":" in text and not hint.startswith("known"):
         hint = f"a size is written as in {catalogue.example_of_size()}"
     raise InputError("model", "a catalogue name or the path of a file", quoted(text), hint)

@@ -67,7 +67,7 @@ class Lookup(Protocol):
         """Yield the names of what can be read."""
         ...
 
-    def known(self, owner: str, where: str) -> tuple[str, ...]:
+    def names_of(self, owner: str, where: str) -> tuple[str, ...]:
         """Return what can be read of an owner."""
         ...
 
@@ -271,13 +271,13 @@ class _Reader:
         if owner not in owners:
             what = "body" if readings is None else "body or joint"
             raise self.fail(f"the unknown {what} {quoted(owner)}", nearest(owner, owners))
-        found = None if readings is None else readings.find(path, self.where)
-        if found is not None:
-            return found
-        known = (*own, *(() if readings is None else readings.known(owner, self.where)))
+        reading = None if readings is None else readings.find(path, self.where)
+        if reading is not None:
+            return reading
+        names = (*own, *(() if readings is None else readings.names_of(owner, self.where)))
         what = f"{quoted('.'.join(path[1:]))}, which {'body ' if own else ''}'{owner}' has not"
-        listed = f"it has {', '.join(known)}" if known else "it has nothing to read"
-        raise self.fail(what, listed if len(known) <= 20 else nearest(text, [f"{owner}.{k}" for k in known]))
+        listed = f"it has {', '.join(names)}" if names else "it has nothing to read"
+        raise self.fail(what, listed if len(names) <= 20 else nearest(text, [f"{owner}.{k}" for k in names]))
 
     def binary(self, function: str, left: Expr, right: Expr) -> Expr:
         if function == "pow" and isinstance(right, Number) and abs(right.value) > LARGEST_EXPONENT:
@@ -333,9 +333,9 @@ class _Reader:
 
         return Reading(f"{INTEGRAL}({to_text(integrand)})", Integral(integrand))
 
-    def count(self, function: str, nodes: list[ast.expr], wanted: int) -> None:
-        if len(nodes) != wanted:
-            expected = "one argument" if wanted == 1 else f"{wanted} arguments"
+    def count(self, function: str, nodes: list[ast.expr], number: int) -> None:
+        if len(nodes) != number:
+            expected = "one argument" if number == 1 else f"{number} arguments"
             raise self.fail(f"{function}() with {len(nodes)}", expected=expected)
 
     def piecewise(self, nodes: list[ast.expr], depth: int) -> Expr:

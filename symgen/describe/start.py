@@ -90,14 +90,14 @@ def described_start(mechanism: Mechanism, numbers: Numbers) -> tuple[list[Any], 
     for body in mechanism.bodies:
         where = f"{mechanism.name}: bodies.{body.name}"
 
-        def given(key: str, *speeds: Expr | None, where: str = where) -> list[Any]:
+        def values_of(key: str, *speeds: Expr | None, where: str = where) -> list[Any]:
             return [None if e is None else numbers.value(e, f"{where}.{key}") for e in speeds]
 
         q += _pose(body, numbers, where)
-        v += given("velocity", *body.velocity)
+        v += values_of("velocity", *body.velocity)
         if not body.is_point:
             turning = body.angular_velocity if isinstance(body, SpatialBody) else (body.angular_velocity,)
-            v += given("angular_velocity", *turning)
+            v += values_of("angular_velocity", *turning)
     return q, v
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from symgen.describe.evaluate import scalars
-from symgen.describe.fields import found
+from symgen.describe.fields import words_of
 from symgen.describe.mechanism import SpatialBody
 from symgen.describe.start import euler_parameters
 from symgen.vocabulary.expressions import Number, number
@@ -73,7 +73,7 @@ def make_triads(
         along_b = _carried(scope, keys[0], a, b, along_a)
     else:
         expected = "a direction [x, y, z] in the first body's frame, or two, one in the frame of each body"
-        raise scope.error(keys[0], expected, found(axis))
+        raise scope.error(keys[0], expected, words_of(axis))
     if reference is not None:
         first_a = _across(scope, keys[1], _unit(scope, keys[1], reference[0]), along_a)
         first_b = _across(scope, keys[1], _unit(scope, keys[1], reference[1]), along_b)
@@ -100,7 +100,7 @@ def make_triad(
     """Return a triad of one body about an axis given in its frame, its first direction near `reference`, if given."""
     key = keys[0]
     if any(isinstance(e, tuple) for e in axis):
-        raise scope.error(key, f"one direction [x, y, z] in the frame of '{body}'", found(axis))
+        raise scope.error(key, f"one direction [x, y, z] in the frame of '{body}'", words_of(axis))
     along = _unit(scope, key, tuple(e for e in axis if not isinstance(e, tuple)))
     if reference is None:
         return _triad(body, _any_across(along), along)
@@ -145,8 +145,8 @@ def _unit(scope: Scope, key: str, vector: tuple[float | str, ...]) -> _Triple:
 
 def _known(scope: Scope, body: str) -> bool:
     """Whether the body's orientation at the start depends on no parameter."""
-    found_body = scope.context.bodies.get(body)
-    return body == GROUND or (isinstance(found_body, SpatialBody) and found_body.orientation.is_numeric)
+    described = scope.context.bodies.get(body)
+    return body == GROUND or (isinstance(described, SpatialBody) and described.orientation.is_numeric)
 
 
 def _carried(scope: Scope, key: str, a: str, b: str, vector: _Triple) -> _Triple:

@@ -22,14 +22,14 @@ class Sprung(Protocol):
     def potential(self) -> float | str: ...
 
 
-def sprung(scope: Scope, given: Sprung, label: str, measure: Measure, coordinate: str, free: float | str) -> Effort:
+def sprung(scope: Scope, keys: Sprung, label: str, measure: Measure, coordinate: str, free: float | str) -> Effort:
     """Return the effort of a spring, a damper and an actuator.
 
     Parameters
     ----------
     scope : Scope
         Resolves the keys.
-    given : Sprung
+    keys : Sprung
         The table of the file.
     label : str
         Of the effort.
@@ -40,10 +40,10 @@ def sprung(scope: Scope, given: Sprung, label: str, measure: Measure, coordinate
     free : scalar
         Where the spring is at rest.
     """
-    stiffness, rest = scope.constant("stiffness", given.stiffness), scope.constant(f"free_{coordinate}", free)
-    damping = scope.constant("damping", given.damping)
-    actuator = scope.of_state("actuator", given.actuator, {coordinate: "s", "rate": "rate"})
-    potential = scope.potential("potential", given.potential, {coordinate: "s"})
+    stiffness, rest = scope.constant("stiffness", keys.stiffness), scope.constant(f"free_{coordinate}", free)
+    damping = scope.constant("damping", keys.damping)
+    actuator = scope.of_state("actuator", keys.actuator, {coordinate: "s", "rate": "rate"})
+    potential = scope.potential("potential", keys.potential, {coordinate: "s"})
     return Effort(label, measure, _damped(damping, actuator), _spring_energy(stiffness, rest, potential))
 
 

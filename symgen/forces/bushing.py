@@ -6,7 +6,7 @@ from typing import ClassVar
 
 import msgspec
 
-from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair, SixBySix, found
+from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair, SixBySix, words_of
 from symgen.describe.mechanism import Force
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
@@ -82,16 +82,16 @@ class Bushing(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         return (*(Component(*ends, direction) for direction in u), *turns)
 
 
-def _matrix(scope: Scope, key: str, given: tuple[float | str | tuple[float | str, ...], ...] | None) -> _Matrix:
+def _matrix(scope: Scope, key: str, entries: tuple[float | str | tuple[float | str, ...], ...] | None) -> _Matrix:
     """Return a symmetric matrix given as its diagonal or as six rows."""
-    if given is None:
+    if entries is None:
         return ((ZERO,) * 6,) * 6
-    rows = [e for e in given if isinstance(e, tuple)]
-    diagonal = [scope.constant(key, e) for e in given if not isinstance(e, tuple)]
+    rows = [e for e in entries if isinstance(e, tuple)]
+    diagonal = [scope.constant(key, e) for e in entries if not isinstance(e, tuple)]
     if len(diagonal) == 6 and not rows:
         return tuple(tuple(diagonal[i] if i == j else ZERO for j in range(6)) for i in range(6))
     if len(rows) != 6 or diagonal or any(len(row) != 6 for row in rows):
-        raise scope.error(key, "six numbers or six rows of six", found(given))
+        raise scope.error(key, "six numbers or six rows of six", words_of(entries))
     matrix = tuple(tuple(scope.constant(key, e) for e in row) for row in rows)
     for i in range(6):
         for j in range(i):

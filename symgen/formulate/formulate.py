@@ -105,14 +105,14 @@ def _spins(model: ModelNodes) -> tuple[tuple[int, int], ...]:
 
 
 def _joint_coordinates(model: ModelNodes) -> list[JointCoordinate]:
-    found = list[JointCoordinate]()
+    coordinates = list[JointCoordinate]()
     for joint in model.mechanism.joints:
         with finite_numbers(f"joints.{joint.name}"):
             for label, measure in joint.coordinates:
                 derived = model.measure(measure)
                 rate = derived.rate(model.graph, model.velocities)
-                found.append(JointCoordinate(f"{joint.name}.{label}", joint.unit(label), derived.value, rate))
-    return found
+                coordinates.append(JointCoordinate(f"{joint.name}.{label}", joint.unit(label), derived.value, rate))
+    return coordinates
 
 
 # -- constraints -----------------------------------------------------------------------------------------------------
@@ -162,11 +162,11 @@ def _forces(model: ModelNodes) -> tuple[list[int], int, int]:
     for force in model.mechanism.forces:
         with finite_numbers(f"forces.{force.name}"):
             for effort in force.efforts:
-                found = exertion(model, effort)
-                for i, entry in sorted(found.row.items()):
-                    forces[i] = g.add(forces[i], g.mul(entry, found.total))
-                power = g.add(power, g.mul(found.magnitude, found.rate))
-                potential = g.add(potential, found.energy)
+                exerted = exertion(model, effort)
+                for i, entry in sorted(exerted.row.items()):
+                    forces[i] = g.add(forces[i], g.mul(entry, exerted.total))
+                power = g.add(power, g.mul(exerted.magnitude, exerted.rate))
+                potential = g.add(potential, exerted.energy)
     return forces, power, potential
 
 
@@ -226,20 +226,22 @@ def _turning(model: ModelNodes, first: int, tensor: tuple[int, ...], blocks: lis
 
 
 def _omissions(mechanism: Mechanism) -> list[Omission]:
-    found = [Omission("columns of the ground", "the ground does not move")]
+    omissions = [Omission("columns of the ground", "the ground does not move")]
     if mechanism.space == "planar":
-        found = [
+        omissions = [
             Omission("z coordinates, Euler parameters and 3x3 inertia tensors", "the mechanism is planar"),
             Omission("the kinematic map N", "planar velocities are the rates of the coordinates"),
             Omission("gyroscopic terms", "they vanish in the plane"),
-            *found,
+            *omissions,
         ]
     if all(e == ZERO for e in mechanism.gravity):
-        found.append(Omission("weights and gravity's potential", "gravity is zero"))
+        omissions.append(Omission("weights and gravity's potential", "gravity is zero"))
     for body in mechanism.bodies:
         if body.is_point:
             what = "angle" if mechanism.space == "planar" else "orientation"
-            found.append(Omission(f"{what} of {body.name}", "a point mass has none"))
+            omissions.append(Omission(f"{what} of {body.name}", "a point mass has none"))
         elif all(e == ZERO for e in body.centre_of_mass) and len(mechanism.bodies) <= 12:
-            found.append(Omission(f"centre-of-mass offset of {body.name}", "its centre of mass is the frame's origin"))
-    return found
+            omissions.append(
+                Omission(f"centre-of-mass offset of {body.name}", "its centre of mass is the frame's origin")
+            )
+    return omissions

@@ -169,9 +169,9 @@ class SpatialFrame(Frame):
 
     def _vector(self, what: str, local: tuple[Any, ...]) -> Triple:
         """Return symbols of A p, plus the centre of mass for a point; their derivatives are registered with them."""
-        found = self._vectors.get((what, local))
-        if found is not None:
-            return found
+        symbols = self._vectors.get((what, local))
+        if symbols is not None:
+            return symbols
         zero = sp.S.Zero
         origin = [self.symbol(s) for s in "xyz"] if what == "r" else [zero] * 3
         speed = [self.symbol(f"v{s}") for s in "xyz"] if what == "r" else [zero] * 3

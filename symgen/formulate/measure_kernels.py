@@ -179,15 +179,15 @@ def derive(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
     bias = along_motion(rate, ordered)
 
     graph = Graph()
-    known: dict[Any, int] = {}
+    nodes_of: dict[Any, int] = {}
     slot = 0
     for body in ordered:
         for name in body.slots:
-            known[body.symbol(name)] = graph.input("slot", slot)
+            nodes_of[body.symbol(name)] = graph.input("slot", slot)
             slot += 1
     for i, symbol in enumerate(symbols):
-        known[symbol] = graph.input("slot", slot + i)
-    translator = Translator(graph, known)
+        nodes_of[symbol] = graph.input("slot", slot + i)
+    translator = Translator(graph, nodes_of)
     for body in ordered:
         for symbol, definition in body.definitions.items():
             translator.known[symbol] = translator.node(definition)

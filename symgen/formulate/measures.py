@@ -157,23 +157,23 @@ class ModelNodes(Formulas):
         """Return a row over the velocities of the state, its quadratic velocity term, and what drivers add to J v."""
         if self.tree is None:
             return dict(row), bias, self.graph.zero
-        g, found, drift = self.graph, dict[int, int](), self.graph.zero
+        g, pulled, drift = self.graph, dict[int, int](), self.graph.zero
         for i, node in sorted(row.items()):
             for j, entry in sorted(self.tree.columns[i].items()):
-                found[j] = g.add(found.get(j, g.zero), g.mul(node, entry))
+                pulled[j] = g.add(pulled.get(j, g.zero), g.mul(node, entry))
             bias = g.add(bias, g.mul(node, self.tree.biases[i]))
-        for j in sorted(j for j in found if j < 0):
-            drift = g.add(drift, g.mul(found.pop(j), self.tree.coordinates[j].rate))
-        return {j: node for j, node in found.items() if node != g.zero}, bias, drift
+        for j in sorted(j for j in pulled if j < 0):
+            drift = g.add(drift, g.mul(pulled.pop(j), self.tree.coordinates[j].rate))
+        return {j: node for j, node in pulled.items() if node != g.zero}, bias, drift
 
     # -- measures ----------------------------------------------------------------------------------------------------
 
     def measure(self, m: Measure) -> DerivedMeasure:
         """Return value, row and bias of a measure; equal measures are derived once."""
-        found = self._memo.get(m)
-        if found is None:
-            found = self._memo[m] = self._coordinate(m) or self._measure(m)
-        return found
+        derived = self._memo.get(m)
+        if derived is None:
+            derived = self._memo[m] = self._coordinate(m) or self._measure(m)
+        return derived
 
     def _coordinate(self, m: Measure) -> DerivedMeasure | None:
         """Return a measure that is a coordinate of the state: its rate stands behind the velocities of bodies."""

@@ -49,10 +49,10 @@ class Translator:
 
     def node(self, e: Any) -> int:
         """Return the node of one expression."""
-        found = self.known.get(e)
-        if found is None:
-            found = self.known[e] = self._build(e)
-        return found
+        image = self.known.get(e)
+        if image is None:
+            image = self.known[e] = self._build(e)
+        return image
 
     def _build(self, e: Any) -> int:
         g = self.graph

@@ -238,7 +238,7 @@ class PlanarTree(Tree):
 
     def accelerations(self, rates: tuple[int, ...]) -> dict[str, int]:
         """Return the accelerations of centres of mass and angles, by the names of their velocities."""
-        g, found = self.graph, dict[str, int]()
+        g, accelerations = self.graph, dict[str, int]()
         for body in self.model.mechanism.bodies:
             p = self.placed[body.name]
             rho, w = self.v.rotate(p.axes, p.centre), p.spin
@@ -248,10 +248,10 @@ class PlanarTree(Tree):
             for i, c in sorted(p.columns.items()):
                 if i >= 0:
                     total = self.v.add(total, self.v.scale(rates[i], c))
-            found |= {f"{body.name}.vx": total[0], f"{body.name}.vy": total[1]}
+            accelerations |= {f"{body.name}.vx": total[0], f"{body.name}.vy": total[1]}
             if not body.is_point:
-                found[f"{body.name}.omega"] = turning
-        return found
+                accelerations[f"{body.name}.omega"] = turning
+        return accelerations
 
     def speed(self, body: str) -> list[int]:
         """Return the velocity of a centre of mass in some axes."""
@@ -260,10 +260,10 @@ class PlanarTree(Tree):
     def weight(self, body: str, force: list[int]) -> dict[int, int]:
         """Return what a force at the centre of mass, in ground axes, is on the velocities of bodies."""
         p, first = self.placed[body], self.model.first[body]
-        found = {first: force[0], first + 1: force[1]}
+        forces = {first: force[0], first + 1: force[1]}
         if not self.model.mechanism.body(body).is_point:
-            found[first + 2] = self.v.cross(self.v.rotate(p.axes, p.centre), self.v.pair(force))
-        return found
+            forces[first + 2] = self.v.cross(self.v.rotate(p.axes, p.centre), self.v.pair(force))
+        return forces
 
     # -- M and f -------------------------------------------------------------------------------------------------------
 

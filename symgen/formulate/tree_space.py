@@ -266,7 +266,7 @@ class SpatialTree(Tree):
 
     def accelerations(self, rates: tuple[int, ...]) -> dict[str, int]:
         """Return the accelerations of centres of mass, and angular ones, by the names of their velocities."""
-        v, found = self.v, dict[str, int]()
+        v, accelerations = self.v, dict[str, int]()
         for body in self.model.mechanism.bodies:
             p = self.placed[body.name]
             moving = [(rates[i], motion) for i, motion in sorted(p.columns.items()) if i >= 0]
@@ -274,10 +274,10 @@ class SpatialTree(Tree):
             at = v.add(p.bias, *(v.scale(rate, along) for rate, (_, along) in moving))
             at = v.add(at, v.times(v.whirl(p.omega, alpha), p.centre))
             at = v.add(v.times(p.axes, at), self.gravity)
-            found |= {f"{body.name}.v{axis}": x for axis, x in zip("xyz", at, strict=True)}
+            accelerations |= {f"{body.name}.v{axis}": x for axis, x in zip("xyz", at, strict=True)}
             if not body.is_point:
-                found |= {f"{body.name}.w{axis}": x for axis, x in zip("xyz", alpha, strict=True)}
-        return found
+                accelerations |= {f"{body.name}.w{axis}": x for axis, x in zip("xyz", alpha, strict=True)}
+        return accelerations
 
     def speed(self, body: str) -> list[int]:
         """Return the velocity of a centre of mass in some axes."""

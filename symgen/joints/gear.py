@@ -78,11 +78,11 @@ class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         scope.only("joints", joints=self.joints, between=self.between, carrier=self.carrier)
         names, labels = self.joints or ("", ""), self.coordinates or (None, None)
         angular = "rad" if self.radii is not None else ""
-        found = [
+        coordinates = [
             scope.joint_coordinate(name, label, ("joints", "coordinates"), angular)
             for name, label in zip(names, labels, strict=True)
         ]
-        (first, label_a, turn_a), (second, label_b, turn_b) = found
+        (first, label_a, turn_a), (second, label_b, turn_b) = coordinates
         if (first.name, label_a) == (second.name, label_b):
             raise scope.error("joints", "two different coordinates", f"'{first.name}.{label_a}' twice")
         weight_a, weight_b, unit = self._weights(scope)

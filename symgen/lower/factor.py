@@ -152,16 +152,16 @@ def supernodes(neighbours: Sequence[frozenset[int]]) -> tuple[Supernode, ...]:
     """
     order, below = minimum_degree(neighbours)
     place = {row: k for k, row in enumerate(order)}
-    found: list[Supernode] = []
+    nodes: list[Supernode] = []
     columns: list[int] = []
     for k, row in enumerate(order):
         columns.append(row)
         following = order[k + 1] if k + 1 < len(order) else -1
         if following in below[k] and len(below[k]) == len(below[k + 1]) + 1 and len(columns) < LARGEST:
             continue  # the rows below the next pivot are among these: fill has seen to that
-        found.append(Supernode(tuple(columns), tuple(sorted(below[k], key=place.__getitem__))))
+        nodes.append(Supernode(tuple(columns), tuple(sorted(below[k], key=place.__getitem__))))
         columns = []
-    return tuple(found)
+    return tuple(nodes)
 
 
 #: Most columns of a supernode: generic code is written out for one and two.

@@ -78,8 +78,8 @@ class Replay:
 
     def _on_penalties(self, operation: FormulaStep, penalty: int) -> Nodes:
         g = self.graph
-        found: Nodes = self.each(lambda mask, a: g.mul(a, g.call("step", g.one, mask)), self.mask, penalty)
-        return found
+        penalties: Nodes = self.each(lambda mask, a: g.mul(a, g.call("step", g.one, mask)), self.mask, penalty)
+        return penalties
 
 
 #: Kinds of operations that are arithmetic, by the graph's name for them.

@@ -211,7 +211,7 @@ class Method(ABC):
         """Return what is corrected after each accepted step; nothing unless overridden."""
         return Correction()
 
-    def complete_options(self, given: Mapping[str, str]) -> dict[str, str]:
+    def complete_options(self, values: Mapping[str, str]) -> dict[str, str]:
         """Return the structural options, defaults filled in.
 
         Raises
@@ -219,21 +219,21 @@ class Method(ABC):
         InputError
             If an option or its value is not known.
         """
-        known = {o.name: o for o in self.options}
-        for name, value in given.items():
-            if name not in known:
+        options = {o.name: o for o in self.options}
+        for name, value in values.items():
+            if name not in options:
                 numbers = [p.name for p in self.parameters]
                 got = f"'{name}'" + (", a number that runs are given" if name in numbers else "")
-                hint = nearest(name, known if name in numbers else [*known, *numbers]) or "it has none"
+                hint = nearest(name, options if name in numbers else [*options, *numbers]) or "it has none"
                 raise InputError(f"option {self.name}.{name}", "an option of the method", got, hint)
-            if value not in known[name].values:
+            if value not in options[name].values:
                 raise InputError(
                     f"option {self.name}.{name}",
-                    "one of " + ", ".join(known[name].values),
+                    "one of " + ", ".join(options[name].values),
                     f"'{value}'",
-                    nearest(value, known[name].values),
+                    nearest(value, options[name].values),
                 )
-        return {o.name: given.get(o.name, o.values[0]) for o in self.options}
+        return {o.name: values.get(o.name, o.values[0]) for o in self.options}
 
     def needs_regular_mass(self, options: Mapping[str, str]) -> bool:
         """Whether the method cannot do with massless bodies."""

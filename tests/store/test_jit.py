@@ -229,22 +229,22 @@ class TestMade:
 
     def test_an_object_file_is_made_once(self, cache, monkeypatch):
         name = "symgen.test_jit.first"
-        code = jit.made(self.TEXT.format(name=name, more=3), name)
+        code = jit.applied(self.TEXT.format(name=name, more=3), name)
         monkeypatch.setattr("symgen.native.machine.compiled", lambda text, symbol: pytest.fail("made twice"))
-        assert jit.made(self.TEXT.format(name=name, more=3), name) == code
+        assert jit.applied(self.TEXT.format(name=name, more=3), name) == code
         call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64)(load(code, [name])[name])
         assert call(39) == 42
         assert len(compiled(cache)) == 1
 
     def test_another_text_of_the_same_name_and_a_spoilt_file_are_made_anew(self, cache):
         name = "symgen.test_jit.second"
-        code = jit.made(self.TEXT.format(name=name, more=1), name)
-        assert jit.made(self.TEXT.format(name=name, more=2), name) != code
+        code = jit.applied(self.TEXT.format(name=name, more=1), name)
+        assert jit.applied(self.TEXT.format(name=name, more=2), name) != code
         for path in (cache / "native").rglob("*.bin"):
             content = bytearray(path.read_bytes())
             content[-1] ^= 1
             path.write_bytes(content)
-        assert jit.made(self.TEXT.format(name=name, more=1), name) == code
+        assert jit.applied(self.TEXT.format(name=name, more=1), name) == code
 
 
 class TestIdentity:

@@ -115,12 +115,12 @@ def lower_looped(method: Method, options: Mapping[str, str]) -> LoopedLaw:
     """
     record = record_law(method, options)
     names = tuple(p.name for p in method.parameters)
-    found = [Loops(record, part, names) for part in record.parts]
+    parts = [Loops(record, part, names) for part in record.parts]
     phi = next(i for i, o in enumerate(record.operations) if o.payload == ("phi",))
-    positions = any(phi in loops.needed for loops in found)
-    functions = tuple(loops.function(positions) for loops in found)
-    known = {name: size for f in functions for name, size in f.sections.items()}
-    sections = tuple((n, size) for n, size in known.items() if n not in HEAD and not n.removeprefix("x").isdigit())
+    positions = any(phi in loops.needed for loops in parts)
+    functions = tuple(loops.function(positions) for loops in parts)
+    sizes = {name: size for f in functions for name, size in f.sections.items()}
+    sections = tuple((n, size) for n, size in sizes.items() if n not in HEAD and not n.removeprefix("x").isdigit())
     correction = method.correction(options)
     info = LoopedLawInfo(
         method=method.name,
