@@ -13,7 +13,7 @@ from symgen.describe.scope import CENTRE
 from symgen.describe.sections import BodySection, OrientationSection, ShapeSection, SpatialBodySection
 from symgen.describe.start import Scalars, euler_parameters
 from symgen.errors import nearest, quoted
-from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, number
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, number, total
 from symgen.vocabulary.rotations import CONVENTIONS, IDENTITY, Matrix, Orientation, matrix
 
 if TYPE_CHECKING:
@@ -149,7 +149,8 @@ def _inertia(scope: Scope, section: SpatialBodySection, mass: Expr, centre: Vec,
         e = euler_parameters(axes, numbers, scope.where("inertia_axes"))
         tensor = _turned(tensor, matrix(e))
     if section.inertia_at is not None:
-        tensor = _shifted(tensor, mass, _difference(_point(scope, section.inertia_at, points, centre), centre))
+        ends = zip(_point(scope, section.inertia_at, points, centre), centre, strict=True)
+        tensor = _shifted(tensor, mass, tuple(call("sub", x, y) for x, y in ends))
     for name, entry in zip(("Ixx", "Iyy", "Izz"), tensor, strict=False):
         value = scope.value(entry, "inertia")
         if not value > 0 and entry != ZERO:
@@ -194,18 +195,6 @@ def _point(scope: Scope, point: str | tuple[float | str, ...], points: dict[str,
     return centre if point == CENTRE else points[point]
 
 
-def _difference(a: Vec, b: Vec) -> Vec:
-    return tuple(call("sub", x, y) for x, y in zip(a, b, strict=True))
-
-
-def _sum(terms: list[Expr]) -> Expr:
-    total: Expr = ZERO
-    for term in terms:
-        if term != ZERO:
-            total = term if total == ZERO else call("add", total, term)
-    return total
-
-
 def _times(*factors: Expr) -> Expr:
     product: Expr = number(1.0)
     for factor in factors:
@@ -222,7 +211,7 @@ def _turned(tensor: Tensor, a: Matrix) -> Tensor:
 
     def entry(i: int, j: int) -> Expr:
         pairs = [(k, n) for k in range(3) for n in range(3) if a[i][k] * a[j][n] != 0.0]
-        return _sum([_times(number(a[i][k] * a[j][n]), rows[k][n]) for k, n in pairs])
+        return total(*(_times(number(a[i][k] * a[j][n]), rows[k][n]) for k, n in pairs))
 
     return entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)
 
@@ -232,8 +221,7 @@ def _shifted(tensor: Tensor, mass: Expr, d: Vec) -> Tensor:
 
     def entry(i: int, j: int) -> Expr:
         if i == j:
-            part = _sum([_times(d[k], d[k]) for k in range(3) if k != i])
-            return _times(mass, part)
+            return _times(mass, total(*(_times(d[k], d[k]) for k in range(3) if k != i)))
         return call("neg", _times(mass, d[i], d[j]))
 
     pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))

@@ -54,7 +54,10 @@ def evaluate(
         return _joined(expression, values, where, tables)
     operands = [evaluate(argument, values, where, tables) for argument in expression.arguments]
     try:
-        value = _apply(expression, operands, tables or {})
+        if (table := table_of(expression.function)) is not None:
+            value = (tables or {})[table].interpolated.value(operands[0])
+        else:
+            value = FUNCTIONS[expression.function][1](*operands)
     except (ArithmeticError, ValueError) as error:
         raise _undefined(expression, operands, where, _FAULTS.get(type(error), "is not defined")) from None
     if isinstance(value, complex) or not math.isfinite(value):
@@ -105,13 +108,6 @@ def _joined(expression: Call, values: Mapping[str, float], where: str, tables: M
     if undefined is not None:
         raise undefined
     return float(not deciding)
-
-
-def _apply(expression: Call, operands: list[float], tables: Mapping[str, Table]) -> float:
-    table = table_of(expression.function)
-    if table is not None:
-        return tables[table].interpolated.value(operands[0])
-    return FUNCTIONS[expression.function][1](*operands)
 
 
 def _undefined(expression: Call, operands: list[float], where: str, why: str) -> InputError:

@@ -6,12 +6,9 @@ from dataclasses import dataclass, field
 
 from symgen.describe.mechanism import Mechanism
 from symgen.ir.formula import Functions
-from symgen.ir.graph import Graph
+from symgen.ir.graph import ARITHMETIC, Graph
 from symgen.vocabulary.expressions import Expr, Name, Number, Reading, call
 from symgen.vocabulary.measures import GROUND, Direction, Marker
-
-#: Functions that are arithmetic, by the graph's names for them.
-_ARITHMETIC = {"add": "add", "sub": "sub", "mul": "mul", "div": "div", "pow": "power", "neg": "neg"}
 
 
 @dataclass
@@ -53,9 +50,10 @@ class Formulas:
                 return names[e.name]
             if isinstance(e, Reading):
                 return self.reading(e)
-            arguments = [node(a) for a in e.arguments]
-            method = _ARITHMETIC.get(e.function)
-            return functions.call(e.function, *arguments) if method is None else getattr(self.graph, method)(*arguments)
+            arguments = tuple(node(a) for a in e.arguments)
+            if e.function in ARITHMETIC:
+                return self.graph.rebuild(e.function, arguments)
+            return functions.call(e.function, *arguments)
 
         return node(e)
 

@@ -283,7 +283,7 @@ class Graph:
 
     def rebuild(self, op: str, args: tuple[int, ...], payload: object = None) -> int:
         """Return the operation `op` on `args`, simplified as if it had been built by its own method."""
-        builder = _BUILDERS.get(op)
+        builder = ARITHMETIC.get(op)
         if builder is not None:
             return int(getattr(self, builder)(*args))
         return self.call(f"table:{payload}" if op == "table" else op, *args)
@@ -319,4 +319,4 @@ class Graph:
         return sum(cost[o] for o in outputs)
 
 
-_BUILDERS = {"add": "add", "sub": "sub", "mul": "mul", "div": "div", "neg": "neg", "pow": "power"}
+ARITHMETIC = {"add": "add", "sub": "sub", "mul": "mul", "div": "div", "neg": "neg", "pow": "power"}

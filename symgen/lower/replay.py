@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from symgen.ir.graph import Graph
+from symgen.ir.graph import ARITHMETIC, Graph
 from symgen.ir.program import STATUS
 from symgen.methods._formula import FormulaStep
 
@@ -80,7 +80,3 @@ class Replay:
         g = self.graph
         penalties: Nodes = self.each(lambda mask, a: g.mul(a, g.call("step", g.one, mask)), self.mask, penalty)
         return penalties
-
-
-#: Kinds of operations that are arithmetic, by the graph's name for them.
-ARITHMETIC = {**{kind: kind for kind in ("add", "sub", "mul", "div", "neg")}, "pow": "power"}

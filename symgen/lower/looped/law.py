@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from symgen.errors import InputError
+from symgen.ir.graph import ARITHMETIC
 from symgen.ir.program import LawCode
 from symgen.lower.looped.law_loops import KINDS, Loops
 from symgen.lower.looped.layout import HEAD
 from symgen.lower.looped.statements import LoopedFunction
 from symgen.lower.record import RecordedLaw, record_form, record_law
-from symgen.lower.replay import ARITHMETIC
 from symgen.methods._base import Method
 from symgen.methods._formula import needed
 from symgen.vocabulary.infos import LawInfo

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import partialmethod
 from typing import Any
 
-from symgen.ir.graph import Graph
+from symgen.ir.graph import ARITHMETIC, Graph
 from symgen.ir.program import STATUS
 from symgen.lower.looped.statements import (
     LOCAL,
@@ -24,7 +24,7 @@ from symgen.lower.looped.statements import (
     Statement,
 )
 from symgen.lower.record import Part, RecordedLaw
-from symgen.lower.replay import ARITHMETIC, Nodes, Replay
+from symgen.lower.replay import Nodes, Replay
 from symgen.methods._formula import FormulaStep, needed
 
 #: Functions of a law in which the kernels of an evaluation are called first.
