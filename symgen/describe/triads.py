@@ -183,23 +183,25 @@ def _swung(
 
 def _across(scope: Scope, key: str, vector: _Triple, axis: _Triple) -> _Triple:
     """Return the part of a vector that is perpendicular to the axis, of length 1."""
-    part = _dot(vector, axis)
-    rest = tuple(v - part * a for v, a in zip(vector, axis, strict=True))
-    size = math.hypot(*rest)
+    rest, size = _perpendicular(vector, axis)
     if not size > 1e-6:
         raise scope.error(key, "a direction across the axis", "one along it")
-    return _tidy((rest[0] / size, rest[1] / size, rest[2] / size))
+    return rest
 
 
 def _any_across(axis: _Triple) -> _Triple:
     """Return a direction perpendicular to the axis: the next axis of the frame, made perpendicular."""
     k = max(range(3), key=lambda i: abs(axis[i]))
-    x = [0.0, 0.0, 0.0]
-    x[(k + 1) % 3] = 1.0
-    part = _dot((x[0], x[1], x[2]), axis)
-    rest = tuple(e - part * a for e, a in zip(x, axis, strict=True))
-    size = math.hypot(*rest)
-    return _tidy((rest[0] / size, rest[1] / size, rest[2] / size))
+    x, y, z = (float(i == (k + 1) % 3) for i in range(3))
+    return _perpendicular((x, y, z), axis)[0]
+
+
+def _perpendicular(vector: _Triple, axis: _Triple) -> tuple[_Triple, float]:
+    """Return the part of a vector that is perpendicular to the axis, of length 1, and its length before."""
+    part = _dot(vector, axis)
+    x, y, z = (v - part * a for v, a in zip(vector, axis, strict=True))
+    size = math.hypot(x, y, z)
+    return _tidy((x / (size or 1.0), y / (size or 1.0), z / (size or 1.0))), size
 
 
 def _triad(body: str, first: _Triple, axis: _Triple) -> Triad:

@@ -70,6 +70,9 @@ class _Validator:
     def where(self, path: str) -> str:
         return f"{self.source}: {path}"
 
+    def scope(self, section: str, name: str) -> Scope:
+        return Scope(self.context, f"{section}.{name}", name)
+
     def mechanism(self) -> Mechanism:
         for key in self.raw:
             if key not in SECTIONS:
@@ -95,17 +98,16 @@ class _Validator:
         scope = Scope(self.context, "mechanism")
         gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
         read_body = spatial_body if head.space == "spatial" else planar_body
-        bodies = tuple(read_body(Scope(self.context, f"bodies.{n}", n), value) for n, value in self.entries("bodies"))
+        bodies = tuple(read_body(self.scope("bodies", name), value) for name, value in self.entries("bodies"))
         if not bodies:
             raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
         self.context = msgspec.structs.replace(self.context, bodies={body.name: body for body in bodies})
         joints = tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints"))
         forces = tuple(self.force(name, value) for name, value in self.entries("forces"))
         self.context = msgspec.structs.replace(self.context, forces={force.name: force for force in forces})
-        holds = [
-            body_holds(Scope(self.context, f"bodies.{body.name}", body.name), self.raw["bodies"][body.name], body)
-            for body in bodies
-        ]
+        described = [(self.scope("bodies", body.name), self.raw["bodies"][body.name], body) for body in bodies]
+        holds = [hold for scope, raw, body in described for hold in body_holds(scope, raw, body)]
+        holds += [hold for joint in joints for hold in self._starts.get(joint.name, ())]
         mechanism = Mechanism(
             name=head.name,
             title=line(head.title),
@@ -120,17 +122,9 @@ class _Validator:
             outputs=tuple(self.output(name, value) for name, value in self.entries("outputs")),
             seats=tuple(self._seats.items()),
             cuts=tuple(self._cuts),
-            holds=tuple(
-                hold for part in (*holds, *(self._starts.get(joint.name, ()) for joint in joints)) for hold in part
-            ),
-            shapes=tuple(
-                (body.name, shape)
-                for body in bodies
-                for shape in shapes_of(
-                    Scope(self.context, f"bodies.{body.name}", body.name), self.raw["bodies"][body.name]
-                )
-            ),
-            events=tuple(read_event(Scope(self.context, f"events.{n}", n), n, e) for n, e in self.entries("events")),
+            holds=tuple(holds),
+            shapes=tuple((body.name, shape) for scope, raw, body in described for shape in shapes_of(scope, raw)),
+            events=tuple(read_event(self.scope("events", n), n, event) for n, event in self.entries("events")),
         )
         check_columns(mechanism, self.source)
         holds_of(mechanism, self.source)  # says what is held twice
@@ -252,7 +246,7 @@ class _Validator:
             section, key = read(OutputSection, raw, where), "value"
         else:
             section, key = OutputSection(value=read_value(OutputFunction, raw, where)), ""
-        value = Scope(self.context, f"outputs.{name}", name).of_motion(key, section.value)
+        value = self.scope("outputs", name).of_motion(key, section.value)
         return Output(name, value, check_unit(section.unit, f"{where}.unit"))
 
     # Joints and forces ---------------------------------------------------------------------------------------------

@@ -43,7 +43,7 @@ def formulate(mechanism: Mechanism) -> Equations:
     mechanism, repeats = without_repeats(mechanism)
     with finite_numbers("mechanism"):
         model = ModelNodes(mechanism)
-    rows = tuple(_derived(model, joint.name, row) for joint in mechanism.joints for row in joint.rows)
+    rows = tuple(_row(model, joint.name, row) for joint in mechanism.joints for row in joint.rows)
     forces, power, potential = _forces(model)
     driving = None
     if model.tree is None:
@@ -118,26 +118,20 @@ def _joint_coordinates(model: ModelNodes) -> list[JointCoordinate]:
 # -- constraints -----------------------------------------------------------------------------------------------------
 
 
-def _derived(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
-    with finite_numbers(f"joints.{joint}"):
-        return _row(model, joint, row)
-
-
 def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
     g = model.graph
-    value, slope, curvature = time_function(model, row.value)
-    if isinstance(row, Holonomic):
-        measure = model.measure(row.measure)
-        phi, nu = g.sub(measure.value, value), slope
-    else:
-        measure = model.speed(row.speed)
-        phi, nu, curvature = None, value, slope
-    entries, bias, drift = model.pulled(measure.row, measure.bias)
-    gamma, nu = g.sub(curvature, bias), g.sub(nu, drift)
-    ordered = tuple(sorted(entries.items()))
-    return ConstraintRow(
-        f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, _size(model, row, measure.row)
-    )
+    with finite_numbers(f"joints.{joint}"):
+        value, slope, curvature = time_function(model, row.value)
+        if isinstance(row, Holonomic):
+            measure = model.measure(row.measure)
+            phi, nu = g.sub(measure.value, value), slope
+        else:
+            measure = model.speed(row.speed)
+            phi, nu, curvature = None, value, slope
+        entries, bias, drift = model.pulled(measure.row, measure.bias)
+        gamma, nu = g.sub(curvature, bias), g.sub(nu, drift)
+        ordered, size = tuple(sorted(entries.items())), _size(model, row, measure.row)
+    return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, size)
 
 
 def _size(model: ModelNodes, row: Row, entries: Mapping[int, int]) -> int | None:

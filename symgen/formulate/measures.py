@@ -93,15 +93,16 @@ class ModelNodes(Formulas):
         position, velocity = [g.input("q", i + k) for k in range(3)], [g.input("v", j + k) for k in range(3)]
         if kind == "point3":
             return [*position, *(g.zero,) * 9, *velocity, *(g.zero,) * 3]
-        return [*position, *self.rotation_matrix(body), *velocity, *(g.input("v", j + 3 + k) for k in range(3))]
+        return [
+            *position,
+            *matrix_of(g, self.euler_parameters(body)),
+            *velocity,
+            *(g.input("v", j + 3 + k) for k in range(3)),
+        ]
 
     def euler_parameters(self, body: str) -> list[int]:
         """Return the nodes of a spatial body's Euler parameters."""
         return [self.graph.input("q", self.first_q[body] + 3 + k) for k in range(4)]
-
-    def rotation_matrix(self, body: str) -> list[int]:
-        """Return A row by row in homogeneous form: A' = A skew(omega) for Euler parameters of any length."""
-        return matrix_of(self.graph, self.euler_parameters(body))
 
     def q_rates(self) -> tuple[int, ...]:
         """Return q' = N v: in space e' = G^T omega / 2, which keeps the length of e."""
