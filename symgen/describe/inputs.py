@@ -198,7 +198,7 @@ class _Switching:
     def __init__(self, mechanism: Mechanism, name: str, jumps: list[Jump]) -> None:
         self.tables = {table.name: table for table in mechanism.tables}
         self.timely = frozenset(p.name for p in mechanism.parameters if not p.input) | {"t"}
-        self.name, self.jumps, self.known = name, jumps, dict[Expr, Expr]()
+        self.name, self.jumps, self.switches = name, jumps, dict[Expr, Expr]()
 
     def expression(self, e: Expr) -> Expr:
         """Return a formula in which nothing jumps within a piece."""
@@ -222,12 +222,12 @@ class _Switching:
 
     def switch(self, e: Call) -> Expr:
         """Return what stands for a condition or a sign: the number that a run sets."""
-        if e not in self.known:
+        if e not in self.switches:
             name = f"{self.name}~{sum(1 for j in self.jumps if j.switch) + 1}"  # no name of a file
             self.jumps.append(Jump(compared(e), switch=name, value=e))
             number = Name(name)
-            self.known[e] = number if e.function == "sign" else Call("gt", (number, Number(0.5)))
-        return self.known[e]
+            self.switches[e] = number if e.function == "sign" else Call("gt", (number, Number(0.5)))
+        return self.switches[e]
 
 
 #: Points of a table that a run stops at; one with more of them is evaluated as it stands.

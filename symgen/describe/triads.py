@@ -124,7 +124,7 @@ def make_cross(
         along = _unit(scope, keys[0], axes[i])
         if reference is not None:
             first = _across(scope, keys[1], _unit(scope, keys[1], reference[i]), along)
-        elif _known(scope, body) and _known(scope, other):
+        elif _is_numeric(scope, body) and _is_numeric(scope, other):
             towards = _carried(scope, keys[0], other, body, _unit(scope, keys[0], axes[1 - i]))
             if abs(_dot(towards, along)) > 0.99:
                 raise scope.error(keys[0], "two axes that cross", "two that start parallel")
@@ -143,7 +143,7 @@ def _unit(scope: Scope, key: str, vector: tuple[float | str, ...]) -> _Triple:
     return x, y, z
 
 
-def _known(scope: Scope, body: str) -> bool:
+def _is_numeric(scope: Scope, body: str) -> bool:
     """Whether the body's orientation at the start depends on no parameter."""
     described = scope.context.bodies.get(body)
     return body == GROUND or (isinstance(described, SpatialBody) and described.orientation.is_numeric)
@@ -152,7 +152,7 @@ def _known(scope: Scope, body: str) -> bool:
 def _carried(scope: Scope, key: str, a: str, b: str, vector: _Triple) -> _Triple:
     """Return a direction of body `a` in the frame of body `b`, as both start."""
     for body in (a, b):
-        if not _known(scope, body):
+        if not _is_numeric(scope, body):
             got = f"one, while the orientation of '{body}' at the start is a formula"
             raise scope.error(key, "two directions, one in the frame of each body", got)
     for body, turn in ((a, rotate), (b, rotate_back)):
@@ -171,7 +171,7 @@ def _swung(
 
     None where the start says nothing: an orientation that depends on parameters, opposite axes.
     """
-    if not all(_known(scope, body) for body in bodies):
+    if not all(_is_numeric(scope, body) for body in bodies):
         return None
     x, along = (_carried(scope, key, *bodies, vector) for vector in directions)
     lean = 1.0 + _dot(along, axis)

@@ -62,7 +62,7 @@ class Force(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
                 origin = Marker(GROUND, (ZERO,) * scope.dimension)
                 measure = Component(origin, point, axis) if turning is None else PointSpeed(point, turning[i])
                 efforts.append(Effort(label, measure, magnitude=magnitudes[i], potential=energy))
-        return Resolved(name=scope.name, kind=scope.kind, bodies=(body,), efforts=tuple(efforts))
+        return Resolved(scope.name, scope.kind, (body,), tuple(efforts))
 
     def _magnitudes(self, scope: Scope, body: str) -> tuple[Expr, ...]:
         """Return the components in ground axes, in space in the axes asked for."""

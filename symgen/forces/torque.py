@@ -65,8 +65,7 @@ class Torque(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
             raise scope.error("reaction", "another body than 'body'", f"'{body}' twice")
         if scope.spatial:
             return Force(scope.name, scope.kind, (body, reaction), self._components(scope, body, reaction))
-        effort = self._along(scope, Angle(reaction, body))
-        return Force(name=scope.name, kind=scope.kind, bodies=(body, reaction), efforts=(effort,))
+        return Force(scope.name, scope.kind, (body, reaction), (self._along(scope, Angle(reaction, body)),))
 
     def _along(self, scope: Scope, angle: Measure) -> Effort:
         """Return the effort along an angle."""

@@ -190,7 +190,7 @@ def derive(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
     translator = Translator(graph, nodes_of)
     for body in ordered:
         for symbol, definition in body.definitions.items():
-            translator.known[symbol] = translator.node(definition)
+            translator.nodes[symbol] = translator.node(definition)
     flat = [value, *(e for part in row for e in part), bias]
     nodes = translator.all(flat)
     position = 1

@@ -57,21 +57,21 @@ class Translator:
 
     def __init__(self, graph: Graph, symbols: Mapping[Any, int]) -> None:
         self.graph, self.functions = graph, Functions(graph)
-        self.known: dict[Any, int] = dict(symbols)
+        self.nodes: dict[Any, int] = dict(symbols)
 
     def all(self, expressions: Sequence[Any]) -> list[int]:
         """Return the nodes of `expressions`, shared parts computed once."""
         names = sp.numbered_symbols("cse_")
         replacements, reduced = sp.cse([sp.sympify(e) for e in expressions], symbols=names, order="canonical")
         for symbol, expression in replacements:
-            self.known[symbol] = self.node(expression)
+            self.nodes[symbol] = self.node(expression)
         return [self.node(e) for e in reduced]
 
     def node(self, e: Any) -> int:
         """Return the node of one expression."""
-        image = self.known.get(e)
+        image = self.nodes.get(e)
         if image is None:
-            image = self.known[e] = self._build(e)
+            image = self.nodes[e] = self._build(e)
         return image
 
     def _build(self, e: Any) -> int:

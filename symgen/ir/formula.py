@@ -27,7 +27,7 @@ class Functions:
     def __init__(self, graph: Graph) -> None:
         self.graph = graph
         self._unsure: dict[int, tuple[int, int]] = {}  # condition -> where it is defined, and what is no number else
-        self._known: dict[int, tuple[int, bool]] = {}  # as in `_known_of`
+        self._signs: dict[int, tuple[int, bool]] = {}  # as in `_sign_of`
 
     def call(self, function: str, *args: int) -> int:
         """Return the node of ``function(*args)`` for a name of `symgen.ir.graph.FUNCTIONS` or ``table:NAME``."""
@@ -85,20 +85,20 @@ class Functions:
 
     def _is_defined(self, node: int) -> bool:
         """Whether a node is a number wherever the inputs are."""
-        for each in self.graph.needed([node]) if node not in self._known else ():
-            if each not in self._known:
+        for each in self.graph.needed([node]) if node not in self._signs else ():
+            if each not in self._signs:
                 op, args, _ = self.graph.nodes[each]
                 value = self.graph.value(each)
-                signs = [self._known[a] for a in args]
-                self._known[each] = (_sign(value), True) if value is not None else _known_of(op, args, signs)
-        return self._known[node][1]
+                signs = [self._signs[a] for a in args]
+                self._signs[each] = (_sign(value), True) if value is not None else _sign_of(op, args, signs)
+        return self._signs[node][1]
 
 
 def _sign(value: float) -> int:
     return 2 if value > 0.0 else 1 if value == 0.0 else 0
 
 
-def _known_of(op: str, args: tuple[int, ...], operands: list[tuple[int, bool]]) -> tuple[int, bool]:
+def _sign_of(op: str, args: tuple[int, ...], operands: list[tuple[int, bool]]) -> tuple[int, bool]:
     """Return what is known of an operation: 2 if it is above 0, 1 if not below, else 0; and whether it is a number.
 
     Squares, roots and sums of them are not below 0, so that distances are numbers.
