@@ -57,7 +57,7 @@ class About:
 _positive = partial(arguments.number, positive=True)
 _name = partial(arguments.text, expected="a name")
 _repeat = partial(arguments.whole, least=1, most=1000)
-_shape, _coordinates = partial(arguments.one_of, known=SHAPES), partial(arguments.one_of, known=COORDINATES)
+_shape, _coordinates = partial(arguments.one_of, candidates=SHAPES), partial(arguments.one_of, candidates=COORDINATES)
 
 
 def _values(where: str, value: object) -> dict[str, float]:

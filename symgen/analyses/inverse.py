@@ -16,7 +16,7 @@ from symgen.analyses.balancing import balance, checked_weights
 from symgen.analyses.kinematics import Kinematics, kinematics
 from symgen.analyses.prescribed import drivers_of
 from symgen.describe.evaluate import parameter_values
-from symgen.describe.input_data import are_words_of_data
+from symgen.describe.inputs import are_words_of_data
 from symgen.errors import InputError
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.reactions import Forces, seats

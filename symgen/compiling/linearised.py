@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.side import beside, module_beside
-from symgen.describe.derived_parameters import derived
+from symgen.describe.evaluate import derived
 from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import finite_numbers

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from symgen.compiling.pipeline import folder_of, generator_digest
 from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.outputs import integrals
+from symgen.describe.readings import integrals
 from symgen.errors import InputError, finite_numbers
 from symgen.lower.windings import Beside, winding_order
 from symgen.runtime import abi

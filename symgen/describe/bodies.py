@@ -1,23 +1,24 @@
-"""Bodies of a mechanism file: sections in, frozen bodies out."""
+"""Bodies of a mechanism file and their shapes in pictures: sections in, frozen bodies and shapes out."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from symgen.describe.fields import found, read
-from symgen.describe.mechanism import Body, SpatialBody, Vec
+from symgen.describe.fields import read, words_of
+from symgen.describe.mechanism import Body, Shape, SpatialBody, Vec
 from symgen.describe.names import check_identifier
-from symgen.describe.numbers import Scalars
-from symgen.describe.orientation import CONVENTIONS, IDENTITY, Orientation, euler_parameters
 from symgen.describe.scope import CENTRE
-from symgen.describe.sections import BodySection, OrientationSection, SpatialBodySection
+from symgen.describe.sections import BodySection, OrientationSection, ShapeSection, SpatialBodySection
+from symgen.describe.start import Scalars, euler_parameters
 from symgen.errors import nearest, quoted
-from symgen.vocabulary.expressions import ZERO, Expr, call, number
-from symgen.vocabulary.rotations import Matrix, matrix
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, number, total
+from symgen.vocabulary.rotations import CONVENTIONS, IDENTITY, Matrix, Orientation, matrix
 
 if TYPE_CHECKING:
     from symgen.describe.scope import Scope
+
 
 Tensor = tuple[Expr, Expr, Expr, Expr, Expr, Expr]
 
@@ -63,7 +64,7 @@ def spatial_body(scope: Scope, raw: object) -> SpatialBody:
 
 
 def _without_shape(raw: object) -> object:
-    """Return the table of a body without what it looks like, which `symgen.describe.shapes` reads."""
+    """Return the table of a body without what it looks like, which `symgen.describe.bodies` reads."""
     return {key: value for key, value in raw.items() if key != "shape"} if isinstance(raw, Mapping) else raw
 
 
@@ -71,7 +72,7 @@ def _check_type(scope: Scope, section: BodySection | SpatialBodySection, keys: t
     if section.type == "point":
         for key in keys:
             if getattr(section, key) is not None:
-                raise scope.error(key, "no such key, as a point mass has none", found(getattr(section, key)))
+                raise scope.error(key, "no such key, as a point mass has none", words_of(getattr(section, key)))
     elif section.inertia is None:
         hint = 'a body without one is written type = "point"'
         raise scope.error("inertia", "the inertia about the centre of mass", "no such key", hint)
@@ -108,20 +109,20 @@ def _orientation(scope: Scope, key: str, section: OrientationSection | None) -> 
     if section is None:
         return IDENTITY
     ways = ("quaternion", "rotation_vector", "euler_angles", "x_axis", "start")
-    given = [way for way in ways if getattr(section, way) is not None]
-    if len(given) != 1:
-        got = "none" if not given else " and ".join(given)
+    written = [way for way in ways if getattr(section, way) is not None]
+    if len(written) != 1:
+        got = "none" if not written else " and ".join(written)
         raise scope.error(key, f"one of the keys {', '.join(ways)}", got)
-    way = given[0]
+    way = written[0]
     needs = {"euler_angles": ("convention",), "x_axis": ("y_axis",), "start": ("end", "y_axis")}.get(way, ())
     for other in ("convention", "y_axis", "end"):
         if (getattr(section, other) is None) == (other in needs):
-            got = "no such key" if other in needs else found(getattr(section, other))
+            got = "no such key" if other in needs else words_of(getattr(section, other))
             raise scope.error(f"{key}.{other}", "a value" if other in needs else f"no such key beside {way}", got)
     if way == "quaternion":
         four = section.quaternion or ()
         if len(four) != 4 or any(isinstance(e, tuple) for e in four):
-            raise scope.error(f"{key}.quaternion", "four numbers [e0, e1, e2, e3]", found(four))
+            raise scope.error(f"{key}.quaternion", "four numbers [e0, e1, e2, e3]", words_of(four))
         values = tuple(scope.constant(f"{key}.quaternion", e) for e in four if not isinstance(e, tuple))
     else:
         parts = [(way, getattr(section, way)), *((n, getattr(section, n)) for n in needs if n != "convention")]
@@ -148,7 +149,8 @@ def _inertia(scope: Scope, section: SpatialBodySection, mass: Expr, centre: Vec,
         e = euler_parameters(axes, numbers, scope.where("inertia_axes"))
         tensor = _turned(tensor, matrix(e))
     if section.inertia_at is not None:
-        tensor = _shifted(tensor, mass, _difference(_point(scope, section.inertia_at, points, centre), centre))
+        ends = zip(_point(scope, section.inertia_at, points, centre), centre, strict=True)
+        tensor = _shifted(tensor, mass, tuple(call("sub", x, y) for x, y in ends))
     for name, entry in zip(("Ixx", "Iyy", "Izz"), tensor, strict=False):
         value = scope.value(entry, "inertia")
         if not value > 0 and entry != ZERO:
@@ -165,9 +167,9 @@ def _check_definite(scope: Scope, tensor: Tensor) -> None:
         raise scope.error("inertia", "a positive definite tensor about the centre of mass", "one that is not")
 
 
-def _entries(scope: Scope, given: tuple[float | str | tuple[float | str, ...], ...]) -> Tensor:
-    rows = [e for e in given if isinstance(e, tuple)]
-    flat = [scope.constant("inertia", e) for e in given if not isinstance(e, tuple)]
+def _entries(scope: Scope, entries: tuple[float | str | tuple[float | str, ...], ...]) -> Tensor:
+    rows = [e for e in entries if isinstance(e, tuple)]
+    flat = [scope.constant("inertia", e) for e in entries if not isinstance(e, tuple)]
     if not rows and len(flat) == 3:
         return flat[0], flat[1], flat[2], ZERO, ZERO, ZERO
     if not rows and len(flat) == 6:
@@ -181,7 +183,7 @@ def _entries(scope: Scope, given: tuple[float | str | tuple[float | str, ...], .
                 )
         return m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2]
     expected = "[Ixx, Iyy, Izz], [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] or three rows of three"
-    raise scope.error("inertia", expected, found(given))
+    raise scope.error("inertia", expected, words_of(entries))
 
 
 def _point(scope: Scope, point: str | tuple[float | str, ...], points: dict[str, Vec], centre: Vec) -> Vec:
@@ -191,18 +193,6 @@ def _point(scope: Scope, point: str | tuple[float | str, ...], points: dict[str,
         hint = nearest(point, [*points, CENTRE])
         raise scope.error("inertia_at", "the name of a point", f"{quoted(point)}, which is none", hint)
     return centre if point == CENTRE else points[point]
-
-
-def _difference(a: Vec, b: Vec) -> Vec:
-    return tuple(call("sub", x, y) for x, y in zip(a, b, strict=True))
-
-
-def _sum(terms: list[Expr]) -> Expr:
-    total: Expr = ZERO
-    for term in terms:
-        if term != ZERO:
-            total = term if total == ZERO else call("add", total, term)
-    return total
 
 
 def _times(*factors: Expr) -> Expr:
@@ -221,7 +211,7 @@ def _turned(tensor: Tensor, a: Matrix) -> Tensor:
 
     def entry(i: int, j: int) -> Expr:
         pairs = [(k, n) for k in range(3) for n in range(3) if a[i][k] * a[j][n] != 0.0]
-        return _sum([_times(number(a[i][k] * a[j][n]), rows[k][n]) for k, n in pairs])
+        return total(*(_times(number(a[i][k] * a[j][n]), rows[k][n]) for k, n in pairs))
 
     return entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)
 
@@ -231,8 +221,7 @@ def _shifted(tensor: Tensor, mass: Expr, d: Vec) -> Tensor:
 
     def entry(i: int, j: int) -> Expr:
         if i == j:
-            part = _sum([_times(d[k], d[k]) for k in range(3) if k != i])
-            return _times(mass, part)
+            return _times(mass, total(*(_times(d[k], d[k]) for k in range(3) if k != i)))
         return call("neg", _times(mass, d[i], d[j]))
 
     pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
@@ -242,3 +231,60 @@ def _shifted(tensor: Tensor, mass: Expr, d: Vec) -> Tensor:
         for value, change in zip(tensor, changes, strict=True)
     )
     return a, b, c, e, f, g
+
+
+#: Type of a shape -> the keys it needs, and those it may have, beside `type` and `colour`.
+KEYS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "polyline": (("points",), ("closed",)),
+    "box": (("size",), ("at",)),
+    "cylinder": (("radius",), ("at", "length", "axis")),
+    "sphere": (("radius",), ("at",)),
+}
+#: Shapes of one body at most, and points of a polyline.
+MOST, MOST_POINTS = 100, 2000
+
+_COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
+
+
+def shapes_of(scope: Scope, raw: object) -> tuple[Shape, ...]:
+    """Return the shapes of the body that a scope names: those of the key ``shape`` of its table, one or a list."""
+    shapes = raw.get("shape", ()) if isinstance(raw, Mapping) else ()
+    several = isinstance(shapes, list | tuple)
+    tables = shapes if several else (shapes,)
+    if len(tables) > MOST:
+        raise scope.error("shape", f"at most {MOST} shapes", str(len(tables)))
+    return tuple(_shape(scope, table, f"shape[{i}]" if several else "shape") for i, table in enumerate(tables))
+
+
+def _shape(scope: Scope, raw: object, key: str) -> Shape:
+    section = read(ShapeSection, raw, scope.where(key))
+    needed, allowed = KEYS[section.type]
+    keys = set(raw) - {"type", "colour"} if isinstance(raw, Mapping) else set()
+    if not scope.spatial and section.type == "cylinder":
+        allowed = ("at",)
+    if scope.spatial and section.type == "cylinder":
+        needed, allowed = (*needed, "length"), ("at", "axis")
+    for name in needed:
+        if name not in keys:
+            raise scope.error(f"{key}.{name}", f"a value, as a {section.type} needs it", "no such key")
+    for name in sorted(keys - {*needed, *allowed}):
+        raise scope.error(f"{key}.{name}", f"no such key for a {section.type} here", words_of(getattr(section, name)))
+    if section.colour and not _COLOUR.fullmatch(section.colour):
+        raise scope.error(f"{key}.colour", "a colour such as '#3a7bd5'", quoted(section.colour))
+    points = section.points or ()
+    if section.type == "polyline" and not 2 <= len(points) <= MOST_POINTS:
+        raise scope.error(f"{key}.points", f"2 to {MOST_POINTS} points", str(len(points)))
+    sizes = section.size or ()
+    if section.size is not None and len(sizes) != scope.dimension:
+        raise scope.error(f"{key}.size", f"{scope.dimension} lengths", words_of(section.size))
+    numbers = [*(("size", e) for e in sizes), ("radius", section.radius), ("length", section.length)]
+    up = (ZERO,) * (scope.dimension - 1) + (ONE,)
+    return Shape(
+        section.type,
+        points=tuple(scope.vector(f"{key}.points", point) for point in points),
+        closed=section.closed,
+        at=scope.marker(f"{key}.at", scope.name, section.at).point,
+        sizes=tuple(scope.constant(f"{key}.{name}", e, positive=True) for name, e in numbers if e is not None),
+        axis=up if section.axis is None else scope.direction(f"{key}.axis", scope.name, section.axis).vector,
+        colour=section.colour.lower(),
+    )

@@ -1,13 +1,15 @@
-"""The mechanism file's vocabulary in Python; what is collected passes the same validator as a file."""
+"""The mechanism file's vocabulary in Python, which passes the same validator as a file, and the text of such a file."""
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Mapping
 from typing import Any, Self
 
-from symgen.arguments import text
+from symgen.arguments import shown, text
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.toml import to_toml
+from symgen.describe.sections import NAMED, SECTIONS
 from symgen.describe.validate import validate
 from symgen.errors import InputError
 
@@ -41,10 +43,10 @@ class MechanismBuilder:
         self._raw: dict[str, dict[str, Any]] = {"mechanism": {"name": name} | _plain(keys)}
 
     def __repr__(self) -> str:
-        told = ", ".join(
+        counts = ", ".join(
             f"{len(entries)} {section}" for section, entries in self._raw.items() if section != "mechanism"
         )
-        return f"<MechanismBuilder {str(self._raw['mechanism']['name'])[:60]}: {told or 'nothing yet'}>"
+        return f"<MechanismBuilder {str(self._raw['mechanism']['name'])[:60]}: {counts or 'nothing yet'}>"
 
     def run(self, **keys: float) -> Self:
         """Set run defaults: ``until``, ``step``, ``output_step``, ``max_step``, ``predictable_until`` [s]."""
@@ -123,3 +125,54 @@ def _plain(value: Any) -> Any:
     if hasattr(value, "__iter__"):
         return [_plain(item) for item in value]
     return value
+
+
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def to_toml(raw: Mapping[str, Any]) -> str:
+    """Return the file's text for the nested dictionary `raw`.
+
+    Parameters
+    ----------
+    raw : mapping
+        Sections as `symgen.describe.load.read_toml` gives them.
+    """
+    blocks = []
+    for section in (*SECTIONS, *(key for key in raw if key not in SECTIONS)):
+        if section not in raw:
+            continue
+        if section in NAMED and section not in ("parameters", "inputs", "outputs"):
+            blocks += [_block(f"{section}.{_key(name)}", content) for name, content in raw[section].items()]
+        else:
+            blocks.append(_block(section, raw[section]))
+    return "\n".join(blocks)
+
+
+def _block(header: str, content: Mapping[str, Any]) -> str:
+    lines = [f"{_key(key)} = {_value(value)}\n" for key, value in content.items() if value is not None]
+    return f"[{header}]\n" + "".join(lines)
+
+
+def _key(key: str) -> str:
+    return key if _BARE.fullmatch(key) else _text(key)
+
+
+def _text(text: str) -> str:
+    # A JSON string is a TOML basic string, except that TOML wants DEL escaped too.
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int | float):
+        return repr(value)
+    if isinstance(value, str):
+        return _text(value)
+    if isinstance(value, Mapping):
+        inner = ", ".join(f"{_key(key)} = {_value(item)}" for key, item in value.items() if item is not None)
+        return f"{{ {inner} }}" if inner else "{}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_value(item) for item in value) + "]"
+    raise InputError("mechanism file", "texts, numbers, lists and tables", shown(value))

@@ -1,18 +1,15 @@
 """What columns are called where all tables stand side by side: in data frames, files and quantities that are chosen.
 
 Bodies, joints and forces have names of their own, so that most tables need nothing else; those of joints and of the
-whole mechanism say what they hold. A body may be called as one of these is headed, and only then may two columns have
-one name: such a description is refused, since nothing could tell them apart where they are read again.
+whole mechanism say what they hold. A body called as one of these is headed is refused: two columns might have one name.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from symgen.describe.mechanism import ACCELERATIONS
-from symgen.describe.outputs import elements, points
 from symgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -44,8 +41,12 @@ PREFIX: Mapping[str, str] = MappingProxyType(
 )
 
 
+#: How columns of joints and of actuators begin, behind which a name of a body's columns may follow.
+_HEADS = tuple(PREFIX[table].rstrip(".") for table in ("joint_coordinates", "lam", "efforts", "transmission", "power"))
+
+
 def check_columns(mechanism: Mechanism, source: str) -> None:
-    """Refuse a body or force two of whose columns could not be told apart from others.
+    """Refuse bodies, forces and drivers with a name that columns of joints or actuators begin with.
 
     Parameters
     ----------
@@ -57,51 +58,12 @@ def check_columns(mechanism: Mechanism, source: str) -> None:
     Raises
     ------
     InputError
-        With the column, what else has its name, and what to call differently.
+        If there is one.
     """
-    owners = {body.name: "bodies" for body in mechanism.bodies} | {force.name: "forces" for force in mechanism.forces}
-    owners |= {joint.name: "joints" for joint in mechanism.joints}
-    heads = {PREFIX[table].rstrip("."): table for table in _SHARED}
-    for owner in [name for name in heads if name in owners]:  # hardly ever: a file may have thousands of points
-        coordinates = {label for body in mechanism.bodies if body.name == owner for label in body.coordinates}
-        own = coordinates | {*_further(mechanism, owner)}
-        for table, what, name, beside_all in _headed(mechanism):
-            if table == heads[owner] and name in (own if beside_all else coordinates):
-                where, got = f"{source}: {owners[owner]}.{owner}", f"'{PREFIX[table]}{name}'"
-                hint = f"that is what the {what} of '{name}' is called: give one of them another name"
-                raise InputError(where, "columns of results that nothing else is called", got, hint)
-
-
-def _further(mechanism: Mechanism, owner: str) -> Iterator[str]:
-    """Yield what columns of a body, driver or force are called behind its name, beside its coordinates."""
-    for speed in (speed for body in mechanism.bodies if body.name == owner for speed in body.speeds):
-        yield from (speed, ACCELERATIONS[speed])
-    for column in (*points(mechanism), *elements(mechanism)):
-        if column.name.startswith(f"{owner}."):
-            yield column.name.partition(".")[2]
-
-
-#: Tables whose columns may be called as those of a body, driver or force. What reactions, energies and violations are
-#: called is nothing of a body's.
-_SHARED = ("joint_coordinates", "lam", "efforts", "transmission", "power")
-
-
-def _headed(mechanism: Mechanism) -> Iterator[tuple[str, str, str, bool]]:
-    """Yield columns of these tables: table, word for what they hold, name, and whether more than coordinates is beside.
-
-    Results of inverse dynamics, which have efforts of any actuator and powers, hold coordinates of bodies alone.
-    """
-    actuators = list[str]()
-    for joint in mechanism.joints:
-        labels = [f"{joint.name}.{label}" for label, _ in joint.coordinates]
-        for label in labels:
-            yield from (("joint_coordinates", "coordinate", name, True) for name in (label, f"{label}.rate"))
-        yield from (("lam", "multiplier", f"{joint.name}.{row.label}", True) for row in joint.rows)
-        yield "transmission", "transmission angle", joint.name, True
-        if joint.kind == "driver":
-            yield "efforts", "effort", joint.name, True
-        actuators += (joint.name, *labels)
-    for force in mechanism.forces:
-        actuators += (force.name, *(f"{force.name}.{effort.label}" for effort in force.efforts))
-    yield from (("efforts", "effort", name, False) for name in (*actuators, *mechanism.inputs))
-    yield from (("power", "power", name, False) for name in actuators)
+    drivers = [joint.name for joint in mechanism.joints if joint.kind == "driver"]
+    owners = {"bodies": mechanism.bodies, "forces": mechanism.forces}
+    names = {section: [x.name for x in owned] for section, owned in owners.items()} | {"joints": drivers}
+    for section, owned in names.items():
+        for name in (name for name in owned if name in _HEADS):
+            expected = f"another name, as columns of results of joints and actuators begin with '{name}.'"
+            raise InputError(f"{source}: {section}.{name}", expected, f"'{name}'", f"for example '{name}_'")

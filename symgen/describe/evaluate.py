@@ -1,18 +1,21 @@
-"""The number an expression stands for, given numbers for its names: for starts, sizes and checks, not for run time."""
+"""Values of expressions, given numbers for their names: for starts, sizes and checks, not for run time."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Container, Iterable, Mapping
+from graphlib import CycleError, TopologicalSorter
 
 from symgen import arguments
-from symgen.describe.derived_parameters import derived
 from symgen.describe.formula_text import to_text
-from symgen.describe.mechanism import Mechanism
-from symgen.describe.numbers import Scalars
+from symgen.describe.mechanism import Mechanism, Parameter
+from symgen.describe.start import Scalars
 from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest
-from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, table_of
+from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, names, table_of
+
+#: What is wrong with a value, by what evaluating it raises.
+_FAULTS: dict[type[Exception], str] = {ZeroDivisionError: "divides by zero", OverflowError: "is too large"}
 
 
 def evaluate(
@@ -51,13 +54,12 @@ def evaluate(
         return _joined(expression, values, where, tables)
     operands = [evaluate(argument, values, where, tables) for argument in expression.arguments]
     try:
-        value = _apply(expression, operands, tables or {})
-    except ZeroDivisionError:
-        raise _undefined(expression, operands, where, "divides by zero") from None
-    except OverflowError:
-        raise _undefined(expression, operands, where, "is too large") from None
-    except ValueError:
-        raise _undefined(expression, operands, where, "is not defined") from None
+        if (table := table_of(expression.function)) is not None:
+            value = (tables or {})[table].interpolated.value(operands[0])
+        else:
+            value = FUNCTIONS[expression.function][1](*operands)
+    except (ArithmeticError, ValueError) as error:
+        raise _undefined(expression, operands, where, _FAULTS.get(type(error), "is not defined")) from None
     if isinstance(value, complex) or not math.isfinite(value):
         raise _undefined(expression, operands, where, "is not a finite real number")
     return float(value)
@@ -88,7 +90,7 @@ def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None =
     return values
 
 
-def said(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
+def independent_values(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
     """Return of all parameter values those that the others follow from: of formulas only the ones that are set."""
     following = {name for name, formula in derived(mechanism.parameters) if evaluate(formula, values) == values[name]}
     return {name: value for name, value in values.items() if name not in following}
@@ -108,15 +110,63 @@ def _joined(expression: Call, values: Mapping[str, float], where: str, tables: M
     return float(not deciding)
 
 
-def _apply(expression: Call, operands: list[float], tables: Mapping[str, Table]) -> float:
-    table = table_of(expression.function)
-    if table is not None:
-        return tables[table].interpolated.value(operands[0])
-    return FUNCTIONS[expression.function][1](*operands)
-
-
 def _undefined(expression: Call, operands: list[float], where: str, why: str) -> InputError:
     at = Call(expression.function, tuple(Number(a) for a in operands))
     text, shown = to_text(expression), to_text(at)
     got = f"'{text}', which {why}" if text == shown else f"'{text}' = {shown}, which {why}"
     return InputError(where, "a finite number", got)
+
+
+#: Parameters that a message about a circle of them lists.
+_LISTED = 8
+
+
+def in_order(formulas: Mapping[str, Expr | None], where: str) -> list[str]:
+    """Return names so that each stands behind those that its formula depends on, else in their own order.
+
+    Parameters
+    ----------
+    formulas : mapping of str to Expr or None
+        The formula of each, None for numbers.
+    where : str
+        File and section, for the message.
+
+    Raises
+    ------
+    InputError
+        If formulas lead back to where they began; says by which way.
+    """
+    needs = {name: () if formula is None else dict.fromkeys(names(formula)) for name, formula in formulas.items()}
+    try:
+        TopologicalSorter(needs).prepare()
+    except CycleError as error:
+        circle: list[str] = error.args[1][:0:-1]  # each leads to the next one
+        first = circle.index(min(circle, key=list(formulas).index))
+        circle = [*circle[first:], *circle[: first + 1]]
+        way = circle if len(circle) <= _LISTED else [*circle[: _LISTED - 1], "...", circle[0]]
+        expected = "a formula that does not lead back to its own parameter"
+        raise InputError(f"{where}.{circle[0]}", expected, " -> ".join(way)) from None
+    ordered = dict.fromkeys(name for name, formula in formulas.items() if formula is None)
+    waiting = list(formulas)[::-1]
+    while waiting:
+        name = next((need for need in needs[waiting[-1]] if need not in ordered), None)
+        if name is None:
+            ordered.setdefault(waiting.pop())
+        else:
+            waiting.append(name)
+    return list(ordered)
+
+
+def derived(parameters: Iterable[Parameter], values: Container[str] = ()) -> list[tuple[str, Expr]]:
+    """Return name and formula of the parameters that follow from others, each behind those it depends on.
+
+    Parameters
+    ----------
+    parameters : iterable of Parameter
+        Of a mechanism.
+    values : container of str
+        Those that have numbers in place of their formulas.
+    """
+    formulas = {p.name: None if p.name in values else p.formula for p in parameters}
+    ordered = in_order(formulas, "parameters") if any(formulas.values()) else []
+    return [(name, formula) for name in ordered if (formula := formulas[name]) is not None]

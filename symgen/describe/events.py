@@ -7,13 +7,12 @@ from typing import Any, Literal
 
 import msgspec
 
-from symgen.describe.context import Context
-from symgen.describe.fields import Condition, NewVelocities, found, read
+from symgen.describe.fields import Condition, NewVelocities, read, words_of
 from symgen.describe.formula_text import to_text
 from symgen.describe.inputs import put
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.names import check_identifier
-from symgen.describe.scope import Scope
+from symgen.describe.scope import Context, Scope
 from symgen.errors import InputError, quoted
 from symgen.vocabulary.expressions import Call, Expr, Name, Number, call, names
 
@@ -155,5 +154,5 @@ def _velocity(scope: Scope, key: str, value: float | str) -> tuple[Expr, Expr]:
     quantity = scope.of_state(where, key)
     body, _, speed = quantity.name.rpartition(".") if isinstance(quantity, Name) else ("", "", "")
     if body not in scope.context.bodies or speed not in scope.context.bodies[body].speeds:
-        raise scope.error(where, "the name of a velocity, such as ball.vy", found(key))
+        raise scope.error(where, "the name of a velocity, such as ball.vy", words_of(key))
     return quantity, scope.of_state(where, value)

@@ -99,14 +99,14 @@ T = TypeVar("T")
 _AT = re.compile(r" - at `\$(.*)`$")
 
 
-def found(value: object) -> str:
-    """Return what was found, in words short enough for a message."""
+def words_of(value: object) -> str:
+    """Return a value of a file in words short enough for a message."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, Mapping):
         return "a table" if value else "an empty table"
     if isinstance(value, list | tuple):
-        text = "[" + ", ".join(found(item) for item in value[:30]) + "]"
+        text = "[" + ", ".join(words_of(item) for item in value[:30]) + "]"
         return text if len(text) <= 60 else f"a list of {len(value)}"
     if isinstance(value, str):
         return quoted(value)
@@ -132,14 +132,14 @@ def read(kind: type[T], raw: object, where: str, further: tuple[str, ...] = ()) 
         Further keys, read elsewhere, that the message should list.
     """
     if not isinstance(raw, Mapping):
-        raise InputError(where, "a table", found(raw))
+        raise InputError(where, "a table", words_of(raw))
     fields = _fields(cast(type[msgspec.Struct], kind))
     for key in raw:
         if key not in fields:
-            known = [*further, *fields]
-            hint = nearest(str(key), known)
+            names = [*further, *fields]
+            hint = nearest(str(key), names)
             got = f"the unknown key {quoted(key)}"
-            raise InputError(where, f"the keys {', '.join(known)}", got, "" if hint.startswith("known") else hint)
+            raise InputError(where, f"the keys {', '.join(names)}", got, "" if hint.startswith("known") else hint)
     for key, field in fields.items():
         if field.required and key not in raw:
             raise InputError(f"{where}.{key}", describe_type(field.type), "no such key")
@@ -161,7 +161,7 @@ def read_value(type_: Any, value: object, where: str) -> Any:
             for key, item in value.items():
                 read_value(items, item, f"{where}.{key}")
         path = _AT.search(str(error))
-        raise InputError(where, describe_type(type_), found(_follow(value, path.group(1) if path else ""))) from None
+        raise InputError(where, describe_type(type_), words_of(_follow(value, path.group(1) if path else ""))) from None
 
 
 def _items(type_: Any) -> Any:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from symgen.describe.mechanism import Mechanism
-from symgen.ir.expression import build
-from symgen.ir.graph import Graph
-from symgen.vocabulary.expressions import Expr, Reading, call
+from symgen.ir.formula import Functions
+from symgen.ir.graph import ARITHMETIC, Graph
+from symgen.vocabulary.expressions import Expr, Name, Number, Reading, call
 from symgen.vocabulary.measures import GROUND, Direction, Marker
 
 
@@ -41,7 +41,21 @@ class Formulas:
     def expression(self, e: Expr, **placeholders: int) -> int:
         """Return the node of a formula of the file."""
         names = {**self.names, **placeholders} if placeholders else self.names
-        return build(self.graph, e, names, self.reading)
+        functions = Functions(self.graph)
+
+        def node(e: Expr) -> int:
+            if isinstance(e, Number):
+                return self.graph.constant(e.value)
+            if isinstance(e, Name):
+                return names[e.name]
+            if isinstance(e, Reading):
+                return self.reading(e)
+            arguments = tuple(node(a) for a in e.arguments)
+            if e.function in ARITHMETIC:
+                return self.graph.rebuild(e.function, arguments)
+            return functions.call(e.function, *arguments)
+
+        return node(e)
 
     def reading(self, r: Reading) -> int:
         """Return the node of a measure's value or rate.

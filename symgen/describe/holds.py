@@ -32,16 +32,16 @@ def body_holds(scope: Scope, raw: Mapping[str, Any], body: AnyBody) -> tuple[Hol
     InputError
         If a word is none, or stands for something that the table does not describe.
     """
-    asked = raw.get("hold", False)
+    value = raw.get("hold", False)
     described = [word for word, keys in _WORDS.items() if any(key in raw for key in keys)]
-    words = [asked] if isinstance(asked, str) else described if asked is True else list(asked or ())
+    words = [value] if isinstance(value, str) else described if value is True else list(value or ())
     for word in words:
         if word not in _WORDS:
             raise scope.error("hold", "true, or 'position', 'angle', 'velocity'", quoted(word), nearest(word, _WORDS))
         if word not in described:
             keys = " or ".join(key for key in _WORDS[word] if key != ("angle" if scope.spatial else ORIENTATION))
             raise scope.error("hold", f"something that the body describes ({keys})", f"'{word}' without such a key")
-    if asked is True and not words:
+    if value is True and not words:
         raise scope.error("hold", "a position, angle or velocity to keep", "a body that describes none")
     dimension, names = scope.dimension, list[str]()
     if "position" in words:
@@ -62,7 +62,7 @@ def _speeds(body: AnyBody) -> tuple[tuple[str, ...], tuple[str, ...]]:
     return body.speeds[:moving], body.speeds[moving:]
 
 
-def joint_holds(scope: Scope, given: Mapping[str, float | str], joint: Joint) -> tuple[Hold, ...]:
+def joint_holds(scope: Scope, values: Mapping[str, float | str], joint: Joint) -> tuple[Hold, ...]:
     """Return what the key ``start`` of a joint's table prescribes: coordinates and their rates, which are kept.
 
     Raises
@@ -70,22 +70,22 @@ def joint_holds(scope: Scope, given: Mapping[str, float | str], joint: Joint) ->
     InputError
         If a key is no coordinate of the joint.
     """
-    known = {name.partition(".")[2]: whole for name, whole in _of_joint(joint).items()}
-    if not known:
+    coordinates = {name.partition(".")[2]: whole for name, whole in _of_joint(joint).items()}
+    if not coordinates:
         raise scope.error("start", "a joint that has coordinates", f"a {joint.kind} joint, which has none")
-    for key in given:
-        if key not in known:
+    for key in values:
+        if key not in coordinates:
             raise scope.error(
-                "start", f"coordinates of the joint ({', '.join(known)})", quoted(key), nearest(key, known)
+                "start", f"coordinates of the joint ({', '.join(coordinates)})", quoted(key), nearest(key, coordinates)
             )
-    return tuple(Hold(known[key], scope.constant(f"start.{key}", value)) for key, value in given.items())
+    return tuple(Hold(coordinates[key], scope.constant(f"start.{key}", value)) for key, value in values.items())
 
 
 def _of_joint(joint: Joint) -> dict[str, str]:
     """Return the names of a joint's coordinates and rates, each with the whole one that it is short for."""
     names = [f"{joint.name}.{label}" for label, _ in joint.coordinates]
-    found = {whole: whole for name in names for whole in (name, f"{name}.rate")}
-    return found | ({f"{joint.name}.rate": f"{names[0]}.rate"} if len(names) == 1 else {})
+    whole_names = {whole: whole for name in names for whole in (name, f"{name}.rate")}
+    return whole_names | ({f"{joint.name}.rate": f"{names[0]}.rate"} if len(names) == 1 else {})
 
 
 def _as_body(joint: Joint) -> dict[str, str]:
@@ -103,14 +103,14 @@ def joint_names(mechanism: Mechanism) -> dict[str, str]:
 
     Short names stand for whole ones, and what is a coordinate or velocity of a body has that name.
     """
-    found = dict[str, str]()
+    canonical = dict[str, str]()
     for joint in mechanism.joints:
         same = _as_body(joint)
-        found |= {name: same.get(whole, whole) for name, whole in _of_joint(joint).items()}
-    return found
+        canonical |= {name: same.get(whole, whole) for name, whole in _of_joint(joint).items()}
+    return canonical
 
 
-def holds_of(mechanism: Mechanism, where: str = "start", asked: Mapping[str, float] | None = None) -> tuple[Hold, ...]:
+def holds_of(mechanism: Mechanism, where: str = "start", values: Mapping[str, float] | None = None) -> tuple[Hold, ...]:
     """Return all that a start keeps, each thing by one name.
 
     Parameters
@@ -119,7 +119,7 @@ def holds_of(mechanism: Mechanism, where: str = "start", asked: Mapping[str, flo
         What is run; what its file holds is kept unless it is asked for otherwise.
     where : str
         Who asks, for messages.
-    asked : mapping of str to float, optional
+    values : mapping of str to float, optional
         Values by names of coordinates and velocities of bodies and joints [m, rad, m/s, rad/s].
 
     Raises
@@ -132,21 +132,21 @@ def holds_of(mechanism: Mechanism, where: str = "start", asked: Mapping[str, flo
     for joint in mechanism.joints:
         joints |= _of_joint(joint)
         same |= _as_body(joint)
-    known = bodies | joints
+    coordinates = bodies | joints
 
     def gathered(pairs: Iterable[tuple[str, Hold]]) -> dict[str, Hold]:
-        found: dict[str, tuple[str, Hold]] = {}
+        unique: dict[str, tuple[str, Hold]] = {}
         for name, hold in pairs:
             one = same.get(hold.name, hold.name)
-            if one in found:
-                raise InputError(where, "each thing held once", f"{found[one][0]} and {name}, which are the same")
-            found[one] = name, Hold(one, hold.value)
-        return {one: hold for one, (_, hold) in found.items()}
+            if one in unique:
+                raise InputError(where, "each thing held once", f"{unique[one][0]} and {name}, which are the same")
+            unique[one] = name, Hold(one, hold.value)
+        return {one: hold for one, (_, hold) in unique.items()}
 
-    for name in asked or {}:
-        if name not in known:
+    for name in values or {}:
+        if name not in coordinates:
             expected = f"a coordinate or velocity of a body or joint of {mechanism.name}"
-            raise InputError(f"{where} '{name}'", expected, "none of that name", nearest(name, known))
+            raise InputError(f"{where} '{name}'", expected, "none of that name", nearest(name, coordinates))
         if name in bodies and name.rpartition(".")[2] in _EULER:
             raise InputError(
                 f"{where} '{name}'",
@@ -155,4 +155,6 @@ def holds_of(mechanism: Mechanism, where: str = "start", asked: Mapping[str, flo
                 "give the coordinate of a joint, or hold the orientation that the file describes",
             )
     own = gathered((hold.name, hold) for hold in mechanism.holds)
-    return tuple((own | gathered((n, Hold(known[n], Number(float(x)))) for n, x in (asked or {}).items())).values())
+    return tuple(
+        (own | gathered((n, Hold(coordinates[n], Number(float(x)))) for n, x in (values or {}).items())).values()
+    )

@@ -7,19 +7,23 @@ pieces: inside a piece nothing jumps.
 
 from __future__ import annotations
 
+import csv
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
 from typing import Any, TypeVar
 
 import msgspec
 
 from symgen import arguments
-from symgen.describe.context import Context
-from symgen.describe.input_data import Data, data_of
 from symgen.describe.mechanism import Mechanism, Parameter
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import Readings
-from symgen.errors import InputError, nearest
+from symgen.describe.scope import Context
+from symgen.describe.tables import Table
+from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import BENT, ZERO, Call, Expr, Name, Number, call, names, table_of
 
 T = TypeVar("T")
@@ -69,7 +73,7 @@ class DrivenMechanism:
         Inputs that are smooth between samples, and nothing beyond them.
     jumps : tuple of Jump
         Of all formulas.
-    told : mapping of str to str or float
+    descriptions : mapping of str to str or float
         Every input of the mechanism in words, or its number.
     declared : Mechanism
         With the names of inputs where these are read.
@@ -80,7 +84,7 @@ class DrivenMechanism:
     samples: Mapping[str, Data]
     curves: Mapping[str, Data]
     jumps: tuple[Jump, ...]
-    told: Mapping[str, str | float]
+    descriptions: Mapping[str, str | float]
     declared: Mechanism
 
     @property
@@ -91,17 +95,17 @@ class DrivenMechanism:
         return msgspec.structs.replace(self.mechanism, **parts)
 
 
-def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> DrivenMechanism:
+def driven(mechanism: Mechanism, sources: Mapping[str, Any]) -> DrivenMechanism:
     """Return a mechanism with what a run gives its inputs.
 
     Parameters
     ----------
     mechanism : Mechanism
         Declares inputs.
-    given : mapping
+    sources : mapping
         By name: a number; a text, which is a number, a formula of t, parameters and state, or
         ``FILE.csv:COLUMN[:INTERPOLATION]``; a pair of times and values; or a mapping of one of these, see
-        `symgen.describe.input_data.data_of`.
+        `symgen.describe.inputs.data_of`.
 
     Raises
     ------
@@ -110,24 +114,24 @@ def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> DrivenMechanism:
     """
     inputs = {p.name: p.value for p in mechanism.parameters if p.input}
     numbers, samples, curves, formulas = dict[str, float](), dict[str, Data](), dict[str, Data](), dict[str, Expr]()
-    told: dict[str, str | float] = dict(inputs)
+    words: dict[str, str | float] = dict(inputs)
     tables, jumps = list(mechanism.tables), list[Jump]()
-    for name, value in given.items():
+    for name, value in sources.items():
         where = f"input '{name}'"
         if name not in inputs:
             hint = nearest(name, inputs) if inputs else "it declares none, in a section [inputs]"
             raise InputError(where, f"an input of {mechanism.name}", "none of that name", hint)
         data = data_of(where, value)
         if data is None and not isinstance(value, str):
-            numbers[name] = told[name] = arguments.number(where, value)
+            numbers[name] = words[name] = arguments.number(where, value)
         elif data is None:
             number = _number(value)
             if number is None:
-                formulas[name], told[name] = parse(value, _names(mechanism), where), value
+                formulas[name], words[name] = parse(value, _names(mechanism), where), value
             else:
-                numbers[name] = told[name] = arguments.number(where, number)
+                numbers[name] = words[name] = arguments.number(where, number)
         else:
-            told[name] = data.words
+            words[name] = data.words
             if data.interpolation == "hold":
                 samples[name] = data
             else:
@@ -136,15 +140,15 @@ def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> DrivenMechanism:
                     curves[name] = data
                 tables.append(table)
                 formulas[name] = Call(table.function, (Name("t"),))
-    known = msgspec.structs.replace(mechanism, tables=tuple(tables))
-    changed = {name: _Switching(known, name, jumps).expression(e) for name, e in formulas.items()}
+    with_tables = msgspec.structs.replace(mechanism, tables=tuple(tables))
+    changed = {name: _Switching(with_tables, name, jumps).expression(e) for name, e in formulas.items()}
     switches = tuple(Parameter(j.switch, 0.0, input=True) for j in jumps if j.switch)
     if not changed:
-        return DrivenMechanism(mechanism, numbers, samples, curves, (), told, mechanism)
-    parts = {part: put(getattr(known, part), changed) for part in _READING}
-    parameters, put_in = (*known.parameters, *switches), tuple(changed.items())
-    whole = msgspec.structs.replace(known, **parts, parameters=parameters, given=put_in)
-    return DrivenMechanism(whole, numbers, samples, curves, tuple(jumps), told, known)
+        return DrivenMechanism(mechanism, numbers, samples, curves, (), words, mechanism)
+    parts = {part: put(getattr(with_tables, part), changed) for part in _READING}
+    parameters, put_in = (*with_tables.parameters, *switches), tuple(changed.items())
+    whole = msgspec.structs.replace(with_tables, **parts, parameters=parameters, given=put_in)
+    return DrivenMechanism(whole, numbers, samples, curves, tuple(jumps), words, with_tables)
 
 
 def put(value: T, formulas: Mapping[str, Expr]) -> T:
@@ -194,14 +198,14 @@ class _Switching:
     def __init__(self, mechanism: Mechanism, name: str, jumps: list[Jump]) -> None:
         self.tables = {table.name: table for table in mechanism.tables}
         self.timely = frozenset(p.name for p in mechanism.parameters if not p.input) | {"t"}
-        self.name, self.jumps, self.known = name, jumps, dict[Expr, Expr]()
+        self.name, self.jumps, self.switches = name, jumps, dict[Expr, Expr]()
 
     def expression(self, e: Expr) -> Expr:
         """Return a formula in which nothing jumps within a piece."""
         if not isinstance(e, Call):
             return e
         arguments = tuple(self.expression(a) for a in e.arguments)
-        if "t" in (found := set(names(e))) and found <= self.timely:
+        if "t" in (used := set(names(e))) and used <= self.timely:
             if e.function in (*_COMPARISONS, "sign"):
                 return self.switch(e)
             table = self.tables.get(table_of(e.function) or "")
@@ -218,13 +222,150 @@ class _Switching:
 
     def switch(self, e: Call) -> Expr:
         """Return what stands for a condition or a sign: the number that a run sets."""
-        if e not in self.known:
+        if e not in self.switches:
             name = f"{self.name}~{sum(1 for j in self.jumps if j.switch) + 1}"  # no name of a file
             self.jumps.append(Jump(compared(e), switch=name, value=e))
             number = Name(name)
-            self.known[e] = number if e.function == "sign" else Call("gt", (number, Number(0.5)))
-        return self.known[e]
+            self.switches[e] = number if e.function == "sign" else Call("gt", (number, Number(0.5)))
+        return self.switches[e]
 
 
 #: Points of a table that a run stops at; one with more of them is evaluated as it stands.
 MOST_KNOTS = 100_000
+
+
+INTERPOLATIONS = ("hold", "linear", "cubic", "pchip")
+#: Bytes of a file of data.
+LARGEST_FILE = 50_000_000
+_FILE = re.compile(r"(?P<file>.+\.csv):(?P<column>[^:]+)(?::(?P<how>[^:]*))?", re.IGNORECASE)
+_WORDS = re.compile(rf".* \(({'|'.join(INTERPOLATIONS)})\)", re.DOTALL)
+_HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:\[[^\]]*\]\s*)?")
+
+
+@dataclass(frozen=True)
+class Data:
+    """Samples of an input.
+
+    Attributes
+    ----------
+    t, u : tuple of float
+        Times, increasing [s], and values.
+    interpolation : str
+        ``hold``: each value until the next one; else see `symgen.describe.tables.Table`.
+    words : str
+        What it is, for people.
+    """
+
+    t: tuple[float, ...]
+    u: tuple[float, ...]
+    interpolation: str
+    words: str
+
+    def table(self, where: str, name: str) -> Table:
+        """Return the data as a table of t."""
+        if self.interpolation == "cubic" and len(self.t) < 4:
+            raise InputError(where, "four samples or more for interpolation 'cubic'", f"{len(self.t)}")
+        return Table(name, self.t, self.u, self.interpolation)
+
+    def at(self, time: float) -> float:
+        """Return the sample that is held at a time."""
+        from bisect import bisect_right
+
+        return self.u[max(0, bisect_right(self.t, time) - 1)]
+
+
+def data_of(where: str, value: object) -> Data | None:
+    """Return the data that are given for an input, None where it is a number or a formula.
+
+    Parameters
+    ----------
+    where : str
+        The input, for the message.
+    value : object
+        ``"FILE.csv:COLUMN"`` or ``"FILE.csv:COLUMN:INTERPOLATION"``; a pair of times and values; or a mapping with the
+        keys ``t`` and ``u``, or ``file`` and ``column``, and with ``interpolation``, which is linear by default.
+
+    Raises
+    ------
+    InputError
+        If it means data that are not there or make no sense.
+    """
+    if isinstance(value, str):
+        match = _FILE.fullmatch(value.strip())
+        return None if match is None else _read(where, match["file"], match["column"].strip(), match["how"])
+    if isinstance(value, Mapping):
+        return _of_mapping(where, value)
+    if isinstance(value, list | tuple) or len(getattr(value, "shape", "")) > 0:
+        pair = [*value]  # type: ignore[misc]  # an array of dimensions can be walked through
+        if len(pair) != 2:
+            raise InputError(where, "a pair of times and values", arguments.shown(value))
+        return _checked(where, pair[0], pair[1], "linear", "")
+    return None
+
+
+def _of_mapping(where: str, value: Mapping[Any, Any]) -> Data:
+    keys = ("t", "u", "file", "column", "interpolation")
+    entries = arguments.mapping(where, value, "t and u, or file and column, and interpolation")
+    for key in entries:
+        if key not in keys:
+            raise InputError(where, f"the keys {', '.join(keys)}", f"the unknown key {quoted(key)}", nearest(key, keys))
+    how = arguments.one_of(f"{where} interpolation", entries.get("interpolation", "linear"), INTERPOLATIONS)
+    pairs = [pair for pair in (("t", "u"), ("file", "column")) if any(key in entries for key in pair)]
+    if len(pairs) != 1 or not all(key in entries for key in pairs[0]):
+        raise InputError(where, "either t and u or file and column", ", ".join(entries) or "no keys")
+    if "t" in entries:
+        return _checked(where, entries["t"], entries["u"], how, "")
+    file = arguments.path(f"{where} file", entries["file"])
+    return _read(where, str(file), arguments.text(f"{where} column", entries["column"]), how)
+
+
+def _read(where: str, file: str, column: str, how: str | None) -> Data:
+    """Return a column of a file, over its column ``t`` or ``time``, or its first one."""
+    how = arguments.one_of(f"{where} interpolation", how or "linear", INTERPOLATIONS)
+    path = Path(file)
+    try:
+        with path.open("rb") as stream:
+            content = stream.read(LARGEST_FILE + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or "an error"
+        raise InputError(f"{where}: {file}", "a file that can be read", reason) from None
+    if len(content) > LARGEST_FILE:
+        raise InputError(f"{where}: {path.name}", f"a file of at most {LARGEST_FILE} bytes", "a larger one")
+    try:
+        rows = [row for row in csv.reader(content.decode("utf-8-sig").splitlines()) if any(map(str.strip, row))]
+    except (UnicodeDecodeError, csv.Error):
+        raise InputError(f"{where}: {path.name}", "a CSV file in UTF-8", "something else") from None
+    headings = [match["name"] if (match := _HEADING.fullmatch(cell)) else cell for cell in rows[0]] if rows else []
+    if column not in headings:
+        raise InputError(f"{where}: {path.name}", "a column of the file", quoted(column), nearest(column, headings))
+    times = next((headings.index(name) for name in ("t", "time") if name in headings), 0)
+    place = headings.index(column)
+    if place == times:
+        raise InputError(f"{where}: {path.name}", "a column beside that of the times", quoted(column))
+    t, u = ([_cell(f"{where}: {path.name}", row, i, k) for k, row in enumerate(rows[1:], 2)] for i in (times, place))
+    return _checked(where, t, u, how, f"{file}:{column}")
+
+
+def _cell(where: str, row: list[str], index: int, line: int) -> float:
+    text = row[index] if index < len(row) else ""
+    try:
+        return float(text)
+    except ValueError:
+        raise InputError(where, "a number in every row", f"{quoted(text)} in row {line}") from None
+
+
+def _checked(where: str, t: object, u: object, how: str, source: str) -> Data:
+    times, values = arguments.numbers(f"{where} times", t), arguments.numbers(f"{where} values", u)
+    if len(times) != len(values):
+        raise InputError(where, "as many values as times", f"{len(values)} for {len(times)}")
+    if len(times) < 2:
+        raise InputError(where, "two samples or more", f"{len(times)}")
+    for before, after in pairwise(times):
+        if not before < after:
+            raise InputError(f"{where} times", "increasing times", f"{after!r} after {before!r}")
+    return Data(times, values, how, f"{source or f'{len(times)} samples'} ({how})")
+
+
+def are_words_of_data(text: str | float) -> bool:
+    """Return whether the description of an input names data, which are no formula."""
+    return isinstance(text, str) and _WORDS.fullmatch(text) is not None

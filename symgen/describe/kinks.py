@@ -1,8 +1,13 @@
-"""Where formulas of joints and forces have kinks: at times known beforehand, or where the state passes points."""
+"""Where formulas of joints and forces have kinks, and where they may hide something short.
+
+Kinks lie at times that are computed before a run, or where the state passes points. Of formulas of the time that are
+no polynomials with one sine no time says where something short lies: there adaptive steps are bounded.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,14 +15,25 @@ import msgspec
 
 from symgen.describe.inputs import MOST_KNOTS, Jump, compared, replaced
 from symgen.describe.mechanism import Event, Mechanism
-from symgen.describe.outputs import integrated
+from symgen.describe.readings import integrated
+from symgen.describe.remembered import remembered
 from symgen.describe.tables import Table
-from symgen.vocabulary.expressions import BENT, Call, Expr, Reading, names, readings, table_of
+from symgen.vocabulary.expressions import BENT, Call, Expr, Name, Number, Reading, names, readings, table_of
 from symgen.vocabulary.measures import Effort
 
 #: What may jump, and what compares something with zero, or two values with each other.
 _SIDES = ("lt", "le", "gt", "ge", "sign")
 _COMPARED = (*_SIDES, *BENT)
+
+
+#: Steps for which something may lie hidden are no longer than a run over this.
+PARTS = 1000
+#: How formulas of the time are written where they are encoded.
+_TIME = msgspec.msgpack.encode(Name("t"))
+#: Powers beyond this one are as sharp as pulses.
+_LOW = 16
+#: Functions that are polynomials where their arguments are, but for jumps and kinks.
+_PLAIN = frozenset(("add", "sub", "neg", "mul", "where", "and", "or", "not", *BENT))
 
 
 def known_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[tuple[Jump, ...], tuple[Jump, ...]]:
@@ -28,8 +44,7 @@ def known_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[t
     formulas may jump. Arguments are formulas of t and parameters; those of state pass at times unknown before.
     """
     formulas = *integrated(mechanism), tuple(e.when for e in events)
-    tables = {table.name: table for table in mechanism.tables if len(table.x) <= MOST_KNOTS}
-    timely = {p.name for p in mechanism.parameters if not p.input} | {"t"}
+    tables, timely = _tables(mechanism), _timely(mechanism)
     kinks, sides = dict[Jump, None](), dict[Jump, None]()
     for e, _ in _calls(*formulas) if _may_pass(formulas) else ():
         if e.function in _COMPARED:
@@ -41,6 +56,16 @@ def known_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[t
         if "t" in (used := set(names(jump.argument))) and used <= timely:
             (sides if e.function in _SIDES else kinks)[jump] = None
     return tuple(kinks), tuple(sides)
+
+
+def _tables(mechanism: Mechanism) -> dict[str, Table]:
+    """Return the tables at whose points runs stop."""
+    return {table.name: table for table in mechanism.tables if len(table.x) <= MOST_KNOTS}
+
+
+def _timely(mechanism: Mechanism) -> set[str]:
+    """Return the names in formulas of the time alone."""
+    return {p.name for p in mechanism.parameters if not p.input} | {"t"}
 
 
 def _may_pass(part: Any) -> bool:
@@ -76,9 +101,8 @@ def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
     is read of their measures.
     """
     formulas = integrated(mechanism)
-    tables = {table.name: table for table in mechanism.tables if len(table.x) <= MOST_KNOTS}
-    plain = {p.name for p in mechanism.parameters} | {"t"}
-    found = dict[tuple[Expr, Table | None], bool]()
+    tables, plain = _tables(mechanism), {p.name for p in mechanism.parameters} | {"t"}
+    jumping = dict[tuple[Expr, Table | None], bool]()
     for e, effort in _calls(*formulas) if _may_pass(formulas) else ():
         table = tables.get(table_of(e.function) or "")
         if e.function not in _COMPARED and table is None:
@@ -86,8 +110,8 @@ def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
         argument = compared(e) if table is None else e.arguments[0]
         argument = argument if effort is None else _of_a_run(argument, effort)
         if any(readings(argument)) or not set(names(argument)) <= plain:
-            found[argument, table] = found.get((argument, table), False) or e.function in _SIDES
-    return tuple(Discontinuity(*key, jumps) for key, jumps in found.items())
+            jumping[argument, table] = jumping.get((argument, table), False) or e.function in _SIDES
+    return tuple(Discontinuity(*key, jumps) for key, jumps in jumping.items())
 
 
 def compares_state(mechanism: Mechanism) -> bool:
@@ -97,20 +121,15 @@ def compares_state(mechanism: Mechanism) -> bool:
 
 def changes_of(formula: Expr) -> tuple[Jump, ...]:
     """Return what a formula of the time compares with zero and what depends on t, each once, without a switch."""
-    found = (e for e, _ in _calls(formula) if e.function in _COMPARED and "t" in set(names(e)))
-    return tuple(dict.fromkeys(Jump(compared(e)) for e in found))
+    compares = (e for e, _ in _calls(formula) if e.function in _COMPARED and "t" in set(names(e)))
+    return tuple(dict.fromkeys(Jump(compared(e)) for e in compares))
 
 
 def changing(part: Any) -> Iterator[Expr]:
     """Yield whole formulas in a part of a mechanism that compare something or read a table, as formulas of a run."""
-    waiting: list[tuple[Any, Effort | None]] = [(part, None)]
-    while waiting:
-        value, effort = waiting.pop()
-        if isinstance(value, Call):
-            if any(e.function in _COMPARED or table_of(e.function) for e, _ in _calls(value)):
-                yield value if effort is None else _of_a_run(value, effort)
-        else:
-            waiting += _inside(value, effort)
+    for formula, effort in _calls(part, enters=lambda e: False):
+        if any(e.function in _COMPARED or table_of(e.function) for e, _ in _calls(formula)):
+            yield formula if effort is None else _of_a_run(formula, effort)
 
 
 def _of_a_run(e: Expr, effort: Effort) -> Expr:
@@ -119,23 +138,93 @@ def _of_a_run(e: Expr, effort: Effort) -> Expr:
     return replaced(e, lambda name: own.get(name.name, name))
 
 
-def _calls(*parts: Any) -> Iterator[tuple[Call, Effort | None]]:
-    """Yield every function that is called in the formulas of parts of a mechanism, and in which effort it is."""
+def _calls(*parts: Any, enters: Callable[[Call], bool] = lambda e: True) -> Iterator[tuple[Call, Effort | None]]:
+    """Yield the calls of functions in the formulas of parts of a mechanism, and in which effort each is.
+
+    Those inside a call follow where `enters` is true of it.
+    """
     waiting: list[tuple[Any, Effort | None]] = [(part, None) for part in parts]
     while waiting:  # in a loop: large mechanisms have tens of thousands of nodes
         value, effort = waiting.pop()
         if isinstance(value, Call):
             yield value, effort
-            waiting += [(argument, effort) for argument in value.arguments]
-        else:
-            waiting += _inside(value, effort)
+            value = value.arguments if enters(value) else ()
+        if isinstance(value, tuple):
+            waiting += [(item, effort) for item in value]
+        elif isinstance(value, msgspec.Struct):
+            own = value if isinstance(value, Effort) else effort
+            waiting += [(getattr(value, field), own) for field in value.__struct_fields__]
 
 
-def _inside(value: Any, effort: Effort | None) -> list[tuple[Any, Effort | None]]:
-    """Return what stands in a part of a mechanism, and in which effort."""
-    if isinstance(value, tuple):
-        return [(item, effort) for item in value]
-    if isinstance(value, msgspec.Struct):
-        own = value if isinstance(value, Effort) else effort
-        return [(getattr(value, field), own) for field in value.__struct_fields__]
-    return []
+def longest_step(
+    mechanism: Mechanism, length: float, events: Sequence[Event] = (), jumps: Sequence[Jump] = ()
+) -> tuple[float, str]:
+    """Return the longest step that sees what formulas of the time do [s], and why it is that by default.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        Whose own largest step counts before all else.
+    length : float
+        Of the run [s].
+    events, jumps : sequence of Event, sequence of Jump
+        Conditions of the run, and of its inputs.
+
+    Returns
+    -------
+    float
+        Infinity where any step does.
+    str
+        A sentence; empty where there is nothing to say.
+    """
+    if mechanism.defaults.max_step is not None:
+        return mechanism.defaults.max_step, ""
+    further = {"inputs": tuple(jump.argument for jump in jumps), "events": tuple(event.when for event in events)}
+    groups = *_groups(mechanism), *(group for group, part in further.items() if _may_hide(part, mechanism))
+    if not groups:
+        return math.inf, ""
+    longest = length / PARTS
+    return longest, (
+        f"formulas of t in {' and '.join(groups)} may pass something short: adaptive steps are at most {longest:.3g} s,"
+        f" a thousandth of the run; what is shorter needs --max-step"
+    )
+
+
+@remembered
+def _groups(mechanism: Mechanism) -> tuple[str, ...]:
+    """Return which formulas that a run integrates may hide something short."""
+    parts = zip(("drivers", "forces", "integrals"), integrated(mechanism), strict=True)
+    return tuple(group for group, part in parts if _may_hide(part, mechanism))
+
+
+def _may_hide(part: Any, mechanism: Mechanism) -> bool:
+    """Return whether a part of a mechanism has a formula of t and parameters that may hide something short."""
+    if _TIME not in msgspec.msgpack.encode(part):
+        return False
+    timely, tables = _timely(mechanism), frozenset(_tables(mechanism))
+    largest = _calls(part, enters=lambda e: not set(names(e)) <= timely)
+    return any("t" in (used := set(names(e))) and used <= timely and _form(e, tables) is None for e, _ in largest)
+
+
+def _form(e: Expr, tables: frozenset[str]) -> tuple[float, frozenset[Expr]] | None:
+    """Return the power of a polynomial of t and one sine, and what that sine is of; None for any other formula."""
+    if not isinstance(e, Call):
+        return float(isinstance(e, Name) and e.name == "t"), frozenset()
+    forms = [form for a in e.arguments if (form := _form(a, tables)) is not None]
+    if len(forms) < len(e.arguments):
+        return None
+    powers = [power for power, _ in forms]
+    function, power, waves = e.function, max(powers), frozenset[Expr]().union(*(waves for _, waves in forms))
+    if power == 0.0 or function in _SIDES:  # constant, between known times at least
+        return 0.0, frozenset()
+    if function in ("sin", "cos"):
+        return (1.0, frozenset(e.arguments)) if power == 1.0 and not waves else None
+    if function == "mul":
+        power = sum(powers)
+    elif function == "pow" and isinstance(n := e.arguments[1], Number) and n.value in range(_LOW + 1):
+        power *= n.value
+    elif table_of(function) in tables:
+        power *= 3.0
+    elif function not in _PLAIN and not (function == "div" and powers[1] == 0.0):
+        return None
+    return (power, waves) if power <= _LOW and len(waves) <= 1 else None

@@ -1,4 +1,10 @@
-"""From the word after a command to a mechanism: a catalogue name or the path of a file."""
+"""From the word after a command to a mechanism: a catalogue name or the path of a file.
+
+Bounds of a file are checked on its text before the TOML parser builds anything of it. The parser keeps every beginning
+of a dotted key, so a long key costs the square of its parts; brackets that are nested too deep end in a
+`RecursionError`. No table of a mechanism file lies deeper than four keys, so the bounds refuse nothing that has a
+meaning.
+"""
 
 from __future__ import annotations
 
@@ -9,12 +15,30 @@ from pathlib import Path
 from typing import Any
 
 from symgen import arguments
-from symgen.describe.bounds import LARGEST_FILE, check_text, check_values, too_deep
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.validate import validate
+from symgen.describe.parser import LONGEST_TEXT
+from symgen.describe.validate import DEEPEST, validate
 from symgen.errors import InputError, nearest, quoted
 
 _CATALOGUE = re.compile(r"(?P<name>[a-z][a-z0-9-]*)(:(?P<size>[0-9]{1,9}))?")
+
+#: Bytes of a file and operators in all formulas together.
+LARGEST_FILE = 1_000_000
+MOST_OPERATORS = 50_000
+#: Parameters: each is a name in every module that is emitted.
+MOST_PARAMETERS = 10_000
+#: Parts of a dotted key, and parts behind the second one in all keys together: the parser keeps a kilobyte for each.
+LONGEST_KEY, MOST_PARTS = 8, 50_000
+
+# What may hold a dot that joins no keys (comments and strings) comes first; a string that does not end matches nothing
+# here, and the parser says so. Nothing is tried twice: the loops keep what they have.
+_TOKEN = re.compile(
+    r"""(?P<comment>\#[^\n]*+)
+      | (?P<long>\"{3}(?:[^"\\]++|\\.|"{1,2}+(?!"))*+"{3,5}+ | '{3}(?:[^']++|'{1,2}+(?!'))*+'{3,5}+)
+      | (?P<part>"(?:[^"\\\n]++|\\.)*+" | '[^'\n]*+' | [A-Za-z0-9_+-]++)
+      | (?P<dot>\.) | (?P<space>[ \t]++) | (?P<other>.)""",
+    re.VERBOSE | re.DOTALL,
+)
 
 
 def load(model: str | os.PathLike[str], parameters: Mapping[str, float] | None = None) -> Mechanism:
@@ -48,8 +72,8 @@ def with_parameters(raw: Mapping[str, Any], values: Mapping[str, float], source:
     source : str
         File name or other origin, for messages.
     """
-    known = raw.get("parameters", {})
-    entries = dict(known) if isinstance(known, Mapping) else {}
+    section = raw.get("parameters", {})
+    entries = dict(section) if isinstance(section, Mapping) else {}
     for name, value in values.items():
         if name not in entries:
             got = f"the unknown parameter {quoted(name)}"
@@ -75,8 +99,8 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
         return read_toml(path), path.name
     if path.suffix == ".toml" or "/" in text or os.sep in text:
         raise InputError("model", "a catalogue name or the path of a file", f"{quoted(text)}, which is no file")
-    known = catalogue.known()
-    hint = nearest(text.partition(":")[0], known)
+    entries = catalogue.known()
+    hint = nearest(text.partition(":")[0], entries)
     if ":" in text and not hint.startswith("known"):
         hint = f"a size is written as in {catalogue.example_of_size()}"
     raise InputError("model", "a catalogue name or the path of a file", quoted(text), hint)
@@ -109,13 +133,67 @@ def parse_toml(text: str, source: str) -> dict[str, Any]:
     """Return the tables of TOML text, not yet validated."""
     import tomllib
 
-    check_text(text, source)
+    _check_text(text, source)
     try:
         raw = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, ValueError) as error:
         slip = str(error)
         raise InputError(source, "a TOML file", f"a syntax error: {slip[:1].lower() + slip[1:]}") from None
     except (RecursionError, MemoryError):
-        raise too_deep(source) from None
-    check_values(raw, source)
+        raise _too_deep(source) from None
+    _check_values(raw, source)
     return raw
+
+
+def _check_text(text: str, source: str) -> None:
+    """Refuse TOML text that has keys of too many parts.
+
+    Raises
+    ------
+    InputError
+        With the bound that it exceeds.
+    """
+    parts = further = 0
+    after_dot = False
+    for token in _TOKEN.finditer(text):
+        kind = token.lastgroup
+        if kind == "space":
+            continue
+        if kind == "part":
+            parts = parts + 1 if after_dot else 1
+            if parts > LONGEST_KEY:
+                raise InputError(source, f"keys of at most {LONGEST_KEY} parts joined by dots", "a longer one")
+            further += parts > 2
+            if further > MOST_PARTS:
+                raise InputError(source, f"at most {MOST_PARTS} tables inside tables, by dotted keys", "more")
+        after_dot = kind == "dot"
+
+
+def _check_values(raw: Mapping[str, Any], source: str) -> None:
+    """Refuse tables that are nested too deep, or hold more than a mechanism can mean.
+
+    Raises
+    ------
+    InputError
+        With the bound that they exceed.
+    """
+    parameters = raw.get("parameters")
+    if isinstance(parameters, dict) and len(parameters) > MOST_PARAMETERS:
+        raise InputError(f"{source}: parameters", f"at most {MOST_PARAMETERS} parameters", f"{len(parameters)}")
+    operators = 0
+    stack: list[tuple[object, int]] = [(raw, 0)]
+    while stack:
+        value, depth = stack.pop()
+        if depth > DEEPEST:
+            raise _too_deep(source)
+        if isinstance(value, str) and len(value) <= LONGEST_TEXT:  # a longer one is refused where it stands
+            operators += sum(map(value.count, "+-*/(<>,"))
+        inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+        stack.extend((item, depth + 1) for item in inner)
+    if operators > MOST_OPERATORS:
+        raise InputError(source, f"formulas of at most {MOST_OPERATORS} operators together", f"{operators}")
+
+
+def _too_deep(source: str) -> InputError:
+    """Return the error about nesting."""
+    return InputError(source, f"tables nested at most {DEEPEST} levels deep", "deeper nesting")

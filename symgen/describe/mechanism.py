@@ -8,11 +8,11 @@ from typing import TypeVar
 import msgspec
 
 from symgen.arguments import shown
-from symgen.describe.orientation import IDENTITY, Orientation
 from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import ZERO, Expr
 from symgen.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Row
+from symgen.vocabulary.rotations import IDENTITY, Orientation
 
 T = TypeVar("T")
 
@@ -345,8 +345,8 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
             (self.forces, "force", "forces"),
             (self.parameters, "parameter", "parameters"),
         )
-        told = ", ".join(f"{len(each)} {one if len(each) == 1 else more}" for each, one, more in counted)
-        return f"<Mechanism {self.name}, {self.space}: {told}>"
+        counts = ", ".join(f"{len(each)} {one if len(each) == 1 else more}" for each, one, more in counted)
+        return f"<Mechanism {self.name}, {self.space}: {counts}>"
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -377,7 +377,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
         """Return the joint called `name`; raises as `body` does."""
         return self._named("joint", {joint.name: joint for joint in self.joints}, name)
 
-    def _named(self, kind: str, known: Mapping[str, T], name: str) -> T:
-        if name not in known:
-            raise InputError(kind, f"a {kind} of {self.name}", shown(name), nearest(str(name), known))
-        return known[name]
+    def _named(self, kind: str, items: Mapping[str, T], name: str) -> T:
+        if name not in items:
+            raise InputError(kind, f"a {kind} of {self.name}", shown(name), nearest(str(name), items))
+        return items[name]

@@ -10,8 +10,8 @@ import ast
 import keyword
 import math
 import re
-from collections.abc import Iterator, Mapping
-from typing import Protocol
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -29,6 +29,9 @@ from symgen.vocabulary.expressions import (
     readings,
 )
 from symgen.vocabulary.measures import Integral
+
+if TYPE_CHECKING:
+    from symgen.describe.readings import Readings
 
 LONGEST_TEXT = 10_000
 DEEPEST = 100
@@ -60,22 +63,6 @@ _BINARY: Mapping[type, str] = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", 
 _COMPARE: Mapping[type, str] = {ast.Lt: "lt", ast.LtE: "le", ast.Gt: "gt", ast.GtE: "ge"}
 
 
-class Lookup(Protocol):
-    """Names with dots that a formula may read beside coordinates of bodies."""
-
-    def owners(self) -> Iterator[str]:
-        """Yield the names of what can be read."""
-        ...
-
-    def known(self, owner: str, where: str) -> tuple[str, ...]:
-        """Return what can be read of an owner."""
-        ...
-
-    def find(self, path: tuple[str, ...], where: str) -> Expr | None:
-        """Return the value of a dotted name, None where it has none."""
-        ...
-
-
 class FormulaNames(msgspec.Struct, frozen=True):
     """What the names in a formula may be.
 
@@ -91,7 +78,7 @@ class FormulaNames(msgspec.Struct, frozen=True):
         Tables that may be called -> functions of the tree.
     elsewhere : frozenset of str
         Names that exist, though not in this formula; only the message differs.
-    readings : Lookup, optional
+    readings : Readings, optional
         What else may be written with dots: points of bodies, coordinates of joints.
     integrals : bool
         Whether ``integral(...)`` may be written.
@@ -104,7 +91,7 @@ class FormulaNames(msgspec.Struct, frozen=True):
     coordinates: Mapping[str, tuple[str, ...]] = {}
     tables: Mapping[str, str] = {}
     elsewhere: frozenset[str] = frozenset()
-    readings: Lookup | None = None
+    readings: Readings | None = None
     integrals: bool = False
     hints: Mapping[str, str] = {}
 
@@ -271,13 +258,13 @@ class _Reader:
         if owner not in owners:
             what = "body" if readings is None else "body or joint"
             raise self.fail(f"the unknown {what} {quoted(owner)}", nearest(owner, owners))
-        found = None if readings is None else readings.find(path, self.where)
-        if found is not None:
-            return found
-        known = (*own, *(() if readings is None else readings.known(owner, self.where)))
+        reading = None if readings is None else readings.find(path, self.where)
+        if reading is not None:
+            return reading
+        names = (*own, *(() if readings is None else readings.names_of(owner, self.where)))
         what = f"{quoted('.'.join(path[1:]))}, which {'body ' if own else ''}'{owner}' has not"
-        listed = f"it has {', '.join(known)}" if known else "it has nothing to read"
-        raise self.fail(what, listed if len(known) <= 20 else nearest(text, [f"{owner}.{k}" for k in known]))
+        listed = f"it has {', '.join(names)}" if names else "it has nothing to read"
+        raise self.fail(what, listed if len(names) <= 20 else nearest(text, [f"{owner}.{k}" for k in names]))
 
     def binary(self, function: str, left: Expr, right: Expr) -> Expr:
         if function == "pow" and isinstance(right, Number) and abs(right.value) > LARGEST_EXPONENT:
@@ -333,9 +320,9 @@ class _Reader:
 
         return Reading(f"{INTEGRAL}({to_text(integrand)})", Integral(integrand))
 
-    def count(self, function: str, nodes: list[ast.expr], wanted: int) -> None:
-        if len(nodes) != wanted:
-            expected = "one argument" if wanted == 1 else f"{wanted} arguments"
+    def count(self, function: str, nodes: list[ast.expr], number: int) -> None:
+        if len(nodes) != number:
+            expected = "one argument" if number == 1 else f"{number} arguments"
             raise self.fail(f"{function}() with {len(nodes)}", expected=expected)
 
     def piecewise(self, nodes: list[ast.expr], depth: int) -> Expr:

@@ -11,17 +11,17 @@
 | ``spring.length``, ``.angle``, ``.rate`` | of a force along one measure | outputs, events |
 | ``spring.force``, ``.torque``, ``.Fx`` ..., ``.power`` | what a force exerts | outputs |
 
-`symgen.describe.outputs` makes columns of results from the same table.
+`symgen.describe.readings` makes columns of results from the same table.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from symgen.describe.mechanism import Force, Joint
-from symgen.vocabulary.expressions import ZERO, Expr, Reading
+from symgen.describe.mechanism import Force, Joint, Mechanism
+from symgen.vocabulary.expressions import ZERO, Expr, Reading, readings
 from symgen.vocabulary.measures import (
     GROUND,
     AnyAngle,
@@ -32,6 +32,7 @@ from symgen.vocabulary.measures import (
     Effort,
     Exerted,
     Holonomic,
+    Integral,
     Marker,
     Source,
     Spin,
@@ -40,7 +41,8 @@ from symgen.vocabulary.measures import (
 )
 
 if TYPE_CHECKING:
-    from symgen.describe.context import Context
+    from symgen.describe.scope import Context
+
 
 #: What begins the names of a point's coordinates, by the order of the derivative, and their units.
 ORDERS = {"": "m", "v": "m/s", "a": "m/s^2"}
@@ -53,12 +55,12 @@ Table = dict[str, tuple[Reading, str]]
 
 def of_point(name: str, marker: Marker, dimension: int, order: int) -> Table:
     """Return a point's coordinates and their derivatives up to an order; `name` is the point's with its body's."""
-    origin, found = Marker(GROUND, (ZERO,) * dimension), Table()
+    origin, table = Marker(GROUND, (ZERO,) * dimension), Table()
     for derivative, (letter, unit) in enumerate(list(ORDERS.items())[: order + 1]):
         for axis, direction in zip("xyz", axes(GROUND, dimension), strict=False):
             label = f"{letter}{axis}"
-            found[label] = Reading(f"{name}.{label}", Component(origin, marker, direction), derivative), unit
-    return found
+            table[label] = Reading(f"{name}.{label}", Component(origin, marker, direction), derivative), unit
+    return table
 
 
 def of_joint(joint: Joint, order: int) -> Table:
@@ -67,28 +69,28 @@ def of_joint(joint: Joint, order: int) -> Table:
     coordinates = joint.coordinates
     if isinstance(row, Holonomic) and not coordinates:
         coordinates = (("angle" if row.unit == "rad" else "displacement", row.measure),)
-    found = Table()
+    table = Table()
     for label, measure in coordinates:
         unit = joint.unit(label)
-        found |= _with_rate(joint.name, label, measure, unit)
+        table |= _with_rate(joint.name, label, measure, unit)
         if len(coordinates) == 1:
-            found["rate"] = Reading(f"{joint.name}.rate", measure, 1), f"{unit}/s"
+            table["rate"] = Reading(f"{joint.name}.rate", measure, 1), f"{unit}/s"
     if isinstance(row, Holonomic) and order == OUTPUT:
         driven = Driven(f"{joint.name}.{row.label}", row.measure)
-        found["effort"] = Reading(f"{joint.name}.effort", driven), "N m" if row.unit == "rad" else "N"
-        found["power"] = Reading(f"{joint.name}.power", Driven(driven.row, driven.measure, power=True)), "W"
-    return found
+        table["effort"] = Reading(f"{joint.name}.effort", driven), "N m" if row.unit == "rad" else "N"
+        table["power"] = Reading(f"{joint.name}.power", Driven(driven.row, driven.measure, power=True)), "W"
+    return table
 
 
 def of_force(force: Force, order: int) -> Table:
     """Return the measure of a force along one measure, and at outputs what a force exerts."""
-    found, name = Table(), force.name
+    table, name = Table(), force.name
     single = force.efforts[0] if len(force.efforts) == 1 else None
     word = "" if single is None else _extent(single.measure)
     if single is not None and word:
         unit = "m" if word == "length" else "rad"
-        found[word] = Reading(f"{name}.{word}", single.measure), unit
-        found["rate"] = Reading(f"{name}.rate", single.measure, 1), f"{unit}/s"
+        table[word] = Reading(f"{name}.{word}", single.measure), unit
+        table["rate"] = Reading(f"{name}.rate", single.measure, 1), f"{unit}/s"
     if order == OUTPUT and force.efforts:
         components: dict[str, list[Effort]] = {}
         for effort in force.efforts:
@@ -96,9 +98,9 @@ def of_force(force: Force, order: int) -> Table:
                 components.setdefault(component, []).append(effort)
         for component, efforts in components.items():
             unit = "N m" if is_turning(efforts[0].measure) else "N"
-            found[component] = Reading(f"{name}.{component}", Exerted(tuple(efforts))), unit
-        found["power"] = Reading(f"{name}.power", Exerted(force.efforts, power=True)), "W"
-    return found
+            table[component] = Reading(f"{name}.{component}", Exerted(tuple(efforts))), unit
+        table["power"] = Reading(f"{name}.power", Exerted(force.efforts, power=True)), "W"
+    return table
 
 
 def _with_rate(owner: str, label: str, measure: Source, unit: str) -> Table:
@@ -148,7 +150,7 @@ class Readings:
         yield from self._context.joint_names
         yield from self._context.forces
 
-    def known(self, owner: str, where: str) -> tuple[str, ...]:
+    def names_of(self, owner: str, where: str) -> tuple[str, ...]:
         """Return what can be read of a body, joint or force beside a body's own coordinates."""
         if owner in self._context.bodies:
             points = self._context.points[owner]
@@ -167,12 +169,12 @@ class Readings:
         """
         owner, *words = path
         if owner not in self._context.bodies:
-            found = self._of_element(owner, where).get(".".join(words))
+            entry = self._of_element(owner, where).get(".".join(words))
         elif len(words) == 2 and words[0] in self._context.points[owner]:
-            found = self._of_point(owner, words[0]).get(words[1])
+            entry = self._of_point(owner, words[0]).get(words[1])
         else:
-            found = None
-        return None if found is None else found[0]
+            entry = None
+        return None if entry is None else entry[0]
 
     def _of_point(self, body: str, point: str) -> Table:
         marker = Marker(body, self._context.points[body][point])
@@ -182,3 +184,58 @@ class Readings:
         if owner in self._context.joint_names:
             return of_joint(self._context.joint(owner, where), self._order)
         return of_force(self._context.forces[owner], self._order)
+
+
+class Column(NamedTuple):
+    """A reported quantity: its name, unit and formula."""
+
+    name: str
+    unit: str
+    formula: Expr
+
+
+def points(mechanism: Mechanism) -> tuple[Column, ...]:
+    """Return coordinates, velocities and accelerations of all named points: ``arm.tip.x``, ``.vx``, ``.ax``."""
+    dimension = len(mechanism.gravity)
+    return tuple(
+        column
+        for body in mechanism.bodies
+        for point, place in body.points
+        for column in _columns(of_point(f"{body.name}.{point}", Marker(body.name, place), dimension, OUTPUT))
+    )
+
+
+def elements(mechanism: Mechanism) -> tuple[Column, ...]:
+    """Return measures, forces and power of force elements and drivers: ``spring.length``, ``.force``, ``.power``."""
+    forces = (column for force in mechanism.forces for column in _columns(of_force(force, OUTPUT)))
+    drivers = (column for j in mechanism.joints if j.kind == "driver" for column in _driver(of_joint(j, OUTPUT)))
+    return (*forces, *drivers)
+
+
+def outputs(mechanism: Mechanism) -> tuple[Column, ...]:
+    """Return the formulas of ``[outputs]``."""
+    return tuple(Column(o.name, o.unit, o.value) for o in mechanism.outputs)
+
+
+def integrals(mechanism: Mechanism) -> dict[Integral, int]:
+    """Return the integrals that outputs ask for, numbered in their order, each once."""
+    sources = (r.source for output in mechanism.outputs for r in readings(output.value))
+    return {source: i for i, source in enumerate(dict.fromkeys(s for s in sources if isinstance(s, Integral)))}
+
+
+def integrated(mechanism: Mechanism) -> tuple[Any, ...]:
+    """Return what a run integrates: joints, forces, and the formulas of integrals."""
+    return mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
+
+
+def _columns(table: Table) -> Iterator[Column]:
+    return (Column(reading.name, unit, reading) for reading, unit in table.values())
+
+
+def _driver(table: Table) -> Iterator[Column]:
+    """Yield the columns of a driver: its only coordinate's rate has its short name."""
+    return _columns({label: entry for label, entry in table.items() if not label.endswith(".rate")})
+
+
+#: Table of a result -> its columns.
+TABLES = {"points": points, "elements": elements, "outputs": outputs}

@@ -9,10 +9,10 @@ from typing import TypeVar
 
 from symgen.describe.mechanism import Mechanism
 
-Found = TypeVar("Found")
+Result = TypeVar("Result")
 
 
-def remembered(function: Callable[[Mechanism], Found]) -> Callable[[Mechanism], Found]:
+def remembered(function: Callable[[Mechanism], Result]) -> Callable[[Mechanism], Result]:
     """Return a function that works out what another gives of a mechanism, which cannot change, once.
 
     Parameters
@@ -20,14 +20,14 @@ def remembered(function: Callable[[Mechanism], Found]) -> Callable[[Mechanism], 
     function : callable
         Takes a mechanism. What it gives does not hold the mechanism, which would be there forever.
     """
-    known: dict[int, Found] = {}
+    values: dict[int, Result] = {}
 
     @functools.wraps(function)
-    def found(mechanism: Mechanism) -> Found:
+    def value_of(mechanism: Mechanism) -> Result:
         which = id(mechanism)  # a mechanism's hash and comparison go through all of it as well
-        if which not in known:
-            known[which] = function(mechanism)
-            weakref.finalize(mechanism, known.pop, which, None).atexit = False  # two threads may have come here
-        return known[which]
+        if which not in values:
+            values[which] = function(mechanism)
+            weakref.finalize(mechanism, values.pop, which, None).atexit = False  # two threads may have come here
+        return values[which]
 
-    return found
+    return value_of

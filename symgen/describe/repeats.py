@@ -38,16 +38,16 @@ def without_repeats(mechanism: Mechanism) -> tuple[Mechanism, tuple[tuple[str, s
 def _repeats(mechanism: Mechanism) -> dict[tuple[int, int], tuple[str, str]]:
     """Return the rows that repeat an earlier one, by joint and place in it: their names with those of the others."""
     contents = _Contents(mechanism)
-    seen: dict[object, str] = {}
-    found: dict[tuple[int, int], tuple[str, str]] = {}
+    names: dict[object, str] = {}
+    repeats: dict[tuple[int, int], tuple[str, str]] = {}
     for k, joint in enumerate(mechanism.joints):
         for i, row in enumerate(joint.rows):
             name, content = f"{joint.name}.{row.label}", contents.of(msgspec.structs.replace(row, label="", unit=""))
-            if content in seen:
-                found[k, i] = name, seen[content]
+            if content in names:
+                repeats[k, i] = name, names[content]
             else:
-                seen[content] = name
-    return found
+                names[content] = name
+    return repeats
 
 
 class _Contents:
@@ -79,11 +79,11 @@ class _Contents:
         along = value.along if isinstance(value, Component) else value.normal
         fields = []
         for name in value.__struct_fields__:
-            found = getattr(value, name)
-            if isinstance(found, Marker) and found.body == along.body == GROUND:
-                fields.append((GROUND, self.formulas.graph.dot(self.of(along)[1:], self.of(found)[1:])))
+            part = getattr(value, name)
+            if isinstance(part, Marker) and part.body == along.body == GROUND:
+                fields.append((GROUND, self.formulas.graph.dot(self.of(along)[1:], self.of(part)[1:])))
             else:
-                fields.append(self.of(found))
+                fields.append(self.of(part))
         return type(value).__name__, *fields
 
     def sum(self, value: Sum | Angle) -> Any:
@@ -105,7 +105,7 @@ class _Contents:
             terms[content] = g.add(terms.get(content, g.zero), factor)
 
         add(value, g.one)
-        kept = {content: factor for content, factor in terms.items() if factor != g.zero}
-        if list(kept.values()) == [g.one] and not isinstance(next(iter(kept)), str):
-            return next(iter(kept))
-        return frozenset(kept.items())
+        nonzero = {content: factor for content, factor in terms.items() if factor != g.zero}
+        if list(nonzero.values()) == [g.one] and not isinstance(next(iter(nonzero)), str):
+            return next(iter(nonzero))
+        return frozenset(nonzero.items())

@@ -69,16 +69,16 @@ def _kinds(kinds: Iterable[tuple[str, Any]], aliases: dict[str, str], **common: 
 
 def _table(struct: type[Any]) -> dict[str, Any]:
     """Return the schema of one table, with tables inside it in place rather than by reference."""
-    found = msgspec.json.schema(struct)["$defs"]
+    definitions = msgspec.json.schema(struct)["$defs"]
 
     def inlined(part: Any) -> Any:
         if isinstance(part, dict):
             if "$ref" in part:
-                return inlined(found[part["$ref"].rpartition("/")[2]])
+                return inlined(definitions[part["$ref"].rpartition("/")[2]])
             return {key: inlined(value) for key, value in part.items()}
         return [inlined(item) for item in part] if isinstance(part, list) else part
 
-    table: dict[str, Any] = inlined(found[struct.__name__])
+    table: dict[str, Any] = inlined(definitions[struct.__name__])
     return table | {"description": described(struct)}
 
 
@@ -86,11 +86,11 @@ def described(struct: type[Any]) -> str:
     """Return what a table is and what its keys mean; those that kinds share are described by the struct they share."""
     shared = [base for base in struct.__bases__ if base is not msgspec.Struct]
     own = inspect.cleandoc(struct.__doc__ or "")
-    if not shared:
+    keys = described(shared[0]).partition(_KEYS)[2] if shared else ""
+    if not keys:
         return own
-    keys = described(shared[0]).partition(_KEYS)[2]
-    before, found, after = own.partition(_KEYS)
-    if found:
+    before, heading, after = own.partition(_KEYS)
+    if heading:
         return f"{before}{_KEYS}{keys}\n{after}"
     summary, _, notes = own.partition("\n\n")
     return f"{summary}\n\n{_KEYS}{keys}\n\n{notes}"

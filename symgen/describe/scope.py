@@ -1,24 +1,105 @@
-"""What a joint or force kind may ask while it is resolved: bodies, points, directions, formulas."""
+"""The mechanism as far as it is read, and the bodies, points, directions and formulas that a kind resolves in it."""
 
 from __future__ import annotations
 
 import math
 import re
 from collections import ChainMap
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import cached_property
 
-from symgen.describe.context import Context
+import msgspec
+
 from symgen.describe.evaluate import evaluate
-from symgen.describe.fields import found
-from symgen.describe.mechanism import ACCELERATIONS, Joint, Vec
+from symgen.describe.fields import words_of
+from symgen.describe.mechanism import ACCELERATIONS, AnyBody, Force, Joint, Mechanism, Vec
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import OUTPUT, Readings
+from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import ZERO, Expr, Number, call
 from symgen.vocabulary.measures import GROUND, Direction, Marker, Measure
 
 #: The name by which a file means a body's centre of mass.
 CENTRE = "centre"
+
+
+class Context(msgspec.Struct, frozen=True, dict=True):
+    """What is known of the mechanism when joints and forces are resolved.
+
+    What every formula asks for is worked out once: a file may have thousands of parameters, bodies and formulas.
+    """
+
+    source: str
+    values: Mapping[str, float]  # parameters with their defaults
+    tables: Mapping[str, Table]
+    bodies: Mapping[str, AnyBody]
+    joint: Callable[[str, str], Joint]  # (name, where) -> the joint, resolved if it was not yet
+    space: str = "planar"
+    joint_names: frozenset[str] = frozenset()
+    forces: Mapping[str, Force] = {}  # empty while forces are resolved
+    inputs: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, mechanism: Mechanism, source: str = "") -> Context:
+        """Return what is known of a mechanism that was read already, for formulas that come later."""
+        joints = {joint.name: joint for joint in mechanism.joints}
+        return cls(
+            source or mechanism.name,
+            {p.name: p.value for p in mechanism.parameters if not p.input},
+            {table.name: table for table in mechanism.tables},
+            {body.name: body for body in mechanism.bodies},
+            lambda name, where: joints[name],
+            mechanism.space,
+            frozenset(joints),
+            {force.name: force for force in mechanism.forces},
+            mechanism.inputs,
+        )
+
+    @cached_property
+    def coordinates(self) -> dict[str, tuple[str, ...]]:
+        """Body -> coordinates and velocities that formulas may use."""
+        return {name: body.coordinates + body.speeds for name, body in self.bodies.items()}
+
+    @cached_property
+    def points(self) -> dict[str, dict[str, Vec]]:
+        """Body -> its points by name."""
+        return {name: dict(body.points) for name, body in self.bodies.items()}
+
+    @cached_property
+    def constants(self) -> FormulaNames:
+        """Names of a formula of parameters."""
+        plain = {name: name for name in self.values}
+        elsewhere = frozenset({"t", *self.tables, *self.inputs})
+        return FormulaNames(
+            "a number or an expression of parameters", plain, elsewhere=elsewhere, hints=self._of_inputs
+        )
+
+    @cached_property
+    def times(self) -> FormulaNames:
+        """Names of a formula of t and parameters."""
+        plain = {name: name for name in (*self.values, "t")}
+        smooth = {name: t.function for name, t in self.tables.items() if t.interpolation == "cubic"}
+        others = frozenset(self.tables) - frozenset(smooth)
+        hints = dict.fromkeys(others, "a motion needs two continuous derivatives, which interpolation = 'cubic' has")
+        what = "a number or an expression of t and parameters"
+        elsewhere = others | frozenset(self.inputs)
+        return FormulaNames(what, plain, tables=smooth, elsewhere=elsewhere, hints=hints | self._of_inputs)
+
+    @cached_property
+    def states(self) -> dict[str, str]:
+        """Names of a formula of t, parameters, inputs and state, coordinates apart."""
+        return {name: name for name in (*self.values, *self.inputs, "t")}
+
+    @property
+    def _of_inputs(self) -> dict[str, str]:
+        """What is said of inputs where they may not stand."""
+        return dict.fromkeys(self.inputs, "an input may stand in forces, torques and actuators")
+
+    @cached_property
+    def functions(self) -> dict[str, str]:
+        """Tables -> functions of a tree."""
+        return {name: table.function for name, table in self.tables.items()}
 
 
 class Scope:
@@ -56,15 +137,15 @@ class Scope:
                 "type", f"a type for {self.context.space} mechanisms", f"'{self.kind}', which is {spaces[0]}"
             )
 
-    def only(self, *keys: str, **given: object) -> None:
+    def only(self, *keys: str, **values: object) -> None:
         """Refuse keys that mean nothing in this mechanism's space, and require `keys` that do."""
         space = "space" if self.spatial else "the plane"
-        for key, value in given.items():
+        for key, value in values.items():
             if (value is None) == (key in keys):
                 expected = (
                     f"a value, as '{self.kind}' needs it in {space}" if key in keys else f"no such key in {space}"
                 )
-                raise self.error(key, expected, "no such key" if value is None else found(value))
+                raise self.error(key, expected, "no such key" if value is None else words_of(value))
 
     def where(self, key: str) -> str:
         """Return file and key for a message."""
@@ -83,8 +164,8 @@ class Scope:
                 raise self.error(key, "a body that moves", f"'{GROUND}'")
             return name
         if name not in self.context.bodies:
-            known = [*self.context.bodies, GROUND] if ground else list(self.context.bodies)
-            raise self.error(key, "the name of a body", f"the unknown body {quoted(name)}", nearest(name, known))
+            names = [*self.context.bodies, GROUND] if ground else list(self.context.bodies)
+            raise self.error(key, "the name of a body", f"the unknown body {quoted(name)}", nearest(name, names))
         if turns and self.context.bodies[name].is_point:
             raise self.error(key, f"a body with an angle for '{self.kind}'", f"the point mass '{name}'")
         return name
@@ -107,13 +188,13 @@ class Scope:
         if body == GROUND:
             listed = "[x, y, z]" if self.spatial else "[x, y]"
             raise self.error(key, f"coordinates {listed} of a point of the ground", quoted(point))
-        known = self.context.points[body]
+        points = self.context.points[body]
         if point == CENTRE:
             return Marker(body, self.context.bodies[body].centre_of_mass)
-        if point not in known:
+        if point not in points:
             got = f"{quoted(point)}, which is no point of '{body}'"
-            raise self.error(key, "the name of a point", got, nearest(point, [*known, CENTRE]))
-        return Marker(body, known[point])
+            raise self.error(key, "the name of a point", got, nearest(point, [*points, CENTRE]))
+        return Marker(body, points[point])
 
     def _free_marker(self, key: str, body: str, point: Vec) -> Marker:
         if not self.turns(body) and any(e != ZERO for e in point):
@@ -128,7 +209,7 @@ class Scope:
         """Return the direction in the plane fixed in `body` and its left-hand normal, both of length 1."""
         plain = tuple(e for e in vector if not isinstance(e, tuple))
         if len(plain) < len(vector):
-            raise self.error(key, "one direction [x, y]", found(vector))
+            raise self.error(key, "one direction [x, y]", words_of(vector))
         along = self.direction(key, body, plain)
         x, y = along.vector
         return along, Direction(body, (call("neg", y), x))
@@ -160,17 +241,17 @@ class Scope:
         With `unit` (``"rad"`` or ``"m"``) coordinates of the other one are left out of account.
         """
         joint = self.joint(keys[0], name)
-        known = {n: m for n, m in joint.coordinates if unit in ("", Joint.unit(n))}
+        coordinates = {n: m for n, m in joint.coordinates if unit in ("", Joint.unit(n))}
         what = {"": "a coordinate", "rad": "an angle", "m": "a displacement"}[unit]
-        if not known:
+        if not coordinates:
             raise self.error(keys[0], f"a joint that has {what}", f"'{name}', a {joint.kind} joint without")
         if label is None:
-            if len(known) > 1:
-                raise self.error(keys[1], f"one of {', '.join(known)}", "no such key")
-            label = next(iter(known))
-        if label not in known:
-            raise self.error(keys[1], f"{what} of joint '{name}'", quoted(label), nearest(label, known))
-        return joint, label, known[label]
+            if len(coordinates) > 1:
+                raise self.error(keys[1], f"one of {', '.join(coordinates)}", "no such key")
+            label = next(iter(coordinates))
+        if label not in coordinates:
+            raise self.error(keys[1], f"{what} of joint '{name}'", quoted(label), nearest(label, coordinates))
+        return joint, label, coordinates[label]
 
     # Formulas ------------------------------------------------------------------------------------------------------
 
@@ -190,7 +271,7 @@ class Scope:
         if len(components) != self.dimension:
             what = "three numbers or expressions of parameters [x, y, z]"
             raise self.error(
-                key, what if self.spatial else "two numbers or expressions of parameters [x, y]", found(components)
+                key, what if self.spatial else "two numbers or expressions of parameters [x, y]", words_of(components)
             )
         return tuple(self.constant(key, e) for e in components)
 
@@ -216,10 +297,10 @@ class Scope:
         kind = "a condition" if conditions else "a number"
         what = f"{kind} or an expression of t{listed}, parameters and body coordinates"
         plain = ChainMap(own, self.context.states)
-        known = FormulaNames(
+        names = FormulaNames(
             what, plain, self.context.coordinates, self.context.functions, readings=Readings(self.context)
         )
-        return self._expression(key, value, known, conditions)
+        return self._expression(key, value, names, conditions)
 
     def of_motion(self, key: str, value: float | str) -> Expr:
         """Return a number or an expression of t, parameters and all that is known at outputs."""

@@ -83,17 +83,17 @@ def sides_of(mechanism: Mechanism) -> tuple[SidedJoint, ...]:
 
 
 def _of_joint(joint: Joint) -> Iterator[tuple[bool, tuple[tuple[Direction, Direction], ...]]]:
-    found = articulation_of(joint)
+    articulation = articulation_of(joint)
     row = joint.rows[-1] if joint.kind == "constant-velocity" else None
     if isinstance(row, Holonomic) and isinstance(row.measure, Sum):
         # half of second . first' - first . second': where the shafts lean, only both products together tell the side
         (_, one), (_, other) = row.measure.terms
         if isinstance(one, Dot) and isinstance(other, Dot):
             yield True, ((other.u, one.v), (one.u, other.v))
-    if found is not None and found.of_a and found.turn in ("axis", "fixed"):
-        yield False, ((found.of_a[2], found.of_b[2]),)
-        if found.turn == "fixed":
-            yield True, ((found.of_a[0], found.of_b[0]),)
+    if articulation is not None and articulation.of_a and articulation.turn in ("axis", "fixed"):
+        yield False, ((articulation.of_a[2], articulation.of_b[2]),)
+        if articulation.turn == "fixed":
+            yield True, ((articulation.of_a[0], articulation.of_b[0]),)
 
 
 def _in_ground(arm: Arm, q: Any) -> tuple[Any, ...]:

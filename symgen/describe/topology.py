@@ -12,7 +12,7 @@ import msgspec
 
 from symgen.describe.kinds import JOINTS
 from symgen.describe.mechanism import Articulation, Joint, Link, Mechanism, Prescribed, SpatialBody, Topology
-from symgen.describe.outputs import integrals
+from symgen.describe.readings import integrals
 from symgen.vocabulary.expressions import Number, readings
 from symgen.vocabulary.measures import GROUND, Angle, Driven, Holonomic, Measure, Sum
 from symgen.vocabulary.quantities import Quantity
@@ -32,12 +32,12 @@ def articulation_of(joint: Joint) -> Articulation | None:
 
 def edges_of(mechanism: Mechanism) -> dict[str, Articulation]:
     """Return the joints that can stand in a tree, with how their bodies move."""
-    found = dict[str, Articulation]()
+    edges = dict[str, Articulation]()
     for joint in mechanism.joints:
         articulation = articulation_of(joint)
         if articulation is not None and articulation.a.body != articulation.b.body:
-            found[joint.name] = articulation
-    return found
+            edges[joint.name] = articulation
+    return edges
 
 
 def spanning_tree(mechanism: Mechanism, cut: Sequence[str] = ()) -> Topology:
@@ -96,18 +96,18 @@ def _prescribed(mechanism: Mechanism, tree: Topology) -> tuple[Prescribed, ...]:
         body = mechanism.body(link.body)
         if angles and not isinstance(body, SpatialBody):
             places.setdefault(Angle(GROUND, link.body), (link.body, "theta", 1.0))
-    found, taken = list[Prescribed](), set[str]()
-    wanted = {r.source.row for x in integrals(mechanism) for r in readings(x.of) if isinstance(r.source, Driven)}
+    prescribed, taken = list[Prescribed](), set[str]()
+    integrated = {r.source.row for x in integrals(mechanism) for r in readings(x.of) if isinstance(r.source, Driven)}
     for joint in mechanism.joints:
         row = joint.rows[0] if len(joint.rows) == 1 and not joint.coordinates else None
-        if isinstance(row, Holonomic) and row.measure in places and f"{joint.name}.{row.label}" not in wanted:
+        if isinstance(row, Holonomic) and row.measure in places and f"{joint.name}.{row.label}" not in integrated:
             name, label, sign = places[row.measure]
             key = f"{name}.{'angle' if label == 'theta' else label}"
             if key not in taken:
                 taken.add(key)
-                found.append(Prescribed(joint.name, name, label, row.value, sign))
+                prescribed.append(Prescribed(joint.name, name, label, row.value, sign))
     velocities = len(state_names(mechanism, tree)[1])
-    return tuple(found[: max(0, velocities - 1)])
+    return tuple(prescribed[: max(0, velocities - 1)])
 
 
 def _alike(measure: Measure) -> Iterator[tuple[Measure, float]]:
@@ -127,14 +127,14 @@ def _ways(name: str, articulation: Articulation, at: str) -> Iterator[Link]:
 
 def _suits(link: Link, points: set[str], spatial: bool) -> bool:
     """Whether a body can hang on a joint: a point mass has no angle, so it carries nothing and only pins hold it."""
-    found = link.articulation
-    assert found is not None, "a link of a joint knows how it moves"
+    articulation = link.articulation
+    assert articulation is not None, "a link of a joint knows how it moves"
     if link.parent in points:
         return False
     if link.body in points:
-        return found.turn == ("ball" if spatial else "axis")
+        return articulation.turn == ("ball" if spatial else "axis")
     # displacements along directions of the first body are simple where that carries, or does not turn against the other
-    return link.forward or not found.slides or found.turn == "fixed" or len(found.slides) == 1
+    return link.forward or not articulation.slides or articulation.turn == "fixed" or len(articulation.slides) == 1
 
 
 def loops_of(mechanism: Mechanism, topology: Topology) -> tuple[tuple[str, ...], ...]:
@@ -142,11 +142,11 @@ def loops_of(mechanism: Mechanism, topology: Topology) -> tuple[tuple[str, ...],
     links = {link.body: link for link in topology.links}
 
     def path(body: str) -> list[str]:
-        found = list[str]()
+        way = list[str]()
         while body != GROUND and links[body].joint:
-            found.append(links[body].joint)
+            way.append(links[body].joint)
             body = links[body].parent
-        return found
+        return way
 
     loops = list[tuple[str, ...]]()
     for name, articulation in edges_of(mechanism).items():
@@ -168,12 +168,12 @@ def labels_of(mechanism: Mechanism, link: Link) -> tuple[list[str], list[str]]:
 
     In the plane an angle is that of the body itself, whose joint may report none where a point mass hangs on it.
     """
-    found, body = link.articulation, mechanism.body(link.body)
-    if found is None:
+    articulation, body = link.articulation, mechanism.body(link.body)
+    if articulation is None:
         return [], []
     labels = [label for label, _ in mechanism.joint_named(link.joint).coordinates]
-    lengths = [label for label in labels if label.startswith("displacement")][: len(found.slides)]
-    if found.turn in ("fixed", "ball") or body.is_point:
+    lengths = [label for label in labels if label.startswith("displacement")][: len(articulation.slides)]
+    if articulation.turn in ("fixed", "ball") or body.is_point:
         return lengths, []
     angles = [label for label in labels if label.startswith("angle")]
     return lengths, angles if isinstance(body, SpatialBody) else [*angles, "angle"][:1]
@@ -182,16 +182,16 @@ def labels_of(mechanism: Mechanism, link: Link) -> tuple[list[str], list[str]]:
 def state_names(mechanism: Mechanism, topology: Topology) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
     """Return names and units of the coordinates and velocities of a tree, in the order of its links."""
     q, v = list[tuple[str, str]](), list[tuple[str, str]]()
-    given = {(x.body, "angle" if x.label == "theta" else x.label) for x in topology.prescribed}
+    prescribed = {(x.body, "angle" if x.label == "theta" else x.label) for x in topology.prescribed}
     for link in topology.links:
         body = mechanism.body(link.body)
-        found = link.articulation
-        if found is None:
+        articulation = link.articulation
+        if articulation is None:
             q += [(f"{body.name}.{c}", UNITS[c]) for c in body.coordinates]
             v += [(f"{body.name}.{c}", UNITS[c]) for c in body.speeds]
             continue
-        turns = found.turn != "fixed" and not body.is_point
-        lengths, angles = ([x for x in part if (body.name, x) not in given] for part in labels_of(mechanism, link))
+        turns = articulation.turn != "fixed" and not body.is_point
+        lengths, angles = ([x for x in part if (body.name, x) not in prescribed] for part in labels_of(mechanism, link))
         q += [(f"{link.joint}.{label}", "m") for label in lengths]
         v += [(f"{link.joint}.{label}.rate", "m/s") for label in lengths]
         if not turns:
@@ -201,7 +201,7 @@ def state_names(mechanism: Mechanism, topology: Topology) -> tuple[list[tuple[st
                 continue
             q.append((f"{body.name}.theta", "rad"))
             v.append((f"{body.name}.omega", "rad/s"))
-        elif found.turn == "ball":
+        elif articulation.turn == "ball":
             q += [(f"{body.name}.{c}", "1") for c in ("e0", "e1", "e2", "e3")]
             v += [(f"{body.name}.{c}", "rad/s") for c in ("wx", "wy", "wz")]
         else:
@@ -225,12 +225,12 @@ def known_coordinates(mechanism: Mechanism, topology: Topology) -> dict[Measure,
     """Return measures that are coordinates of the state: where they stand in q and v, and with which sign."""
     names, speeds = state_names(mechanism, topology)
     q, v = ({name: i for i, (name, _) in enumerate(part)} for part in (names, speeds))
-    found = dict[Measure, tuple[int, int, float]]()
+    places = dict[Measure, tuple[int, int, float]]()
     for link in topology.links:
         if not link.joint:
             continue
         for label, measure in mechanism.joint_named(link.joint).coordinates:
             name = f"{link.joint}.{label}"
             if name in q:
-                found |= {m: (q[name], v[f"{name}.rate"], sign) for m, sign in _alike(measure)}
-    return found
+                places |= {m: (q[name], v[f"{name}.rate"], sign) for m, sign in _alike(measure)}
+    return places

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from symgen.describe.evaluate import scalars
-from symgen.describe.fields import found
+from symgen.describe.fields import words_of
 from symgen.describe.mechanism import SpatialBody
-from symgen.describe.orientation import euler_parameters
+from symgen.describe.start import euler_parameters
 from symgen.vocabulary.expressions import Number, number
 from symgen.vocabulary.measures import GROUND, Direction
 from symgen.vocabulary.rotations import matrix, rotate, rotate_back
@@ -73,7 +73,7 @@ def make_triads(
         along_b = _carried(scope, keys[0], a, b, along_a)
     else:
         expected = "a direction [x, y, z] in the first body's frame, or two, one in the frame of each body"
-        raise scope.error(keys[0], expected, found(axis))
+        raise scope.error(keys[0], expected, words_of(axis))
     if reference is not None:
         first_a = _across(scope, keys[1], _unit(scope, keys[1], reference[0]), along_a)
         first_b = _across(scope, keys[1], _unit(scope, keys[1], reference[1]), along_b)
@@ -100,7 +100,7 @@ def make_triad(
     """Return a triad of one body about an axis given in its frame, its first direction near `reference`, if given."""
     key = keys[0]
     if any(isinstance(e, tuple) for e in axis):
-        raise scope.error(key, f"one direction [x, y, z] in the frame of '{body}'", found(axis))
+        raise scope.error(key, f"one direction [x, y, z] in the frame of '{body}'", words_of(axis))
     along = _unit(scope, key, tuple(e for e in axis if not isinstance(e, tuple)))
     if reference is None:
         return _triad(body, _any_across(along), along)
@@ -124,7 +124,7 @@ def make_cross(
         along = _unit(scope, keys[0], axes[i])
         if reference is not None:
             first = _across(scope, keys[1], _unit(scope, keys[1], reference[i]), along)
-        elif _known(scope, body) and _known(scope, other):
+        elif _is_numeric(scope, body) and _is_numeric(scope, other):
             towards = _carried(scope, keys[0], other, body, _unit(scope, keys[0], axes[1 - i]))
             if abs(_dot(towards, along)) > 0.99:
                 raise scope.error(keys[0], "two axes that cross", "two that start parallel")
@@ -143,16 +143,16 @@ def _unit(scope: Scope, key: str, vector: tuple[float | str, ...]) -> _Triple:
     return x, y, z
 
 
-def _known(scope: Scope, body: str) -> bool:
+def _is_numeric(scope: Scope, body: str) -> bool:
     """Whether the body's orientation at the start depends on no parameter."""
-    found_body = scope.context.bodies.get(body)
-    return body == GROUND or (isinstance(found_body, SpatialBody) and found_body.orientation.is_numeric)
+    described = scope.context.bodies.get(body)
+    return body == GROUND or (isinstance(described, SpatialBody) and described.orientation.is_numeric)
 
 
 def _carried(scope: Scope, key: str, a: str, b: str, vector: _Triple) -> _Triple:
     """Return a direction of body `a` in the frame of body `b`, as both start."""
     for body in (a, b):
-        if not _known(scope, body):
+        if not _is_numeric(scope, body):
             got = f"one, while the orientation of '{body}' at the start is a formula"
             raise scope.error(key, "two directions, one in the frame of each body", got)
     for body, turn in ((a, rotate), (b, rotate_back)):
@@ -171,7 +171,7 @@ def _swung(
 
     None where the start says nothing: an orientation that depends on parameters, opposite axes.
     """
-    if not all(_known(scope, body) for body in bodies):
+    if not all(_is_numeric(scope, body) for body in bodies):
         return None
     x, along = (_carried(scope, key, *bodies, vector) for vector in directions)
     lean = 1.0 + _dot(along, axis)
@@ -183,23 +183,25 @@ def _swung(
 
 def _across(scope: Scope, key: str, vector: _Triple, axis: _Triple) -> _Triple:
     """Return the part of a vector that is perpendicular to the axis, of length 1."""
-    part = _dot(vector, axis)
-    rest = tuple(v - part * a for v, a in zip(vector, axis, strict=True))
-    size = math.hypot(*rest)
+    rest, size = _perpendicular(vector, axis)
     if not size > 1e-6:
         raise scope.error(key, "a direction across the axis", "one along it")
-    return _tidy((rest[0] / size, rest[1] / size, rest[2] / size))
+    return rest
 
 
 def _any_across(axis: _Triple) -> _Triple:
     """Return a direction perpendicular to the axis: the next axis of the frame, made perpendicular."""
     k = max(range(3), key=lambda i: abs(axis[i]))
-    x = [0.0, 0.0, 0.0]
-    x[(k + 1) % 3] = 1.0
-    part = _dot((x[0], x[1], x[2]), axis)
-    rest = tuple(e - part * a for e, a in zip(x, axis, strict=True))
-    size = math.hypot(*rest)
-    return _tidy((rest[0] / size, rest[1] / size, rest[2] / size))
+    x, y, z = (float(i == (k + 1) % 3) for i in range(3))
+    return _perpendicular((x, y, z), axis)[0]
+
+
+def _perpendicular(vector: _Triple, axis: _Triple) -> tuple[_Triple, float]:
+    """Return the part of a vector that is perpendicular to the axis, of length 1, and its length before."""
+    part = _dot(vector, axis)
+    x, y, z = (v - part * a for v, a in zip(vector, axis, strict=True))
+    size = math.hypot(x, y, z)
+    return _tidy((x / (size or 1.0), y / (size or 1.0), z / (size or 1.0))), size
 
 
 def _triad(body: str, first: _Triple, axis: _Triple) -> Triad:

@@ -8,20 +8,17 @@ from typing import Any
 
 import msgspec
 
-from symgen.describe.bodies import planar_body, spatial_body
-from symgen.describe.bounds import DEEPEST
+from symgen.describe.bodies import planar_body, shapes_of, spatial_body
 from symgen.describe.columns import check_columns
-from symgen.describe.context import Context
-from symgen.describe.derived_parameters import in_order
-from symgen.describe.evaluate import evaluate
+from symgen.describe.evaluate import evaluate, in_order
 from symgen.describe.events import read_event
-from symgen.describe.fields import Flag, JointStart, OutputFunction, Scalar, found, read, read_value
+from symgen.describe.fields import Flag, JointStart, OutputFunction, Scalar, read, read_value, words_of
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
 from symgen.describe.parser import FormulaNames, parse
-from symgen.describe.scope import Scope
+from symgen.describe.scope import Context, Scope
 from symgen.describe.sections import (
     NAMED,
     SECTIONS,
@@ -32,7 +29,6 @@ from symgen.describe.sections import (
     RunSection,
     TableSection,
 )
-from symgen.describe.shapes import shapes_of
 from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
 from symgen.errors import InputError, nearest, quoted
@@ -40,6 +36,8 @@ from symgen.vocabulary.expressions import names
 from symgen.vocabulary.measures import Marker
 
 Raw = Mapping[str, Any]
+#: Levels of tables in a file, and joints in a chain of references.
+DEEPEST = 20
 
 
 def validate(raw: Raw, source: str) -> Mechanism:
@@ -72,6 +70,9 @@ class _Validator:
     def where(self, path: str) -> str:
         return f"{self.source}: {path}"
 
+    def scope(self, section: str, name: str) -> Scope:
+        return Scope(self.context, f"{section}.{name}", name)
+
     def mechanism(self) -> Mechanism:
         for key in self.raw:
             if key not in SECTIONS:
@@ -97,17 +98,16 @@ class _Validator:
         scope = Scope(self.context, "mechanism")
         gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
         read_body = spatial_body if head.space == "spatial" else planar_body
-        bodies = tuple(read_body(Scope(self.context, f"bodies.{n}", n), value) for n, value in self.entries("bodies"))
+        bodies = tuple(read_body(self.scope("bodies", name), value) for name, value in self.entries("bodies"))
         if not bodies:
             raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
         self.context = msgspec.structs.replace(self.context, bodies={body.name: body for body in bodies})
         joints = tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints"))
         forces = tuple(self.force(name, value) for name, value in self.entries("forces"))
         self.context = msgspec.structs.replace(self.context, forces={force.name: force for force in forces})
-        kept = [
-            body_holds(Scope(self.context, f"bodies.{body.name}", body.name), self.raw["bodies"][body.name], body)
-            for body in bodies
-        ]
+        described = [(self.scope("bodies", body.name), self.raw["bodies"][body.name], body) for body in bodies]
+        holds = [hold for scope, raw, body in described for hold in body_holds(scope, raw, body)]
+        holds += [hold for joint in joints for hold in self._starts.get(joint.name, ())]
         mechanism = Mechanism(
             name=head.name,
             title=line(head.title),
@@ -122,17 +122,9 @@ class _Validator:
             outputs=tuple(self.output(name, value) for name, value in self.entries("outputs")),
             seats=tuple(self._seats.items()),
             cuts=tuple(self._cuts),
-            holds=tuple(
-                hold for part in (*kept, *(self._starts.get(joint.name, ()) for joint in joints)) for hold in part
-            ),
-            shapes=tuple(
-                (body.name, shape)
-                for body in bodies
-                for shape in shapes_of(
-                    Scope(self.context, f"bodies.{body.name}", body.name), self.raw["bodies"][body.name]
-                )
-            ),
-            events=tuple(read_event(Scope(self.context, f"events.{n}", n), n, e) for n, e in self.entries("events")),
+            holds=tuple(holds),
+            shapes=tuple((body.name, shape) for scope, raw, body in described for shape in shapes_of(scope, raw)),
+            events=tuple(read_event(self.scope("events", n), n, event) for n, event in self.entries("events")),
         )
         check_columns(mechanism, self.source)
         holds_of(mechanism, self.source)  # says what is held twice
@@ -144,20 +136,20 @@ class _Validator:
         """Yield name and content of a section's entries, names checked."""
         content = self.raw.get(section, {})
         if not isinstance(content, Mapping):
-            raise InputError(self.where(section), f"a table of {section}, one entry a name", found(content))
+            raise InputError(self.where(section), f"a table of {section}, one entry a name", words_of(content))
         for name, value in content.items():
             yield check_identifier(name, self.where(section), NAMED[section]), value
 
     def unique(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
         for group in (("bodies", "joints", "forces"), ("parameters", "inputs", "tables")):
-            seen: dict[str, str] = {}
+            sections: dict[str, str] = {}
             for section in group:
                 for name, _ in self.entries(section):
-                    if name in seen:
-                        got = f"'{name}', which is a {NAMED[seen[name]]} already"
+                    if name in sections:
+                        got = f"'{name}', which is a {NAMED[sections[name]]} already"
                         raise InputError(self.where(f"{section}.{name}"), "a name used once", got)
-                    seen[name] = section
+                    sections[name] = section
 
     # Sections ------------------------------------------------------------------------------------------------------
 
@@ -178,35 +170,35 @@ class _Validator:
         """Return the parameters in the order of the file, then the inputs, formulas worked out with the defaults."""
         entries, inputs = dict(self.entries("parameters")), dict(self.entries("inputs"))
         elsewhere = frozenset(("t", *inputs, *(name for name, _ in self.entries("tables"))))
-        known = FormulaNames(
+        allowed = FormulaNames(
             "a number or an expression of parameters", {name: name for name in entries}, elsewhere=elsewhere
         )
-        found = {name: self.parameter("parameters", name, value, known) for name, value in entries.items()}
-        found |= {name: self.parameter("inputs", name, value, known) for name, value in inputs.items()}
+        parameters = {name: self.parameter("parameters", name, value, allowed) for name, value in entries.items()}
+        parameters |= {name: self.parameter("inputs", name, value, allowed) for name, value in inputs.items()}
         values = dict[str, float]()
-        for name in in_order({name: p.formula for name, p in found.items()}, self.where("parameters")):
-            formula = found[name].formula
+        for name in in_order({name: p.formula for name, p in parameters.items()}, self.where("parameters")):
+            formula = parameters[name].formula
             if formula is not None:
                 value = evaluate(formula, values, self.where(f"{'inputs' if name in inputs else 'parameters'}.{name}"))
-                found[name] = msgspec.structs.replace(found[name], value=value)
-            values[name] = found[name].value
-        return tuple(found.values())
+                parameters[name] = msgspec.structs.replace(parameters[name], value=value)
+            values[name] = parameters[name].value
+        return tuple(parameters.values())
 
-    def parameter(self, section: str, name: str, raw: object, known: FormulaNames) -> Parameter:
+    def parameter(self, section: str, name: str, raw: object, allowed: FormulaNames) -> Parameter:
         """Return a parameter or an input; one with a formula of others has no value yet."""
         where, unit, note = self.where(f"{section}.{name}"), "", ""
         value: float | str
         if not isinstance(raw, Mapping):
             value = read_value(Scalar, raw, where)
         elif section == "inputs":
-            given = read(InputSection, raw, where)
-            value, unit, note = given.default, given.unit, given.note
+            content = read(InputSection, raw, where)
+            value, unit, note = content.default, content.unit, content.note
         else:
             table = read(ParameterSection, raw, where)
             value, unit, note = table.value, table.unit, table.note
         formula = None
         if isinstance(value, str):
-            expression = parse(value, known, where)
+            expression = parse(value, allowed, where)
             if any(names(expression)):
                 value, formula = 0.0, expression
             else:
@@ -232,8 +224,8 @@ class _Validator:
                 raise InputError(f"{where}.x", "increasing numbers", f"{right!r} after {left!r}")
         how, fewest = section.interpolation, 4 if section.interpolation == "cubic" or section.periodic else 2
         if len(section.x) < fewest:
-            told = f"{fewest} numbers or more for interpolation = '{how}'{', periodic' if section.periodic else ''}"
-            raise InputError(f"{where}.x", told, str(len(section.x)))
+            expected = f"{fewest} numbers or more for interpolation = '{how}'{', periodic' if section.periodic else ''}"
+            raise InputError(f"{where}.x", expected, str(len(section.x)))
         if section.periodic and how == "linear":
             raise InputError(f"{where}.periodic", "true where interpolation is 'cubic' or 'pchip'", "true for 'linear'")
         if section.periodic and section.y[0] != section.y[-1]:
@@ -254,7 +246,7 @@ class _Validator:
             section, key = read(OutputSection, raw, where), "value"
         else:
             section, key = OutputSection(value=read_value(OutputFunction, raw, where)), ""
-        value = Scope(self.context, f"outputs.{name}", name).of_motion(key, section.value)
+        value = self.scope("outputs", name).of_motion(key, section.value)
         return Output(name, value, check_unit(section.unit, f"{where}.unit"))
 
     # Joints and forces ---------------------------------------------------------------------------------------------
@@ -263,10 +255,10 @@ class _Validator:
         """Return the type of a joint or force and the keys of its kind: those but the type and `common` ones."""
         where = self.where(path)
         if not isinstance(raw, Mapping):
-            raise InputError(where, "a table", found(raw))
+            raise InputError(where, "a table", words_of(raw))
         kind = raw.get("type")
         if not isinstance(kind, str):
-            got = "no such key" if kind is None else found(kind)
+            got = "no such key" if kind is None else words_of(kind)
             raise InputError(f"{where}.type", f"a {what}", got)
         return kind, {key: value for key, value in raw.items() if key not in ("type", *common)}
 
@@ -276,10 +268,10 @@ class _Validator:
             got = f"the unknown joint {quoted(name)}"
             raise InputError(where, "the name of a joint", got, nearest(name, self.raw.get("joints", {})))
         if name in self._joints:
-            known = self._joints[name]
-            if known is None:
+            resolved = self._joints[name]
+            if resolved is None:
                 raise InputError(where, "a joint that stands by itself", f"'{name}', which leads back to this one")
-            return known
+            return resolved
         self._joints[name] = None
         self._open += 1
         if self._open > DEEPEST:
@@ -296,8 +288,8 @@ class _Validator:
             point = at[0] if hasattr(section, "between") else at
             self._seats[name] = scope.marker("at", joint.bodies[0], point)
         if "start" in self.raw["joints"][name]:
-            given = read_value(JointStart, self.raw["joints"][name]["start"], self.where(f"{path}.start"))
-            self._starts[name] = joint_holds(scope, given, joint)
+            coordinates = read_value(JointStart, self.raw["joints"][name]["start"], self.where(f"{path}.start"))
+            self._starts[name] = joint_holds(scope, coordinates, joint)
         if read_value(Flag, self.raw["joints"][name].get("cut", False), self.where(f"{path}.cut")):
             if articulation_of(joint) is None:
                 got = f"a {joint.kind} joint, which has rows in any case"

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.derived_parameters import derived
+from symgen.describe.evaluate import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
 from symgen.runtime.array_formulas import Columns

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.describe.derived_parameters import derived
-from symgen.describe.evaluate import parameter_values
+from symgen.describe.evaluate import derived, parameter_values
 from symgen.errors import InputError
 from symgen.runtime.motions import jump_of, names_of_motions
 from symgen.runtime.stops import Stop, merged, stops_of

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from symgen.compiling.side import compile_side
 from symgen.describe.columns import PREFIX
-from symgen.describe.outputs import TABLES
+from symgen.describe.readings import TABLES
 from symgen.ensemble.row_quantities import RowQuantity
 from symgen.result.acting import Acting, Seat
 from symgen.runtime import abi

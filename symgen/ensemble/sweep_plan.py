@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike
 from symgen.compiling.choices import LARGEST_STRAIGHT, on_tree
 from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import can_integrate, with_integrals
-from symgen.describe.derived_parameters import derived
 from symgen.describe.digest import identity
+from symgen.describe.evaluate import derived
 from symgen.describe.events import RECORD, RESET, STOP
 from symgen.describe.kinks import discontinuities_of
 from symgen.describe.sides import sides_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from symgen.describe.scope import Scope
-from symgen.vocabulary.expressions import ZERO, Expr, Name, call, number
+from symgen.vocabulary.expressions import ZERO, Expr, Name, call, number, total
 from symgen.vocabulary.measures import Effort, Measure
 
 
@@ -22,14 +22,14 @@ class Sprung(Protocol):
     def potential(self) -> float | str: ...
 
 
-def sprung(scope: Scope, given: Sprung, label: str, measure: Measure, coordinate: str, free: float | str) -> Effort:
+def sprung(scope: Scope, keys: Sprung, label: str, measure: Measure, coordinate: str, free: float | str) -> Effort:
     """Return the effort of a spring, a damper and an actuator.
 
     Parameters
     ----------
     scope : Scope
         Resolves the keys.
-    given : Sprung
+    keys : Sprung
         The table of the file.
     label : str
         Of the effort.
@@ -40,25 +40,21 @@ def sprung(scope: Scope, given: Sprung, label: str, measure: Measure, coordinate
     free : scalar
         Where the spring is at rest.
     """
-    stiffness, rest = scope.constant("stiffness", given.stiffness), scope.constant(f"free_{coordinate}", free)
-    damping = scope.constant("damping", given.damping)
-    actuator = scope.of_state("actuator", given.actuator, {coordinate: "s", "rate": "rate"})
-    potential = scope.potential("potential", given.potential, {coordinate: "s"})
-    return Effort(label, measure, _damped(damping, actuator), _spring_energy(stiffness, rest, potential))
+    stiffness, rest = scope.constant("stiffness", keys.stiffness), scope.constant(f"free_{coordinate}", free)
+    damping = scope.constant("damping", keys.damping)
+    actuator = scope.of_state("actuator", keys.actuator, {coordinate: "s", "rate": "rate"})
+    potential = scope.potential("potential", keys.potential, {coordinate: "s"})
+    return Effort(label, measure, total(actuator, damper(damping)), total(spring(stiffness, rest), potential))
 
 
-def _spring_energy(stiffness: Expr, free: Expr, further: Expr) -> Expr:
-    """Return k (s - s0)^2 / 2 plus a further potential, without terms that are zero."""
+def spring(stiffness: Expr, free: Expr = ZERO) -> Expr:
+    """Return the potential k (s - s0)^2 / 2."""
     if stiffness == ZERO:
-        return further
+        return ZERO
     stretch = Name("s") if free == ZERO else call("sub", Name("s"), free)
-    energy = call("mul", call("div", stiffness, number(2.0)), call("pow", stretch, number(2.0)))
-    return energy if further == ZERO else call("add", energy, further)
+    return call("mul", call("div", stiffness, number(2.0)), call("pow", stretch, number(2.0)))
 
 
-def _damped(damping: Expr, actuator: Expr) -> Expr:
-    """Return actuator - c rate, without terms that are zero."""
-    if damping == ZERO:
-        return actuator
-    drag = call("mul", call("neg", damping), Name("rate"))
-    return drag if actuator == ZERO else call("add", actuator, drag)
+def damper(damping: Expr) -> Expr:
+    """Return the force -c s'."""
+    return ZERO if damping == ZERO else call("mul", call("neg", damping), Name("rate"))

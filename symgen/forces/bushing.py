@@ -6,11 +6,12 @@ from typing import ClassVar
 
 import msgspec
 
-from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair, SixBySix, found
+from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair, SixBySix, words_of
 from symgen.describe.mechanism import Force
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
-from symgen.vocabulary.expressions import ONE, ZERO, Expr, Name, call, number
+from symgen.forces._parts import damper, spring
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, number, total
 from symgen.vocabulary.measures import Component, Dot, Effort, Measure, Sum
 
 _LABELS = ("x", "y", "z", "turn_x", "turn_y", "turn_z")
@@ -64,7 +65,7 @@ class Bushing(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         efforts = []
         for i in range(6):
             own = [[m[i][i], *(call("neg", m[i][j]) for j in range(6) if j != i and m[i][j] != ZERO)] for m in (k, c)]
-            efforts += _effort(_LABELS[i], measures[i], _total(own[0]), _total(own[1]))
+            efforts += _effort(_LABELS[i], measures[i], total(*own[0]), total(*own[1]))
             for j in range(i):
                 both = Sum(((ONE, measures[i]), (ONE, measures[j])))
                 efforts += _effort(f"{_LABELS[j]}_{_LABELS[i]}", both, k[i][j], c[i][j])
@@ -82,16 +83,16 @@ class Bushing(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         return (*(Component(*ends, direction) for direction in u), *turns)
 
 
-def _matrix(scope: Scope, key: str, given: tuple[float | str | tuple[float | str, ...], ...] | None) -> _Matrix:
+def _matrix(scope: Scope, key: str, entries: tuple[float | str | tuple[float | str, ...], ...] | None) -> _Matrix:
     """Return a symmetric matrix given as its diagonal or as six rows."""
-    if given is None:
+    if entries is None:
         return ((ZERO,) * 6,) * 6
-    rows = [e for e in given if isinstance(e, tuple)]
-    diagonal = [scope.constant(key, e) for e in given if not isinstance(e, tuple)]
+    rows = [e for e in entries if isinstance(e, tuple)]
+    diagonal = [scope.constant(key, e) for e in entries if not isinstance(e, tuple)]
     if len(diagonal) == 6 and not rows:
         return tuple(tuple(diagonal[i] if i == j else ZERO for j in range(6)) for i in range(6))
     if len(rows) != 6 or diagonal or any(len(row) != 6 for row in rows):
-        raise scope.error(key, "six numbers or six rows of six", found(given))
+        raise scope.error(key, "six numbers or six rows of six", words_of(entries))
     matrix = tuple(tuple(scope.constant(key, e) for e in row) for row in rows)
     for i in range(6):
         for j in range(i):
@@ -100,21 +101,11 @@ def _matrix(scope: Scope, key: str, given: tuple[float | str | tuple[float | str
     return matrix
 
 
-def _total(terms: list[Expr]) -> Expr:
-    total = terms[0]
-    for term in terms[1:]:
-        total = term if total == ZERO else call("add", total, term)
-    return total
-
-
 def _effort(label: str, measure: Measure, stiffness: Expr, damping: Expr) -> list[Effort]:
     """Return the effort of one spring and damper, or none where both are 0."""
     if (stiffness, damping) == (ZERO, ZERO):
         return []
-    half = call("div", stiffness, number(2.0))
-    energy = ZERO if stiffness == ZERO else call("mul", half, call("pow", Name("s"), number(2.0)))
-    drag = ZERO if damping == ZERO else call("mul", call("neg", damping), Name("rate"))
-    return [Effort(label, measure, magnitude=drag, potential=energy)]
+    return [Effort(label, measure, damper(damping), spring(stiffness))]
 
 
 KIND = Bushing

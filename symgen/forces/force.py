@@ -6,10 +6,10 @@ from typing import ClassVar, Literal
 
 import msgspec
 
-from symgen.describe.fields import BodyName, Point, PotentialVector, StateVector, found
+from symgen.describe.fields import BodyName, Point, PotentialVector, StateVector, words_of
 from symgen.describe.mechanism import Force as Resolved
 from symgen.describe.scope import CENTRE, Scope
-from symgen.vocabulary.expressions import ZERO, Expr, Name, call
+from symgen.vocabulary.expressions import ZERO, Expr, Name, call, total
 from symgen.vocabulary.measures import GROUND, Component, Effort, Marker, PointSpeed, axes
 
 
@@ -50,9 +50,9 @@ class Force(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
         if self.potential is not None and self.frame == "body":
             raise scope.error("frame", "'ground', as a potential is given", "'body'")
         point = scope.marker("at", body, self.at)
-        for key, given in (("force", self.force), ("potential", self.potential)):
-            if given is not None and len(given) != scope.dimension:
-                raise scope.error(key, f"{scope.dimension} components", found(given))
+        for key, vector in (("force", self.force), ("potential", self.potential)):
+            if vector is not None and len(vector) != scope.dimension:
+                raise scope.error(key, f"{scope.dimension} components", words_of(vector))
         magnitudes = self._magnitudes(scope, body)
         turning = axes(body, 3) if scope.spatial and self.frame == "body" else None
         efforts = []
@@ -62,29 +62,25 @@ class Force(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
                 origin = Marker(GROUND, (ZERO,) * scope.dimension)
                 measure = Component(origin, point, axis) if turning is None else PointSpeed(point, turning[i])
                 efforts.append(Effort(label, measure, magnitude=magnitudes[i], potential=energy))
-        return Resolved(name=scope.name, kind=scope.kind, bodies=(body,), efforts=tuple(efforts))
+        return Resolved(scope.name, scope.kind, (body,), tuple(efforts))
 
     def _magnitudes(self, scope: Scope, body: str) -> tuple[Expr, ...]:
         """Return the components in ground axes, in space in the axes asked for."""
         if self.force is None:
             return (ZERO,) * scope.dimension
-        given = tuple(scope.of_state("force", component) for component in self.force)
+        components = tuple(scope.of_state("force", component) for component in self.force)
         if self.frame == "ground" or scope.spatial:
-            return given
-        x, y = given
+            return components
+        x, y = components
         cosine, sine = call("cos", Name(f"{body}.theta")), call("sin", Name(f"{body}.theta"))
         return (
-            _plus(_times(x, cosine), _times(call("neg", y), sine)),
-            _plus(_times(x, sine), _times(y, cosine)),
+            total(_times(x, cosine), _times(call("neg", y), sine)),
+            total(_times(x, sine), _times(y, cosine)),
         )
 
 
 def _times(a: Expr, b: Expr) -> Expr:
     return ZERO if a == ZERO else call("mul", a, b)
-
-
-def _plus(a: Expr, b: Expr) -> Expr:
-    return b if a == ZERO else a if b == ZERO else call("add", a, b)
 
 
 KIND = Force

@@ -53,7 +53,7 @@ class SpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
         a, b = scope.pair("between", self.between)
         ends = Distance(scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1]))
         effort = sprung(scope, self, "force", ends, "length", self.free_length)
-        return Force(name=scope.name, kind=scope.kind, bodies=(a, b), efforts=(effort,))
+        return Force(scope.name, scope.kind, (a, b), (effort,))
 
 
 KIND = SpringDamper

@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 
 import msgspec
 
-from symgen.describe.fields import BodyName, Potential, StateTorque, Text, found
+from symgen.describe.fields import BodyName, Potential, StateTorque, Text, words_of
 from symgen.describe.mechanism import Force
 from symgen.describe.scope import Scope
 from symgen.vocabulary.expressions import ZERO
@@ -56,7 +56,7 @@ class Torque(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
         if self.joint is not None:
             for key in ("reaction", "frame"):
                 if getattr(self, key) is not None:
-                    raise scope.error(key, "no such key beside joint", found(getattr(self, key)))
+                    raise scope.error(key, "no such key beside joint", words_of(getattr(self, key)))
             joint, _, angle = scope.joint_coordinate(self.joint, self.coordinate, unit="rad")
             return Force(scope.name, scope.kind, joint.bodies, (self._along(scope, angle),))
         body = scope.body("body", self.body or "", turns=True, ground=False)
@@ -65,14 +65,13 @@ class Torque(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
             raise scope.error("reaction", "another body than 'body'", f"'{body}' twice")
         if scope.spatial:
             return Force(scope.name, scope.kind, (body, reaction), self._components(scope, body, reaction))
-        effort = self._along(scope, Angle(reaction, body))
-        return Force(name=scope.name, kind=scope.kind, bodies=(body, reaction), efforts=(effort,))
+        return Force(scope.name, scope.kind, (body, reaction), (self._along(scope, Angle(reaction, body)),))
 
     def _along(self, scope: Scope, angle: Measure) -> Effort:
         """Return the effort along an angle."""
         torque = 0.0 if self.torque is None else self.torque
         if isinstance(torque, tuple):
-            raise scope.error("torque", "one number or expression", found(torque))
+            raise scope.error("torque", "one number or expression", words_of(torque))
         return Effort(
             "torque",
             angle,
@@ -84,9 +83,9 @@ class Torque(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
         """Return efforts along three components of the angular velocity against the other body."""
         for key in ("coordinate", "potential"):
             if getattr(self, key) is not None:
-                raise scope.error(key, "no such key without joint", found(getattr(self, key)))
+                raise scope.error(key, "no such key without joint", words_of(getattr(self, key)))
         if not isinstance(self.torque, tuple) or len(self.torque) != 3:
-            got = "no such key" if self.torque is None else found(self.torque)
+            got = "no such key" if self.torque is None else words_of(self.torque)
             raise scope.error("torque", "three numbers or expressions [x, y, z]", got)
         efforts = []
         directions = axes(body if self.frame == "body" else GROUND, 3)

@@ -55,7 +55,7 @@ class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_un
         """Resolve to an effort along the angle between the bodies."""
         bodies, angle = self._angle(scope)
         effort = sprung(scope, self, "torque", angle, "angle", self.free_angle)
-        return Force(name=scope.name, kind=scope.kind, bodies=bodies, efforts=(effort,))
+        return Force(scope.name, scope.kind, bodies, (effort,))
 
     def _angle(self, scope: Scope) -> tuple[tuple[str, ...], Measure]:
         if scope.spatial:

@@ -63,16 +63,16 @@ class Element:
         `source` is a copy of the equations' graph with more nodes, where these are meant.
         """
         source = self.equations.graph if source is None else source
-        known: dict[int, int] = {}
+        places: dict[int, int] = {}
         for f, frame in enumerate(self.frames):
             inputs = [source.input("q", i) for i in frame.q] + [source.input("v", i) for i in frame.v]
             for place, node in enumerate((*inputs, *frame.slots)):
-                known.setdefault(node, graph.input("record", RECORD * f + place))
+                places.setdefault(node, graph.input("record", RECORD * f + place))
 
         def image(node: int) -> int:
-            return known[node] if node in known else graph.input(*source.key(node))
+            return places[node] if node in places else graph.input(*source.key(node))
 
-        return graph.rebuilt(source, nodes, image, known.__contains__)
+        return graph.rebuilt(source, nodes, image, places.__contains__)
 
 
 def derive_element(abstract: Mechanism) -> Element:

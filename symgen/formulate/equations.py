@@ -44,11 +44,11 @@ def mass_blocks(entries: Mapping[tuple[int, int], int], size: int, zero: int) ->
         if node != zero and label[i] != label[j]:
             old, new = max(label[i], label[j]), min(label[i], label[j])
             label = [new if x == old else x for x in label]
-    found = list[MassBlock]()
+    blocks = list[MassBlock]()
     for root in sorted(set(label)):
         columns = tuple(i for i in range(size) if label[i] == root)
-        found.append(MassBlock(columns, tuple(tuple(entries.get((i, j), zero) for j in columns) for i in columns)))
-    return tuple(found)
+        blocks.append(MassBlock(columns, tuple(tuple(entries.get((i, j), zero) for j in columns) for i in columns)))
+    return tuple(blocks)
 
 
 @dataclass(frozen=True)

@@ -42,9 +42,9 @@ def turning(g: Graph, e: Sequence[int], omega: Sequence[int]) -> list[int]:
 def half_turn(g: Graph, angle: int, axis: int) -> list[int]:
     """Return the Euler parameters of a turn about the first, second or third axis (1, 2, 3)."""
     half = g.mul(g.constant(0.5), angle)
-    found = [g.call("cos", half), g.zero, g.zero, g.zero]
-    found[axis] = g.call("sin", half)
-    return found
+    e = [g.call("cos", half), g.zero, g.zero, g.zero]
+    e[axis] = g.call("sin", half)
+    return e
 
 
 def inverse(g: Graph, e: Sequence[int]) -> list[int]:

@@ -12,11 +12,10 @@ from symgen.describe.mechanism import Mechanism, SpatialBody
 from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import UNITS, quantities
 from symgen.errors import finite_numbers
-from symgen.formulate.carried import carried_energies
-from symgen.formulate.efforts import exertion
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission
-from symgen.formulate.measures import ModelNodes
+from symgen.formulate.measures import ModelNodes, exertion
 from symgen.formulate.of_time import time_function
+from symgen.formulate.tree import energies_on_tree
 from symgen.ir.program import of_table
 from symgen.vocabulary.expressions import ZERO
 from symgen.vocabulary.measures import Holonomic, Row
@@ -44,13 +43,13 @@ def formulate(mechanism: Mechanism) -> Equations:
     mechanism, repeats = without_repeats(mechanism)
     with finite_numbers("mechanism"):
         model = ModelNodes(mechanism)
-    rows = tuple(_derived(model, joint.name, row) for joint in mechanism.joints for row in joint.rows)
+    rows = tuple(_row(model, joint.name, row) for joint in mechanism.joints for row in joint.rows)
     forces, power, potential = _forces(model)
     driving = None
     if model.tree is None:
         mass, kinetic, gravity_potential = _inertia(model, forces)
     else:
-        kinetic, gravity_potential = carried_energies(model, forces)
+        kinetic, gravity_potential = energies_on_tree(model, forces)
         mass, forces, driving = model.tree.dynamics(forces)
     joint_coordinates = _joint_coordinates(model)
     coordinates, velocities = quantities(mechanism)
@@ -97,7 +96,7 @@ def _bodies(model: ModelNodes) -> tuple[int, ...]:
 def _spins(model: ModelNodes) -> tuple[tuple[int, int], ...]:
     """Return where Euler parameters begin in q, and their angular velocities in v."""
     if model.tree is not None:
-        return model.tree.spins
+        return tuple(model.tree.spins)
     return tuple(
         (model.first_q[b.name] + 3, model.first[b.name] + 3)
         for b in model.mechanism.bodies
@@ -106,39 +105,33 @@ def _spins(model: ModelNodes) -> tuple[tuple[int, int], ...]:
 
 
 def _joint_coordinates(model: ModelNodes) -> list[JointCoordinate]:
-    found = list[JointCoordinate]()
+    coordinates = list[JointCoordinate]()
     for joint in model.mechanism.joints:
         with finite_numbers(f"joints.{joint.name}"):
             for label, measure in joint.coordinates:
                 derived = model.measure(measure)
                 rate = derived.rate(model.graph, model.velocities)
-                found.append(JointCoordinate(f"{joint.name}.{label}", joint.unit(label), derived.value, rate))
-    return found
+                coordinates.append(JointCoordinate(f"{joint.name}.{label}", joint.unit(label), derived.value, rate))
+    return coordinates
 
 
 # -- constraints -----------------------------------------------------------------------------------------------------
 
 
-def _derived(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
-    with finite_numbers(f"joints.{joint}"):
-        return _row(model, joint, row)
-
-
 def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
     g = model.graph
-    value, slope, curvature = time_function(model, row.value)
-    if isinstance(row, Holonomic):
-        measure = model.measure(row.measure)
-        phi, nu = g.sub(measure.value, value), slope
-    else:
-        measure = model.speed(row.speed)
-        phi, nu, curvature = None, value, slope
-    entries, bias, drift = model.pulled(measure.row, measure.bias)
-    gamma, nu = g.sub(curvature, bias), g.sub(nu, drift)
-    ordered = tuple(sorted(entries.items()))
-    return ConstraintRow(
-        f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, _size(model, row, measure.row)
-    )
+    with finite_numbers(f"joints.{joint}"):
+        value, slope, curvature = time_function(model, row.value)
+        if isinstance(row, Holonomic):
+            measure = model.measure(row.measure)
+            phi, nu = g.sub(measure.value, value), slope
+        else:
+            measure = model.speed(row.speed)
+            phi, nu, curvature = None, value, slope
+        entries, bias, drift = model.pulled(measure.row, measure.bias)
+        gamma, nu = g.sub(curvature, bias), g.sub(nu, drift)
+        ordered, size = tuple(sorted(entries.items())), _size(model, row, measure.row)
+    return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, size)
 
 
 def _size(model: ModelNodes, row: Row, entries: Mapping[int, int]) -> int | None:
@@ -163,11 +156,11 @@ def _forces(model: ModelNodes) -> tuple[list[int], int, int]:
     for force in model.mechanism.forces:
         with finite_numbers(f"forces.{force.name}"):
             for effort in force.efforts:
-                found = exertion(model, effort)
-                for i, entry in sorted(found.row.items()):
-                    forces[i] = g.add(forces[i], g.mul(entry, found.total))
-                power = g.add(power, g.mul(found.magnitude, found.rate))
-                potential = g.add(potential, found.energy)
+                exerted = exertion(model, effort)
+                for i, entry in sorted(exerted.row.items()):
+                    forces[i] = g.add(forces[i], g.mul(entry, exerted.total))
+                power = g.add(power, g.mul(exerted.magnitude, exerted.rate))
+                potential = g.add(potential, exerted.energy)
     return forces, power, potential
 
 
@@ -227,20 +220,22 @@ def _turning(model: ModelNodes, first: int, tensor: tuple[int, ...], blocks: lis
 
 
 def _omissions(mechanism: Mechanism) -> list[Omission]:
-    found = [Omission("columns of the ground", "the ground does not move")]
+    omissions = [Omission("columns of the ground", "the ground does not move")]
     if mechanism.space == "planar":
-        found = [
+        omissions = [
             Omission("z coordinates, Euler parameters and 3x3 inertia tensors", "the mechanism is planar"),
             Omission("the kinematic map N", "planar velocities are the rates of the coordinates"),
             Omission("gyroscopic terms", "they vanish in the plane"),
-            *found,
+            *omissions,
         ]
     if all(e == ZERO for e in mechanism.gravity):
-        found.append(Omission("weights and gravity's potential", "gravity is zero"))
+        omissions.append(Omission("weights and gravity's potential", "gravity is zero"))
     for body in mechanism.bodies:
         if body.is_point:
             what = "angle" if mechanism.space == "planar" else "orientation"
-            found.append(Omission(f"{what} of {body.name}", "a point mass has none"))
+            omissions.append(Omission(f"{what} of {body.name}", "a point mass has none"))
         elif all(e == ZERO for e in body.centre_of_mass) and len(mechanism.bodies) <= 12:
-            found.append(Omission(f"centre-of-mass offset of {body.name}", "its centre of mass is the frame's origin"))
-    return found
+            omissions.append(
+                Omission(f"centre-of-mass offset of {body.name}", "its centre of mass is the frame's origin")
+            )
+    return omissions

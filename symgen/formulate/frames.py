@@ -1,62 +1,55 @@
-"""Planar frames and the derivation rule of the project.
+"""Frames of bodies in the plane and in space, and the derivation rule of the project.
 
-The entries c, s of a body's rotation matrix are symbols with a known derivative, A' = A [[0, -w], [w, 0]], so that an
-expression is differentiated along the motion without ever forming sin and cos of an angle, and stays small.
+The entries c, s of a planar body's rotation matrix are symbols with a known derivative, A' = A [[0, -w], [w, 0]], so
+that an expression is differentiated along the motion without ever forming sin and cos of an angle, and stays small.
+
+In space A' = A skew(omega), angular velocity in body axes. A vector fixed in a body, r = A p, has the derivatives
+A (omega x p) and, where omega is held, A (omega x (omega x p)). Kernels are derived over the ground components of such
+vectors, so that the products in brackets, which all components share, are computed once. The entries of A are symbols;
+the model fills in the homogeneous form in Euler parameters (diagonal e0^2 + e1^2 - e2^2 - e3^2, ...), for which the
+rule is exact whatever their length.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
-from typing import Any, ClassVar
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import sympy as sp
-
-from symgen.formulate.spatial import SpatialFrame
 
 #: Input slots of a frame in a kernel, in this order.
 FRAME_SLOTS = ("x", "y", "c", "s", "vx", "vy", "w")
 
 
-@dataclass(frozen=True)
 class Frame:
-    """Symbols of one body's frame: centre of mass, rotation entries and velocities.
+    """Symbols of one body's frame in the plane: centre of mass, rotation entries and velocities.
 
     Parameters
     ----------
     prefix : str
         Distinguishes the frames of one kernel.
     kind : {"ground", "point", "rigid"}
-        Ground does not move; a point mass has no rotation.
+        Ground does not move; a point mass does not turn. In space a 3 follows.
     """
 
-    prefix: str
-    kind: str
+    dimension, first_velocity = 2, 4
+    slots: tuple[str, ...] = FRAME_SLOTS
 
-    dimension: ClassVar[int] = 2
-    slots: ClassVar[tuple[str, ...]] = FRAME_SLOTS
-    #: Named vectors of a frame; the plane needs none.
-    definitions: ClassVar[Mapping[Any, Any]] = {}
+    def __init__(self, prefix: str, kind: str) -> None:
+        self.prefix, self.moves, self.turns = prefix, not kind.startswith("ground"), kind.startswith("rigid")
+        #: Symbol of a vector's component -> its definition, in the order of computation; the plane needs none.
+        self.definitions: dict[Any, Any] = {}
 
     def symbol(self, slot: str) -> Any:
         """Return the SymPy symbol of a slot."""
         return sp.Symbol(f"{self.prefix}_{slot}", real=True)
 
     @property
-    def moves(self) -> bool:
-        """Whether the frame has coordinates."""
-        return self.kind != "ground"
-
-    @property
-    def turns(self) -> bool:
-        """Whether the frame has an angle."""
-        return self.kind == "rigid"
-
-    @property
     def velocities(self) -> tuple[Any, ...]:
         """Velocity symbols, those that multiply the columns of the row."""
-        names = ("vx", "vy", "w") if self.turns else ("vx", "vy") if self.moves else ()
-        return tuple(self.symbol(n) for n in names)
+        names = self.slots[self.first_velocity :]
+        count = len(names) if self.turns else self.dimension if self.moves else 0
+        return tuple(self.symbol(n) for n in names[:count])
 
     def rates(self) -> Mapping[Any, Any]:
         """Return the derivative of each position-level symbol along the motion."""
@@ -81,24 +74,140 @@ class Frame:
 
     def locate(self, point: tuple[Any, ...]) -> tuple[Any, ...]:
         """Return the position of a point given relative to the centre of mass (ground: to the origin)."""
-        if self.kind == "ground":
+        if not self.moves:
             return point
         x, y = self.symbol("x"), self.symbol("y")
-        if self.kind == "point":
+        if not self.turns:
             return x, y
         dx, dy = self.rotate(point)
         return x + dx, y + dy
 
 
-AnyFrame = Frame | SpatialFrame
+#: Input slots of a spatial frame in a kernel: centre of mass, A row by row, velocities.
+SPATIAL_SLOTS = (
+    *("x", "y", "z"),
+    *(f"a{i}{j}" for i in range(3) for j in range(3)),
+    *("vx", "vy", "vz", "wx", "wy", "wz"),
+)
+
+Triple = tuple[Any, Any, Any]
 
 
-def frame(prefix: str, kind: str) -> AnyFrame:
+def cross(a: Sequence[Any], b: Sequence[Any]) -> Triple:
+    """Return a x b."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+class SpatialFrame(Frame):
+    """Symbols of one body's frame in space, and the vectors fixed in it that a kernel uses; parameters as `Frame`."""
+
+    dimension, first_velocity = 3, 12
+    slots = SPATIAL_SLOTS
+
+    def __init__(self, prefix: str, kind: str) -> None:
+        super().__init__(prefix, kind)
+        self._rates: dict[Any, Any] = {}
+        self._columns: dict[Any, tuple[Any, ...]] = {}
+        self._vectors: dict[tuple[str, tuple[Any, ...]], Triple] = {}
+
+    @property
+    def omega(self) -> Triple:
+        """Angular velocity in body axes."""
+        if not self.turns:
+            return sp.S.Zero, sp.S.Zero, sp.S.Zero
+        return self.symbol("wx"), self.symbol("wy"), self.symbol("wz")
+
+    def rates(self) -> Mapping[Any, Any]:
+        """Return the derivative of each moving symbol along the motion, velocities held."""
+        return self._rates
+
+    def column_entries(self, rate: Any) -> list[Any]:
+        """Return the coefficients of the frame's velocities in an expression of rates."""
+        parts: dict[Any, Any] = {s: sp.diff(rate, s) for s in self._columns}
+        count = len(self.velocities)
+        return [
+            sp.Add(*(part * self._columns[s][j] for s, part in parts.items() if part != 0))
+            + sp.diff(rate, self.velocities[j])
+            for j in range(count)
+        ]
+
+    # -- vectors -----------------------------------------------------------------------------------------------------
+
+    def to_ground(self, local: Sequence[Any]) -> Triple:
+        """Return A times a vector in body axes."""
+        if not self.turns:
+            return local[0], local[1], local[2]
+        a = [[self.symbol(f"a{i}{j}") for j in range(3)] for i in range(3)]
+        x, y, z = (sum(a[i][j] * local[j] for j in range(3)) for i in range(3))
+        return x, y, z
+
+    def locate(self, point: Sequence[Any]) -> Triple:
+        """Return the position of a point given relative to the centre of mass (ground: to the origin)."""
+        if not self.moves:
+            return point[0], point[1], point[2]
+        return self._vector("r", tuple(point))
+
+    def rotate(self, vector: Sequence[Any]) -> Triple:
+        """Return A times a vector given in the frame."""
+        if not self.turns:
+            return vector[0], vector[1], vector[2]
+        return self._vector("e", tuple(vector))
+
+    def spin(self) -> Triple:
+        """Return the angular velocity in ground axes, whose derivative with omega held is zero."""
+        if not self.turns:
+            return sp.S.Zero, sp.S.Zero, sp.S.Zero
+        if ("w", ()) not in self._vectors:
+            units = [[sp.Integer(int(i == j)) for j in range(3)] for i in range(3)]
+            columns = [self.to_ground(unit) for unit in units]
+            symbols = self._symbols("w", self.to_ground(self.omega))
+            for i, s in enumerate(symbols):
+                self._rates[s] = sp.S.Zero
+                self._columns[s] = (sp.S.Zero,) * 3 + tuple(column[i] for column in columns)
+            self._vectors["w", ()] = symbols
+        return self._vectors["w", ()]
+
+    def _vector(self, what: str, local: tuple[Any, ...]) -> Triple:
+        """Return symbols of A p, plus the centre of mass for a point; their derivatives are registered with them."""
+        symbols = self._vectors.get((what, local))
+        if symbols is not None:
+            return symbols
+        zero = sp.S.Zero
+        origin = [self.symbol(s) for s in "xyz"] if what == "r" else [zero] * 3
+        speed = [self.symbol(f"v{s}") for s in "xyz"] if what == "r" else [zero] * 3
+        name = f"{what}{len(self._vectors)}"
+        turned = local if self.turns else (zero, zero, zero)
+        first = self._local(f"{name}p", cross(self.omega, turned))
+        second = self._local(f"{name}q", cross(self.omega, first))
+        at, rate, bias = (self.to_ground(v) for v in (turned, first, second))
+        value = self._symbols(name, tuple(o + a for o, a in zip(origin, at, strict=True)))
+        rates = self._symbols(f"{name}d", tuple(v + a for v, a in zip(speed, rate, strict=True)))
+        seconds = self._symbols(f"{name}dd", bias)
+        units = [[sp.Integer(int(i == j)) for j in range(3)] for i in range(3)]
+        turning = [self.to_ground(cross(unit, turned)) for unit in units] if self.turns else []
+        for i in range(3):
+            self._rates[value[i]], self._rates[rates[i]] = rates[i], seconds[i]
+            shift = tuple(sp.Integer(int(what == "r" and i == j)) for j in range(3))
+            self._columns[rates[i]] = shift + tuple(column[i] for column in turning)
+        self._vectors[what, local] = value
+        return value
+
+    def _local(self, name: str, vector: Triple) -> Triple:
+        """Name the components of a vector in body axes, so that they are computed once."""
+        return self._symbols(name, vector) if self.turns else vector
+
+    def _symbols(self, name: str, definition: Sequence[Any]) -> Triple:
+        x, y, z = (sp.Symbol(f"{self.prefix}_{name}_{i}", real=True) for i in range(3))
+        self.definitions.update(zip((x, y, z), definition, strict=True))
+        return x, y, z
+
+
+def frame(prefix: str, kind: str) -> Frame:
     """Return a frame of a kind; kinds of space end in 3."""
     return SpatialFrame(prefix, kind) if kind.endswith("3") else Frame(prefix, kind)
 
 
-def along_motion(expression: Any, frames: Iterable[AnyFrame]) -> Any:
+def along_motion(expression: Any, frames: Iterable[Frame]) -> Any:
     """Return the time derivative of `expression` along the motion of `frames`, velocities held constant."""
     total = sp.S.Zero
     for frame in frames:

@@ -14,8 +14,7 @@ from typing import Any
 
 import sympy as sp
 
-from symgen.formulate.frames import AnyFrame, along_motion, frame
-from symgen.formulate.spatial import SpatialFrame, cross
+from symgen.formulate.frames import Frame, SpatialFrame, along_motion, cross, frame
 from symgen.formulate.translate import Translator
 from symgen.ir.graph import Graph
 
@@ -29,7 +28,7 @@ class Kernel:
     """
 
     graph: Graph
-    frames: tuple[AnyFrame, ...]
+    frames: tuple[Frame, ...]
     constants: int
     value: int
     row: tuple[tuple[int, ...], ...]
@@ -41,7 +40,7 @@ class Kernel:
         return (self.value, *(n for part in self.row for n in part), self.bias)
 
 
-Frames = tuple[AnyFrame, ...]
+Frames = tuple[Frame, ...]
 #: Points and directions as tuples of components, lengths as symbols.
 Constants = tuple[Any, ...]
 _Build = Callable[[Frames, Constants], Any]
@@ -180,18 +179,18 @@ def derive(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
     bias = along_motion(rate, ordered)
 
     graph = Graph()
-    known: dict[Any, int] = {}
+    nodes_of: dict[Any, int] = {}
     slot = 0
     for body in ordered:
         for name in body.slots:
-            known[body.symbol(name)] = graph.input("slot", slot)
+            nodes_of[body.symbol(name)] = graph.input("slot", slot)
             slot += 1
     for i, symbol in enumerate(symbols):
-        known[symbol] = graph.input("slot", slot + i)
-    translator = Translator(graph, known)
+        nodes_of[symbol] = graph.input("slot", slot + i)
+    translator = Translator(graph, nodes_of)
     for body in ordered:
         for symbol, definition in body.definitions.items():
-            translator.known[symbol] = translator.node(definition)
+            translator.nodes[symbol] = translator.node(definition)
     flat = [value, *(e for part in row for e in part), bias]
     nodes = translator.all(flat)
     position = 1

@@ -7,15 +7,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from symgen.describe.formulas import Formulas
-from symgen.formulate.carried import TreeBodies
 from symgen.formulate.euler_parameters import matrix_of, turning
-from symgen.formulate.frames import FRAME_SLOTS
+from symgen.formulate.frames import FRAME_SLOTS, SPATIAL_SLOTS
 from symgen.formulate.measure_kernels import derive
-from symgen.formulate.spatial import SPATIAL_SLOTS
+from symgen.formulate.of_time import potential_of
+from symgen.formulate.tree import Tree
 from symgen.formulate.tree_plane import PlanarTree
 from symgen.formulate.tree_space import SpatialTree
 from symgen.ir.graph import Graph
-from symgen.vocabulary.expressions import Reading
+from symgen.vocabulary.expressions import ZERO, Reading
 from symgen.vocabulary.measures import (
     GROUND,
     Angle,
@@ -24,6 +24,7 @@ from symgen.vocabulary.measures import (
     Direction,
     Dot,
     Driven,
+    Effort,
     Exerted,
     Integral,
     Marker,
@@ -60,11 +61,11 @@ class ModelNodes(Formulas):
         self.time = self.names["t"]
         self.spatial = self.mechanism.space == "spatial"
         self.velocities = tuple(self.graph.input("v", i) for i in range(self.size))
-        self.tree: TreeBodies | None = None
+        self.tree: Tree | None = None
         if self.mechanism.topology is not None:
-            tree: TreeBodies = SpatialTree(self) if self.spatial else PlanarTree(self)
-            self.tree, self.velocities = tree, tree.velocities
-            self.names |= tree.names
+            self.tree = SpatialTree(self) if self.spatial else PlanarTree(self)
+            self.velocities = self.tree.velocities
+            self.names |= self.tree.names
         self._memo: dict[object, DerivedMeasure] = {}
         self._frames: dict[str, list[int]] = {}
         #: Raw angles of measures that count turns, in the order of their slots in the section ``winding``.
@@ -92,20 +93,21 @@ class ModelNodes(Formulas):
         position, velocity = [g.input("q", i + k) for k in range(3)], [g.input("v", j + k) for k in range(3)]
         if kind == "point3":
             return [*position, *(g.zero,) * 9, *velocity, *(g.zero,) * 3]
-        return [*position, *self.rotation_matrix(body), *velocity, *(g.input("v", j + 3 + k) for k in range(3))]
+        return [
+            *position,
+            *matrix_of(g, self.euler_parameters(body)),
+            *velocity,
+            *(g.input("v", j + 3 + k) for k in range(3)),
+        ]
 
     def euler_parameters(self, body: str) -> list[int]:
         """Return the nodes of a spatial body's Euler parameters."""
         return [self.graph.input("q", self.first_q[body] + 3 + k) for k in range(4)]
 
-    def rotation_matrix(self, body: str) -> list[int]:
-        """Return A row by row in homogeneous form: A' = A skew(omega) for Euler parameters of any length."""
-        return matrix_of(self.graph, self.euler_parameters(body))
-
     def q_rates(self) -> tuple[int, ...]:
         """Return q' = N v: in space e' = G^T omega / 2, which keeps the length of e."""
         if self.tree is not None:
-            return self.tree.q_rates
+            return tuple(self.tree.q_rates)
         g, rates = self.graph, list[int]()
         for body in self.mechanism.bodies:
             j = self.first[body.name]
@@ -143,9 +145,8 @@ class ModelNodes(Formulas):
         g, rates = self.graph, self.state_rates
         if self.tree is None:
             return rates
-        columns = (self.tree.column(i) for i in range(self.size + self.tree.size))
-        found = (g.total(g.mul(node, rates[j]) for j, node in sorted(c.items()) if j >= 0) for c in columns)
-        return tuple(g.add(a, b) for a, b in zip(found, self.tree.biases, strict=True))
+        products = (g.total(g.mul(n, rates[j]) for j, n in sorted(c.items()) if j >= 0) for c in self.tree.columns)
+        return tuple(g.add(a, b) for a, b in zip(products, self.tree.biases, strict=True))
 
     @property
     def state_rates(self) -> tuple[int, ...]:
@@ -157,29 +158,29 @@ class ModelNodes(Formulas):
         """Return a row over the velocities of the state, its quadratic velocity term, and what drivers add to J v."""
         if self.tree is None:
             return dict(row), bias, self.graph.zero
-        g, found, drift = self.graph, dict[int, int](), self.graph.zero
+        g, pulled, drift = self.graph, dict[int, int](), self.graph.zero
         for i, node in sorted(row.items()):
-            for j, entry in sorted(self.tree.column(i).items()):
-                found[j] = g.add(found.get(j, g.zero), g.mul(node, entry))
+            for j, entry in sorted(self.tree.columns[i].items()):
+                pulled[j] = g.add(pulled.get(j, g.zero), g.mul(node, entry))
             bias = g.add(bias, g.mul(node, self.tree.biases[i]))
-        for j in sorted(j for j in found if j < 0):
-            drift = g.add(drift, g.mul(found.pop(j), self.tree.coordinates[j].rate))
-        return {j: node for j, node in found.items() if node != g.zero}, bias, drift
+        for j in sorted(j for j in pulled if j < 0):
+            drift = g.add(drift, g.mul(pulled.pop(j), self.tree.coordinates[j].rate))
+        return {j: node for j, node in pulled.items() if node != g.zero}, bias, drift
 
     # -- measures ----------------------------------------------------------------------------------------------------
 
     def measure(self, m: Measure) -> DerivedMeasure:
         """Return value, row and bias of a measure; equal measures are derived once."""
-        found = self._memo.get(m)
-        if found is None:
-            found = self._memo[m] = self._coordinate(m) or self._measure(m)
-        return found
+        derived = self._memo.get(m)
+        if derived is None:
+            derived = self._memo[m] = self._coordinate(m) or self._measure(m)
+        return derived
 
     def _coordinate(self, m: Measure) -> DerivedMeasure | None:
         """Return a measure that is a coordinate of the state: its rate stands behind the velocities of bodies."""
-        if self.tree is None or m not in self.tree.known:
+        if self.tree is None or m not in self.tree.measures:
             return None
-        g, (coordinate, velocity, sign) = self.graph, self.tree.known[m]
+        g, (coordinate, velocity, sign) = self.graph, self.tree.measures[m]
         factor = g.constant(sign)
         return DerivedMeasure(g.mul(factor, g.input("q", coordinate)), {self.size + velocity: factor}, g.zero)
 
@@ -296,3 +297,40 @@ class ModelNodes(Formulas):
                     row[self.first[body] + offset] = nodes[position]
                 position += 1
         return DerivedMeasure(nodes[0], row, nodes[-1])
+
+
+@dataclass(frozen=True)
+class Exertion:
+    """An effort in a model, as nodes.
+
+    Attributes
+    ----------
+    row : mapping of int to int
+        Velocity index -> entry of J, with s' = J v.
+    rate : int
+        s'.
+    total : int
+        -dU/ds + F.
+    magnitude : int
+        F, the part without potential.
+    energy : int
+        U.
+    """
+
+    row: Mapping[int, int]
+    rate: int
+    total: int
+    magnitude: int
+    energy: int
+
+
+def exertion(model: ModelNodes, effort: Effort) -> Exertion:
+    """Return what an effort exerts."""
+    measure = model.motion(effort.measure)
+    rate = measure.rate(model.graph, model.velocities)
+    zero = model.graph.zero
+    conservative, energy = (
+        (zero, zero) if effort.potential == ZERO else potential_of(model, effort.potential, measure.value)
+    )
+    magnitude = model.expression(effort.magnitude, s=measure.value, rate=rate)
+    return Exertion(measure.row, rate, model.graph.add(conservative, magnitude), magnitude, energy)

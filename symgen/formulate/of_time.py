@@ -31,8 +31,8 @@ def as_symbols(e: Expr, *placeholders: str) -> dict[str, Any]:
 
 def translated(model: ModelNodes, symbols: dict[str, Any], expressions: list[Any], **nodes: int) -> list[int]:
     """Return the nodes of SymPy expressions over symbols of names; placeholders stand for `nodes`."""
-    known = {symbol: nodes[n] if n in nodes else model.names[n] for n, symbol in symbols.items()}
-    return Translator(model.graph, known).all(expressions)
+    images = {symbol: nodes[n] if n in nodes else model.names[n] for n, symbol in symbols.items()}
+    return Translator(model.graph, images).all(expressions)
 
 
 def time_function(model: ModelNodes, e: Expr) -> tuple[int, int, int]:
@@ -87,12 +87,12 @@ class Coordinate(NamedTuple):
 
 def prescribed_coordinates(model: ModelNodes, topology: Topology) -> dict[tuple[str, str], Coordinate]:
     """Return the coordinates that drivers prescribe, by body and label."""
-    g, found = model.graph, dict[tuple[str, str], Coordinate]()
+    g, coordinates = model.graph, dict[tuple[str, str], Coordinate]()
     for k, x in enumerate(topology.prescribed):
         sign = g.constant(x.sign)
         nodes = (g.mul(sign, node) for node in time_function(model, x.value))
-        found[x.body, x.label] = Coordinate(-1 - k, *nodes)
-    return found
+        coordinates[x.body, x.label] = Coordinate(-1 - k, *nodes)
+    return coordinates
 
 
 def driving_of(
@@ -105,10 +105,10 @@ def driving_of(
     driven = {i: c for i, c in coordinates.items() if i < 0}
     if not driven:
         return None
-    found, rest = dict[int, int](), graph.zero
+    entries, rest = dict[int, int](), graph.zero
     for i, c in sorted(driven.items(), reverse=True):
         rest = graph.sub(rest, graph.mul(c.rate, forces[i]))
         for (row, j), node in sorted(mass.items()):
             if row == i and j >= 0:
-                found[j] = graph.add(found.get(j, graph.zero), graph.mul(c.rate, node))
-    return DriverPower(tuple(sorted(found.items())), rest)
+                entries[j] = graph.add(entries.get(j, graph.zero), graph.mul(c.rate, node))
+    return DriverPower(tuple(sorted(entries.items())), rest)

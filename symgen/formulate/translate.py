@@ -15,12 +15,32 @@ from symgen.ir.program import of_table
 from symgen.vocabulary.expressions import SMOOTH, Call, Expr, Name, Number, Reading
 from symgen.vocabulary.functions import ELEMENTARY
 
-_UNARY = {**{getattr(sp, name): name for name in ELEMENTARY}, sp.Abs: "abs", sp.sign: "sign", sp.floor: "floor"}
-_RELATIONS = {
-    sp.StrictLessThan: "lt",
-    sp.LessThan: "le",
-    sp.StrictGreaterThan: "gt",
-    sp.GreaterThan: "ge",
+#: Functions of formulas, and operations of the graph with these names, in SymPy's own normal form.
+TO_SYMPY: dict[str, Any] = {
+    "add": lambda a, b: a + b,
+    "sub": lambda a, b: a - b,
+    "mul": lambda a, b: a * b,
+    "div": lambda a, b: a / b,
+    "pow": lambda a, b: a**b,
+    "neg": lambda a: -a,
+    "atan2": sp.atan2,
+    "abs": sp.Abs,
+    "sign": sp.sign,
+    "min": sp.Min,
+    "max": sp.Max,
+    "lt": sp.StrictLessThan,
+    "le": sp.LessThan,
+    "gt": sp.StrictGreaterThan,
+    "ge": sp.GreaterThan,
+    "and": sp.And,
+    "or": sp.Or,
+    "not": sp.Not,
+    "where": lambda c, a, b: sp.Piecewise((a, c), (b, True)),
+    **{name: getattr(sp, name) for name in ELEMENTARY},
+}
+#: Function of SymPy -> function of a formula.
+_FROM_SYMPY = {function: name for name, function in TO_SYMPY.items() if isinstance(function, type)} | {
+    sp.floor: "floor"
 }
 
 
@@ -37,22 +57,22 @@ class Translator:
 
     def __init__(self, graph: Graph, symbols: Mapping[Any, int]) -> None:
         self.graph, self.functions = graph, Functions(graph)
-        self.known: dict[Any, int] = dict(symbols)
+        self.nodes: dict[Any, int] = dict(symbols)
 
     def all(self, expressions: Sequence[Any]) -> list[int]:
         """Return the nodes of `expressions`, shared parts computed once."""
         names = sp.numbered_symbols("cse_")
         replacements, reduced = sp.cse([sp.sympify(e) for e in expressions], symbols=names, order="canonical")
         for symbol, expression in replacements:
-            self.known[symbol] = self.node(expression)
+            self.nodes[symbol] = self.node(expression)
         return [self.node(e) for e in reduced]
 
     def node(self, e: Any) -> int:
         """Return the node of one expression."""
-        found = self.known.get(e)
-        if found is None:
-            found = self.known[e] = self._build(e)
-        return found
+        image = self.nodes.get(e)
+        if image is None:
+            image = self.nodes[e] = self._build(e)
+        return image
 
     def _build(self, e: Any) -> int:
         g = self.graph
@@ -60,8 +80,6 @@ class Translator:
             raise InputError("a formula", "one that is defined somewhere", f"one that is {e} after simplification")
         if e.is_Number or e in (sp.pi, sp.E):
             return g.constant(float(e))
-        if e is sp.zoo:
-            raise OverflowError("a division by zero")
         if e.is_Add:
             return g.total(self.node(a) for a in e.args)
         if e.is_Mul:
@@ -72,18 +90,8 @@ class Translator:
             return self.functions.call("step", self.node(e.args[0]), g.zero)
         if isinstance(e, sp.DiracDelta):  # slope of a jump: zero everywhere else
             return g.zero
-        if e.func in _UNARY:
-            return self.functions.call(_UNARY[e.func], self.node(e.args[0]))
-        if e.func in _RELATIONS:
-            return self.functions.call(_RELATIONS[e.func], self.node(e.lhs), self.node(e.rhs))
-        if isinstance(e, sp.atan2):
-            return self.functions.call("atan2", *(self.node(a) for a in e.args))
-        if isinstance(e, sp.Max | sp.Min):
-            return self._fold("max" if isinstance(e, sp.Max) else "min", e.args)
-        if isinstance(e, sp.And | sp.Or):
-            return self._fold("and" if isinstance(e, sp.And) else "or", e.args)
-        if isinstance(e, sp.Not):
-            return self.functions.call("not", self.node(e.args[0]))
+        if e.func in _FROM_SYMPY:
+            return self._call(_FROM_SYMPY[e.func], *e.args)
         if isinstance(e, sp.Piecewise):
             return self._piecewise(e)
         if isinstance(e, _Table):
@@ -102,10 +110,13 @@ class Translator:
                 above = g.mul(above, self.node(factor))
         return g.div(above, below)
 
-    def _fold(self, function: str, args: Sequence[Any]) -> int:
-        result = self.node(args[0])
-        for a in args[1:]:
-            result = self.functions.call(function, result, self.node(a))
+    def _call(self, function: str, first: Any, *others: Any) -> int:
+        """Return a function of one or two arguments, or of more from the left."""
+        result = self.node(first)
+        if not others:
+            return self.functions.call(function, result)
+        for other in others:
+            result = self.functions.call(function, result, self.node(other))
         return result
 
     def _piecewise(self, e: Any) -> int:
@@ -137,31 +148,6 @@ def table_function(payload: str) -> Any:
     return type(f"{what.replace('value', 'table')}_{name}", (_Table,), {"payload": payload, "fdiff": fdiff})
 
 
-#: Functions of formulas, and operations of the graph with these names, in SymPy's own normal form.
-TO_SYMPY: dict[str, Any] = {
-    "add": lambda a, b: a + b,
-    "sub": lambda a, b: a - b,
-    "mul": lambda a, b: a * b,
-    "div": lambda a, b: a / b,
-    "pow": lambda a, b: a**b,
-    "neg": lambda a: -a,
-    "atan2": sp.atan2,
-    "abs": sp.Abs,
-    "sign": sp.sign,
-    "min": sp.Min,
-    "max": sp.Max,
-    "lt": sp.StrictLessThan,
-    "le": sp.LessThan,
-    "gt": sp.StrictGreaterThan,
-    "ge": sp.GreaterThan,
-    "and": sp.And,
-    "or": sp.Or,
-    "not": sp.Not,
-    "where": lambda c, a, b: sp.Piecewise((a, c), (b, True)),
-    **{name: getattr(sp, name) for name in ELEMENTARY},
-}
-
-
 def to_sympy(expression: Expr, symbols: Mapping[str, Any]) -> Any:
     """Return `expression` as a SymPy expression over `symbols`; only node kinds of the file's own tree reach SymPy.
 
@@ -171,11 +157,8 @@ def to_sympy(expression: Expr, symbols: Mapping[str, Any]) -> Any:
         If it compares what SymPy knows to be no real number.
     """
     if isinstance(expression, Number):
-        return (
-            sp.Float(expression.value)
-            if expression.value != int_or_none(expression.value)
-            else sp.Integer(int(expression.value))
-        )
+        value = expression.value  # whole exponents keep derivatives polynomial
+        return sp.Integer(int(value)) if abs(value) < 1e6 and value == int(value) else sp.Float(value)
     if isinstance(expression, Name | Reading):
         return symbols[expression.name]
     assert isinstance(expression, Call), "the tree has four node kinds"
@@ -186,8 +169,3 @@ def to_sympy(expression: Expr, symbols: Mapping[str, Any]) -> Any:
         return TO_SYMPY[expression.function](*arguments)
     except (TypeError, ValueError) as error:  # of relations, and of minima and maxima
         raise NotReal(str(error)) from None
-
-
-def int_or_none(value: float) -> int | None:
-    """Return `value` as an int where it is a small whole number: exact exponents keep derivatives polynomial."""
-    return int(value) if abs(value) < 1e6 and value == int(value) else None

@@ -9,8 +9,9 @@ mass and moves no entry of M or f (base parameters; Khalil and Dombre, Modeling,
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from symgen.describe.mechanism import Link, SpatialBody
 from symgen.formulate.vector_algebra import Matrix, Triple, Vectors
@@ -30,20 +31,58 @@ class BodyVelocity:
     along: Triple
 
 
-class Placed(Protocol):
-    """What is asked of a body in its place; see `symgen.formulate.tree_space`."""
+@dataclass
+class Placed:
+    """A body where its joint holds it, as nodes; vectors in the body's axes unless said otherwise.
+
+    Attributes
+    ----------
+    turn : Matrix
+        From the body's axes to those of what carries it.
+    arm : Triple
+        From the point of what carries it to its own, in the axes of what carries it.
+    own : bool
+        Whether its orientation is its own, so that what carries it does not turn it.
+    axes : Matrix
+        From its axes to the ground's.
+    at : Triple
+        Its point, in ground axes.
+    omega, velocity : Triple
+        Angular velocity, and velocity of its point.
+    alpha, bias : Triple
+        Angular acceleration, and acceleration of its point less gravity, where v' is 0.
+    whirl : Matrix
+        What makes of a place in the body the acceleration against that of its point, where v' is 0.
+    motions : mapping of int to BodyVelocity
+        Velocities of the state that belong to its link.
+    columns : mapping of int to (Triple, Triple)
+        Velocity of the state -> derivative of `omega` and `velocity` by it.
+    centre : Triple
+        Its centre of mass, from its point.
+    euler : sequence of int
+        Euler parameters.
+    hinge : (Triple, Triple) or None
+        Of a body that turns about an axis alone: this axis, in its own axes and in those of what carries it; zeros
+        where it turns about a point alone.
+    """
 
     link: Link
     turn: Matrix
     arm: Triple
     own: bool
     axes: Matrix
+    at: Triple
+    omega: Triple
+    velocity: Triple
+    alpha: Triple
     bias: Triple
     whirl: Matrix
     motions: dict[int, BodyVelocity]
+    columns: dict[int, tuple[Triple, Triple]]
     centre: Triple
-    hinge: tuple[Triple, Triple] | None
-    children: list[str]
+    euler: Sequence[int]
+    hinge: tuple[Triple, Triple] | None = None
+    children: list[str] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -103,26 +142,26 @@ class Composite:
         elif body.inertia is not None:
             xx, yy, zz, xy, xz, yz = (self.model.expression(e) for e in body.inertia)
             second = v.plus(((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)), second)
-        found = Inertia(m, v.scale(m, p.centre), second)
+        inertia = Inertia(m, v.scale(m, p.centre), second)
         for child in p.children:
             if welded(self.placed[child]):
-                found = self._joined(found, self._carried(self.placed[child], self.rigid[child]))
+                inertia = self._joined(inertia, self._carried(self.placed[child], self.rigid[child]))
             elif child in self.given:
-                found = self._joined(found, self.given[child])
-        return found
+                inertia = self._joined(inertia, self.given[child])
+        return inertia
 
-    def _without_rod(self, name: str, found: Inertia) -> Inertia:
+    def _without_rod(self, name: str, inertia: Inertia) -> Inertia:
         """Return an inertia without what its joint does not feel, which is noted as given to what carries it."""
         g, v, p = self.model.graph, self.v, self.placed[name]
         if p.hinge is None:
-            return found
+            return inertia
         axis, beside = p.hinge
-        shift = v.scale(found.mass, p.arm)
+        shift = v.scale(inertia.mass, p.arm)
         ((i, sign),) = [(k, g.value(x)) for k, x in enumerate(axis) if g.value(x) not in (0.0, None)][:1] or [(0, None)]
         if axis == v.zero or sign not in (1.0, -1.0) or sum(x != g.zero for x in axis) != 1:
-            self.given[name] = Inertia(found.mass, shift, v.shifted(shift, p.arm))
-            return Inertia(g.zero, found.first, found.second)
-        first, second = list(found.first), [list(row) for row in found.second]
+            self.given[name] = Inertia(inertia.mass, shift, v.shifted(shift, p.arm))
+            return Inertia(g.zero, inertia.first, inertia.second)
+        first, second = list(inertia.first), [list(row) for row in inertia.second]
         j, k = (i + 1) % 3, (i + 2) % 3
         turned = v.scale(g.mul(g.constant(sign), first[i]), beside)
         # of the second moments by coordinates, the one along the axis
@@ -131,12 +170,12 @@ class Composite:
         first[i] = g.zero
         second[j][j], second[k][k] = g.sub(second[j][j], along), g.sub(second[k][k], along)
         double = v.add(shift, turned, turned)
-        self.given[name] = Inertia(found.mass, v.add(shift, turned), v.plus(rod, v.shifted(double, p.arm)))
+        self.given[name] = Inertia(inertia.mass, v.add(shift, turned), v.plus(rod, v.shifted(double, p.arm)))
         return Inertia(g.zero, v.triple(first), (v.triple(second[0]), v.triple(second[1]), v.triple(second[2])))
 
     def _hanging(self, name: str) -> Inertia:
         """Return the inertia of a body with all that hangs on it."""
-        found, v = self.rigid[name], self.v
+        inertia, v = self.rigid[name], self.v
         for child in self.placed[name].children:
             c, own = self.placed[child], self.hanging[child]
             if welded(c):  # what is rigid with it is there already
@@ -144,8 +183,8 @@ class Composite:
                 second = tuple(v.sub(a, b) for a, b in zip(own.second, less.second, strict=True))
                 rest = v.sub(own.first, less.first), (second[0], second[1], second[2])
                 own = Inertia(self.model.graph.sub(own.mass, less.mass), *rest)
-            found = self._joined(found, self._carried(c, own))
-        return found
+            inertia = self._joined(inertia, self._carried(c, own))
+        return inertia
 
     def _joined(self, a: Inertia, b: Inertia) -> Inertia:
         v = self.v

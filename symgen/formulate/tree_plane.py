@@ -13,19 +13,19 @@ and the forces it takes inwards, as in the recursion of Newton and Euler (chapte
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from symgen.describe.mechanism import Body, Link, Vec
-from symgen.describe.topology import known_coordinates, labels_of
-from symgen.formulate.equations import DriverPower, MassBlock, mass_blocks
-from symgen.formulate.of_time import Coordinate, driving_of, prescribed_coordinates
+from symgen.describe.topology import labels_of
+from symgen.formulate.equations import DriverPower, MassBlock
+from symgen.formulate.of_time import driving_of
+from symgen.formulate.tree import Tree
 from symgen.formulate.vector_algebra import Pair, PlaneVectors
 from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
-    from symgen.formulate.measures import ModelNodes
+    pass
 
 
 @dataclass
@@ -82,15 +82,11 @@ class _PlanarPlace:
         return max((i for i in self.turners if i >= 0), default=-1)
 
 
-class PlanarTree:
-    """Planar bodies on a tree; see `symgen.formulate.carried.Carried`."""
+class PlanarTree(Tree):
+    """Planar bodies on a tree."""
 
-    spins: tuple[tuple[int, int], ...] = ()
-
-    def __init__(self, model: ModelNodes) -> None:
-        self.model, self.graph = model, model.graph
-        topology = model.mechanism.topology
-        assert topology is not None, "a tree belongs to it"
+    def begin(self) -> None:
+        """Place the ground."""
         g, self.v = self.graph, PlaneVectors(self.graph)
         nothing, still = (g.zero, g.zero), (g.one, g.zero)
         ground = Link(GROUND)
@@ -100,67 +96,45 @@ class PlanarTree:
                 *({}, {}, nothing, nothing, nothing),
             )
         }
-        self.size = 0
-        self.given = prescribed_coordinates(model, topology)
-        self.coordinates: dict[int, Coordinate] = {}
         self.children: dict[str, list[str]] = {GROUND: []}
-        self.names: dict[str, int] = {}
-        for link in topology.links:
-            self._place(link)
-        self.q_rates = tuple(g.input("v", i) for i in range(self.size))
-        velocities, biases = list[int](), list[int]()
-        self._columns: list[Mapping[int, int]] = []
-        for body in model.mechanism.bodies:
+
+    def velocities_of_bodies(self) -> tuple[list[int], list[int]]:
+        """Return u and c of all bodies."""
+        g, velocities, biases = self.graph, list[int](), list[int]()
+        for body in self.model.mechanism.bodies:
             assert isinstance(body, Body), "bodies of the plane"
             p = self.placed[body.name]
             velocities += p.velocity
             biases += p.bias
-            self._columns += [{i: c[k] for i, c in p.columns.items() if c[k] != g.zero} for k in range(2)]
+            self.columns += [{i: c[k] for i, c in p.columns.items() if c[k] != g.zero} for k in range(2)]
             if not body.is_point:
                 velocities.append(p.spin)
                 biases.append(p.gain)
-                self._columns.append(dict.fromkeys(p.turners, g.one))
+                self.columns.append(dict.fromkeys(p.turners, g.one))
             self._name(body, p)
-        self._columns += [{i: g.one} for i in range(self.size)]
-        self.velocities = (*velocities, *self.q_rates)
-        self.biases = (*biases, *(g.zero for _ in range(self.size)))
-        self.known = known_coordinates(model.mechanism, topology)
+        return velocities, biases
 
-    # -- positions and velocities --------------------------------------------------------------------------------------
-
-    def _next(self) -> int:
-        self.size += 1
-        return self.size - 1
-
-    def _coordinate(self, body: str, label: str) -> Coordinate:
-        """Return the next coordinate of the state, unless a driver prescribes it."""
-        found = self.given.get((body, label))
-        if found is None:
-            i = self._next()
-            found = Coordinate(i, self.graph.input("q", i), self.graph.input("v", i), self.graph.zero)
-        self.coordinates[found.number] = found
-        return found
-
-    def _place(self, link: Link) -> None:
+    def place(self, link: Link) -> None:
+        """Place the body of a link."""
         g, model = self.graph, self.model
         body = model.mechanism.body(link.body)
         assert isinstance(body, Body), "bodies of the plane"
         self.children[link.body] = []
         self.children[link.parent].append(link.body)
-        found, parent = link.articulation, self.placed[link.parent]
-        if found is None:
+        joint, parent = link.articulation, self.placed[link.parent]
+        if joint is None:
             self._free(link, body)
             return
-        carrier, own = (found.a, found.b) if link.forward else (found.b, found.a)
+        carrier, own = (joint.a, joint.b) if link.forward else (joint.b, joint.a)
         model.references[link.body] = own.point
         lengths, _ = labels_of(model.mechanism, link)
-        slid = [self._coordinate(link.body, label) for label in lengths]
+        slid = [self.coordinate(link.body, label) for label in lengths]
         sign = g.one if link.forward else g.constant(-1.0)
-        driven = self.given.get((link.body, "angle"))
-        gain, follows = g.zero, found.turn == "fixed" or driven is not None
+        driven = self.prescribed.get((link.body, "angle"))
+        gain, follows = g.zero, joint.turn == "fixed" or driven is not None
         turners: tuple[int, ...] = ()
         if follows:
-            angle = model.expression(found.angle) if driven is None else driven.value
+            angle = model.expression(joint.angle) if driven is None else driven.value
             change = angle if link.forward else g.neg(angle)
             turners, turned, spin, gain = parent.turners, g.add(parent.angle, change), parent.spin, parent.gain
             if driven is not None:
@@ -175,14 +149,14 @@ class PlanarTree:
         elif body.is_point:
             turned, spin, axes = g.zero, g.zero, (g.one, g.zero)
         else:
-            own_angle = self._coordinate(link.body, "theta")
+            own_angle = self.coordinate(link.body, "theta")
             turners, turned, spin, gain = (own_angle.number,), *own_angle[1:]
             axes = (g.call("cos", turned), g.call("sin", turned))
         local = self.v.pair(model.local(carrier))
         arm = self.v.rotate(parent.axes, local)
         sliding = pulled = (g.zero, g.zero)
         slides = dict[int, Pair]()
-        for x, direction in zip(slid, found.slides, strict=True):
+        for x, direction in zip(slid, joint.slides, strict=True):
             holder = parent.axes if direction.body == link.parent else axes
             along = self.v.pair(model.direction(direction))
             e = self.v.scale(sign, self.v.rotate(holder, along))
@@ -224,16 +198,17 @@ class PlanarTree:
     def _free(self, link: Link, body: Body) -> None:
         """Place a body that no joint holds: its centre of mass moves as it likes."""
         g = self.graph
-        x, y = self._next(), self._next()
-        at, velocity = (g.input("q", x), g.input("q", y)), (g.input("v", x), g.input("v", y))
+        at = g.input("q", self.count), g.input("q", self.count + 1)
+        x, y = self.velocity(), self.velocity()
+        velocity = g.input("v", x), g.input("v", y)
         slides = {x: (g.one, g.zero), y: (g.zero, g.one)}
         nothing = (g.zero, g.zero)
         if body.is_point:
             turners: tuple[int, ...] = ()
             axes, turned, spin = (g.one, g.zero), g.zero, g.zero
         else:
-            group = self._next()
-            turners, turned, spin = (group,), g.input("q", group), g.input("v", group)
+            turned, group = g.input("q", self.count), self.velocity()
+            turners, spin = (group,), g.input("v", group)
             axes = (g.call("cos", turned), g.call("sin", turned))
         self.placed[link.body] = _PlanarPlace(
             *(link, at, velocity, nothing, axes, turners, turned, spin, g.zero, False, at, None, dict(slides), slides),
@@ -261,13 +236,9 @@ class PlanarTree:
         p = self.placed[body]
         return [*p.at, *p.axes, *p.velocity, p.spin]
 
-    def column(self, index: int) -> Mapping[int, int]:
-        """Return the row of B for a velocity of a body."""
-        return self._columns[index]
-
     def accelerations(self, rates: tuple[int, ...]) -> dict[str, int]:
         """Return the accelerations of centres of mass and angles, by the names of their velocities."""
-        g, found = self.graph, dict[str, int]()
+        g, accelerations = self.graph, dict[str, int]()
         for body in self.model.mechanism.bodies:
             p = self.placed[body.name]
             rho, w = self.v.rotate(p.axes, p.centre), p.spin
@@ -277,10 +248,10 @@ class PlanarTree:
             for i, c in sorted(p.columns.items()):
                 if i >= 0:
                     total = self.v.add(total, self.v.scale(rates[i], c))
-            found |= {f"{body.name}.vx": total[0], f"{body.name}.vy": total[1]}
+            accelerations |= {f"{body.name}.vx": total[0], f"{body.name}.vy": total[1]}
             if not body.is_point:
-                found[f"{body.name}.omega"] = turning
-        return found
+                accelerations[f"{body.name}.omega"] = turning
+        return accelerations
 
     def speed(self, body: str) -> list[int]:
         """Return the velocity of a centre of mass in some axes."""
@@ -289,10 +260,10 @@ class PlanarTree:
     def weight(self, body: str, force: list[int]) -> dict[int, int]:
         """Return what a force at the centre of mass, in ground axes, is on the velocities of bodies."""
         p, first = self.placed[body], self.model.first[body]
-        found = {first: force[0], first + 1: force[1]}
+        forces = {first: force[0], first + 1: force[1]}
         if not self.model.mechanism.body(body).is_point:
-            found[first + 2] = self.v.cross(self.v.rotate(p.axes, p.centre), self.v.pair(force))
-        return found
+            forces[first + 2] = self.v.cross(self.v.rotate(p.axes, p.centre), self.v.pair(force))
+        return forces
 
     # -- M and f -------------------------------------------------------------------------------------------------------
 
@@ -376,6 +347,6 @@ class PlanarTree:
                     entries[k, j] = entries[j, k] = entry
                 entries[k, k] = seconds[name]
                 f[k] = turns[name]
-        blocks = mass_blocks({(i, j): n for (i, j), n in entries.items() if min(i, j) >= 0}, self.size, g.zero)
+        blocks = self.blocks(entries)
         driving = driving_of(g, self.coordinates, entries, f)
         return blocks, [g.add(f[i], own[i]) for i in range(self.size)], driving

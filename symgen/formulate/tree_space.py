@@ -9,16 +9,16 @@ their own, against the ground: what carries such a body moves its joint's point 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from symgen.describe.mechanism import Articulation, Link, SpatialBody
-from symgen.describe.topology import known_coordinates, labels_of
-from symgen.formulate.equations import DriverPower, MassBlock, mass_blocks
+from symgen.describe.topology import labels_of
+from symgen.formulate.equations import DriverPower, MassBlock
 from symgen.formulate.euler_parameters import composed, half_turn, inverse, matrix_of, parameters_of, turning
-from symgen.formulate.of_time import Coordinate, driving_of, prescribed_coordinates
-from symgen.formulate.tree_inertia import BodyVelocity, Composite
+from symgen.formulate.of_time import driving_of
+from symgen.formulate.tree import Tree
+from symgen.formulate.tree_inertia import BodyVelocity, Composite, Placed
 from symgen.formulate.vector_algebra import Matrix, Triple, Vectors
 from symgen.vocabulary.measures import GROUND, Direction
 
@@ -26,166 +26,86 @@ if TYPE_CHECKING:
     from symgen.formulate.measures import ModelNodes
 
 
-@dataclass
-class _Placed:
-    """A body where its joint holds it, as nodes; vectors in the body's axes unless said otherwise.
-
-    Attributes
-    ----------
-    turn : Matrix
-        From the body's axes to those of what carries it.
-    arm : Triple
-        From the point of what carries it to its own, in the axes of what carries it.
-    own : bool
-        Whether its orientation is its own, so that what carries it does not turn it.
-    axes : Matrix
-        From its axes to the ground's.
-    at : Triple
-        Its point, in ground axes.
-    omega, velocity : Triple
-        Angular velocity, and velocity of its point.
-    alpha, bias : Triple
-        Angular acceleration, and acceleration of its point less gravity, where v' is 0.
-    whirl : Matrix
-        What makes of a place in the body the acceleration against that of its point, where v' is 0.
-    motions : mapping of int to Motion
-        Velocities of the state that belong to its link.
-    columns : mapping of int to (Triple, Triple)
-        Velocity of the state -> derivative of `omega` and `velocity` by it.
-    centre : Triple
-        Its centre of mass, from its point.
-    euler : sequence of int
-        Euler parameters.
-    hinge : (Triple, Triple) or None
-        Of a body that turns about an axis alone: this axis, in its own axes and in those of what carries it; zeros
-        where it turns about a point alone.
-    """
-
-    link: Link
-    turn: Matrix
-    arm: Triple
-    own: bool
-    axes: Matrix
-    at: Triple
-    omega: Triple
-    velocity: Triple
-    alpha: Triple
-    bias: Triple
-    whirl: Matrix
-    motions: dict[int, BodyVelocity]
-    columns: dict[int, tuple[Triple, Triple]]
-    centre: Triple
-    euler: Sequence[int]
-    hinge: tuple[Triple, Triple] | None = None
-    children: list[str] = field(default_factory=list)
-
-
-class SpatialTree:
-    """Bodies in space on a tree; see `symgen.formulate.carried.Carried`."""
+class SpatialTree(Tree):
+    """Bodies in space on a tree."""
 
     def __init__(self, model: ModelNodes) -> None:
-        self.model, self.graph = model, model.graph
-        topology = model.mechanism.topology
-        assert topology is not None, "a tree belongs to it"
-        g = self.graph
-        self.v = v = Vectors(g)
-        self.gravity = v.triple([model.expression(e) for e in model.mechanism.gravity])
-        self.size = self.count = 0
-        self.rates: list[int] = []
-        self.given = prescribed_coordinates(model, topology)
-        self.coordinates: dict[int, Coordinate] = {}
-        self.found_spins: list[tuple[int, int]] = []
+        self.v = Vectors(model.graph)
+        self.gravity = self.v.triple([model.expression(e) for e in model.mechanism.gravity])
+        super().__init__(model)
+
+    def begin(self) -> None:
+        """Place the ground."""
+        g, v = self.graph, self.v
         still = v.zero
         self.placed = {
-            GROUND: _Placed(
+            GROUND: Placed(
                 *(Link(GROUND), v.units, still, True, v.units, still, still, still, still, v.neg(self.gravity)),
                 *((still, still, still), {}, {}, still, (g.one, g.zero, g.zero, g.zero)),
             )
         }
-        for link in topology.links:
-            self._place(link)
-        self.q_rates, self.spins = tuple(self.rates), tuple(self.found_spins)
-        self.names = dict[str, int]()
-        velocities, biases = list[int](), list[int]()
-        self._columns: list[Mapping[int, int]] = []
-        for body in model.mechanism.bodies:
+
+    def velocities_of_bodies(self) -> tuple[list[int], list[int]]:
+        """Return u and c of all bodies."""
+        g, v, velocities, biases = self.graph, self.v, list[int](), list[int]()
+        for body in self.model.mechanism.bodies:
             p = self.placed[body.name]
             velocities += v.times(p.axes, p.velocity)
             biases += v.add(v.times(p.axes, p.bias), self.gravity)
             moved = {i: v.times(p.axes, along) for i, (_, along) in p.columns.items()}
-            self._columns += [{i: c[k] for i, c in moved.items() if c[k] != g.zero} for k in range(3)]
+            self.columns += [{i: c[k] for i, c in moved.items() if c[k] != g.zero} for k in range(3)]
             if not body.is_point:
                 velocities += p.omega
                 biases += p.alpha
-                self._columns += [
+                self.columns += [
                     {i: about[k] for i, (about, _) in p.columns.items() if about[k] != g.zero} for k in range(3)
                 ]
             self._name(body.name, body.is_point, p)
-        self._columns += [{i: g.one} for i in range(self.size)]
-        self.velocities = (*velocities, *(g.input("v", i) for i in range(self.size)))
-        self.biases = (*biases, *(g.zero for _ in range(self.size)))
-        self.known = known_coordinates(model.mechanism, topology)
+        return velocities, biases
 
     # -- positions and velocities --------------------------------------------------------------------------------------
-
-    def _next(self, kind: str = "") -> int:
-        """Return the index of another velocity of the state, with a coordinate of its own unless it is a ball's."""
-        self.size += 1
-        if kind != "ball":
-            self.count += 1
-            self.rates.append(self.graph.input("v", self.size - 1))
-        return self.size - 1
-
-    def _coordinate(self, body: str, label: str) -> Coordinate:
-        """Return the next coordinate of the state, unless a driver prescribes it."""
-        g, found = self.graph, self.given.get((body, label))
-        if found is None:
-            q = g.input("q", self.count)
-            i = self._next()
-            found = Coordinate(i, q, g.input("v", i), g.zero)
-        self.coordinates[found.number] = found
-        return found
 
     def _ball(self) -> tuple[list[int], list[int]]:
         """Return Euler parameters, and the indices of the angular velocity that goes with them."""
         g = self.graph
         e = [g.input("q", self.count + k) for k in range(4)]
-        indices = [self._next("ball") for _ in range(3)]
-        self.found_spins.append((self.count, indices[0]))
-        self.count += 4
-        self.rates += turning(g, e, [g.input("v", i) for i in indices])
+        indices = list(range(self.size, self.size + 3))
+        self.spins.append((self.count, self.size))
+        self.size, self.count = self.size + 3, self.count + 4
+        self.q_rates += turning(g, e, [g.input("v", i) for i in indices])
         return e, indices
 
-    def _place(self, link: Link) -> None:
+    def place(self, link: Link) -> None:
+        """Place the body of a link."""
         g, v, model = self.graph, self.v, self.model
         body, parent = model.mechanism.body(link.body), self.placed[link.parent]
         assert isinstance(body, SpatialBody), "bodies in space"
         parent.children.append(link.body)
-        found = link.articulation
+        joint = link.articulation
         motions: dict[int, BodyVelocity] = {}
         rate = gained = v.zero  # of the arm, in the parent's axes; and what is known of that one's rate
-        if found is None:
+        if joint is None:
             reference = body.centre_of_mass
             first = self.count
-            slides = [self._next() for _ in range(3)]
+            slides = [self.velocity() for _ in range(3)]
             arm = v.triple([g.input("q", first + k) for k in range(3)])
             rate = v.triple([g.input("v", i) for i in slides])
             directions = dict(zip(slides, v.units, strict=True))
         else:
-            carrier, own = (found.a, found.b) if link.forward else (found.b, found.a)
+            carrier, own = (joint.a, joint.b) if link.forward else (joint.b, joint.a)
             reference = own.point
             arm = v.triple(model.local(carrier))
             sign = g.one if link.forward else g.constant(-1.0)
             directions = dict[int, Triple]()
-            for label, direction in zip(labels_of(model.mechanism, link)[0], found.slides, strict=True):
-                c = self._coordinate(link.body, label)
-                e = v.scale(sign, self._carried(found, link, direction))
+            for label, direction in zip(labels_of(model.mechanism, link)[0], joint.slides, strict=True):
+                c = self.coordinate(link.body, label)
+                e = v.scale(sign, self._carried(joint, link, direction))
                 arm = v.add(arm, v.scale(c.value, e))
                 rate = v.add(rate, v.scale(c.rate, e))
                 gained = v.add(gained, v.scale(c.acceleration, e))
                 directions[c.number] = e
         model.references[link.body] = reference
-        own_turn = found is None or found.turn == "ball"
+        own_turn = joint is None or joint.turn == "ball"
         relative = extra = v.zero
         euler: Sequence[int]
         if body.is_point:
@@ -197,15 +117,15 @@ class SpatialTree:
             turn = axes if link.parent == GROUND else v.product(v.transposed(parent.axes), axes)
             motions |= {i: BodyVelocity(unit, v.zero) for i, unit in zip(indices, v.units, strict=True)}
         else:
-            assert found is not None, "it is no free body"
-            turn, quaternion, abouts, twisted = self._turn(found, link)
+            assert joint is not None, "it is no free body"
+            turn, quaternion, abouts, twisted = self._turn(joint, link)
             extra = twisted
             for i, about in abouts.items():
                 along, c = v.zero, self.coordinates[i]
-                if found.screw:
-                    slope, offset = (model.expression(e) for e in found.screw)
+                if joint.screw:
+                    slope, offset = (model.expression(e) for e in joint.screw)
                     sign = g.one if link.forward else g.constant(-1.0)
-                    axis = v.scale(sign, v.triple(model.direction(found.of_a[2] if link.forward else found.of_b[2])))
+                    axis = v.scale(sign, v.triple(model.direction(joint.of_a[2] if link.forward else joint.of_b[2])))
                     place = g.add(g.mul(slope, c.value), offset)
                     arm = v.add(arm, v.scale(place, axis))
                     rate = v.add(rate, v.scale(g.mul(slope, c.rate), axis))
@@ -236,7 +156,7 @@ class SpatialTree:
             columns[i] = turned, v.back(turn, v.add(along, v.cross(about, arm)))
         columns |= {i: (m.about, m.along) for i, m in motions.items()}
         com, at = (v.triple([model.expression(e) for e in point]) for point in (body.centre_of_mass, reference))
-        self.placed[link.body] = _Placed(
+        self.placed[link.body] = Placed(
             link,
             turn,
             arm,
@@ -257,43 +177,43 @@ class SpatialTree:
 
     def _hinge(self, link: Link, body: SpatialBody) -> tuple[Triple, Triple] | None:
         """Return what a body turns about, if that is all that it does."""
-        found, v = link.articulation, self.v
-        if found is None or found.slides or found.screw or body.is_point or found.turn not in ("axis", "ball"):
+        joint, v = link.articulation, self.v
+        if joint is None or joint.slides or joint.screw or body.is_point or joint.turn not in ("axis", "ball"):
             return None
-        if found.turn == "ball":
+        if joint.turn == "ball":
             return v.zero, v.zero
-        mine, other = (found.of_b[2], found.of_a[2]) if link.forward else (found.of_a[2], found.of_b[2])
+        mine, other = (joint.of_b[2], joint.of_a[2]) if link.forward else (joint.of_a[2], joint.of_b[2])
         return v.triple(self.model.direction(mine)), v.triple(self.model.direction(other))
 
-    def _carried(self, found: Articulation, link: Link, direction: Direction) -> Triple:
+    def _carried(self, joint: Articulation, link: Link, direction: Direction) -> Triple:
         """Return a direction of displacement in the axes of what carries the body."""
         vector = self.v.triple(self.model.direction(direction))
         if direction.body == link.parent:
             return vector
         # it is the axis, or nothing turns: the same in both frames
-        of, to = (found.of_a, found.of_b) if link.forward is False else (found.of_b, found.of_a)
+        of, to = (joint.of_a, joint.of_b) if link.forward is False else (joint.of_b, joint.of_a)
         parts = [self.v.dot(vector, self.v.triple(self.model.direction(d))) for d in of]
         axes = [self.v.triple(self.model.direction(d)) for d in to]
         return self.v.add(*(self.v.scale(x, axis) for x, axis in zip(parts, axes, strict=True)))
 
-    def _turn(self, found: Articulation, link: Link) -> tuple[Matrix, Sequence[int], dict[int, Triple], Triple]:
+    def _turn(self, joint: Articulation, link: Link) -> tuple[Matrix, Sequence[int], dict[int, Triple], Triple]:
         """Return how the axes are turned against those of what carries them.
 
         The matrix, its Euler parameters, the axes of the joint's angles in the body's axes, and what angular
         acceleration two angles make where their rates are constant.
         """
         g, v, model = self.graph, self.v, self.model
-        mine, other = (found.of_b, found.of_a) if link.forward else (found.of_a, found.of_b)
+        mine, other = (joint.of_b, joint.of_a) if link.forward else (joint.of_a, joint.of_b)
         to_parent = v.transposed(_rows(v, [n for d in other for n in model.direction(d)]))  # columns are directions
         to_body = v.transposed(_rows(v, [n for d in mine for n in model.direction(d)]))
         sign = g.one if link.forward else g.constant(-1.0)
-        if found.turn == "fixed":
+        if joint.turn == "fixed":
             turn = v.product(to_parent, v.transposed(to_body))
             return turn, parameters_of(g, turn), {}, v.zero
-        if found.turn == "axis":
+        if joint.turn == "axis":
             (label,) = labels_of(model.mechanism, link)[1]
-            found_angle = self._coordinate(link.body, label)
-            q, i = found_angle.value, found_angle.number
+            own_angle = self.coordinate(link.body, label)
+            q, i = own_angle.value, own_angle.number
             c, s = g.call("cos", q), g.mul(sign, g.call("sin", q))
             z = g.zero
             about_axis: Matrix = ((c, g.neg(s), z), (s, c, z), (z, z, g.one))
@@ -303,10 +223,10 @@ class SpatialTree:
             axis = v.scale(sign, v.triple(model.direction(mine[2])))
             return turn, euler, {i: axis}, v.zero
         (one, qa, rate_a, _), (two, qb, rate_b, _) = (
-            self._coordinate(link.body, label) for label in labels_of(model.mechanism, link)[1]
+            self.coordinate(link.body, label) for label in labels_of(model.mechanism, link)[1]
         )
-        fa, sa, za = (v.triple(model.direction(d)) for d in found.of_a)
-        fb, sb, zb = (v.triple(model.direction(d)) for d in found.of_b)
+        fa, sa, za = (v.triple(model.direction(d)) for d in joint.of_a)
+        fb, sb, zb = (v.triple(model.direction(d)) for d in joint.of_b)
         c1, s1, c2, s2 = g.call("cos", qa), g.call("sin", qa), g.call("cos", qb), g.call("sin", qb)
         # the cross: its second axis, the product of both, its first axis; in the first body's axes, and the second's
         in_a = v.add(v.scale(c1, fa), v.scale(s1, sa)), v.sub(v.scale(c1, sa), v.scale(s1, fa)), za
@@ -328,7 +248,7 @@ class SpatialTree:
         turn = v.product(into_b, v.transposed(into_a))
         return turn, inverse(g, forwards), {one: v.neg(za), two: v.neg(in_a[0])}, v.neg(v.scale(product, in_a[1]))
 
-    def _name(self, name: str, is_point: bool, p: _Placed) -> None:
+    def _name(self, name: str, is_point: bool, p: Placed) -> None:
         """Note the coordinates and velocities of a body by their names."""
         v = self.v
         place = v.add(p.at, v.times(p.axes, p.centre))
@@ -344,13 +264,9 @@ class SpatialTree:
         p, v = self.placed[body], self.v
         return [*p.at, *(n for row in p.axes for n in row), *v.times(p.axes, p.velocity), *p.omega]
 
-    def column(self, index: int) -> Mapping[int, int]:
-        """Return the row of B for a velocity of a body."""
-        return self._columns[index]
-
     def accelerations(self, rates: tuple[int, ...]) -> dict[str, int]:
         """Return the accelerations of centres of mass, and angular ones, by the names of their velocities."""
-        v, found = self.v, dict[str, int]()
+        v, accelerations = self.v, dict[str, int]()
         for body in self.model.mechanism.bodies:
             p = self.placed[body.name]
             moving = [(rates[i], motion) for i, motion in sorted(p.columns.items()) if i >= 0]
@@ -358,10 +274,10 @@ class SpatialTree:
             at = v.add(p.bias, *(v.scale(rate, along) for rate, (_, along) in moving))
             at = v.add(at, v.times(v.whirl(p.omega, alpha), p.centre))
             at = v.add(v.times(p.axes, at), self.gravity)
-            found |= {f"{body.name}.v{axis}": x for axis, x in zip("xyz", at, strict=True)}
+            accelerations |= {f"{body.name}.v{axis}": x for axis, x in zip("xyz", at, strict=True)}
             if not body.is_point:
-                found |= {f"{body.name}.w{axis}": x for axis, x in zip("xyz", alpha, strict=True)}
-        return found
+                accelerations |= {f"{body.name}.w{axis}": x for axis, x in zip("xyz", alpha, strict=True)}
+        return accelerations
 
     def speed(self, body: str) -> list[int]:
         """Return the velocity of a centre of mass in some axes."""
@@ -374,16 +290,15 @@ class SpatialTree:
 
     def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int], DriverPower | None]:
         """Return M and f of the state, from forces on the velocities of bodies, inertia apart; the power of drivers."""
-        found, size = Composite(self.model, self.placed, forces), self.size
-        mass, f = found.mass(), found.force()
-        blocks = mass_blocks({(i, j): n for (i, j), n in mass.items() if min(i, j) >= 0}, size, self.graph.zero)
-        return blocks, [f[i] for i in range(size)], driving_of(self.graph, self.coordinates, mass, f)
+        bodies = Composite(self.model, self.placed, forces)
+        mass, f = bodies.mass(), bodies.force()
+        blocks, own = self.blocks(mass), [f[i] for i in range(self.size)]
+        return blocks, own, driving_of(self.graph, self.coordinates, mass, f)
 
     def metric(self) -> tuple[MassBlock, ...]:
         """Return the metric of the velocities of bodies, pulled back."""
         nothing = [self.graph.zero] * len(self.velocities)
-        mass = Composite(self.model, self.placed, nothing, alike=True).mass()
-        return mass_blocks({(i, j): n for (i, j), n in mass.items() if min(i, j) >= 0}, self.size, self.graph.zero)
+        return self.blocks(Composite(self.model, self.placed, nothing, alike=True).mass())
 
 
 def _rows(v: Vectors, nodes: Sequence[int]) -> Matrix:

@@ -34,14 +34,14 @@ def jacobian(graph: Graph, outputs: Sequence[int], inputs: Iterable[Key]) -> lis
     lines is that of the one below the argument. Where a root, a power, ``asin`` or ``acos`` rises without bound it
     is a large number, of which nothing is left where it meets arguments that do not change there.
     """
-    wanted = set(inputs)
+    variables = set(inputs)
     derivative: dict[int, Mapping[Key, int]] = {}
     for node in graph.needed(outputs):
         op, args, payload = graph.nodes[node]
         if op == "const":
             derivative[node] = {}
         elif op == "input":
-            derivative[node] = {payload: graph.one} if payload in wanted else {}
+            derivative[node] = {payload: graph.one} if payload in variables else {}
         else:
             derivative[node] = _chain(graph, node, op, args, str(payload), [derivative[a] for a in args])
     return [dict(derivative[o]) for o in outputs]

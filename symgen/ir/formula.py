@@ -27,83 +27,83 @@ class Functions:
     def __init__(self, graph: Graph) -> None:
         self.graph = graph
         self._unsure: dict[int, tuple[int, int]] = {}  # condition -> where it is defined, and what is no number else
-        self._known: dict[int, tuple[int, bool]] = {}  # as in `_known_of`
+        self._signs: dict[int, tuple[int, bool]] = {}  # as in `_sign_of`
 
     def call(self, function: str, *args: int) -> int:
         """Return the node of ``function(*args)`` for a name of `symgen.ir.graph.FUNCTIONS` or ``table:NAME``."""
         if function in ("both", "either"):
             return self._decided(function, *args)
-        found = self.graph.call(function, *args)
+        node = self.graph.call(function, *args)
         if function in ("where", "not"):
-            return self._carried(function, args[0], found)
+            return self._carried(function, args[0], node)
         if function in ("and", "or"):
-            return self._joined(function, args, found)
+            return self._joined(function, args, node)
         if function in ("min", "max", "sign", "step", "lt", "le", "gt", "ge"):
             unsure = [a for a in dict.fromkeys(args) if not self._is_defined(a)]
             if unsure:
                 defined = self._all("and", (self.graph.call("defined", a) for a in unsure))
-                self._unsure[found] = defined, self.graph.total(unsure)
+                self._unsure[node] = defined, self.graph.total(unsure)
                 if function in ("min", "max", "sign", "step"):
-                    return self._carried("where", found, found)
-        return found
+                    return self._carried("where", node, node)
+        return node
 
-    def _carried(self, function: str, condition: int, found: int) -> int:
+    def _carried(self, function: str, condition: int, node: int) -> int:
         """Return a choice, or the negation of a condition, that is undefined where the condition is."""
         if condition not in self._unsure:
-            return found
+            return node
         if function == "where":
             defined, witness = self._unsure[condition]
-            return self.graph.call("where", defined, found, witness)
-        self._unsure[found] = self._unsure[condition]
-        return found
+            return self.graph.call("where", defined, node, witness)
+        self._unsure[node] = self._unsure[condition]
+        return node
 
-    def _joined(self, function: str, conditions: tuple[int, ...], found: int) -> int:
+    def _joined(self, function: str, conditions: tuple[int, ...], node: int) -> int:
         """Return ``a and b`` or ``a or b``: defined where both operands are, or where one that is decides."""
         g, unsure = self.graph, {c: self._unsure[c] for c in conditions if c in self._unsure}
         if unsure:
             deciding = [(c, c if function == "or" else g.call("not", c)) for c in conditions]
             ways = [g.call("and", unsure[c][0], d) if c in unsure else d for c, d in deciding]
             both = self._all("and", (defined for defined, _ in unsure.values()))
-            self._unsure[found] = self._all("or", [both, *ways]), g.total(witness for _, witness in unsure.values())
-        return found
+            self._unsure[node] = self._all("or", [both, *ways]), g.total(witness for _, witness in unsure.values())
+        return node
 
     def _decided(self, function: str, a: int, b: int) -> int:
         """Return what is above 0 where both, or either, of two numbers are; the other may be none where one decides."""
         g, smaller = self.graph, function == "both"
-        found = g.call("min" if smaller else "max", a, b)
+        decided = g.call("min" if smaller else "max", a, b)
         unsure = [x for x in (a, b) if not self._is_defined(x)]
         for x, other in ((a, b), (b, a)):
-            found = g.call("where", g.call("defined", x), found, other) if x in unsure else found
+            decided = g.call("where", g.call("defined", x), decided, other) if x in unsure else decided
         if not unsure:
-            return found
-        decides = g.call("le" if smaller else "gt", found, g.zero)
+            return decided
+        decides = g.call("le" if smaller else "gt", decided, g.zero)
         sure = self._all("and", (g.call("defined", x) for x in unsure))
-        return g.call("where", g.call("or", sure, decides), found, g.total(unsure))
+        return g.call("where", g.call("or", sure, decides), decided, g.total(unsure))
 
     def _all(self, function: str, conditions: Iterable[int]) -> int:
         return reduce(lambda a, b: self.graph.call(function, a, b), conditions)
 
     def _is_defined(self, node: int) -> bool:
         """Whether a node is a number wherever the inputs are."""
-        for each in self.graph.needed([node]) if node not in self._known else ():
-            if each not in self._known:
+        for each in self.graph.needed([node]) if node not in self._signs else ():
+            if each not in self._signs:
                 op, args, _ = self.graph.nodes[each]
                 value = self.graph.value(each)
-                known = [self._known[a] for a in args]
-                self._known[each] = (_sign(value), True) if value is not None else _known_of(op, args, known)
-        return self._known[node][1]
+                signs = [self._signs[a] for a in args]
+                self._signs[each] = (_sign(value), True) if value is not None else _sign_of(op, args, signs)
+        return self._signs[node][1]
 
 
 def _sign(value: float) -> int:
     return 2 if value > 0.0 else 1 if value == 0.0 else 0
 
 
-def _known_of(op: str, args: tuple[int, ...], known: list[tuple[int, bool]]) -> tuple[int, bool]:
+def _sign_of(op: str, args: tuple[int, ...], operands: list[tuple[int, bool]]) -> tuple[int, bool]:
     """Return what is known of an operation: 2 if it is above 0, 1 if not below, else 0; and whether it is a number.
 
     Squares, roots and sums of them are not below 0, so that distances are numbers.
     """
-    signs, defined = [sign for sign, _ in known], all(number for _, number in known)
+    signs, defined = [sign for sign, _ in operands], all(number for _, number in operands)
     match op:
         case "sqrt":
             return signs[0], defined and signs[0] > 0

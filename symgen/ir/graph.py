@@ -81,12 +81,12 @@ class Graph:
         return operation.payload if operation.op == "const" and isinstance(operation.payload, float) else None
 
     def _node(self, operation: Operation, depends: int) -> int:
-        found = self._index.get(operation)
-        if found is None:
-            found = self._index[operation] = len(self.nodes)
+        index = self._index.get(operation)
+        if index is None:
+            index = self._index[operation] = len(self.nodes)
             self.nodes.append(operation)
             self.depends.append(depends)
-        return found
+        return index
 
     def _apply(self, op: str, *args: int, payload: str | None = None) -> int:
         depends = 0
@@ -270,35 +270,35 @@ class Graph:
         stops : callable, optional
             Whether a node is not built from its operands, so that these are not needed for it; by default only inputs.
         """
-        found: dict[int, int] = {}
+        images: dict[int, int] = {}
         for node in source.needed(outputs, stops):
             op, args, payload = source.nodes[node]
             if op == "input" or (stops is not None and stops(node)):
-                found[node] = image(node)
+                images[node] = image(node)
             elif op == "const":
-                found[node] = self.constant(payload)  # type: ignore[arg-type]  # a constant's payload is a float
+                images[node] = self.constant(payload)  # type: ignore[arg-type]  # a constant's payload is a float
             else:
-                found[node] = self.rebuild(op, tuple(found[a] for a in args), payload)
-        return [found[o] for o in outputs]
+                images[node] = self.rebuild(op, tuple(images[a] for a in args), payload)
+        return [images[o] for o in outputs]
 
     def rebuild(self, op: str, args: tuple[int, ...], payload: object = None) -> int:
         """Return the operation `op` on `args`, simplified as if it had been built by its own method."""
-        builder = _BUILDERS.get(op)
+        builder = ARITHMETIC.get(op)
         if builder is not None:
             return int(getattr(self, builder)(*args))
         return self.call(f"table:{payload}" if op == "table" else op, *args)
 
     def needed(self, outputs: Iterable[int], stops: Callable[[int], bool] | None = None) -> list[int]:
         """Return all nodes that `outputs` depend on, in evaluation order, none behind those that `stops` names."""
-        seen: set[int] = set()
+        nodes: set[int] = set()
         stack = list(outputs)
         while stack:
             node = stack.pop()
-            if node not in seen:
-                seen.add(node)
+            if node not in nodes:
+                nodes.add(node)
                 if stops is None or not stops(node):
                     stack.extend(self.nodes[node].args)
-        return sorted(seen)
+        return sorted(nodes)
 
     def keys(self, outputs: Iterable[int]) -> list[tuple[str, int]]:
         """Return space and index of all inputs that `outputs` depend on, in evaluation order."""
@@ -319,4 +319,4 @@ class Graph:
         return sum(cost[o] for o in outputs)
 
 
-_BUILDERS = {"add": "add", "sub": "sub", "mul": "mul", "div": "div", "neg": "neg", "pow": "power"}
+ARITHMETIC = {"add": "add", "sub": "sub", "mul": "mul", "div": "div", "neg": "neg", "pow": "power"}

@@ -104,8 +104,8 @@ def periodic_slopes(x: Sequence[float], y: Sequence[float]) -> list[float]:
     vector[0], vector[-1] = shift, other
     plain, along = (_three_diagonals(low, diagonal, high, b) for b in (right, vector))
     factor = (plain[0] + corner / shift * plain[-1]) / (1.0 + along[0] + corner / shift * along[-1])
-    found = [a - factor * b for a, b in zip(plain, along, strict=True)]
-    return [*found, found[0]]
+    slopes = [a - factor * b for a, b in zip(plain, along, strict=True)]
+    return [*slopes, slopes[0]]
 
 
 def pchip_slopes(x: Sequence[float], y: Sequence[float], periodic: bool = False) -> list[float]:
@@ -159,15 +159,15 @@ def _three_diagonals(
     low: Sequence[float], diagonal: Sequence[float], high: Sequence[float], right: Sequence[float]
 ) -> list[float]:
     """Return the solution of a system whose matrix has three diagonals."""
-    pivots, found = list(diagonal), list(right)
-    for i in range(1, len(found)):
+    pivots, solution = list(diagonal), list(right)
+    for i in range(1, len(solution)):
         factor = low[i] / pivots[i - 1]
         pivots[i] -= factor * high[i - 1]
-        found[i] -= factor * found[i - 1]
-    found[-1] /= pivots[-1]
-    for i in range(len(found) - 2, -1, -1):
-        found[i] = (found[i] - high[i] * found[i + 1]) / pivots[i]
-    return found
+        solution[i] -= factor * solution[i - 1]
+    solution[-1] /= pivots[-1]
+    for i in range(len(solution) - 2, -1, -1):
+        solution[i] = (solution[i] - high[i] * solution[i + 1]) / pivots[i]
+    return solution
 
 
 def _between(h0: float, h1: float, d0: float, d1: float) -> float:

@@ -160,8 +160,8 @@ class Block:
     @property
     def tables(self) -> tuple[tuple[str, str], ...]:
         """Tables that are read, by name, and for which of `DERIVATIVES`."""
-        found = (self.graph.nodes[n] for n in self.needed)
-        return tuple(dict.fromkeys(of_table(o.payload) for o in found if o.op == "table"))
+        operations = (self.graph.nodes[n] for n in self.needed)
+        return tuple(dict.fromkeys(of_table(o.payload) for o in operations if o.op == "table"))
 
     @cached_property
     def operations(self) -> int:

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import msgspec
-
-from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair
+from symgen.describe.fields import AxisPair, DirectionPair
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
+from symgen.joints._paired import Paired
 from symgen.joints._space import coincident
 from symgen.vocabulary.expressions import number
 from symgen.vocabulary.measures import Dot, Holonomic, Sum
 
 
-class ConstantVelocity(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class ConstantVelocity(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A homokinetic joint: the second body may lean against the first in any direction, but not twist; in space only.
 
     Parameters
@@ -38,8 +37,6 @@ class ConstantVelocity(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
 
     SPACES: ClassVar[tuple[str, ...]] = ("spatial",)
 
-    between: BodyPair
-    at: PointPair
     axis: AxisPair
     reference: DirectionPair | None = None
 
@@ -49,13 +46,12 @@ class ConstantVelocity(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         The relative rotation R is one about an axis across the shaft exactly where its antisymmetric part has no
         component along the shaft.
         """
-        a, b = scope.pair("between", self.between, turns=(True, True))
-        centres = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        of_a, of_b = make_triads(scope, (a, b), self.axis, self.reference, fixed=True)
+        bodies, centres = self.ends(scope)
+        of_a, of_b = make_triads(scope, bodies, self.axis, self.reference, fixed=True)
         half = number(0.5), number(-0.5)
         twist = Sum(((half[0], Dot(of_a.second, of_b.first)), (half[1], Dot(of_a.first, of_b.second))))
         rows = (*coincident(*centres), Holonomic("twist", twist, unit="rad"))
-        return Joint(scope.name, scope.kind, (a, b), rows)
+        return Joint(scope.name, scope.kind, bodies, rows)
 
 
 KIND = ConstantVelocity

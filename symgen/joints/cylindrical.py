@@ -7,7 +7,7 @@ from typing import ClassVar
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
-from symgen.joints._axial import Axial
+from symgen.joints._paired import Axial
 from symgen.joints._space import angle, frames, markers, on_axis, parallel
 from symgen.vocabulary.measures import Component
 
@@ -26,7 +26,7 @@ class Cylindrical(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to two distances from the axis and two angles."""
-        bodies, points = self.resolved(scope)
+        bodies, points = self.ends(scope)
         triads = make_triads(scope, bodies, self.axis, self.reference)
         rows = (*on_axis(*points, triads[0]), *parallel(*triads))
         reported = (("displacement", Component(*points, triads[0].axis)), ("angle", angle(*triads)))

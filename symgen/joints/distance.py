@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import msgspec
-
-from symgen.describe.fields import BodyPair, PointPair, Scalar
+from symgen.describe.fields import Scalar
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
+from symgen.joints._paired import Paired
 from symgen.vocabulary.measures import Holonomic, LinkStretch
 
 
-class Distance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Distance(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A massless rod with a ball at either end: two points keep their distance.
 
     Parameters
@@ -31,21 +30,13 @@ class Distance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
 
     SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
-    between: BodyPair
-    at: PointPair
     length: Scalar
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the stretch of the link."""
-        a, b = scope.pair("between", self.between)
-        end_a, end_b = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        length = scope.constant("length", self.length, positive=True)
-        return Joint(
-            name=scope.name,
-            kind=scope.kind,
-            bodies=(a, b),
-            rows=(Holonomic("distance", LinkStretch(end_a, end_b, length)),),
-        )
+        bodies, ends = self.ends(scope, turns=(False, False))
+        stretch = LinkStretch(*ends, scope.constant("length", self.length, positive=True))
+        return Joint(scope.name, scope.kind, bodies, (Holonomic("distance", stretch),))
 
 
 KIND = Distance

@@ -52,7 +52,7 @@ class Driver(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
             raise scope.error("", "either the key joint or the key body", got)
         bodies, measure, unit = self._of_joint(scope) if self.joint is not None else self._of_body(scope)
         row = Holonomic("driver", measure, scope.of_time("value", self.value), unit)
-        return Joint(name=scope.name, kind=scope.kind, bodies=bodies, rows=(row,))
+        return Joint(scope.name, scope.kind, bodies, (row,))
 
     def _of_joint(self, scope: Scope) -> tuple[tuple[str, ...], Measure, str]:
         if self.point is not None:
@@ -62,16 +62,16 @@ class Driver(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
 
     def _of_body(self, scope: Scope) -> tuple[tuple[str, ...], Measure, str]:
         body = scope.body("body", self.body or "", ground=False)
-        known = ("x", "y", "z") if scope.spatial else ("x", "y")
+        coordinates = ("x", "y", "z") if scope.spatial else ("x", "y")
         if not scope.spatial and scope.turns(body) and self.point is None:
-            known = ("x", "y", "theta")
-        if self.coordinate not in known:
+            coordinates = ("x", "y", "theta")
+        if self.coordinate not in coordinates:
             got = "no such key" if self.coordinate is None else quoted(self.coordinate)
-            raise scope.error("coordinate", " or ".join(f"'{name}'" for name in known), got)
+            raise scope.error("coordinate", " or ".join(f"'{name}'" for name in coordinates), got)
         if self.coordinate == "theta":
             return (GROUND, body), Angle(GROUND, body), "rad"
         point = scope.marker("point", body, CENTRE if self.point is None else self.point)
-        axis = axes(GROUND, scope.dimension)[known.index(self.coordinate)]
+        axis = axes(GROUND, scope.dimension)[coordinates.index(self.coordinate)]
         return (GROUND, body), Component(Marker(GROUND, (ZERO,) * scope.dimension), point, axis), "m"
 
 

@@ -66,8 +66,6 @@ class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         if carrier in (a, b):
             raise scope.error("carrier", "a body that is neither wheel", f"'{carrier}'")
         weight_a, weight_b, unit = self._weights(scope)
-        if self.mesh == "internal":
-            weight_b = call("neg", weight_b)
         measure = Sum(((weight_a, Angle(a, carrier)), (weight_b, Angle(b, carrier))))
         # The angles run from wheel to carrier, as everywhere from the first body on, so the constant changes sign.
         value = call("neg", scope.constant("offset", self.offset))
@@ -78,16 +76,14 @@ class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         scope.only("joints", joints=self.joints, between=self.between, carrier=self.carrier)
         names, labels = self.joints or ("", ""), self.coordinates or (None, None)
         angular = "rad" if self.radii is not None else ""
-        found = [
+        coordinates = [
             scope.joint_coordinate(name, label, ("joints", "coordinates"), angular)
             for name, label in zip(names, labels, strict=True)
         ]
-        (first, label_a, turn_a), (second, label_b, turn_b) = found
+        (first, label_a, turn_a), (second, label_b, turn_b) = coordinates
         if (first.name, label_a) == (second.name, label_b):
             raise scope.error("joints", "two different coordinates", f"'{first.name}.{label_a}' twice")
         weight_a, weight_b, unit = self._weights(scope)
-        if self.mesh == "internal":
-            weight_b = call("neg", weight_b)
         measure = Sum(((weight_a, turn_a), (weight_b, turn_b)))
         bodies = tuple(dict.fromkeys((*first.bodies, *second.bodies)))
         unit = Joint.unit(label_a) if self.radii is None else unit
@@ -95,12 +91,14 @@ class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         return Joint(scope.name, scope.kind, bodies, (row,))
 
     def _weights(self, scope: Scope) -> tuple[Expr, Expr, str]:
-        if self.radii is not None and self.ratio is None:
-            radius_a, radius_b = (scope.constant("radii", radius, positive=True) for radius in self.radii)
-            return radius_a, radius_b, "m"
-        if self.ratio is not None and self.radii is None:
-            return ONE, scope.constant("ratio", self.ratio, positive=True), "rad"
-        raise scope.error("", "either the key radii or the key ratio", "neither" if self.ratio is None else "both")
+        """Return what the angles are weighed with, and the unit of the sum."""
+        if (self.radii is None) == (self.ratio is None):
+            raise scope.error("", "either the key radii or the key ratio", "neither" if self.ratio is None else "both")
+        if self.radii is not None:
+            weight_a, weight_b = (scope.constant("radii", radius, positive=True) for radius in self.radii)
+        else:
+            weight_a, weight_b = ONE, scope.constant("ratio", self.ratio or 0.0, positive=True)
+        return weight_a, call("neg", weight_b) if self.mesh == "internal" else weight_b, "rad" if self.ratio else "m"
 
 
 KIND = Gear

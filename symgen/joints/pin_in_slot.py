@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import msgspec
-
-from symgen.describe.fields import Axis, BodyPair, PointPair
+from symgen.describe.fields import Axis
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triad
+from symgen.joints._paired import Paired
 from symgen.joints._space import on_axis
 from symgen.vocabulary.measures import Angle, Component, Holonomic
 
 
-class PinInSlot(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class PinInSlot(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A pin of the first body in a straight slot of the second; both may turn.
 
     Parameters
@@ -37,14 +36,11 @@ class PinInSlot(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 
     SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
-    between: BodyPair
-    at: PointPair
     axis: Axis
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the distance of the pin from the centre line, in space to two."""
-        a, b = scope.pair("between", self.between, turns=(False, True))
-        pin, slot = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
+        (a, b), (pin, slot) = self.ends(scope, turns=(False, True))
         if scope.spatial:
             triad = make_triad(scope, b, self.axis)
             displacement = Component(slot, pin, triad.axis)
@@ -52,13 +48,8 @@ class PinInSlot(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
             return Joint(scope.name, scope.kind, (a, b), rows, (("displacement", displacement),))
         along, normal = scope.axis("axis", b, self.axis)
         angle = (("angle", Angle(a, b)),) if scope.turns(a) else ()
-        return Joint(
-            name=scope.name,
-            kind=scope.kind,
-            bodies=(a, b),
-            rows=(Holonomic("normal", Component(pin, slot, normal)),),
-            coordinates=(("displacement", Component(slot, pin, along)), *angle),
-        )
+        rows = (Holonomic("normal", Component(pin, slot, normal)),)
+        return Joint(scope.name, scope.kind, (a, b), rows, (("displacement", Component(slot, pin, along)), *angle))
 
 
 KIND = PinInSlot

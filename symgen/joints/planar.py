@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import msgspec
-
-from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair
+from symgen.describe.fields import AxisPair, DirectionPair
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
+from symgen.joints._paired import Paired
 from symgen.joints._space import angle, frames, markers, parallel
 from symgen.vocabulary.measures import Component, Holonomic
 
 
-class Planar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Planar(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A plane of the second body lies on a plane of the first, slides and turns on it; in space only.
 
     Parameters
@@ -38,27 +37,16 @@ class Planar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
 
     SPACES: ClassVar[tuple[str, ...]] = ("spatial",)
 
-    between: BodyPair
-    at: PointPair
     normal: AxisPair
     reference: DirectionPair | None = None
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the distance from the plane and two angles."""
-        a, b = scope.pair("between", self.between, turns=(True, True))
-        ends = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        triad_a, triad_b = make_triads(scope, (a, b), self.normal, self.reference, ("normal", "reference"))
-        return Joint(
-            name=scope.name,
-            kind=scope.kind,
-            bodies=(a, b),
-            rows=(Holonomic("normal", Component(*ends, triad_a.axis)), *parallel(triad_a, triad_b)),
-            coordinates=(
-                ("displacement1", Component(*ends, triad_a.first)),
-                ("displacement2", Component(*ends, triad_a.second)),
-                ("angle", angle(triad_a, triad_b)),
-            ),
-        )
+        bodies, ends = self.ends(scope)
+        a, b = make_triads(scope, bodies, self.normal, self.reference, ("normal", "reference"))
+        rows = (Holonomic("normal", Component(*ends, a.axis)), *parallel(a, b))
+        slides = ("displacement1", Component(*ends, a.first)), ("displacement2", Component(*ends, a.second))
+        return Joint(scope.name, scope.kind, bodies, rows, (*slides, ("angle", angle(a, b))))
 
     @staticmethod
     def articulate(joint: Joint) -> Articulation:

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import msgspec
-
-from symgen.describe.fields import Axis, BodyPair, PointPair
+from symgen.describe.fields import Axis
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triad
+from symgen.joints._paired import Paired
 from symgen.vocabulary.measures import Component, Holonomic
 
 
-class PointOnPlane(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class PointOnPlane(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A point of the first body that glides in a plane fixed in the second; in space only.
 
     Parameters
@@ -33,25 +32,17 @@ class PointOnPlane(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
 
     SPACES: ClassVar[tuple[str, ...]] = ("spatial",)
 
-    between: BodyPair
-    at: PointPair
     normal: Axis
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the distance from the plane."""
-        a, b = scope.pair("between", self.between, turns=(False, True))
-        point, plane = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        triad = make_triad(scope, b, self.normal, keys=("normal", ""))
-        return Joint(
-            name=scope.name,
-            kind=scope.kind,
-            bodies=(a, b),
-            rows=(Holonomic("normal", Component(point, plane, triad.axis)),),
-            coordinates=(
-                ("displacement1", Component(plane, point, triad.first)),
-                ("displacement2", Component(plane, point, triad.second)),
-            ),
+        bodies, (point, plane) = self.ends(scope, turns=(False, True))
+        triad = make_triad(scope, bodies[1], self.normal, keys=("normal", ""))
+        rows = (Holonomic("normal", Component(point, plane, triad.axis)),)
+        slides = tuple(
+            (f"displacement{k}", Component(plane, point, x)) for k, x in ((1, triad.first), (2, triad.second))
         )
+        return Joint(scope.name, scope.kind, bodies, rows, slides)
 
 
 KIND = PointOnPlane

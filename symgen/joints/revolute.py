@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import msgspec
-
-from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair
+from symgen.describe.fields import AxisPair, DirectionPair
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
+from symgen.joints._paired import Paired
 from symgen.joints._space import angle, coincident, frames, markers, parallel
 from symgen.vocabulary.measures import Angle
 
 
-class Revolute(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Revolute(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A pin that holds a point of one body on a point of the other; in space it has an axis.
 
     Parameters
@@ -39,8 +38,6 @@ class Revolute(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
 
     SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
-    between: BodyPair
-    at: PointPair
     axis: AxisPair | None = None
     reference: DirectionPair | None = None
 
@@ -49,31 +46,17 @@ class Revolute(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         if scope.spatial:
             return self._spatial(scope)
         scope.only(axis=self.axis, reference=self.reference)
-        a, b = scope.pair("between", self.between)
-        pins = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        return Joint(
-            name=scope.name,
-            kind=scope.kind,
-            bodies=(a, b),
-            rows=coincident(*pins),
-            coordinates=(("angle", Angle(a, b)),) if scope.turns(a) and scope.turns(b) else (),
-        )
+        (a, b), pins = self.ends(scope, turns=(False, False))
+        coordinates = (("angle", Angle(a, b)),) if scope.turns(a) and scope.turns(b) else ()
+        return Joint(scope.name, scope.kind, (a, b), coincident(*pins), coordinates)
 
     def _spatial(self, scope: Scope) -> Joint:
         if self.axis is None:
             raise scope.error("axis", "an axis, as a revolute joint in space has one", "no such key")
-        a, b = scope.pair("between", self.between, turns=(True, True))
-        triad_a, triad_b = make_triads(scope, (a, b), self.axis, self.reference)
-        return Joint(
-            name=scope.name,
-            kind=scope.kind,
-            bodies=(a, b),
-            rows=(
-                *coincident(scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])),
-                *parallel(triad_a, triad_b),
-            ),
-            coordinates=(("angle", angle(triad_a, triad_b)),),
-        )
+        bodies, pins = self.ends(scope)
+        triads = make_triads(scope, bodies, self.axis, self.reference)
+        rows = (*coincident(*pins), *parallel(*triads))
+        return Joint(scope.name, scope.kind, bodies, rows, (("angle", angle(*triads)),))
 
     @staticmethod
     def articulate(joint: Joint) -> Articulation:

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import msgspec
-
-from symgen.describe.fields import Axis, BodyPair, PointPair, Scalar
+from symgen.describe.fields import Axis, Scalar
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triad
+from symgen.joints._paired import Paired
 from symgen.vocabulary.measures import Bearing, Component, Holonomic, LinkStretch
 
 
-class RevoluteSpherical(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class RevoluteSpherical(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A massless link that turns about an axis of the first body and holds a point of the second; in space only.
 
     Parameters
@@ -37,28 +36,17 @@ class RevoluteSpherical(msgspec.Struct, frozen=True, kw_only=True, forbid_unknow
 
     SPACES: ClassVar[tuple[str, ...]] = ("spatial",)
 
-    between: BodyPair
-    at: PointPair
     axis: Axis
     length: Scalar
     reference: Axis | None = None
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the height over the pin's plane and the stretch of the link."""
-        a, b = scope.pair("between", self.between, turns=(True, False))
-        pin, ball = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        triad = make_triad(scope, a, self.axis, self.reference)
-        length = scope.constant("length", self.length, positive=True)
-        return Joint(
-            name=scope.name,
-            kind=scope.kind,
-            bodies=(a, b),
-            rows=(
-                Holonomic("along", Component(pin, ball, triad.axis)),
-                Holonomic("distance", LinkStretch(pin, ball, length)),
-            ),
-            coordinates=(("angle", Bearing(pin, ball, triad.first, triad.second)),),
-        )
+        bodies, ends = self.ends(scope, turns=(True, False))
+        triad = make_triad(scope, bodies[0], self.axis, self.reference)
+        stretch = LinkStretch(*ends, scope.constant("length", self.length, positive=True))
+        rows = (Holonomic("along", Component(*ends, triad.axis)), Holonomic("distance", stretch))
+        return Joint(scope.name, scope.kind, bodies, rows, (("angle", Bearing(*ends, triad.first, triad.second)),))
 
 
 KIND = RevoluteSpherical

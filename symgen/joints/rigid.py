@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import msgspec
-
-from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair, Scalar
+from symgen.describe.fields import AxisPair, DirectionPair, Scalar
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
+from symgen.joints._paired import Paired
 from symgen.joints._space import coincident, frames, markers, not_turned, parallel
 from symgen.vocabulary.measures import Angle, Holonomic
 
 
-class Rigid(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Rigid(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A weld: a point of one body stays on a point of the other and neither turns against the other.
 
     Parameters
@@ -40,24 +39,21 @@ class Rigid(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
 
     SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
-    between: BodyPair
-    at: PointPair
     angle: Scalar | None = None
     axis: AxisPair | None = None
     reference: DirectionPair | None = None
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the components of the vector between the points and the angle, in space three angles."""
-        a, b = scope.pair("between", self.between, turns=(True, True))
-        weld_a, weld_b = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
+        bodies, welds = self.ends(scope)
         if scope.spatial:
             scope.only(angle=self.angle)
-            triads = make_triads(scope, (a, b), self.axis or (0.0, 0.0, 1.0), self.reference, fixed=True)
-            rows = (*coincident(weld_a, weld_b), *parallel(*triads), not_turned(*triads))
-            return Joint(scope.name, scope.kind, (a, b), rows)
+            triads = make_triads(scope, bodies, self.axis or (0.0, 0.0, 1.0), self.reference, fixed=True)
+            rows = (*coincident(*welds), *parallel(*triads), not_turned(*triads))
+            return Joint(scope.name, scope.kind, bodies, rows)
         scope.only(axis=self.axis, reference=self.reference)
-        held = Holonomic("angle", Angle(a, b), scope.constant("angle", self.angle or 0.0), "rad")
-        return Joint(scope.name, scope.kind, (a, b), (*coincident(weld_a, weld_b), held))
+        held = Holonomic("angle", Angle(*bodies), scope.constant("angle", self.angle or 0.0), "rad")
+        return Joint(scope.name, scope.kind, bodies, (*coincident(*welds), held))
 
     @staticmethod
     def articulate(joint: Joint) -> Articulation:

@@ -56,16 +56,9 @@ class Rolling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         offset = scope.constant("offset", self.offset)
         # Both rows run from the disc to the line, so that their multipliers push the disc along normal and axis.
         roll = Sum(((ONE, Component(centre, line, along)), (radius, Angle(disc, base))))
-        return Joint(
-            name=scope.name,
-            kind=scope.kind,
-            bodies=(disc, base),
-            rows=(
-                Holonomic("normal", Component(centre, line, normal), call("neg", radius)),
-                Holonomic("roll", roll, call("neg", offset)),
-            ),
-            coordinates=(("displacement", Component(line, centre, along)),),
-        )
+        height = Holonomic("normal", Component(centre, line, normal), call("neg", radius))
+        rows = (height, Holonomic("roll", roll, call("neg", offset)))
+        return Joint(scope.name, scope.kind, (disc, base), rows, (("displacement", Component(line, centre, along)),))
 
 
 KIND = Rolling

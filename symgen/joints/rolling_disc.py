@@ -34,11 +34,11 @@ class RollingDisc(RollingContact, frozen=True, kw_only=True, forbid_unknown_fiel
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the height of the rim's lowest point and two velocities of the point of contact."""
-        found = self.contact(scope)
-        axis = make_triad(scope, found.body, self.axis).axis
+        contact = self.contact(scope)
+        axis = make_triad(scope, contact.body, self.axis).axis
         # downwards, so that a positive multiplier pushes the disc along the normal
-        rim = RimHeight(found.origin, found.plane.axis, found.centre, axis, found.radius)
-        return found.joint(scope, Holonomic("normal", Sum(((number(-1.0), rim),))), axis)
+        rim = RimHeight(contact.origin, contact.plane.axis, contact.centre, axis, contact.radius)
+        return contact.joint(scope, Holonomic("normal", Sum(((number(-1.0), rim),))), axis)
 
 
 KIND = RollingDisc

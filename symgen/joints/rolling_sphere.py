@@ -24,10 +24,10 @@ class RollingSphere(RollingContact, frozen=True, kw_only=True, forbid_unknown_fi
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the height of the centre and two velocities of the point of contact."""
-        found = self.contact(scope)
+        contact = self.contact(scope)
         # from the sphere to the plane, so that a positive multiplier pushes the sphere along the normal
-        height = Component(found.centre, found.origin, found.plane.axis)
-        return found.joint(scope, Holonomic("normal", height, call("neg", found.radius)))
+        height = Component(contact.centre, contact.origin, contact.plane.axis)
+        return contact.joint(scope, Holonomic("normal", height, call("neg", contact.radius)))
 
 
 KIND = RollingSphere

@@ -9,7 +9,7 @@ from symgen.describe.fields import Scalar
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
-from symgen.joints._axial import Axial
+from symgen.joints._paired import Axial
 from symgen.joints._space import angle, frames, markers, on_axis, parallel
 from symgen.vocabulary.expressions import ONE, call, number
 from symgen.vocabulary.measures import Component, Holonomic, Sum
@@ -39,7 +39,7 @@ class Screw(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the rows of a cylindrical joint and one that ties its two coordinates together."""
-        bodies, points = self.resolved(scope)
+        bodies, points = self.ends(scope)
         triads = make_triads(scope, bodies, self.axis, self.reference)
         displacement, turn = Component(*points, triads[0].axis), angle(*triads)
         slope = call("div", scope.constant("pitch", self.pitch), number(-2.0 * math.pi))

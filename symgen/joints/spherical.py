@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import msgspec
-
-from symgen.describe.fields import BodyPair, PointPair
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
+from symgen.joints._paired import Paired
 from symgen.joints._space import coincident, markers
 
 
-class Spherical(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Spherical(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A ball and socket that holds a point of one body on a point of the other; in space only.
 
     Parameters
@@ -29,14 +27,10 @@ class Spherical(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 
     SPACES: ClassVar[tuple[str, ...]] = ("spatial",)
 
-    between: BodyPair
-    at: PointPair
-
     def build(self, scope: Scope) -> Joint:
         """Resolve to the three components of the vector between the points."""
-        a, b = scope.pair("between", self.between)
-        rows = coincident(scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1]))
-        return Joint(name=scope.name, kind=scope.kind, bodies=(a, b), rows=rows)
+        bodies, centres = self.ends(scope, turns=(False, False))
+        return Joint(scope.name, scope.kind, bodies, coincident(*centres))
 
     @staticmethod
     def articulate(joint: Joint) -> Articulation:

@@ -8,7 +8,7 @@ from symgen.describe.fields import Scalar
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
-from symgen.joints._axial import Axial
+from symgen.joints._paired import Axial
 from symgen.joints._space import frames, markers, not_turned, on_axis, parallel
 from symgen.vocabulary.measures import Angle, Component, Holonomic
 
@@ -37,7 +37,7 @@ class Translational(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the distance from the axis and the angle, in space to two distances and three angles."""
-        bodies, points = self.resolved(scope)
+        bodies, points = self.ends(scope)
         rows: tuple[Holonomic, ...]
         if scope.spatial:
             scope.only(angle=self.angle)

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import msgspec
-
-from symgen.describe.fields import BodyPair, DirectionPair, PointPair
+from symgen.describe.fields import DirectionPair
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_cross
+from symgen.joints._paired import Paired
 from symgen.joints._space import coincident, markers, third
 from symgen.vocabulary.expressions import number
 from symgen.vocabulary.measures import Dot, Holonomic, Sum, Turn
 
 
-class Universal(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Universal(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A Cardan or Hooke joint: its massless cross turns about an axis of either body; in space only.
 
     Parameters
@@ -40,26 +39,18 @@ class Universal(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 
     SPACES: ClassVar[tuple[str, ...]] = ("spatial",)
 
-    between: BodyPair
-    at: PointPair
     axes: DirectionPair
     reference: DirectionPair | None = None
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the components of the vector between the points and the product of the axes."""
-        a, b = scope.pair("between", self.between, turns=(True, True))
-        centres = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        of_a, of_b = make_cross(scope, (a, b), self.axes, self.reference)
+        bodies, centres = self.ends(scope)
+        a, b = make_cross(scope, bodies, self.axes, self.reference)
+        rows = (*coincident(*centres), Holonomic("cross", Dot(a.axis, b.axis), unit="rad"))
+        # seen from the second body the cross turns backwards
+        back = Sum(((number(-1.0), Turn(b.first, b.second, a.axis)),))
         return Joint(
-            name=scope.name,
-            kind=scope.kind,
-            bodies=(a, b),
-            rows=(*coincident(*centres), Holonomic("cross", Dot(of_a.axis, of_b.axis), unit="rad")),
-            coordinates=(
-                ("angle1", Turn(of_a.first, of_a.second, of_b.axis)),
-                # seen from the second body the cross turns backwards
-                ("angle2", Sum(((number(-1.0), Turn(of_b.first, of_b.second, of_a.axis)),))),
-            ),
+            scope.name, scope.kind, bodies, rows, (("angle1", Turn(a.first, a.second, b.axis)), ("angle2", back))
         )
 
     @staticmethod

@@ -55,8 +55,8 @@ def lower_law(
     if implicit:
         form = record_form(method, options, driven=equations.driving is not None)
         unknowns, level = equations.nq + equations.nv + equations.m * (2 if form.form == "stabilised" else 1), form.form
-        found, pattern = _form_blocks(hoister, scalars, form, unknowns)
-        blocks += found
+        form_blocks, pattern = _form_blocks(hoister, scalars, form, unknowns)
+        blocks += form_blocks
     blocks.insert(0, replace(hoister.prepare(), role="preparation"))
     layout = replace(model.layout, sections=_sections(model.layout, record, blocks, degrees))
     correction = method.correction(options)
@@ -91,10 +91,10 @@ def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
     """Return what a function of a law writes; where M changes with the position, those without the state read it."""
     if scalars.mass_entries and "y" not in ARGUMENTS[part.name]:
         scalars = scalars.with_stored_mass
-    found = [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
+    outputs = [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
     if part.name in _KEEPS_MASS:
-        found += [(Target("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
-    return found
+        outputs += [(Target("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
+    return outputs
 
 
 def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from symgen.describe.derived_parameters import derived
+from symgen.describe.evaluate import derived
 from symgen.describe.mechanism import Mechanism
-from symgen.formulate.efforts import exertion
 from symgen.formulate.equations import Equations
 from symgen.formulate.formulate import formulate
+from symgen.formulate.measures import exertion
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Target
@@ -92,17 +92,20 @@ def lower_linearised(
 def _following(model: SideModel, by: Sequence[str]) -> dict[str, dict[str, int]]:
     """Return the parameters that follow from others by formulas, with their derivatives by each of `by`."""
     g, names = model.graph, [p.name for p in model.mechanism.parameters]
-    found: dict[str, dict[str, int]] = {}
+    derivatives: dict[str, dict[str, int]] = {}
     for name, formula in derived(model.mechanism.parameters) if by else ():
         node = model.expression(formula)
         slopes = jacobian(g, [node], [("p", i) for i in range(len(names))])[0]
         total: dict[str, int] = {}
         for (_, i), slope in sorted(slopes.items()):
-            for base, more in (*([(names[i], g.one)] if names[i] in by else []), *found.get(names[i], {}).items()):
+            for base, more in (
+                *([(names[i], g.one)] if names[i] in by else []),
+                *derivatives.get(names[i], {}).items(),
+            ):
                 total[base] = g.add(total.get(base, g.zero), g.mul(slope, more))
         if total:
-            found[name] = total
-    return found
+            derivatives[name] = total
+    return derivatives
 
 
 def _followed(
@@ -114,12 +117,12 @@ def _followed(
 ) -> dict[Key, int]:
     """Return derivatives by `by`: those by parameters that follow are parts of those by what they follow."""
     places: dict[Key, Mapping[str, int]] = {("p", names.index(name)): bases for name, bases in following.items()}
-    found = {key: slope for key, slope in slopes.items() if key[0] != "p" or names[key[1]] in by}
+    followed = {key: slope for key, slope in slopes.items() if key[0] != "p" or names[key[1]] in by}
     for key, bases in places.items():
         for base, more in bases.items() if key in slopes else ():
             at = ("p", names.index(base))
-            found[at] = g.add(found.get(at, g.zero), g.mul(slopes[key], more))
-    return found
+            followed[at] = g.add(followed.get(at, g.zero), g.mul(slopes[key], more))
+    return followed
 
 
 def can_decay(mechanism: Mechanism, beside: Beside) -> bool:
@@ -137,14 +140,14 @@ def can_decay(mechanism: Mechanism, beside: Beside) -> bool:
 def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:
     """Return the nodes of each group in the graph of formulas."""
     g = model.graph
-    wanted = [*e.q_rates, *e.forces, *(n for block in e.mass for row in block.entries for n in row)]
-    wanted += [n for row in e.rows for n in (row.nu, row.gamma, *([] if row.phi is None else [row.phi]))]
-    wanted += [n for row in e.rows for _, n in row.entries]
+    needed = [*e.q_rates, *e.forces, *(n for block in e.mass for row in block.entries for n in row)]
+    needed += [n for row in e.rows for n in (row.nu, row.gamma, *([] if row.phi is None else [row.phi]))]
+    needed += [n for row in e.rows for _, n in row.entries]
     # equations count turns in the order of straight code, the model beside which they are read maybe in another one
     turning = winding_order(model.mechanism, "straight")
-    keys = {key: g.input(*key) for key in e.graph.keys(wanted)}
+    keys = {key: g.input(*key) for key in e.graph.keys(needed)}
     keys |= {key: g.input("winding", model.place_of_turn(turning[key[1]])) for key in keys if key[0] == "winding"}
-    image = dict(zip(wanted, g.inline(e.graph, wanted, keys), strict=True))
+    image = dict(zip(needed, g.inline(e.graph, needed, keys), strict=True))
     velocities = [g.input("v", i) for i in range(e.nv)]
     rates = [g.input("ydot", e.nq + i) for i in range(e.nv)]
     balance = [g.neg(image[n]) for n in e.forces]
@@ -152,35 +155,35 @@ def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:
         for i, entries in zip(block.columns, block.entries, strict=True):
             for j, n in zip(block.columns, entries, strict=True):
                 balance[i] = g.add(balance[i], g.mul(image[n], rates[j]))
-    found: dict[str, list[int]] = {"motion": [image[n] for n in e.q_rates], "balance": balance}
-    found |= {"accelerations": [], "velocities": [], "positions": []}
+    groups: dict[str, list[int]] = {"motion": [image[n] for n in e.q_rates], "balance": balance}
+    groups |= {"accelerations": [], "velocities": [], "positions": []}
     for k, row in enumerate(e.rows):
         own = [(j, image[n]) for j, n in row.entries]
         for j, n in own:
             balance[j] = g.add(balance[j], g.mul(n, g.input("multipliers", k)))
-        found["accelerations"].append(g.sub(g.total(g.mul(n, rates[j]) for j, n in own), image[row.gamma]))
-        found["velocities"].append(g.sub(g.total(g.mul(n, velocities[j]) for j, n in own), image[row.nu]))
-        found["positions"].append(g.zero if row.phi is None else image[row.phi])
-    return found
+        groups["accelerations"].append(g.sub(g.total(g.mul(n, rates[j]) for j, n in own), image[row.gamma]))
+        groups["velocities"].append(g.sub(g.total(g.mul(n, velocities[j]) for j, n in own), image[row.nu]))
+        groups["positions"].append(g.zero if row.phi is None else image[row.phi])
+    return groups
 
 
 def _elements(model: SideModel) -> tuple[tuple[tuple[str, int], ...], list[int]]:
     """Return what each force element adds to the balance, velocity by velocity."""
     if model.tree is not None:
         return (), []
-    g, found = model.graph, dict[tuple[str, int], int]()
+    g, entries = model.graph, dict[tuple[str, int], int]()
     for force in model.mechanism.forces:
         for effort in force.efforts:
             exerted = exertion(model, effort)
             for i, entry in sorted(exerted.row.items()):
                 key = force.name, i
-                found[key] = g.sub(found.get(key, g.zero), g.mul(entry, exerted.total))
-    return tuple(found), list(found.values())
+                entries[key] = g.sub(entries.get(key, g.zero), g.mul(entry, exerted.total))
+    return tuple(entries), list(entries.values())
 
 
 def _functions(model: SideModel) -> tuple[list[tuple[str, str, int]], list[int]]:
     """Return coordinates of joints and outputs, and the nodes of their values and rates."""
-    found, nodes = list[tuple[str, str, int]](), list[int]()
+    functions, nodes = list[tuple[str, str, int]](), list[int]()
     named = [
         (f"{joint.name}.{label}", joint.unit(label), model.measure(measure).value)
         for joint in model.mechanism.joints
@@ -204,9 +207,9 @@ def _functions(model: SideModel) -> tuple[list[tuple[str, str, int]], list[int]]
                 break
         if len(chain) == 3 and _has_second_slopes(model, chain[2]):
             chain.pop()  # it has no derivative
-        found.append((name, unit, len(chain)))
+        functions.append((name, unit, len(chain)))
         nodes += chain
-    return found, nodes
+    return functions, nodes
 
 
 def _has_second_slopes(model: SideModel, node: int) -> bool:

@@ -71,12 +71,14 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
 def _diagonal(scalars: ScalarNodes) -> Outputs:
     """Return the diagonal of M; where it changes with the position, that at coordinates and time of 0."""
     equations, g = scalars.equations, scalars.graph
-    found = [(Target("mass", j), b.entries[k][k]) for b in equations.mass for k, j in enumerate(b.columns)]
+    diagonal = [(Target("mass", j), b.entries[k][k]) for b in equations.mass for k, j in enumerate(b.columns)]
     if not scalars.mass_entries:
-        return found
+        return diagonal
     origin = {("t", 0): g.zero} | {("q", i): g.zero for i in range(equations.nq)}
     origin |= {("q", i): g.one for i, _ in equations.spins}
-    return [(target, node) for (target, _), node in zip(found, g.replaced([n for _, n in found], origin), strict=True)]
+    return [
+        (target, node) for (target, _), node in zip(diagonal, g.replaced([n for _, n in diagonal], origin), strict=True)
+    ]
 
 
 # -- blocks of the model ----------------------------------------------------------------------------------------------

@@ -76,13 +76,13 @@ def record_law(method: Method, options: Mapping[str, str], driven: bool = False)
 
     `driven` says that drivers prescribe coordinates of a tree: their power is work.
     """
-    found = _Law(driven)
-    found.law(method.law(found.system, options))
+    recording = _Law(driven)
+    recording.law(method.law(recording.system, options))
     correction = method.correction(options)
-    found.role = "metric"
+    recording.role = "metric"
     if correction.any and correction.metric != "scaled":  # which is the model's own
-        getattr(found, f"{correction.metric}_metric")()
-    return found.record()
+        getattr(recording, f"{correction.metric}_metric")()
+    return recording.record()
 
 
 class _Law:
@@ -99,8 +99,8 @@ class _Law:
         )
 
     def add(self, name: str, purpose: str, *outputs: tuple[str, Value], flag: Value | None = None) -> None:
-        found = tuple((place, value.index) for place, value in outputs)
-        self.parts.append(Part(name, purpose, found, None if flag is None else flag.index, self.role))
+        places = tuple((place, value.index) for place, value in outputs)
+        self.parts.append(Part(name, purpose, places, None if flag is None else flag.index, self.role))
 
     def law(self, law: Law) -> None:
         if isinstance(law, Acceleration):
@@ -133,7 +133,7 @@ class _Law:
         s = self.system
         power = s.power + s.driving(acceleration) if self.driven else s.power
         if velocities is not None:
-            power = power.made(Scalar, "at_velocity", power, velocities)
+            power = power.applied(Scalar, "at_velocity", power, velocities)
         return power - multipliers.dot(s.nu)
 
     def iterated(self, law: Iteration) -> None:
@@ -290,13 +290,13 @@ def record_model() -> RecordedLaw:
 
     G makes rows of one unit: 1 for translations, 1 / l^2 for rotations, l being the length of the body.
     """
-    found = _Law()
-    s = found.system
+    recording = _Law()
+    s = recording.system
     rank = s.rank_factor()
     purpose = "Phi, nu, D, and the factorisation of D G D^T that decides rank"
-    found.add("geometry", purpose, ("geometry", s.geometry(rank)), ("", rank))
-    found.spread(s.gauged(_change(s, s.stored_factor(rank, ""))))
-    return found.record()
+    recording.add("geometry", purpose, ("geometry", s.geometry(rank)), ("", rank))
+    recording.spread(s.gauged(_change(s, s.stored_factor(rank, ""))))
+    return recording.record()
 
 
 # -- descriptor forms --------------------------------------------------------------------------------------------------
@@ -331,7 +331,7 @@ def record_form(method: Method, options: Mapping[str, str], kind: str = "whole",
         raise InputError(f"method '{method.name}'", "a method with a descriptor form", what)
     q_rates, accelerations = s.variable("k_q", "nq"), s.variable("k_v", "nv")
     multipliers, eta = s.variable("k_first", "m"), s.variable("k_second", "m")
-    found: list[tuple[str, Value]] = []
+    equations: list[tuple[str, Value]] = []
     if kind in ("whole", "body"):
         kinematic, dynamic = q_rates - s.q_rates, s.mass(accelerations)
         if kind == "whole":
@@ -339,21 +339,21 @@ def record_form(method: Method, options: Mapping[str, str], kind: str = "whole",
         dynamic = dynamic - s.f
         if kind == "whole" and form.level == "stabilised":  # N times a change of v: q' with that change in place of v
             kinematic = kinematic + s.at_velocity(s.q_rates, s.D.transposed(eta))
-        found += [("q", kinematic), ("v", dynamic)]
+        equations += [("q", kinematic), ("v", dynamic)]
     if kind in ("whole", "joint"):
-        found += zip(EQUATIONS[2:], _constraints(s, form, accelerations, multipliers), strict=False)
+        equations += zip(EQUATIONS[2:], _constraints(s, form, accelerations, multipliers), strict=False)
     drivers = multipliers.dot(s.nu)
     if kind == "joint":
-        found.append(("v", s.D.transposed(multipliers)))
+        equations.append(("v", s.D.transposed(multipliers)))
         if form.level == "stabilised":
-            found.append(("q", s.at_velocity(s.q_rates, s.D.transposed(eta))))
+            equations.append(("q", s.at_velocity(s.q_rates, s.D.transposed(eta))))
     if kind == "force":
-        found.append(("v", -s.f))
+        equations.append(("v", -s.f))
     applied = s.power + s.driving(accelerations) if driven else s.power
     power: Scalar = {"whole": applied - drivers, "joint": -drivers}.get(kind, applied)
     if kind != "body":
-        found.append(("power", power))
-    written = tuple((g, v.index) for g, v in found)
+        equations.append(("power", power))
+    written = tuple((g, v.index) for g, v in equations)
     part = Part("residual", "F(t, y, k) of the descriptor form, and the power", written, role="form")
     return RecordedLaw(tuple(s.tape.operations), (part,), form=form.level)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from symgen.ir.graph import Graph
+from symgen.ir.graph import ARITHMETIC, Graph
 from symgen.ir.program import STATUS
 from symgen.methods._formula import FormulaStep
 
@@ -78,9 +78,5 @@ class Replay:
 
     def _on_penalties(self, operation: FormulaStep, penalty: int) -> Nodes:
         g = self.graph
-        found: Nodes = self.each(lambda mask, a: g.mul(a, g.call("step", g.one, mask)), self.mask, penalty)
-        return found
-
-
-#: Kinds of operations that are arithmetic, by the graph's name for them.
-ARITHMETIC = {**{kind: kind for kind in ("add", "sub", "mul", "div", "neg")}, "pow": "power"}
+        penalties: Nodes = self.each(lambda mask, a: g.mul(a, g.call("step", g.one, mask)), self.mask, penalty)
+        return penalties

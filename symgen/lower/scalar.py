@@ -78,14 +78,14 @@ class ScalarNodes(OfMass):
 
     def _usual(self, row: int, diagonal: int) -> int:
         """Return what the pivot of a row in D G D^T is compared with: its square, or what it was before."""
-        g, found = self.graph, self.equations.rows[row]
-        if found.size is None:
+        g, constraint = self.graph, self.equations.rows[row]
+        if constraint.size is None:
             return diagonal
-        if found.unit not in ("rad", "rad/s"):
-            return g.call("max", diagonal, found.size)
-        turns = [next(iter(self.gauge[j].values())) for j, _ in found.entries]
+        if constraint.unit not in ("rad", "rad/s"):
+            return g.call("max", diagonal, constraint.size)
+        turns = [next(iter(self.gauge[j].values())) for j, _ in constraint.entries]
         gauge = g.mul(g.constant(1.0 / max(1, len(turns))), g.total(turns))
-        return g.call("max", diagonal, g.mul(found.size, gauge))
+        return g.call("max", diagonal, g.mul(constraint.size, gauge))
 
     def _kept(self, keep: int, pivot: int) -> int:
         """Return 1 / pivot where `keep` is 1, else 0."""
@@ -130,9 +130,9 @@ class ScalarNodes(OfMass):
         """Return det(D P D^T) / det(D G D^T): squared cosines between tangent space and independent coordinates."""
         g, quality = self.graph, self.graph.one
         for i in factor.order:
-            kept = g.mul(rank.pivots[i], rank.reciprocal[i])  # 0 for rows that D D^T skips: they say nothing
+            decided = g.mul(rank.pivots[i], rank.reciprocal[i])  # 0 for rows that D D^T skips: they say nothing
             ratio = g.mul(factor.pivots[i], rank.reciprocal[i])
-            quality = g.mul(quality, g.add(ratio, g.sub(g.one, kept)))
+            quality = g.mul(quality, g.add(ratio, g.sub(g.one, decided)))
         return quality
 
     def _on_augmented(self, operation: FormulaStep, penalties: Nodes) -> FactorNodes:
@@ -169,14 +169,14 @@ class ScalarNodes(OfMass):
         entries = [node for row in self.rows for _, node in row]
         slots = ((e.slot, n) for e, n in zip(self.jacobian, entries, strict=True))
         outputs += [(Target("jacobian", slot), n) for slot, n in slots if slot is not None]
-        kept, smallest = g.zero, g.one
+        count, smallest = g.zero, g.one
         for i in range(len(rank.order)):
             if self._certain(i, rank.pivots[i], rank.diagonal[i]):
-                kept = g.add(kept, g.one)
+                count = g.add(count, g.one)
                 continue
             relative = g.div(rank.pivots[i], self._usual(i, rank.diagonal[i]))
             outputs.append((Target("pivot", i), relative))
-            kept = g.add(kept, self._decided(i, rank.pivots[i], rank.diagonal[i]))
+            count = g.add(count, self._decided(i, rank.pivots[i], rank.diagonal[i]))
             smallest = g.call("min", smallest, g.add(relative, self.mask[i]))
         shortest = g.one
         for i, row in enumerate(self.equations.rows):
@@ -185,7 +185,11 @@ class ScalarNodes(OfMass):
                     shortest = g.call("min", shortest, row.size)
             elif row.unit == "rad" and g.value(rank.diagonal[i]) is None:
                 shortest = g.call("min", shortest, g.mul(rank.diagonal[i], g.input("row_weight", i)))
-        outputs += [to_status("rank", kept), to_status("smallest_pivot", smallest), to_status("shortest_row", shortest)]
+        outputs += [
+            to_status("rank", count),
+            to_status("smallest_pivot", smallest),
+            to_status("shortest_row", shortest),
+        ]
         return outputs
 
     def violation(self, level: str, residuals: Sequence[int]) -> Outputs:

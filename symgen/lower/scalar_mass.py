@@ -83,11 +83,11 @@ class OfMass(NodeValues):
         """For each velocity those that M^-1 couples it with."""
         if not self.mass_entries:
             return self.inverse_mass
-        found: list[Mapping[int, int]] = [{} for _ in range(self.equations.nv)]
+        coupled: list[Mapping[int, int]] = [{} for _ in range(self.equations.nv)]
         for block in self.equations.mass:
             for j in block.columns:
-                found[j] = dict.fromkeys(block.columns, 0)
-        return found
+                coupled[j] = dict.fromkeys(block.columns, 0)
+        return coupled
 
     @cached_property
     def row_halves(self) -> tuple[list[list[int]], list[list[int]]]:
@@ -96,14 +96,14 @@ class OfMass(NodeValues):
 
     def _halves(self, matrix: Rows) -> tuple[list[list[int]], list[list[int]]]:
         """Return the same as `row_halves` for some of the rows."""
-        g, found = self.graph, list[list[int]]()
+        g, halves = self.graph, list[list[int]]()
         for row in matrix:
             x = [g.zero] * self.equations.nv
             for j, node in row:
                 x[j] = node
-            found.append(self.mass_factor.forward(g, x))
+            halves.append(self.mass_factor.forward(g, x))
         reciprocal = self.mass_factor.reciprocal
-        return found, [[g.mul(reciprocal[k], x) for k, x in enumerate(half)] for half in found]
+        return halves, [[g.mul(reciprocal[k], x) for k, x in enumerate(half)] for half in halves]
 
     def _half(self, index: int) -> list[int]:
         """Return L^-1 of a value of the tape; of sums and of D^T y from what is known of their parts."""

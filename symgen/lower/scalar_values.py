@@ -73,8 +73,8 @@ class NodeValues(Replay):
         e = self.equations
         name = str(operation.payload[0])
         gamma = tuple(r.gamma for r in e.rows)
-        known = {"f": e.forces, "q_rates": e.q_rates, "phi": self.phi, "nu": self.nu, "v": self.v, "gamma": gamma}
-        return known[name]
+        quantities = {"f": e.forces, "q_rates": e.q_rates, "phi": self.phi, "nu": self.nu, "v": self.v, "gamma": gamma}
+        return quantities[name]
 
     def _on_section(self, operation: FormulaStep) -> Nodes:
         return self.section(str(operation.payload[0]), self.size(operation.size))
@@ -99,8 +99,8 @@ class NodeValues(Replay):
 
     def _on_at_velocity(self, operation: FormulaStep, x: Nodes | int, v: Nodes) -> Any:
         vector = isinstance(x, tuple)
-        found = self.graph.replaced(x if isinstance(x, tuple) else (x,), {("v", i): n for i, n in enumerate(v)})
-        return tuple(found) if vector else found[0]
+        nodes = self.graph.replaced(x if isinstance(x, tuple) else (x,), {("v", i): n for i, n in enumerate(v)})
+        return tuple(nodes) if vector else nodes[0]
 
     # -- D -------------------------------------------------------------------------------------------------------------
 

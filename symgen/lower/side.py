@@ -11,10 +11,9 @@ from dataclasses import dataclass, field
 
 from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import ACCELERATIONS, Mechanism
-from symgen.describe.outputs import integrals
+from symgen.describe.readings import integrals
 from symgen.describe.topology import quantities
-from symgen.formulate.efforts import exertion
-from symgen.formulate.measures import ModelNodes
+from symgen.formulate.measures import ModelNodes, exertion
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.interpolation import Interpolation
@@ -72,8 +71,8 @@ class SideModel(ModelNodes):
         """Return the node of what is read: a measure, or what is exerted along measures."""
         g, source = self.graph, r.source
         if isinstance(source, Exerted):
-            found = [exertion(self, effort) for effort in source.efforts]
-            return g.total(g.mul(e.total, e.rate) if source.power else e.total for e in found)
+            exerted = [exertion(self, effort) for effort in source.efforts]
+            return g.total(g.mul(e.total, e.rate) if source.power else e.total for e in exerted)
         if isinstance(source, Integral):
             return g.input("z", 1 + integrals(self.mechanism)[source])  # behind the work
         if isinstance(source, Driven):
@@ -90,12 +89,12 @@ class SideModel(ModelNodes):
     def rates(self, nodes: Sequence[int]) -> list[int]:
         """Return the derivatives of `nodes` along the motion: q' = N v, and v' as ``ydot`` has it."""
         g = self.graph
-        known = {("t", 0): g.one}
-        known |= {("q", i): rate for i, rate in enumerate(self.q_rates())}
-        known |= {("v", i): node for i, node in enumerate(self.state_rates)}
+        rates = {("t", 0): g.one}
+        rates |= {("q", i): rate for i, rate in enumerate(self.q_rates())}
+        rates |= {("v", i): node for i, node in enumerate(self.state_rates)}
         return [
-            g.total(g.mul(slope, known[key]) for key, slope in sorted(slopes.items()))
-            for slopes in jacobian(g, nodes, known)
+            g.total(g.mul(slope, rates[key]) for key, slope in sorted(slopes.items()))
+            for slopes in jacobian(g, nodes, rates)
         ]
 
     def sizes(self, nodes: Sequence[int]) -> list[int]:
@@ -111,12 +110,12 @@ class SideModel(ModelNodes):
         for space, part in zip("qv", quantities(self.mechanism), strict=True):
             for i, quantity in enumerate(part):
                 of[space, i] = g.add(g.call("abs", g.input(space, i)), least.get(quantity.unit, g.one))
-        found = list[int]()
+        sizes = list[int]()
         for node, slopes in zip(nodes, jacobian(g, nodes, of), strict=True):
             op, terms, _ = g.nodes[node]
             parts = [g.call("abs", term) for term in (terms if op in ("add", "sub") else (node,))]
-            found.append(g.total([*parts, *(g.mul(g.call("abs", slopes[key]), of[key]) for key in sorted(slopes))]))
-        return found
+            sizes.append(g.total([*parts, *(g.mul(g.call("abs", slopes[key]), of[key]) for key in sorted(slopes))]))
+        return sizes
 
 
 def moved(
@@ -185,8 +184,8 @@ def lower_integrands(mechanism: Mechanism, beside: Beside) -> SideProgram:
         If numbers that meet in a formula overflow.
     """
     model = SideModel(mechanism, beside=beside)
-    found = integrals(mechanism)
-    nodes = [model.expression(integral.of) for integral in found]
+    integrands = integrals(mechanism)
+    nodes = [model.expression(integral.of) for integral in integrands]
     coordinates, velocities = quantities(mechanism)
     first = len(coordinates) + len(velocities)
 
@@ -197,12 +196,12 @@ def lower_integrands(mechanism: Mechanism, beside: Beside) -> SideProgram:
     graph, images = moved(model.graph, nodes)
     rates = tuple((Target("ydot", first + 1 + i), image) for i, image in enumerate(images))
     stage, inside = moved(model.graph, nodes, unknown)
-    kept = tuple((Target("auxiliary", 1 + i), image) for i, image in enumerate(inside))
+    stored = tuple((Target("auxiliary", 1 + i), image) for i, image in enumerate(inside))
     blocks = (
         Block("integrands", "rates of integrals", graph, rates, ("t", "y", "p", "w", "ydot")),
-        Block("accumulate", "the same of a stage with the unknowns k", stage, kept, ("t", "y", "k", "p", "w")),
+        Block("accumulate", "the same of a stage with the unknowns k", stage, stored, ("t", "y", "k", "p", "w")),
     )
-    return side_program(mechanism, blocks, beside, [to_text(integral.of) for integral in found])
+    return side_program(mechanism, blocks, beside, [to_text(integral.of) for integral in integrands])
 
 
 def side_program(mechanism: Mechanism, blocks: tuple[Block, ...], beside: Beside, labels: Sequence[str]) -> SideProgram:

@@ -34,14 +34,14 @@ class Beside:
 
 def turns(measures: Iterable[Any]) -> tuple[Measure, ...]:
     """Return those measures, and parts of sums among them, whose turns are counted, each once, in this order."""
-    waiting, found = list(measures), dict[Measure, None]()
+    waiting, angles = list(measures), dict[Measure, None]()
     while waiting:
         measure = waiting.pop(0)
         if isinstance(measure, Sum):
             waiting = [part for _, part in measure.terms] + waiting
         elif isinstance(measure, Turning):
-            found[measure] = None
-    return tuple(found)
+            angles[measure] = None
+    return tuple(angles)
 
 
 def measures_of(element: Joint | Force) -> list[Any]:
@@ -64,16 +64,18 @@ def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
     """
     if mechanism.space == "planar":
         return ()
-    known = {} if mechanism.topology is None else known_coordinates(mechanism, mechanism.topology)
-    kept, _ = without_repeats(mechanism)
-    efforts = [m for force in kept.forces for m in measures_of(force)]
+    coordinates = {} if mechanism.topology is None else known_coordinates(mechanism, mechanism.topology)
+    distinct, _ = without_repeats(mechanism)
+    efforts = [m for force in distinct.forces for m in measures_of(force)]
     if shape == "looped":
-        return turns([m for joint in kept.joints for m in turns(measures_of(joint))] + efforts)
-    rows = [m for joint in kept.joints for m in _held(joint)]
-    found = turns(
-        m for m in (*rows, *efforts, *(m for joint in kept.joints for _, m in joint.coordinates)) if m not in known
+        return turns([m for joint in distinct.joints for m in turns(measures_of(joint))] + efforts)
+    rows = [m for joint in distinct.joints for m in _held(joint)]
+    angles = turns(
+        m
+        for m in (*rows, *efforts, *(m for joint in distinct.joints for _, m in joint.coordinates))
+        if m not in coordinates
     )
-    return tuple(m for m in found if m not in known)
+    return tuple(m for m in angles if m not in coordinates)
 
 
 def _held(joint: Joint) -> list[Any]:

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from symgen.methods._base import MethodParameter
-
-if TYPE_CHECKING:
-    from symgen.methods._formula import System, Vector
+from symgen.methods._formula import System, Vector
 
 SOURCE = "the source's value (Marques, Souto, Flores, Multibody Syst. Dyn. 39, 2017)"
 

@@ -15,13 +15,11 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from symgen.errors import InputError, nearest
 from symgen.ir.program import Correction
-
-if TYPE_CHECKING:
-    from symgen.methods._formula import Scalar, System, Vector
+from symgen.methods._formula import Scalar, System, Vector
 
 
 @dataclass(frozen=True)
@@ -213,7 +211,7 @@ class Method(ABC):
         """Return what is corrected after each accepted step; nothing unless overridden."""
         return Correction()
 
-    def complete_options(self, given: Mapping[str, str]) -> dict[str, str]:
+    def complete_options(self, values: Mapping[str, str]) -> dict[str, str]:
         """Return the structural options, defaults filled in.
 
         Raises
@@ -221,21 +219,21 @@ class Method(ABC):
         InputError
             If an option or its value is not known.
         """
-        known = {o.name: o for o in self.options}
-        for name, value in given.items():
-            if name not in known:
+        options = {o.name: o for o in self.options}
+        for name, value in values.items():
+            if name not in options:
                 numbers = [p.name for p in self.parameters]
                 got = f"'{name}'" + (", a number that runs are given" if name in numbers else "")
-                hint = nearest(name, known if name in numbers else [*known, *numbers]) or "it has none"
+                hint = nearest(name, options if name in numbers else [*options, *numbers]) or "it has none"
                 raise InputError(f"option {self.name}.{name}", "an option of the method", got, hint)
-            if value not in known[name].values:
+            if value not in options[name].values:
                 raise InputError(
                     f"option {self.name}.{name}",
-                    "one of " + ", ".join(known[name].values),
+                    "one of " + ", ".join(options[name].values),
                     f"'{value}'",
-                    nearest(value, known[name].values),
+                    nearest(value, options[name].values),
                 )
-        return {o.name: given.get(o.name, o.values[0]) for o in self.options}
+        return {o.name: values.get(o.name, o.values[0]) for o in self.options}
 
     def needs_regular_mass(self, options: Mapping[str, str]) -> bool:
         """Whether the method cannot do with massless bodies."""
@@ -320,6 +318,10 @@ def augmented_iteration(system: System, penalty: Scalar | Vector, target: Vector
     )
 
 
+TOLERANCE = MethodParameter(
+    "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times the mechanism's length"
+)
+WEIGHT = MethodOption("weight", ("identity", "mass", "body"), "metric of the correction")
 SOLVER = MethodOption(
     "solver",
     ("elimination", "augmented", "dense"),

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TypeVar, overload
 
-_Made = TypeVar("_Made", bound="Value")
+_Value = TypeVar("_Value", bound="Value")
 
 
 @dataclass(frozen=True)
@@ -52,36 +52,36 @@ class Tape:
 
     def add(self, operation: FormulaStep) -> int:
         """Return the index of an operation, appended where it is new."""
-        found = self._index.setdefault(operation, len(self.operations))
-        if found == len(self.operations):
+        index = self._index.setdefault(operation, len(self.operations))
+        if index == len(self.operations):
             self.operations.append(operation)
-        return found
+        return index
 
     def constant(self, value: float) -> Scalar:
         """Return a literal."""
         return Scalar(self, self.add(FormulaStep("constant", payload=(float(value),))))
 
-    def named(self, cls: type[_Made], kind: str, *names: str, size: str = "") -> _Made:
+    def named(self, cls: type[_Value], kind: str, *names: str, size: str = "") -> _Value:
         """Return what stands under a name."""
         return cls(self, self.add(FormulaStep(kind, (), names, size)))
 
-    def kept(self, cls: type[_Made], kind: str, section: str, x: Value, size: str = "") -> _Made:
+    def stored_value(self, cls: type[_Value], kind: str, section: str, x: Value, size: str = "") -> _Value:
         """Return a value as it is read from a section."""
-        found = cls(self, self.add(FormulaStep(kind, (x.index,), (section,), size)))
-        self.stored.append((section, found))
-        return found
+        stored = cls(self, self.add(FormulaStep(kind, (x.index,), (section,), size)))
+        self.stored.append((section, stored))
+        return stored
 
 
 def needed(ends: Iterable[int], operands: Callable[[int], tuple[int, ...]]) -> list[int]:
     """Return the indices of all operations that `ends` depend on through their `operands`, in their order."""
-    seen: set[int] = set()
+    indices: set[int] = set()
     waiting = list(ends)
     while waiting:
         index = waiting.pop()
-        if index not in seen:
-            seen.add(index)
+        if index not in indices:
+            indices.add(index)
             waiting += operands(index)
-    return sorted(seen)
+    return sorted(indices)
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +91,7 @@ class Value:
     tape: Tape
     index: int
 
-    def made(self, cls: type[_Made], kind: str, *operands: Value, size: str = "") -> _Made:
+    def applied(self, cls: type[_Value], kind: str, *operands: Value, size: str = "") -> _Value:
         """Return what an operation on values gives."""
         return cls(self.tape, self.tape.add(FormulaStep(kind, tuple(v.index for v in operands), (), size)))
 
@@ -105,37 +105,37 @@ class Vector(Value):
         return self.tape.operations[self.index].size
 
     def __add__(self, other: Vector) -> Vector:
-        return self.made(Vector, "add", self, other, size=self.size)
+        return self.applied(Vector, "add", self, other, size=self.size)
 
     def __sub__(self, other: Vector) -> Vector:
-        return self.made(Vector, "sub", self, other, size=self.size)
+        return self.applied(Vector, "sub", self, other, size=self.size)
 
     def __neg__(self) -> Vector:
-        return self.made(Vector, "neg", self, size=self.size)
+        return self.applied(Vector, "neg", self, size=self.size)
 
     def times(self, other: Vector) -> Vector:
         """Return the elementwise product."""
-        return self.made(Vector, "mul", self, other, size=self.size)
+        return self.applied(Vector, "mul", self, other, size=self.size)
 
     def dot(self, other: Vector) -> Scalar:
         """Return the inner product."""
-        return self.made(Scalar, "dot", self, other)
+        return self.applied(Scalar, "dot", self, other)
 
 
 class Scalar(Value):
     """A number with arithmetic, so that a method's formula reads like the textbook's."""
 
     def __add__(self, other: Scalar) -> Scalar:
-        return self.made(Scalar, "add", self, other)
+        return self.applied(Scalar, "add", self, other)
 
     def __sub__(self, other: Scalar) -> Scalar:
-        return self.made(Scalar, "sub", self, other)
+        return self.applied(Scalar, "sub", self, other)
 
     def __neg__(self) -> Scalar:
-        return self.made(Scalar, "neg", self)
+        return self.applied(Scalar, "neg", self)
 
     def __truediv__(self, other: Scalar) -> Scalar:
-        return self.made(Scalar, "div", self, other)
+        return self.applied(Scalar, "div", self, other)
 
     @overload
     def __mul__(self, other: Scalar) -> Scalar: ...
@@ -143,37 +143,37 @@ class Scalar(Value):
     def __mul__(self, other: Vector) -> Vector: ...
     def __mul__(self, other: Scalar | Vector) -> Scalar | Vector:
         if isinstance(other, Vector):
-            return self.made(Vector, "mul", self, other, size=other.size)
-        return self.made(Scalar, "mul", self, other)
+            return self.applied(Vector, "mul", self, other, size=other.size)
+        return self.applied(Scalar, "mul", self, other)
 
     def __rmul__(self, factor: float) -> Scalar:
         return self.tape.constant(factor) * self
 
     def __pow__(self, exponent: int) -> Scalar:
-        return self.made(Scalar, "pow", self, self.tape.constant(exponent))
+        return self.applied(Scalar, "pow", self, self.tape.constant(exponent))
 
     def root(self) -> Scalar:
         """Return the square root."""
-        return self.made(Scalar, "sqrt", self)
+        return self.applied(Scalar, "sqrt", self)
 
     def smaller(self, other: Scalar) -> Scalar:
         """Return the smaller of two scalars."""
-        return self.made(Scalar, "min", self, other)
+        return self.applied(Scalar, "min", self, other)
 
 
 class Matrix(Value):
     """A matrix of which only products are formed: D by rows, or a root of M^-1."""
 
     def __matmul__(self, x: Vector) -> Vector:
-        return self.made(Vector, "product", self, x, size="m")
+        return self.applied(Vector, "product", self, x, size="m")
 
     def transposed(self, y: Vector) -> Vector:
         """Return the transposed matrix times a vector."""
-        return self.made(Vector, "transposed", self, y, size="nv")
+        return self.applied(Vector, "transposed", self, y, size="nv")
 
     def times_transposed(self, other: Matrix) -> Matrix:
         """Return this matrix times the transposed of another one."""
-        return self.made(Matrix, "times_transposed", self, other)
+        return self.applied(Matrix, "times_transposed", self, other)
 
 
 class Factor(Value):
@@ -238,16 +238,16 @@ class System:
 
     def mass(self, x: Vector) -> Vector:
         """Return M x."""
-        return x.made(Vector, "mass", x, size="nv")
+        return x.applied(Vector, "mass", x, size="nv")
 
     def minv(self, x: Vector) -> Vector:
         """Return M^-1 x."""
-        return x.made(Vector, "minv", x, size="nv")
+        return x.applied(Vector, "minv", x, size="nv")
 
     @property
     def free_acceleration(self) -> Vector:
         """M^-1 f, or 0 where M is singular: the start of iterations."""
-        return self.f.made(Vector, "free_acceleration", self.f, size="nv")
+        return self.f.applied(Vector, "free_acceleration", self.f, size="nv")
 
     @property
     def inverse_mass_root(self) -> Matrix:
@@ -258,7 +258,7 @@ class System:
 
     def solve(self, factor: Factor, right: Vector) -> Vector:
         """Return the solution for a right-hand side."""
-        return right.made(Vector, "solve", factor, right, size=right.size)
+        return right.applied(Vector, "solve", factor, right, size=right.size)
 
     def solve_schur(self, right: Vector) -> Vector:
         """Return lambda with ``S lambda = right``, S = D M^-1 D^T.
@@ -269,7 +269,7 @@ class System:
 
     def pseudoinverse_factor(self, matrix: Matrix) -> Factor:
         """Return the factor of B B^T for a scaled constraint matrix B, with masks and flags as for `solve_schur`."""
-        return matrix.made(Factor, "pseudoinverse", matrix)
+        return matrix.applied(Factor, "pseudoinverse", matrix)
 
     def penalties(self, penalty: Scalar | Vector) -> Vector:
         """Return the penalty of each row, of all alike or by rows, 0 for rows that the runtime leaves out.
@@ -277,25 +277,25 @@ class System:
         A row that depends on others where the constraints hold does so no more at the stages of a step, where they hold
         to the integrator's error only: a penalty on what it adds there would pull at the motion itself.
         """
-        return penalty.made(Vector, "penalties", penalty, size="m")
+        return penalty.applied(Vector, "penalties", penalty, size="m")
 
     def augmented_factor(self, penalties: Vector) -> Factor:
         """Return the factor of ``M + D^T a D``, a by rows, which is positive definite whatever the rank of D."""
-        return penalties.made(Factor, "augmented", penalties)
+        return penalties.applied(Factor, "augmented", penalties)
 
     # -- what an iterated law keeps in w -------------------------------------------------------------------------------
 
     def keep(self, section: str, x: Vector) -> Vector:
         """Store a vector in a section once per evaluation; return it as the iteration reads it."""
-        return self.tape.kept(Vector, "keep", section, x, x.size)
+        return self.tape.stored_value(Vector, "keep", section, x, x.size)
 
     def keep_constraints(self) -> Matrix:
         """Store D; return it as the iteration reads it."""
-        return self.tape.kept(Matrix, "keep_constraints", "kept_jacobian", self.D)
+        return self.tape.stored_value(Matrix, "keep_constraints", "kept_jacobian", self.D)
 
     def keep_factor(self, factor: Factor) -> Factor:
         """Store a factor; return it as the iteration reads it."""
-        return self.tape.kept(Factor, "keep_factor", "kept_factor", factor)
+        return self.tape.stored_value(Factor, "keep_factor", "kept_factor", factor)
 
     def variable(self, section: str, size: str) -> Vector:
         """Return a vector that the iteration changes, as it reads it from a section."""
@@ -305,15 +305,15 @@ class System:
 
     def at_velocity(self, x: Vector, v: Vector) -> Vector:
         """Return a vector with the velocities replaced by `v`."""
-        return x.made(Vector, "at_velocity", x, v, size=x.size)
+        return x.applied(Vector, "at_velocity", x, v, size=x.size)
 
     def mass_rate(self, x: Vector, v: Vector) -> Vector:
         """Return (dM/dt) x along the motion with velocities `v`; 0 where bodies have coordinates of their own."""
-        return x.made(Vector, "mass_rate", x, v, size="nv")
+        return x.applied(Vector, "mass_rate", x, v, size="nv")
 
     def constraint_rate_transposed(self, y: Vector, v: Vector) -> Vector:
         """Return (dD/dt)^T y along the motion with velocities `v`."""
-        return y.made(Vector, "constraint_rate_transposed", y, v, size="nv")
+        return y.applied(Vector, "constraint_rate_transposed", y, v, size="nv")
 
     # -- what corrections and descriptor forms are written with, beside ------------------------------------------------
 
@@ -323,7 +323,7 @@ class System:
 
     def geometry(self, rank: Factor) -> Value:
         """Return what every `geometry` writes: Phi, its norm, nu, D, relative pivots and the rank they decide."""
-        return rank.made(Value, "geometry", rank)
+        return rank.applied(Value, "geometry", rank)
 
     def rank_factor(self) -> Factor:
         """Return the factor of D G D^T that decides rank."""
@@ -336,7 +336,7 @@ class System:
         columns times G (``dependent``), or the inverse of the metric of carried bodies (``body``), with D as it is
         being evaluated.
         """
-        return rank.made(Factor, f"weighted_{weight}", rank)
+        return rank.applied(Factor, f"weighted_{weight}", rank)
 
     def body_entries(self) -> Vector:
         """Return the entries of the metric of carried bodies that change with the position."""
@@ -344,19 +344,19 @@ class System:
 
     def body_inverse(self, x: Vector) -> Vector:
         """Return the inverse of that metric times x, from the section ``body_entry``."""
-        return x.made(Vector, "body_inverse", x, size="nv")
+        return x.applied(Vector, "body_inverse", x, size="nv")
 
     def augmented_metric(self, penalties: Vector) -> Factor:
         """Return the factor of ``M + D^T a D``, of D as ``geometry`` left it."""
-        return penalties.made(Factor, "augmented_metric", penalties)
+        return penalties.applied(Factor, "augmented_metric", penalties)
 
     def gauged(self, x: Vector) -> Vector:
         """Return G x."""
-        return x.made(Vector, "gauged", x, size="nv")
+        return x.applied(Vector, "gauged", x, size="nv")
 
     def partition_quality(self, rank: Factor, factor: Factor) -> Scalar:
         """Return det(D P G D^T) / det(D G D^T)."""
-        return rank.made(Scalar, "partition_quality", rank, factor)
+        return rank.applied(Scalar, "partition_quality", rank, factor)
 
     def stored_factor(self, factor: Factor, prefix: str) -> Factor:
         """Return a factor as another function reads it, from ``<prefix>lower`` and ``<prefix>reciprocal``."""
@@ -368,8 +368,8 @@ class System:
 
     def driving(self, accelerations: Vector) -> Scalar:
         """Return the power of the drivers of prescribed coordinates, without what they do against rows."""
-        return accelerations.made(Scalar, "driving", accelerations)
+        return accelerations.applied(Scalar, "driving", accelerations)
 
     def holonomic_or(self, otherwise: Vector) -> Vector:
         """Return Phi, and in nonholonomic rows what stands in its place."""
-        return otherwise.made(Vector, "holonomic_or", otherwise, size="m")
+        return otherwise.applied(Vector, "holonomic_or", otherwise, size="m")

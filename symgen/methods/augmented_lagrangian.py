@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from symgen.methods._augmented import ITERATION_TOLERANCE, MU, OMEGA, PENALTY, stabilised
 from symgen.methods._base import Iteration, Method, augmented_iteration
-
-if TYPE_CHECKING:
-    from symgen.methods._formula import System
+from symgen.methods._formula import System
 
 
 class AugmentedLagrangian(Method):

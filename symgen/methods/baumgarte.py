@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
+from symgen.methods._augmented import SOURCE
 from symgen.methods._base import MethodParameter, MultiplierMethod
-
-if TYPE_CHECKING:
-    from symgen.methods._formula import System, Vector
-
-_SOURCE = "the source's value (Marques, Souto, Flores, Multibody Syst. Dyn. 39, 2017)"
+from symgen.methods._formula import System, Vector
 
 
 class Baumgarte(MultiplierMethod):
@@ -26,8 +22,8 @@ class Baumgarte(MultiplierMethod):
     summary = "violations decay like a damped oscillator with gains alpha, beta"
     reference = "Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7"
     parameters = (
-        MethodParameter("alpha", 5.0, "1/s", f"velocity gain; {_SOURCE}"),
-        MethodParameter("beta", 5.0, "1/s", f"position gain; {_SOURCE}"),
+        MethodParameter("alpha", 5.0, "1/s", f"velocity gain; {SOURCE}"),
+        MethodParameter("beta", 5.0, "1/s", f"position gain; {SOURCE}"),
     )
 
     def target(self, system: System) -> Vector:

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
-from symgen.methods._base import Descriptor, MethodParameter, MultiplierMethod
-
-if TYPE_CHECKING:
-    from symgen.methods._formula import System
+from symgen.methods._base import TOLERANCE, Descriptor, MultiplierMethod
+from symgen.methods._formula import System
 
 
 class CoordinatePartitioning(MultiplierMethod):
@@ -27,11 +24,7 @@ class CoordinatePartitioning(MultiplierMethod):
     reference = "Wehage, Haug, J. Mech. Des. 104 (1982) 247-255, doi 10.1115/1.3256318"
     forms = ("ode",)
     integrates = "independent"
-    parameters = (
-        MethodParameter(
-            "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times the mechanism's length"
-        ),
-    )
+    parameters = (TOLERANCE,)
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
         """Return None: the dependent coordinates of an implicit stage are not closed by the partition."""

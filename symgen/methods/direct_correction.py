@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
-from symgen.methods._base import SOLVER, MethodOption, MethodParameter, MultiplierMethod
-
-if TYPE_CHECKING:
-    pass
+from symgen.methods._base import SOLVER, TOLERANCE, MethodOption, MultiplierMethod
 
 
 class DirectCorrection(MultiplierMethod):
@@ -25,11 +21,7 @@ class DirectCorrection(MultiplierMethod):
         "Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; "
         "Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064"
     )
-    parameters = (
-        MethodParameter(
-            "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times the mechanism's length"
-        ),
-    )
+    parameters = (TOLERANCE,)
     options = (
         MethodOption("weight", ("identity", "mass", "body"), "metric of the correction; the source's is the identity"),
         SOLVER,

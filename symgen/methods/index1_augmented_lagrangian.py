@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
 from symgen.methods._augmented import ITERATION_TOLERANCE, PENALTY
 from symgen.methods._base import Iteration, Method, MethodParameter, augmented_iteration
-
-if TYPE_CHECKING:
-    from symgen.methods._formula import System
+from symgen.methods._formula import System
 
 
 class Index1AugmentedLagrangian(Method):

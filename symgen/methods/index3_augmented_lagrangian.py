@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from symgen.methods._base import Descriptor, MethodParameter, MultiplierMethod
-
-if TYPE_CHECKING:
-    from symgen.methods._formula import System
+from symgen.methods._formula import System
 
 
 class Index3AugmentedLagrangian(MultiplierMethod):

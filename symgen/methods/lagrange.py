@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from symgen.methods._base import MultiplierMethod
-
-if TYPE_CHECKING:
-    pass
 
 
 class Lagrange(MultiplierMethod):

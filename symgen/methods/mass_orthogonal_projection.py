@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
 from symgen.methods._augmented import PENALTY
 from symgen.methods._base import MethodParameter, MultiplierMethod
-
-if TYPE_CHECKING:
-    pass
 
 
 class MassOrthogonalProjection(MultiplierMethod):

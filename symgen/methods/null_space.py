@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
-from symgen.methods._base import Method, MethodParameter, Tangent
-
-if TYPE_CHECKING:
-    from symgen.methods._formula import System
+from symgen.methods._base import TOLERANCE, Method, Tangent
+from symgen.methods._formula import System
 
 
 class NullSpace(Method):
@@ -29,11 +26,7 @@ class NullSpace(Method):
         "Mani, Haug, Atkinson, J. Mech. Trans. Autom. Des. 107 (1985) 82-87; "
         "Kim, Vanderploeg, J. Mech. Trans. Autom. Des. 108 (1986) 183-188"
     )
-    parameters = (
-        MethodParameter(
-            "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times the mechanism's length"
-        ),
-    )
+    parameters = (TOLERANCE,)
 
     def law(self, system: System, options: Mapping[str, str]) -> Tangent:
         """Return the law on a tangent basis."""

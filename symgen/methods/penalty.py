@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from symgen.methods._augmented import MU, OMEGA, stabilised
 from symgen.methods._base import Acceleration, Descriptor, Method, MethodParameter
-
-if TYPE_CHECKING:
-    from symgen.methods._formula import System
+from symgen.methods._formula import System
 
 
 class Penalty(Method):

@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
-from symgen.methods._base import SOLVER, MethodOption, MultiplierMethod
-
-if TYPE_CHECKING:
-    pass
+from symgen.methods._base import SOLVER, WEIGHT, MultiplierMethod
 
 
 class PostStabilization(MultiplierMethod):
@@ -25,7 +21,7 @@ class PostStabilization(MultiplierMethod):
         "Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; "
         "Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157"
     )
-    options = (MethodOption("weight", ("identity", "mass", "body"), "metric of the correction"), SOLVER)
+    options = (WEIGHT, SOLVER)
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return one correction at both levels."""

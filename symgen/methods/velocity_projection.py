@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
-from symgen.methods._base import SOLVER, MethodOption, MultiplierMethod
-
-if TYPE_CHECKING:
-    pass
+from symgen.methods._base import SOLVER, WEIGHT, MultiplierMethod
 
 
 class VelocityProjection(MultiplierMethod):
@@ -22,7 +18,7 @@ class VelocityProjection(MultiplierMethod):
     name = "velocity-projection"
     summary = "velocities are projected after each step; positions are left"
     reference = "Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076"
-    options = (MethodOption("weight", ("identity", "mass", "body"), "metric of the correction"), SOLVER)
+    options = (WEIGHT, SOLVER)
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return one correction at velocity level."""

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.compiling.checked import checked
-from symgen.describe.derived_parameters import derived
-from symgen.describe.evaluate import said
+from symgen.describe.evaluate import derived, independent_values
 from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
 from symgen.drawing.scene import Array
@@ -203,7 +202,7 @@ def _spec(
     kept: Collection[str],
 ) -> dict[str, Any]:
     info, rates = compiled.info, _rates_spec(compiled, start)
-    own = said(mechanism, {p["name"]: p["value"] for p in rates["parameters"]})
+    own = independent_values(mechanism, {p["name"]: p["value"] for p in rates["parameters"]})
     sections = {
         name: info.sections[name][0] for name in ("jacobian", "residual", "nu", "change", "gauge", "mass", "pivot")
     }

@@ -72,7 +72,7 @@ def let(lines: list[str], text: str) -> Script:
 
 
 class ScriptLines:
-    """Numbers of `symgen.describe.numbers` that write down how they are worked out.
+    """Numbers of `symgen.describe.start` that write down how they are worked out.
 
     Parameters
     ----------

@@ -9,9 +9,8 @@ from itertools import count
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.repeats import without_repeats
 from symgen.formulate.equations import Equations
-from symgen.formulate.frames import FRAME_SLOTS
+from symgen.formulate.frames import FRAME_SLOTS, SPATIAL_SLOTS
 from symgen.formulate.measures import ModelNodes
-from symgen.formulate.spatial import SPATIAL_SLOTS
 from symgen.ir.graph import Graph
 
 #: A term that is used more than once gets a number for a name where it has at least so many operations.

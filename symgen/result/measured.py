@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.compiling.side import compile_side
-from symgen.describe.outputs import TABLES, Column
+from symgen.describe.readings import TABLES, Column
 from symgen.result.labelled import Array, labelled
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class Measured:
         return f"<Measured of {self.mechanism.name} at {len(self.outcome.times)} outputs>"
 
     def columns(self, table: str) -> tuple[Column, ...]:
-        """Return the columns of a table of `symgen.describe.outputs`: names, units and formulas."""
+        """Return the columns of a table of `symgen.describe.readings`: names, units and formulas."""
         return TABLES[table](self.mechanism)
 
     def table(self, table: str) -> Labelled:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from symgen.describe.columns import PREFIX
-from symgen.describe.outputs import TABLES as MEASURED
+from symgen.describe.readings import TABLES as MEASURED
 from symgen.result.acting import reaction_names
 from symgen.result.contract import finite
 from symgen.result.labelled import Labelled

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.describe.evaluate import parameter_values, said
+from symgen.describe.evaluate import independent_values, parameter_values
 from symgen.describe.events import DOES
-from symgen.describe.input_data import are_words_of_data
+from symgen.describe.inputs import are_words_of_data
 from symgen.errors import AssemblyError, InputError
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.motion_page import Page, page
@@ -174,7 +174,10 @@ def _live_of(
     for name, action in (*((event.name, event.action) for event in mechanism.events), *watched):
         if action in DOES:
             return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages do not look for events"
-    parameters, step = said(mechanism, parameter_values(mechanism, parameters)), step or mechanism.defaults.step
+    parameters, step = (
+        independent_values(mechanism, parameter_values(mechanism, parameters)),
+        step or mechanism.defaults.step,
+    )
     settings = Settings(shape="straight", coordinates=coordinates, parameters=parameters, step=step)
     run = prepare(mechanism, settings, Purpose.STATE)
     told = {**begun["q"], **begun["v"]}

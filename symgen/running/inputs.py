@@ -71,5 +71,5 @@ def put_inputs(mechanism: Mechanism, settings: Settings, behind: float = 0.0) ->
     stops = stops_of(sources, values, until, behind=behind)
     parameters |= stops[0].values if stops else {}
     # defaults of inputs may follow other parameters, so numbers are read from the values
-    words = {name: x if isinstance(x, str) else values[name] for name, x in sources.told.items()}
+    words = {name: x if isinstance(x, str) else values[name] for name, x in sources.descriptions.items()}
     return Inputs(sources.mechanism, replace(settings, parameters=parameters, inputs={}), stops, words, sources)

@@ -16,8 +16,7 @@ from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import RECORD, STOP, events_of, watched
 from symgen.describe.holds import holds_of
-from symgen.describe.kinks import discontinuities_of
-from symgen.describe.unforeseen import longest_step
+from symgen.describe.kinks import discontinuities_of, longest_step
 from symgen.errors import InputError, quoted
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS

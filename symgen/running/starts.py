@@ -13,9 +13,8 @@ from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import with_integrals
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.holds import ORIENTATION, holds_of
-from symgen.describe.moved import moved
 from symgen.describe.sides import wrong_sides
-from symgen.describe.start import described_start
+from symgen.describe.start import described_start, moved
 from symgen.runtime.assembly import Start, assemble
 from symgen.runtime.held import Held
 from symgen.runtime.model_arrays import velocity_of
@@ -28,7 +27,7 @@ if TYPE_CHECKING:
 
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Hold, Mechanism
-    from symgen.describe.numbers import Scalars
+    from symgen.describe.start import Scalars
     from symgen.running.plan import Plan
     from symgen.runtime.compiled import CompiledModel, ModelInfo
 

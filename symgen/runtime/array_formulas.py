@@ -22,7 +22,7 @@ _OPERATORS = ("add", "sub", "mul", "div", "neg")
 
 @dataclass(frozen=True)
 class Columns:
-    """The numbers of many runs (`symgen.describe.numbers.Numbers`), by the functions that one run's are worked out by.
+    """The numbers of many runs (`symgen.describe.start.Numbers`), by the functions that one run's are worked out by.
 
     What is undefined is nan, and stays so whatever is done with it, unless a choice leaves it aside. What is the same
     for all runs is worked out once.

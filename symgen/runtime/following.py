@@ -66,7 +66,7 @@ COURSE = record_type(
     ("entries", _K),
     ("constants scale", _A),
 )
-Course: Any = COURSE.made
+Course: Any = COURSE.constructor
 
 
 #: Where the loop stands, and room for what it tries.
@@ -78,13 +78,13 @@ Course: Any = COURSE.made
 #: - turned (shape (windings,)): Angles whose turns are counted, as they are in the accepted state.
 #: - dense: A square D.
 STAND = record_type("Stand", __name__, ("y a jerk clock", _A), ("counts", _K), ("trial rates rows turned dense", _A))
-Stand: Any = STAND.made
+Stand: Any = STAND.constructor
 
 
 #: What the loop writes: states, accelerations and status, one row a time. The status is that of
 #: `symgen.runtime.outcome.Motion`.
 FOLLOWED = record_type("Followed", __name__, ("states accelerations status", _M))
-Followed: Any = FOLLOWED.made
+Followed: Any = FOLLOWED.constructor
 
 
 _MODEL = types.RecordType((COURSE, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE))

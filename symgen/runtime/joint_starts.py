@@ -48,7 +48,7 @@ def joint_values(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array
 #: - goals, origins: Values of the rows on the way from those of the described positions; the latter.
 #: - w, out: Scratch with room for the further rows; what ``observe`` writes.
 JOINTS = record_type("Joints", __name__, ("values rates", LAYOUT), ("held", _I), ("goals origins w out", _A))
-Joints: Any = JOINTS.made
+Joints: Any = JOINTS.constructor
 
 
 class Further(NamedTuple):

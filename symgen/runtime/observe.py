@@ -143,7 +143,7 @@ LEFT = record_type(
     ("ps ws", _M),
     ("y rates", _A),
 )
-Left: Any = LEFT.made
+Left: Any = LEFT.constructor
 
 
 @jit()

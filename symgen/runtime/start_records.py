@@ -56,12 +56,12 @@ LAYOUT = record_type(
     ("massless kept fixed held rows alone spin", _I),
     ("lengths branches", _A),
 )
-Layout: Any = LAYOUT.made
+Layout: Any = LAYOUT.constructor
 
 
 #: A state y, prepared parameters p and scratch w: what emitted functions take.
 INSTANT = record_type("Instant", __name__, ("y p w", _A))
-Instant: Any = INSTANT.made
+Instant: Any = INSTANT.constructor
 
 
 #: What is asked of the start of a run, and what is said of it.
@@ -69,7 +69,7 @@ Instant: Any = INSTANT.made
 #: - targets (shape (h,)): Values of the held coordinates.
 #: - summary (shape (N_SUMMARY,)): The columns of the start are set; see `symgen.runtime.ensemble_abi`.
 START_CONDITIONS = record_type("StartConditions", __name__, ("given targets summary", _A))
-StartConditions: Any = START_CONDITIONS.made
+StartConditions: Any = START_CONDITIONS.constructor
 
 
 class Closing(NamedTuple):
@@ -93,7 +93,7 @@ class Closing(NamedTuple):
 #: - numbers: Of the least-norm solver, or of the choice of turns.
 #: - order, counters: Order of rows; counters for calls of ``rhs``.
 WORK = record_type("Work", __name__, ("right x scale first direction y w numbers", _A), ("order counters", _I))
-Work: Any = WORK.made
+Work: Any = WORK.constructor
 
 
 def new_work(layout: Layout, nw: int) -> Work:

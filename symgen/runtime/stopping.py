@@ -38,7 +38,7 @@ _A, _K = types.float64[::1], types.int64[::1]
 #: - changes (shape (stops + 1,)): First change of each stop.
 #: - places, values: Changes: an index in ``p``, and the number that stands there from then on.
 STOPS = record_type("Stops", __name__, ("head rows", _K), ("times", _A), ("changes places", _K), ("values", _A))
-Stops: Any = STOPS.made
+Stops: Any = STOPS.constructor
 
 
 def due(stops: Any, count: int) -> float:

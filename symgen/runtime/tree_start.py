@@ -38,7 +38,7 @@ TURNED_OVER = 0.5
 #: - windings, gauges, spins: Where angles that count turns, and squares of lengths, stand in the scratch of bodies;
 #:   -1 where that is 1. Where Euler parameters begin among the coordinates of bodies.
 _CARRYING = record_type("Carrying", __name__, ("work outs", types.int64), ("places windings gauges spins", _I))
-Carrying: Any = _CARRYING.made
+Carrying: Any = _CARRYING.constructor
 
 
 #: A tree with the ``observe`` of bodies, the function that carries its motion to bodies, and where what stands.

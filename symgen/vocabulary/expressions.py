@@ -141,3 +141,12 @@ def call(function: str, *arguments: Expr) -> Expr:
         except (ArithmeticError, ValueError):
             pass
     return Call(function, tuple(arguments))
+
+
+def total(*terms: Expr) -> Expr:
+    """Return the sum of terms, those that are the number 0 left out."""
+    result: Expr = ZERO
+    for term in terms:
+        if term != ZERO:
+            result = term if result == ZERO else call("add", result, term)
+    return result

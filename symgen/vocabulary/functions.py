@@ -42,20 +42,20 @@ def steepest(g: Any, a: int, part: float = _NEVER_NOTHING) -> int:
     What the argument is made of hardly ever changes it there: the root of v^2 + w^2 at rest, or what is pressed
     together where nothing touches. Infinity times such a 0 would be no number.
     """
-    found: int = g.add(a, g.constant(part))
-    return found
+    shifted: int = g.add(a, g.constant(part))
+    return shifted
 
 
 def _cosine(g: Any, a: int) -> int:
     """Return sqrt(1 - a^2), and never 0: as large as rounding of a may make it."""
-    found: int = g.call("sqrt", steepest(g, g.sub(g.one, g.mul(a, a)), 1e-16))
-    return found
+    cosine: int = g.call("sqrt", steepest(g, g.sub(g.one, g.mul(a, a)), 1e-16))
+    return cosine
 
 
 def _between(g: Any, a: int) -> int:
     """Return sqrt(a - 1) sqrt(a + 1), never 0: undefined below -1, as the function is, and exact near 1."""
-    found: int = g.mul(g.call("sqrt", steepest(g, g.sub(a, g.one), 1e-32)), g.call("sqrt", g.add(a, g.one)))
-    return found
+    product: int = g.mul(g.call("sqrt", steepest(g, g.sub(a, g.one), 1e-32)), g.call("sqrt", g.add(a, g.one)))
+    return product
 
 
 ELEMENTARY: Mapping[str, Elementary] = {

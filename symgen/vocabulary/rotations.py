@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import msgspec
+
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, Number
+
 #: Four Euler parameters.
 EulerParameters = tuple[float, float, float, float]
 #: Rows of a rotation matrix.
@@ -38,3 +42,31 @@ def rotate_back(m: Matrix, v: tuple[float, ...]) -> tuple[float, float, float]:
     """Return the transposed matrix times a vector."""
     x, y, z = (sum(m[i][j] * v[i] for i in range(3)) for j in range(3))
     return x, y, z
+
+
+#: Orders of axes that Euler angles may be taken about: all twelve.
+CONVENTIONS = tuple(a + b + c for a in "xyz" for b in "xyz" for c in "xyz" if a != b and b != c)
+
+
+class Orientation(msgspec.Struct, frozen=True):
+    """An orientation as it was written.
+
+    Attributes
+    ----------
+    kind : {"quaternion", "rotation-vector", "euler-angles", "axes", "line"}
+        How `values` are meant: Euler parameters; axis times angle [rad]; angles [rad] about the moving axes that
+        `convention` names, in that order; the body's x axis and a vector towards its y axis, in the ground frame; two
+        points that the x axis leads from and to, and a vector towards the y axis.
+    """
+
+    kind: str
+    values: tuple[Expr, ...]
+    convention: str = ""
+
+    @property
+    def is_numeric(self) -> bool:
+        """Whether it depends on no parameter."""
+        return all(isinstance(e, Number) for e in self.values)
+
+
+IDENTITY = Orientation("quaternion", (ONE, ZERO, ZERO, ZERO))

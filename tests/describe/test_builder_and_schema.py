@@ -11,9 +11,9 @@ from support.texts import texts
 
 from symgen import catalogue
 from symgen.describe import MechanismBuilder, load
+from symgen.describe.builder import to_toml
 from symgen.describe.load import read_raw
 from symgen.describe.schema import schema
-from symgen.describe.toml import to_toml
 from symgen.describe.validate import validate
 from symgen.errors import InputError
 from symgen.forces import FORCES

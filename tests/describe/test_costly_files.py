@@ -5,8 +5,7 @@ import tomllib
 
 import pytest
 
-from symgen.describe import bounds
-from symgen.describe.load import load, parse_toml
+from symgen.describe.load import LONGEST_KEY, load, parse_toml
 from symgen.describe.validate import validate
 from symgen.errors import LONGEST_PART, InputError, nearest, printable, quoted
 
@@ -89,7 +88,7 @@ def test_the_look_at_the_text_refuses_nothing_else(text):
 def test_the_catalogue_is_far_within_the_bounds():
     for size in ("four-bar", "n-four-bar:300", "chain:200"):
         load(size)
-    assert bounds.LONGEST_KEY >= 2 * len("bodies.rod.points.tip".split("."))
+    assert LONGEST_KEY >= 2 * len("bodies.rod.points.tip".split("."))
 
 
 def opcodes(work):

@@ -9,9 +9,8 @@ from symgen.api import Model, load
 from symgen.cli import main
 from symgen.describe import load as load_mechanism
 from symgen.describe.builder import MechanismBuilder
-from symgen.describe.derived_parameters import in_order
 from symgen.describe.digest import digest
-from symgen.describe.evaluate import parameter_values
+from symgen.describe.evaluate import in_order, parameter_values
 from symgen.describe.parser import FormulaNames, parse
 from symgen.ensemble.sweep import sweep
 from symgen.errors import InputError

@@ -30,4 +30,4 @@ def test_kinds_are_imported_only_when_asked_for():
         "print(*sorted(m for m in sys.modules if m.startswith(('symgen.joints.', 'symgen.forces.'))))"
     )
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert result.stdout.split() == ["symgen.joints._space", "symgen.joints.revolute"]
+    assert result.stdout.split() == ["symgen.joints._paired", "symgen.joints._space", "symgen.joints.revolute"]

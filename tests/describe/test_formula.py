@@ -229,11 +229,6 @@ def test_printed_formula_is_read_back_as_the_same_tree(expression):
     assert read(to_text(expression)) == expression
 
 
-@given(trees())
-def test_printing_is_stable(expression):
-    assert to_text(read(to_text(expression))) == to_text(expression)
-
-
 @given(st.text(st.sampled_from("ab t.12()+-*/<>,e \n\"'_[]sinif"), max_size=40))
 def test_any_text_is_read_or_refused_with_an_input_error(text):
     try:

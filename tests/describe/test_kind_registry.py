@@ -5,7 +5,6 @@ import sys
 import pytest
 
 from symgen.errors import InputError
-from symgen.joints import JOINTS
 from symgen.registry import Registry
 
 
@@ -79,7 +78,3 @@ def test_aliases_must_lead_somewhere_new(package):
         _ = Registry(package, "kind", aliases={"double": "nothing"}).names
     with pytest.raises(ValueError, match="kind 'plain' is registered twice"):
         _ = Registry(package, "kind", aliases={"plain": "two-words"}).names
-
-
-def test_joints_know_prismatic():
-    assert JOINTS.get("prismatic") is JOINTS.get("translational")

@@ -10,7 +10,7 @@ from support.graph_values import node_values, state_inputs
 from support.space import rotation, skew, triad, unit
 
 from symgen.describe.evaluate import scalars
-from symgen.describe.orientation import from_matrix
+from symgen.describe.start import from_matrix
 from symgen.formulate.formulate import formulate
 
 

@@ -14,11 +14,11 @@ import sympy as sp
 from support.emitted import Emitted, mechanism_of
 
 from symgen.api import load
+from symgen.describe.formulas import Formulas
 from symgen.describe.parser import FormulaNames, parse
 from symgen.emit.printer import ElementAccess, Printer
 from symgen.errors import InputError
 from symgen.formulate.translate import Translator, to_sympy
-from symgen.ir.expression import build
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, ModelLayout, Target
 from symgen.vocabulary.expressions import Expr, Name, Number
@@ -110,6 +110,11 @@ def compiled(graph: Graph, nodes: list[int]) -> Any:
     return numba.njit(error_model="numpy", fastmath={"contract"})(namespace["f"])
 
 
+def node_of(graph: Graph, text: str, names: dict[str, int]) -> int:
+    """The node of a formula, by the way of a mechanism's formulas; a and b are placeholders."""
+    return Formulas(load("pendulum").mechanism, graph).expression(tree(text), **names)
+
+
 @cache
 def routes() -> dict[str, Any]:
     """All formulas, built at once and by way of SymPy, where derivatives are wanted."""
@@ -118,7 +123,7 @@ def routes() -> dict[str, Any]:
         graph = Graph()
         names = {"a": graph.input("q", 0), "b": graph.input("q", 1)}
         if route == "formula":
-            nodes = [build(graph, tree(text), names) for text in FORMULAS]
+            nodes = [node_of(graph, text, names) for text in FORMULAS]
         else:
             symbols = {name: sp.Symbol(name, real=True) for name in names}
             translator = Translator(graph, {symbols[name]: node for name, node in names.items()})
@@ -151,7 +156,7 @@ def test_no_operation_is_added_where_nothing_can_be_undefined():
     defined += ("1 if a > 0 and not b < 1 else 2", "max(1, exp(a))", "sqrt(a) if a > 0 else b", "min(1, log(1 + a*a))")
     for text in (*FORMULAS, *defined):
         graph = Graph()
-        node = build(graph, tree(text), {"a": graph.input("q", 0), "b": graph.input("q", 1)})
+        node = node_of(graph, text, {"a": graph.input("q", 0), "b": graph.input("q", 1)})
         added = any(graph.nodes[n].op == "defined" for n in graph.needed([node]))
         assert not added or text not in defined, text
 

@@ -16,10 +16,10 @@ from symgen.compiling.choices import choose_shape
 from symgen.compiling.looped import generate_looped
 from symgen.compiling.pipeline import MethodChoice, choose_method, compile_model, generator_digest
 from symgen.errors import InputError
+from symgen.lower.factor import Elimination
 from symgen.lower.looped.forms import form_key
 from symgen.lower.looped.instances import instances
 from symgen.lower.looped.law import is_loopable, refuse_dense
-from symgen.lower.looped.pattern import Elimination
 from symgen.methods import METHODS
 from symgen.methods._base import MultiplierMethod
 from symgen.running import automatic

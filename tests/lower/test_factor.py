@@ -1,7 +1,6 @@
 """The factorisation for known patterns, against dense linear algebra."""
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from support.checks import RANDOM, close
@@ -104,26 +103,3 @@ def fill(pattern: np.ndarray) -> int:
     order, _ = minimum_degree(neighbours(pattern))
     factor = factorise(graph, matrix, order, lambda _, pivot, __: graph.div(graph.one, pivot))
     return sum(map(len, factor.lower.values())) - (len(matrix) - len(pattern)) // 2
-
-
-@pytest.mark.parametrize("n", [3, 10])
-def test_an_arrow_is_eliminated_from_its_tips(n):
-    pattern = np.eye(n, dtype=bool)
-    pattern[0, :] = pattern[:, 0] = True
-    assert fill(pattern) == 0
-    assert minimum_degree(neighbours(pattern))[0][-1] in (0, n - 1)
-
-
-def test_a_skipped_row_gets_zero_and_the_others_their_own_solution():
-    rng = np.random.default_rng(3)
-    a, b, graph = random_matrix(rng, 6, 0.7), rng.normal(size=6), Graph()
-    matrix, values = nodes_of(graph, a)
-    order, _ = minimum_degree(neighbours(a != 0.0))
-    factor = factorise(
-        graph, matrix, order, lambda row, pivot, _: graph.zero if row == 2 else graph.div(graph.one, pivot)
-    )
-    found = node_values(graph, factor.solve(graph, [graph.constant(x) for x in b]), values)
-    kept = [i for i in range(6) if i != 2]
-    expected = np.zeros(6)
-    expected[kept] = np.linalg.solve(a[np.ix_(kept, kept)], b[kept])
-    close(found, expected, "x")

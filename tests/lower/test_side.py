@@ -13,8 +13,8 @@ from support.models import EVERYTHING, ROUGH
 from symgen import catalogue
 from symgen.api import load
 from symgen.compiling.side import compile_side
-from symgen.describe.context import Context
 from symgen.describe.parser import FormulaNames, parse
+from symgen.describe.scope import Context
 from symgen.formulate.formulate import formulate
 from symgen.formulate.measures import ModelNodes as Derivation
 from symgen.lower.looped.instances import instances

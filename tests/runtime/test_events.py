@@ -13,7 +13,7 @@ from scipy.special import ellipkinc
 from support.emitted import mechanism_of
 
 import symgen
-from symgen.describe.toml import to_toml
+from symgen.describe.builder import to_toml
 from symgen.describe.validate import validate
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS

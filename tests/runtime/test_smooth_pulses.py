@@ -14,7 +14,7 @@ from support.pushed import pushed_point
 import symgen
 from symgen.catalogue import MACHINES, entries
 from symgen.catalogue import names as names_of_catalogue
-from symgen.describe.unforeseen import longest_step
+from symgen.describe.kinks import longest_step
 from symgen.ensemble.sweep import sweep
 
 SCHEMES = ["dop853", "dopri5", "abm", "sdirk", "radau5"]

@@ -8,7 +8,7 @@ import pytest
 import symgen
 from benchmarks.rescale import Units, rescaled
 from symgen.catalogue import raw
-from symgen.describe.toml import to_toml
+from symgen.describe.builder import to_toml
 
 #: Both texts are in units of their own: no number of a file is 1, as such ones are left out of emitted code.
 BEFORE = Units(3.0, 3.0, 3.0)

@@ -8,24 +8,11 @@ import pytest
 import symgen
 from symgen.cli import main
 
-ENTRIES = {
-    "flyball-governor": (24, 20, 20),
-    "free-rigid-body": (6, 0, 0),
-    "rolling-disc": (6, 3, 3),
-    "spatial-slider-crank": (18, 17, 17),
-    "spherical-double-pendulum": (12, 6, 6),
-}
 
-
-@pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=[pytest.mark.slow] if n == "flyball-governor" else []) for n in ENTRIES]
-)
-def test_inspect(name, capsys):
-    assert main(["inspect", name, "--json"]) == 0
+def test_inspect(capsys):
+    assert main(["inspect", "rolling-disc", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
-    velocities, rows, rank = ENTRIES[name]
-    assert (len(found["velocities"]), len(found["rows"]), found["rank"]) == (velocities, rows, rank)
-    assert found["degrees_of_freedom"] == velocities - rank
+    assert (len(found["velocities"]), len(found["rows"]), found["rank"], found["degrees_of_freedom"]) == (6, 3, 3, 3)
     assert not any("gyroscopic" in str(line) for line in found["left_out"])
 
 

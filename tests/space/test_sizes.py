@@ -26,6 +26,7 @@ SIZES = {
 @pytest.mark.parametrize("name", SIZES)
 def test_sizes_and_ranks(name):
     mechanism = load(name)
+    assert mechanism.name.startswith(name.partition(":")[0])
     emitted = Emitted(mechanism)
     values = {p.name: p.value for p in mechanism.parameters}
     q = np.array(described_start(mechanism, scalars(values))[0])

@@ -89,8 +89,8 @@ def lower_form(
     (part,) = record.parts
     scalars.run(needed((i for _, i in part.outputs), lambda i: record.operations[i].operands))
     g = scalars.graph
-    found = [(group, scalars.values[index]) for group, index in part.outputs]
-    rows = [(group, i, n) for group, nodes in found if group in EQUATIONS for i, n in enumerate(nodes) if n != g.zero]
+    groups = [(group, scalars.values[index]) for group, index in part.outputs]
+    rows = [(group, i, n) for group, nodes in groups if group in EQUATIONS for i, n in enumerate(nodes) if n != g.zero]
     counted = [row for row in rows if record.form != "projected" or row[0] in EQUATIONS[:3]]
     sizes = {"k_q": e.nq, "k_v": e.nv, "k_first": e.m, "k_second": e.m, "q": e.nq, "v": e.nv}
     keys = [(group, i) for group in UNKNOWNS for i in range(sizes[group])]
@@ -101,7 +101,7 @@ def lower_form(
             entries.append((group, i, space, index))
             slopes.append(derivatives[space, index])
     residual = [(Target(group, i), n) for group, i, n in rows]
-    residual += [(Target("power", 0), n) for group, n in found if group == "power" and n != g.zero]
+    residual += [(Target("power", 0), n) for group, n in groups if group == "power" and n != g.zero]
     blocks = []
     for name, purpose, outputs in (
         ("residual", "its part of F(t, y, k) of the descriptor form, and of the power", residual),

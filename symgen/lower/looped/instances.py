@@ -71,40 +71,26 @@ def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
         A validated mechanism.
     """
     mechanism, _ = without_repeats(mechanism)
-    known = _Known(
-        mechanism,
-        Formulas(mechanism),
-        {b.name: b for b in mechanism.bodies},
-        frozenset(p.name for p in mechanism.parameters),
-        {t.name: t for t in mechanism.tables},
-    )
+    rewriting = _Rewriting(mechanism)
     return (
-        *(_Rewriting(known).body(body) for body in mechanism.bodies),
-        *(_Rewriting(known).element("joint", joint) for joint in mechanism.joints),
-        *(_Rewriting(known).element("force", force) for force in mechanism.forces),
+        *(rewriting.body(body) for body in mechanism.bodies),
+        *(rewriting.element("joint", joint) for joint in mechanism.joints),
+        *(rewriting.element("force", force) for force in mechanism.forces),
     )
-
-
-@dataclass(frozen=True)
-class _Known:
-    """A mechanism, its formulas as nodes, and its bodies, parameters and tables by name."""
-
-    mechanism: Mechanism
-    formulas: Formulas
-    bodies: Mapping[str, Any]
-    parameters: frozenset[str]
-    tables: Mapping[str, Any]
-
-    def literal(self, e: Expr) -> float | None:
-        """Return the number that a formula of parameters is after simplification; None where it depends on them."""
-        return e.value if isinstance(e, Number) else self.formulas.graph.value(self.formulas.expression(e))
 
 
 class _Rewriting:
-    """Rewrites one element."""
+    """Rewrites the elements of a mechanism, one after the other."""
 
-    def __init__(self, known: _Known) -> None:
-        self.known, self.mechanism = known, known.mechanism
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.mechanism, self.formulas = mechanism, Formulas(mechanism)
+        self.bodies: Mapping[str, Any] = {b.name: b for b in mechanism.bodies}
+        self.parameters = frozenset(p.name for p in mechanism.parameters)
+        self.tables = {t.name: t for t in mechanism.tables}
+        self.begin()
+
+    def begin(self) -> None:
+        """Let another element begin."""
         self.frames: dict[str, str] = {}
         self.constants: list[Expr] = []
         self.used_tables: dict[str, Any] = {}
@@ -113,6 +99,7 @@ class _Rewriting:
 
     def body(self, body: Any) -> Instance:
         """Return a body as an instance: its inertia, its weight and its frame."""
+        self.begin()
         self.frames[body.name] = "f0"
         mass = self.formula(body.mass)
         inertia = None if body.inertia is None else self.walk(body.inertia)
@@ -122,6 +109,7 @@ class _Rewriting:
 
     def element(self, kind: str, element: Joint | Force) -> Instance:
         """Return a joint or force as an instance."""
+        self.begin()
         content: Any
         if isinstance(element, Joint):
             rows = tuple(self.walk(row) for row in element.rows)
@@ -132,10 +120,10 @@ class _Rewriting:
             content = Joint("e", "", (), rows, coordinates)
         else:
             content = Force("e", "", (), tuple(self.walk(e) for e in element.efforts))
-        frames = tuple(self.frame(self.known.bodies[name], alias) for name, alias in self.frames.items())
+        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
         nothing = (ZERO,) * len(self.mechanism.gravity)
-        found = self.instance(kind, element.name, element.kind, nothing, frames, content)
-        return found if self.mechanism.space == "planar" else replace(found, angles=turns(measures_of(element)))
+        instance = self.instance(kind, element.name, element.kind, nothing, frames, content)
+        return instance if self.mechanism.space == "planar" else replace(instance, angles=turns(measures_of(element)))
 
     def instance(
         self, kind: str, name: str, label: str, gravity: Any, frames: tuple[Any, ...], content: Any = None
@@ -152,8 +140,8 @@ class _Rewriting:
             joints=(content,) if isinstance(content, Joint) else (),
             forces=(content,) if isinstance(content, Force) else (),
         )
-        said = {name: getattr(abstract, name) for name in abstract.__struct_fields__ if name not in _BESIDE}
-        key = kind.encode() + msgspec.json.encode(said)
+        content = {name: getattr(abstract, name) for name in abstract.__struct_fields__ if name not in _BESIDE}
+        key = kind.encode() + msgspec.json.encode(content)
         return Instance(kind, name, label, tuple(self.frames), tuple(self.constants), abstract, key)
 
     def frame(self, body: Any, alias: str) -> Any:
@@ -179,11 +167,9 @@ class _Rewriting:
         if not isinstance(value, msgspec.Struct):
             return value
         if isinstance(value, Marker | Direction):
-            found = self.memo.get(value)
-            if found is None:
-                rewrite = self.marker if isinstance(value, Marker) else self.direction
-                found = self.memo[value] = rewrite(value)
-            return found
+            if value not in self.memo:
+                self.memo[value] = self.marker(value) if isinstance(value, Marker) else self.direction(value)
+            return self.memo[value]
         if isinstance(value, Sum):
             return Sum(tuple((self.coefficient(k), self.walk(m)) for k, m in value.terms))
         before, self.own = self.own, frozenset(("s", "rate")) if isinstance(value, Effort) else self.own
@@ -200,23 +186,27 @@ class _Rewriting:
         alias = self.alias(marker.body)
         if alias == GROUND:
             return Marker(alias, tuple(self.constant(e) for e in marker.point))
-        centre = self.known.bodies[marker.body].centre_of_mass
+        centre = self.bodies[marker.body].centre_of_mass
         point = [call("sub", x, c) for x, c in zip(marker.point, centre, strict=True)]
-        last = max((i for i, e in enumerate(point) if self.known.literal(e) != 0.0), default=-1)
+        last = max((i for i, e in enumerate(point) if self.literal(e) != 0.0), default=-1)
         return Marker(alias, tuple(self.constant(e) if i <= last else ZERO for i, e in enumerate(point)))
 
     def direction(self, direction: Any) -> Direction:
         """Return a direction: along an axis, or any."""
         alias, vector = self.alias(direction.body), direction.vector
-        literals = [self.known.literal(e) for e in vector]
+        literals = [self.literal(e) for e in vector]
         if all(x in _UNITS for x in literals):
             return Direction(alias, tuple(Number(x) for x in literals if x is not None))
         return Direction(alias, tuple(self.constant(e) for e in vector))
 
     def coefficient(self, e: Expr) -> Expr:
         """Return a coefficient of a sum: 0, 1 and -1 as they are."""
-        literal = self.known.literal(e)
+        literal = self.literal(e)
         return Number(literal) if literal in _UNITS and literal is not None else self.formula(e)
+
+    def literal(self, e: Expr) -> float | None:
+        """Return the number that a formula of parameters is after simplification; None where it depends on them."""
+        return e.value if isinstance(e, Number) else self.formulas.graph.value(self.formulas.expression(e))
 
     def constant(self, e: Expr) -> Expr:
         """Return the abstract parameter that stands for a formula of parameters."""
@@ -226,7 +216,7 @@ class _Rewriting:
     def formula(self, e: Expr) -> Expr:
         """Return a formula with its constant parts replaced; zeros stay."""
         if self.is_constant(e):
-            return ZERO if self.known.literal(e) == 0.0 else self.constant(e)
+            return ZERO if self.literal(e) == 0.0 else self.constant(e)
         if isinstance(e, Name):
             body, dot, coordinate = e.name.partition(".")
             return Name(f"{self.alias(body)}.{coordinate}") if dot else e
@@ -235,7 +225,7 @@ class _Rewriting:
         assert isinstance(e, Call), "a literal is constant"
         name = table_of(e.function)
         if name is not None:
-            self.used_tables[name] = self.known.tables[name]
+            self.used_tables[name] = self.tables[name]
         if e.function == "pow" and isinstance(e.arguments[1], Number):
             return Call("pow", (self.formula(e.arguments[0]), e.arguments[1]))
         return Call(e.function, tuple(self.formula(a) for a in e.arguments))
@@ -244,4 +234,4 @@ class _Rewriting:
         """Whether a formula depends on parameters alone."""
         if isinstance(e, Number):
             return True
-        return all(name in self.known.parameters and name not in self.own for name in names(e))
+        return all(name in self.parameters and name not in self.own for name in names(e))

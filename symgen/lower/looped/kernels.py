@@ -134,11 +134,11 @@ class _Kernel:
     def program(self) -> KernelProgram:
         outputs = {"body": self.body, "joint": self.joint, "force": self.force}[self.instance.kind]()
         blocks = []
-        for name, found in outputs.items():
+        for name, written in outputs.items():
             purpose: Any = _PURPOSES[name]
             purpose = purpose if isinstance(purpose, str) else purpose[self.instance.kind]
-            if found:
-                blocks.append(self.hoister.block(name, purpose, found, ()))
+            if written:
+                blocks.append(self.hoister.block(name, purpose, written, ()))
         if self.instance.kind == "body":
             blocks += manifold_blocks(self.hoister, self.e)
         prepare = self.prepare()

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from symgen.errors import InputError
+from symgen.ir.graph import ARITHMETIC
 from symgen.ir.program import LawCode
 from symgen.lower.looped.law_loops import KINDS, Loops
 from symgen.lower.looped.layout import HEAD
 from symgen.lower.looped.statements import LoopedFunction
 from symgen.lower.record import RecordedLaw, record_form, record_law
-from symgen.lower.replay import ARITHMETIC
 from symgen.methods._base import Method
 from symgen.methods._formula import needed
 from symgen.vocabulary.infos import LawInfo
@@ -115,12 +115,12 @@ def lower_looped(method: Method, options: Mapping[str, str]) -> LoopedLaw:
     """
     record = record_law(method, options)
     names = tuple(p.name for p in method.parameters)
-    found = [Loops(record, part, names) for part in record.parts]
+    parts = [Loops(record, part, names) for part in record.parts]
     phi = next(i for i, o in enumerate(record.operations) if o.payload == ("phi",))
-    positions = any(phi in loops.needed for loops in found)
-    functions = tuple(loops.function(positions) for loops in found)
-    known = {name: size for f in functions for name, size in f.sections.items()}
-    sections = tuple((n, size) for n, size in known.items() if n not in HEAD and not n.removeprefix("x").isdigit())
+    positions = any(phi in loops.needed for loops in parts)
+    functions = tuple(loops.function(positions) for loops in parts)
+    sizes = {name: size for f in functions for name, size in f.sections.items()}
+    sections = tuple((n, size) for n, size in sizes.items() if n not in HEAD and not n.removeprefix("x").isdigit())
     correction = method.correction(options)
     info = LoopedLawInfo(
         method=method.name,

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import partialmethod
 from typing import Any
 
-from symgen.ir.graph import Graph
+from symgen.ir.graph import ARITHMETIC, Graph
 from symgen.ir.program import STATUS
 from symgen.lower.looped.statements import (
     LOCAL,
@@ -24,7 +24,7 @@ from symgen.lower.looped.statements import (
     Statement,
 )
 from symgen.lower.record import Part, RecordedLaw
-from symgen.lower.replay import ARITHMETIC, Nodes, Replay
+from symgen.lower.replay import Nodes, Replay
 from symgen.methods._formula import FormulaStep, needed
 
 #: Functions of a law in which the kernels of an evaluation are called first.
@@ -82,14 +82,14 @@ class Loops(Replay):
     @property
     def ends(self) -> list[tuple[str, int]]:
         """Outputs: of what is kept the operand, unless it stands in a place of its own already."""
-        found = []
+        ends = []
         for place, index in self.part.outputs:
             operation = self.operations[index]
             if not operation.kind.startswith("keep"):
-                found.append((place, index))
+                ends.append((place, index))
             elif self.operations[operation.operands[0]].kind not in _SIMPLE:
-                found.append((place, operation.operands[0]))
-        return found
+                ends.append((place, operation.operands[0]))
+        return ends
 
     @property
     def needed(self) -> list[int]:
@@ -99,8 +99,8 @@ class Loops(Replay):
     def _operands(self, index: int) -> tuple[int, ...]:
         """Return operands, none where the function reads what another one has kept."""
         operation = self.operations[index]
-        kept = operation.kind.startswith("keep") and self.operations[operation.operands[0]].kind not in _SIMPLE
-        return () if kept else operation.operands
+        stored = operation.kind.startswith("keep") and self.operations[operation.operands[0]].kind not in _SIMPLE
+        return () if stored else operation.operands
 
     def _share(self, index: int, uses: int) -> None:
         """Put an elementwise result that is used several times into a vector, so that it is computed once."""

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
+from symgen.lower.factor import Elimination
 from symgen.lower.looped.instances import Instance
 from symgen.lower.looped.kernels import KernelInfo
-from symgen.lower.looped.pattern import Elimination
 from symgen.vocabulary.expressions import Expr
 from symgen.vocabulary.measures import Measure
 
@@ -84,7 +84,7 @@ class LoopedShape:
         members: dict[str, list[int]] = {}
         for k, stem in enumerate(stems):
             members.setdefault(stem, []).append(k)
-        self.groups = tuple(KernelGroup(stem, infos[stem], tuple(found)) for stem, found in members.items())
+        self.groups = tuple(KernelGroup(stem, infos[stem], tuple(indices)) for stem, indices in members.items())
         self.constant_index: dict[Expr, int] = {}
         self._place_bodies()
         self._place_elements()
@@ -179,14 +179,14 @@ class LoopedShape:
     @cached_property
     def coupled(self) -> dict[int, frozenset[int]]:
         """Velocities that M couples with a velocity, where there are others."""
-        found: dict[int, frozenset[int]] = {}
+        coupled: dict[int, frozenset[int]] = {}
         for instance, stem in zip(self.instances, self.stems, strict=True):
             for block in self.infos[stem].mass:
                 if len(block) > 1:
                     first = self.body[instance.name][1]
                     columns = [first + j for j in block]
-                    found |= dict.fromkeys(columns, frozenset(columns))
-        return found
+                    coupled |= dict.fromkeys(columns, frozenset(columns))
+        return coupled
 
     @cached_property
     def turning(self) -> frozenset[int]:
@@ -198,19 +198,19 @@ class LoopedShape:
     @cached_property
     def by_body(self) -> dict[int, list[RowBlock]]:
         """Row blocks by the first velocity of their body."""
-        found: dict[int, list[RowBlock]] = {v: [] for _, v, _ in self.body.values()}
+        blocks: dict[int, list[RowBlock]] = {v: [] for _, v, _ in self.body.values()}
         for block in self.blocks:
-            found[block.first].append(block)
-        return found
+            blocks[block.first].append(block)
+        return blocks
 
     @cached_property
     def pairs(self) -> list[tuple[RowBlock, RowBlock]]:
         """Pairs of row blocks of one body that contribute to D M^-1 D^T, each once, rows with themselves too."""
-        found = []
+        pairs = []
         for blocks in self.by_body.values():
             for i, a in enumerate(blocks):
-                found += [(a, b) for b in blocks[: i + 1] if b is a or not a.reach.isdisjoint(b.entries)]
-        return found
+                pairs += [(a, b) for b in blocks[: i + 1] if b is a or not a.reach.isdisjoint(b.entries)]
+        return pairs
 
     @cached_property
     def products(self) -> ProductTerms:
@@ -255,10 +255,10 @@ class LoopedShape:
     @cached_property
     def rows(self) -> list[list[tuple[int, int]]]:
         """Entries (column, slot) of D, row by row."""
-        found: list[list[tuple[int, int]]] = [[] for _ in range(self.m)]
+        rows: list[list[tuple[int, int]]] = [[] for _ in range(self.m)]
         for row, column, slot in self.entries:
-            found[row].append((column, slot))
-        return found
+            rows[row].append((column, slot))
+        return rows
 
     @cached_property
     def augmented(self) -> Elimination:

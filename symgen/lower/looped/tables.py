@@ -74,11 +74,11 @@ class Builder:
         self.stages = STAGES if self.law.positions else STAGES | {"full": ()}
         self.functions = tuple(
             dict.fromkeys(
-                found
+                key
                 for stage in self.stages.values()
                 for kind, function in stage
                 for group in self.shape.groups
-                if group.info.kind == kind and (found := self.function(group, function)) is not None
+                if group.info.kind == kind and (key := self.function(group, function)) is not None
             )
         )
         length = len(HEAD) + len(self.law.sections)
@@ -196,10 +196,10 @@ class Builder:
         """Write the list of kernels of a stage: how many, then address and table of each."""
         self.begin(name)
         calls = [
-            (self.addresses + len(GENERIC) + self.functions.index(found), places[found[0]])
+            (self.addresses + len(GENERIC) + self.functions.index(key), places[key[0]])
             for kind, function in stage
             for group in self.shape.groups
-            if group.info.kind == kind and (found := self.function(group, function)) in self.functions
+            if group.info.kind == kind and (key := self.function(group, function)) in self.functions
         ]
         self.numbers.append(len(calls))
         for address, place in calls:
@@ -255,24 +255,24 @@ class Builder:
     def mass_blocks(self) -> None:
         """Write where the blocks of M are that are larger than one entry, and which blocks of D they act on."""
         shape = self.shape
-        found: list[tuple[int, int, int]] = []  # size, first velocity, place in p of M, that of M^-1 behind it
+        large: list[tuple[int, int, int]] = []  # size, first velocity, place in p of M, that of M^-1 behind it
         for k, (instance, stem) in enumerate(zip(shape.instances, shape.stems, strict=True)):
             info = shape.infos[stem]
             first = shape.first_computed + shape.computed_of[k] + info.hoisted
             for block in info.mass:
                 if len(block) > 1:
-                    found.append((len(block), shape.body[instance.name][1] + block[0], first))
+                    large.append((len(block), shape.body[instance.name][1] + block[0], first))
                     first += 2 * len(block) ** 2
         self.begin("mass_blocks")
-        self.numbers.append(len(found))
-        for each in found:
+        self.numbers.append(len(large))
+        for each in large:
             self.numbers += each
         self.begin("weights")
         plain = [x for slot, velocity in shape.products.slots.items() for x in (slot, velocity)]
         self.numbers += [len(plain) // 2, *plain]
         weights: list[int] = []
         owner = {v: first for first, width in shape.width.items() for v in range(first, first + width)}
-        for size, velocity, place in found:
+        for size, velocity, place in large:
             for b in shape.by_body[owner[velocity]]:
                 weights += [size, b.offset + velocity - b.first, place + size * size]
         self.numbers += [len(weights) // 3, *weights]

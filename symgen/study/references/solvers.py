@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.arguments import one_of
-from symgen.describe.kinks import compares_state
-from symgen.describe.unforeseen import longest_step
+from symgen.describe.kinks import compares_state, longest_step
 from symgen.errors import SimulationError
 from symgen.runtime.stops import foreseen
 

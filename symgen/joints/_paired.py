@@ -1,4 +1,4 @@
-"""What joints share whose two bodies have an axis in common."""
+"""What joints share that hold a point of one body to a point of another, and those whose bodies share an axis."""
 
 from __future__ import annotations
 
@@ -9,7 +9,21 @@ from symgen.describe.scope import Scope
 from symgen.vocabulary.measures import Marker
 
 
-class Axial(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Paired(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Two bodies and a point of each; every kind says which."""
+
+    between: BodyPair
+    at: PointPair
+
+    def ends(
+        self, scope: Scope, turns: tuple[bool, bool] = (True, True)
+    ) -> tuple[tuple[str, str], tuple[Marker, Marker]]:
+        """Return the bodies, those that `turns` names with an angle, and a point of each."""
+        a, b = scope.pair("between", self.between, turns=turns)
+        return (a, b), (scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1]))
+
+
+class Axial(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Two bodies with an axis in common.
 
     Parameters
@@ -25,12 +39,5 @@ class Axial(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
         default.
     """
 
-    between: BodyPair
-    at: PointPair
     axis: AxisPair
     reference: DirectionPair | None = None
-
-    def resolved(self, scope: Scope) -> tuple[tuple[str, str], tuple[Marker, Marker]]:
-        """Return the bodies, and a point of each."""
-        a, b = scope.pair("between", self.between, turns=(True, True))
-        return (a, b), (scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1]))
