@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from symgen.runtime.compiled import ModelInfo
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -63,6 +66,17 @@ def split(d: Array, loads: Array | None = None) -> tuple[Array, Array, Array]:
         nothing = np.linalg.qr(left / (sizes * loads)[:, None])[0]
         inverse = inverse - ((inverse / loads) @ nothing) @ nothing.T * loads
     return vt[rank:].T.copy(), inverse, left
+
+
+def apart(info: ModelInfo, a: Array, b: Array) -> Array:
+    """Return differences of coordinates, whole turns left out, of Euler parameters from the nearer sign."""
+    gaps = a[: info.nq] - b[: info.nq]
+    turns = np.array([q.unit == "rad" for q in info.coordinates], dtype=np.bool_)
+    gaps[turns] -= 2.0 * np.pi * np.round(gaps[turns] / (2.0 * np.pi))
+    for first, _ in info.spins:  # both signs are one orientation
+        one, other = a[first : first + 4], b[first : first + 4]
+        gaps[first : first + 4] = min(one - other, one + other, key=lambda x: float(np.linalg.norm(x)))
+    return gaps
 
 
 def symmetric(a: Array) -> Array:
@@ -168,6 +182,11 @@ def ranking(values: Array | Complex) -> NDArray[np.int64]:
     found = np.asarray(values, dtype=np.complex128)
     grain = 1e-12 * np.abs(found).max(initial=0.0) or 1.0
     return np.asarray(np.lexsort((-found.imag, -np.round(found.real / grain))), dtype=np.int64)
+
+
+def in_order(values: Array | Complex) -> Complex:
+    """Return eigenvalues by `ranking`."""
+    return (np.asarray(values, dtype=np.complex128) + 0.0)[ranking(values)]
 
 
 def largest(matrix: Any) -> float:

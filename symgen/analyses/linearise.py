@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import eigenvalues_of, ranking
-from symgen.analyses.reduced import StateTangent, tangent
-from symgen.analyses.steady import after, at_rest, check_steady, chosen, found_states, system, with_rates
+from symgen.analyses.algebra import eigenvalues_of, in_order
+from symgen.analyses.edges import edges
+from symgen.analyses.reduced import tangent
+from symgen.analyses.steady import named_states, system
 from symgen.analyses.subject import Subject
 from symgen.analyses.vibration import eigenvectors, vibration
 from symgen.errors import InputError
@@ -91,87 +92,33 @@ class LinearSystem:
         return {**matrices, **names, "about": self.about, "t": self.t, "notes": list(self.notes)}
 
 
-def in_order(values: Array | NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """Return eigenvalues by decreasing real part, then by decreasing imaginary part; what rounding parts is one."""
-    found = np.asarray(values, dtype=np.complex128) + 0.0
-    return found[ranking(found)]
-
-
-def linear_system(
-    subject: Subject,
-    y: Array,
-    t: float | None = None,
-    states: Sequence[str] = (),
-    instantaneous: bool = False,
-    where: str = "linearise",
-) -> LinearSystem:
+def linear_system(subject: Subject, y: Array, states: Sequence[str] = (), instantaneous: bool = False) -> LinearSystem:
     """Return the linear system about a state.
 
     Parameters
     ----------
-    subject, y, t
-        As for `symgen.analyses.reduced.tangent`.
-    states : sequence of str
-        Quantities that are the states; rates of coordinates among them are added. Unless given, independent ones that
-        determine all others at rest, and in a motion those that stay as they are.
-    instantaneous : bool
-        Whether a motion that is not steady has the system of the instant.
-    where : str
-        Who asks, for messages.
+    subject : Subject
+        The mechanism.
+    y : Array
+        A state that satisfies the constraints.
+    states, instantaneous
+        As for `symgen.analyses.steady.named_states`.
 
     Raises
     ------
     InputError
         If a name means nothing, or the motion is not steady.
     """
-    x = tangent(subject, y, t)
-    names = named_states(subject, x, states, instantaneous, where)
+    x = tangent(subject, y)
+    names = named_states(subject, x, states, instantaneous, "linearise")
     a, b, _, _ = system(x, names)
-    return _with_outputs(subject, x, names, a, b)
-
-
-def named_states(
-    subject: Subject, x: StateTangent, states: Sequence[str], instantaneous: bool, where: str
-) -> tuple[str, ...]:
-    """Return the names of the states that are asked for or found, after a check that they make a linear system."""
-    resting, soon = at_rest(subject, x), None
-    if states:
-        given = tuple(dict.fromkeys(states))
-        # what tells all needs no more rates, also where Euler parameters are in it, whose rates have no names
-        names = given if _independent(x, given) == x.size else with_rates(subject, states)
-        if _independent(x, names) < len(names):
-            raise InputError("states", "states that do not depend on each other", ", ".join(names))
-    elif resting or instantaneous:
-        names = chosen(subject, x)
-    else:
-        soon = after(subject, x)
-        names = found_states(subject, x, soon)
-        speeds = np.array([x.quantity(name).changes[x.positions : x.size] for name in names])
-        if np.linalg.matrix_rank(speeds.reshape(len(names), x.velocities)) < x.velocities:  # some of them changes
-            check_steady(subject, x, chosen(subject, x), where)
-            expected = "a steady motion, or states that are named"
-            raise InputError(where, expected, "one in which not all velocities stay as they are")
-    if not instantaneous:
-        check_steady(subject, x, names, where, soon)
-    return names
-
-
-def _independent(x: StateTangent, names: Sequence[str]) -> int:
-    """Return how many of some states do not depend on each other."""
-    rows = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(len(names), x.size)
-    rows = rows * x.sizes / x.sizes_of(names)[:, np.newaxis]
-    return int(np.linalg.matrix_rank(rows, tol=1e-9 * np.abs(rows).max(initial=1e-300)))
-
-
-def _with_outputs(subject: Subject, x: StateTangent, names: Sequence[str], a: Array, b: Array) -> LinearSystem:
-    n, form, sizes = x.size, subject.form, x.sizes_of(names)
-    changes = np.array([x.quantity(name).changes for name in names]).reshape(len(names), n + len(x.inputs))
+    n, form, sizes, changes = x.size, subject.form, x.sizes_of(names), x.changes_of(names)
     outputs, left_out, c, d = list[str](), list[str](), list[Array](), list[Array]()
-    inputs = subject.varied
-    numbers = [p.name for p in subject.compiled.info.parameters]
     about = {name: x.quantity(name).value for name in names}
-    about |= {name: float(subject.p[numbers.index(name)]) for name in subject.by}
-    about |= subject.values_of_inputs(x.y, x.t)
+    about |= {
+        name: float(subject.p[at]) for name, at in zip(subject.by, subject.places[-len(subject.by) :], strict=False)
+    }
+    about |= subject.values_of_inputs(y, x.t)
     for output in subject.mechanism.outputs:
         if output.name not in form.functions:
             left_out.append(output.name)  # an integral
@@ -186,18 +133,19 @@ def _with_outputs(subject: Subject, x: StateTangent, names: Sequence[str], a: Ar
         about[output.name] = value
         c.append(by_states)
         d.append(row[n:] - by_states @ changes[:, n:])
-    k = len(inputs)
+    k = len(subject.varied)
     return LinearSystem(
         a,
         b.reshape(len(names), k),
         np.array(c).reshape(len(outputs), len(names)),
         np.array(d).reshape(len(outputs), k),
-        tuple(names),
-        inputs,
+        names,
+        subject.varied,
         tuple(outputs),
         about,
         x.t,
         tuple(left_out),
         subject.by,
-        poles=tuple(eigenvectors(x, names, vibration(x))[0].tolist()),
+        edges(subject, y, x.a, outputs),
+        tuple(eigenvectors(x, names, vibration(x))[0].tolist()),
     )

@@ -64,7 +64,7 @@ def vibration(x: StateTangent) -> Vibration | None:
     """
     if not x.size or x.positions != x.velocities or not at_rest(x.subject, x):
         return None
-    e, basis = x.base, x.subject.free(x.base)
+    e, basis = x.base, x.subject.split(x.subject.rows(x.base))[0]
     try:
         squares, vectors, even = squares_along(e.by("balance", "a"), e.by("balance", "q") @ e.by("motion", "v"), basis)
     except np.linalg.LinAlgError:
@@ -94,6 +94,6 @@ def eigenvectors(x: StateTangent, names: Sequence[str], still: Vibration | None)
         return eigenvalues_of(x.matrix, x.sizes) if still is None else still.eigenvectors(x)
     sizes = x.sizes_of(names)
     values, shapes = eigenvalues_of(system(x, names)[0], sizes)
-    rows = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(len(names), x.size)
-    alike = np.linalg.lstsq(rows * x.sizes / sizes[:, np.newaxis], shapes / sizes[:, np.newaxis], rcond=1e-11)[0]
+    changes = x.changes_of(names)[:, : x.size] * x.sizes / sizes[:, np.newaxis]
+    alike = np.linalg.lstsq(changes, shapes / sizes[:, np.newaxis], rcond=1e-11)[0]
     return values, np.asarray(alike * x.sizes[:, np.newaxis], dtype=np.complex128)
