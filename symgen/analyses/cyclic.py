@@ -87,8 +87,7 @@ def _without_effect(subject: Subject) -> tuple[Array, Array]:
     changes = list[Array]()
     e = subject.evaluated(subject.y)
     for k in range(3):
-        y = subject.y.copy()
-        y[:nq] += 0.3 * k * subject.lengths * rng.standard_normal(nq)
+        y = subject.moved(subject.y, 0.3 * k * subject.lengths * rng.standard_normal(nq))
         y[nq : nq + nv] = rate * spans * rng.standard_normal(nv)
         a = rate**2 * spans * rng.standard_normal(nv)
         lam = subject.split(subject.rows(e))[1].T @ (e.by("balance", "a") @ a)
