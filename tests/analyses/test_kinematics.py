@@ -513,4 +513,4 @@ value = "0.5 + t"
 def test_times_that_no_step_leads_to_are_told_as_such():
     """A crank of 2 pi rad/s turns many times in the shortest step to 1e300 s: its motion was said to jump."""
     found = symgen.load("driven-four-bar").kinematics([0.0, 1e300])
-    assert found.ended.startswith("'motor' goes too far behind t = 0 s") and "the shortest step" in found.ended
+    assert found.ended.startswith("the value of 'motor' jumps at t = 0 s, or goes too far in")
