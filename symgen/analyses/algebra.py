@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import fields, is_dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -238,3 +239,18 @@ def solver(stiffness: Any, rows: Any) -> Solver | None:
         return found[:n], found[n:] * scale
 
     return solve
+
+
+def plain(value: Any) -> Any:
+    """Return a result as JSON can express it: fields that a result shows, pairs of numbers for complex ones."""
+    if is_dataclass(value):
+        return {f.name: plain(getattr(value, f.name)) for f in fields(value) if f.repr}
+    if isinstance(value, Mapping):
+        return {name: plain(x) for name, x in value.items()}
+    if isinstance(value, tuple):
+        return [plain(x) for x in value]
+    if isinstance(value, complex):
+        return [value.real, value.imag]
+    if isinstance(value, np.ndarray):
+        return (np.stack([value.real, value.imag], -1) if np.iscomplexobj(value) else value).tolist()
+    return value

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import ZERO, Complex, apart, split, squares_along, symmetric
+from symgen.analyses.algebra import ZERO, Complex, apart, plain, split, squares_along, symmetric
 from symgen.analyses.edges import edges
 from symgen.analyses.settle import Settled, settle
 from symgen.analyses.subject import Subject
@@ -80,16 +80,7 @@ class Equilibrium:
 
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON can express."""
-        return {
-            "q": self.q,
-            "stability": self.stability,
-            "omega_squared": list(self.omega_squared),
-            "residual": self.residual,
-            "iterations": self.iterations,
-            "multipliers": self.multipliers,
-            "not_unique": list(self.not_unique),
-            "notes": list(self.notes),
-        }
+        return dict(plain(self))
 
 
 def judged(rest: Settled) -> Equilibrium:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import arguments
+from symgen.analyses.algebra import plain
 from symgen.analyses.places import Array, NamedPlace, modes_at, range_of
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, SymgenError
@@ -74,15 +75,7 @@ class Locus:
 
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON can express."""
-        return {
-            "name": self.name,
-            "values": self.values.tolist(),
-            "branches": [[[float(x.real), float(x.imag)] for x in row] for row in self.branches],
-            "crossings": [
-                {"value": c.value, "eigenvalue": [c.eigenvalue.real, c.eigenvalue.imag], "rising": c.rising}
-                for c in self.crossings
-            ],
-        }
+        return dict(plain(self))
 
     def plot(self, path: str | Path) -> Path:
         """Draw real and imaginary parts over the parameter, and the plane of eigenvalues, into a file.

@@ -19,12 +19,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import in_order, ranking, split
+from symgen.analyses.algebra import in_order, plain, ranking, split
 from symgen.analyses.edges import edges
+from symgen.analyses.linearise import eigenvectors, vibration
 from symgen.analyses.reduced import StateTangent, accelerations, tangent
 from symgen.analyses.steady import at_rest, named_states
 from symgen.analyses.subject import Subject
-from symgen.analyses.vibration import eigenvectors, vibration
 from symgen.compiling.linearised import Evaluated
 
 Array = NDArray[np.float64]
@@ -98,21 +98,7 @@ class Modes:
 
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON can express."""
-        return {
-            "eigenvalues": [[float(x.real), float(x.imag)] for x in self.eigenvalues],
-            "omega_squared": self.omega_squared.tolist(),
-            "degrees_of_freedom": self.degrees_of_freedom,
-            "frequencies": self.frequencies.tolist(),
-            "damping": self.damping.tolist(),
-            "names": list(self.names),
-            "shapes": [[[float(x.real), float(x.imag)] for x in shape] for shape in self.shapes],
-            "participation": {name: share.tolist() for name, share in self.participation.items()},
-            "stiffening": {name: share.tolist() for name, share in self.stiffening.items()},
-            "dissipation": {name: share.tolist() for name, share in self.dissipation.items()},
-            "about": dict(self.about),
-            "t": self.t,
-            "notes": list(self.notes),
-        }
+        return {**plain(self), "frequencies": plain(self.frequencies), "damping": plain(self.damping)}
 
 
 def modes(subject: Subject, y: Array, states: Sequence[str] = (), bodies: Callable[[], Subject] | None = None) -> Modes:

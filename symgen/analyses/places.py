@@ -12,13 +12,12 @@ from numpy.typing import NDArray
 from symgen import arguments
 from symgen.analyses.cyclic import steady_motion
 from symgen.analyses.equilibrium import Equilibrium, judged, rest_of, scanned_rests, stability_in_motion
-from symgen.analyses.linearise import LinearSystem, linear_system
+from symgen.analyses.linearise import LinearSystem, eigenvectors, linear_system
 from symgen.analyses.modes import Modes, modes
 from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import Settled
 from symgen.analyses.steady import at_rest, named_states
 from symgen.analyses.subject import LARGE, Subject, subject_of
-from symgen.analyses.vibration import eigenvectors
 from symgen.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
 
 if TYPE_CHECKING:
@@ -32,24 +31,6 @@ Array = NDArray[np.float64]
 PLACES = ("equilibrium", "start", "steady")
 #: Tolerances of a run that leads to a state that is linearised about.
 FOLLOWED = {"method": "direct-correction", "integrator": "dop853", "rtol": 1e-12, "atol": 1e-14}
-
-
-def place_of(at: object, where: str = "at") -> str | float:
-    """Return a checked place: one of `PLACES`, or a time [s].
-
-    Raises
-    ------
-    InputError
-        If it is neither.
-    """
-    if isinstance(at, str):
-        if at in PLACES:
-            return at
-        try:
-            return arguments.number(where, float(at), positive=True)
-        except ValueError:
-            raise InputError(where, f"{', '.join(PLACES)} or a time in s", quoted(at), nearest(at, PLACES)) from None
-    return arguments.number(where, at, positive=True)
 
 
 @dataclass(frozen=True)
@@ -83,7 +64,14 @@ class NamedPlace:
     cyclic: Sequence[str] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "at", place_of(self.at))
+        at = self.at
+        if isinstance(at, str) and at not in PLACES:
+            try:
+                at = float(at)
+            except ValueError:
+                expected = f"{', '.join(PLACES)} or a time in s"
+                raise InputError("at", expected, quoted(self.at), nearest(str(at), PLACES)) from None
+        object.__setattr__(self, "at", at if isinstance(at, str) else arguments.number("at", at, positive=True))
         object.__setattr__(self, "cyclic", arguments.words("cyclic", self.cyclic))
         if self.cyclic and self.at != "steady":
             raise InputError("cyclic", "names where a steady motion is searched (at steady)", ", ".join(self.cyclic))

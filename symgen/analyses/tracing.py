@@ -70,16 +70,14 @@ def trace(run: PrescribedRun, times: Array) -> Traced:
         return Tracer(run, times).run()
     back = Tracer(run, times[:first][::-1]).run()
     # copies, as compiled code takes rows that follow each other
-    before = Traced(*(rows[::-1].copy() for rows in back[:4]), back.passages[::-1], back.ended, back.steps)
+    rows = (array[::-1].copy() for array in back[:4])
+    before = Traced._make((*rows, back.passages[::-1], back.ended, back.steps))
     if first == len(times):
         return before
     behind = Tracer(run, times[first:]).run()
-    return Traced(
-        *(np.concatenate(rows) for rows in zip(before[:4], behind[:4], strict=True)),
-        before.passages + behind.passages,
-        "; ".join(part.ended for part in (before, behind) if part.ended),
-        before.steps + behind.steps,
-    )
+    rows = (np.concatenate(arrays) for arrays in zip(before[:4], behind[:4], strict=True))
+    ended = "; ".join(part.ended for part in (before, behind) if part.ended)
+    return Traced._make((*rows, before.passages + behind.passages, ended, before.steps + behind.steps))
 
 
 def followed(times: Array) -> tuple[Array, NDArray[np.bool_]]:
