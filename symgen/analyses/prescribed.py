@@ -124,10 +124,8 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
     if not isinstance(branch, Mapping):
         raise InputError("start", "values of coordinates by name, to choose a branch by", "a state of a run")
     end = until if until > 0.0 else 1.0
-    settings = replace(
-        settings, method="lagrange", integrator=None, until=end, times=(end,), step=end, output_step=None
-    )
-    settings = replace(settings, coordinates="absolute", start={} if branch else settings.start)
+    settings = replace(settings, start={} if branch else settings.start, until=end, times=(end,), step=end)
+    settings = replace(settings, method="lagrange", integrator=None, output_step=None, coordinates="absolute")
     placed = put_inputs(mechanism, settings)
     driven = instantaneous(placed.mechanism)
     plan = make_plan(driven, placed.settings, Purpose.STATE)
