@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from analyses import rods
-from analyses.test_what_is_said import COLUMN, made
+from analyses.test_what_is_said import COLUMN
 from symgen.errors import InputError
 
 #: Stiffness [N/m] of a spring that has nothing to do with the rest.
@@ -40,7 +40,7 @@ def test_a_rod_beside_a_stiff_spring(stiffness, way):
 
 @pytest.mark.parametrize("way", WAYS[::2], ids=str)
 def test_a_column_flutters_beside_a_stiff_spring(way):
-    model = made(COLUMN + STIFF_BLOCK)
+    model = rods.of_text(COLUMN + STIFF_BLOCK)
     for load, word in ((1.0, "stable"), (3.0, "unstable")):
         assert model.equilibrium(parameters={"load": load}, **way).stability == word
     with pytest.raises(InputError, match="forces that have a potential"):
