@@ -112,7 +112,7 @@ def four_bar(doubled=False):
     return model(raw["bodies"], raw["joints"])
 
 
-def mass_spring_damper():
+def mass_spring_damper(**sections):
     """A body on a rail with a spring and a damper to the ground, and a force as input."""
     body = {"mass": 1.6, "inertia": 0.1, "position": [0.5, 0.0], "points": {"P": [0.0, 0.0]}}
     rail = pin("ground", "body", GROUND2, "centre", "translational", axis=[1.0, 0.0])
@@ -126,4 +126,5 @@ def mass_spring_damper():
         inputs={"push": 0.0},
         forces={"spring": {**spring, "stiffness": "k", "damping": "c"}, "push": push},
         outputs={"where": "body.x", "pull": "spring.force", "both": "2*body.vx + push"},
+        **sections,
     )
