@@ -192,9 +192,10 @@ def scanned_rests(subject: Subject, name: str, values: Array) -> tuple[Equilibri
     AnalysisError
         If none is found.
     """
+    unit = subject.unit(name)
     if len(values) < 2:
         raise InputError(f"scan {name}", "two values or more", f"{len(values)}")
-    if subject.unit(name) == "m":  # steps are bounded by the mechanism's length, and its start may have none
+    if unit == "m":  # steps are bounded by the mechanism's length, and its start may have none
         subject = subject.as_long_as(float(np.abs(values - _value(subject, subject.y, name)).max()))
     rests, before, y, reached = list[Equilibrium](), None, subject.y.copy(), False
     y[subject.nq :] = 0.0
