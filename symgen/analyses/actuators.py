@@ -1,37 +1,68 @@
-"""Actuators: drivers, joints, forces and inputs whose efforts are sought, as inputs of a mechanism of their own.
+"""Efforts of actuators along a recorded motion: drivers, joints, forces and inputs as inputs of a mechanism of its own.
 
 What prescribes a motion is not what has to exert it: drivers leave, those among the actuators become efforts along
-their coordinates, and everything else stays. The mechanism is linear in its actuators, so that its emitted right-hand
-side says what each of them does to accelerations and reactions.
+their coordinates, and everything else stays. The emitted right-hand side is evaluated without efforts and with an
+effort of 1 of each actuator; accelerations and multipliers are linear in efforts, so that a small problem of least
+squares at every time has the efforts of the motion as its solution.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import msgspec
+import numpy as np
+from numpy.typing import NDArray
 
+from symgen import arguments
 from symgen.analyses.prescribed import DRIVER, drivers_of, instantaneous, without
+from symgen.compiling.side import compile_side
+from symgen.describe.columns import PREFIX
+from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import Force, Joint, Mechanism, Parameter
 from symgen.describe.readings import is_turning
 from symgen.errors import InputError, nearest, quoted
+from symgen.lower.windings import winding_order
+from symgen.result.recorded import Recorded
+from symgen.result.run_data import accelerations_of
+from symgen.running.plan import Purpose
+from symgen.running.prepare import make_plan
+from symgen.running.starts import closed_by, compiled_for
+from symgen.runtime import abi
+from symgen.runtime.assembly import assemble
+from symgen.runtime.outcome import PrescribedMotion
 from symgen.vocabulary.expressions import ZERO, Expr, Name, Number, Reading
 from symgen.vocabulary.measures import Effort, Exerted, Holonomic
+
+if TYPE_CHECKING:
+    from symgen.runtime.assembly import Start
+    from symgen.runtime.compiled import CompiledModel
+    from symgen.settings import Settings
+
+Array = NDArray[np.float64]
 
 WHERE = "actuators"
 #: Ends the names of inputs that stand for efforts: no name of a file.
 _MARK = "~effort"
+#: Singular values of what efforts do to accelerations, each by its own size, below this part of the largest one
+#: count as zero; so does what an effort does below this part of the largest that one does, or of what is without any.
+CUTOFF, SILENT = 1e-9, 1e-13
+#: Accelerations that no effort gives are said from this part of the largest one on.
+MISSING = 1e-6
+#: Two evaluations with efforts of 1 and 2 show whether accelerations are linear in an input.
+LINEAR = 1e-9
 
 
 @dataclass(frozen=True)
 class Actuator:
-    """One effort that is sought.
+    """One effort.
 
     Attributes
     ----------
     name : str
-        As it is asked for and reported.
+        As requested and reported.
     unit : str
         Of the effort; empty for an input.
     parameter : str
@@ -51,16 +82,8 @@ class Actuator:
         return self.unit == "N m"
 
 
-@dataclass(frozen=True)
-class Actuated:
-    """A mechanism in which actuators are inputs."""
-
-    mechanism: Mechanism
-    actuators: tuple[Actuator, ...]
-
-
-def actuated(mechanism: Mechanism, names: Sequence[str]) -> Actuated:
-    """Return a mechanism whose drivers have left and whose actuators are inputs.
+def actuated(mechanism: Mechanism, names: Sequence[str]) -> tuple[Mechanism, tuple[Actuator, ...]]:
+    """Return a mechanism whose drivers have left and whose actuators are inputs, and these.
 
     Parameters
     ----------
@@ -76,37 +99,31 @@ def actuated(mechanism: Mechanism, names: Sequence[str]) -> Actuated:
         If a name is none of these, stands twice, or means what another one does.
     """
     whole = instantaneous(mechanism)
-    drivers = drivers_of(whole)
     if not names:
         hint = "drivers, joints, forces and inputs may be named"
         raise InputError(WHERE, "names of what exerts the motion", "none, and no driver", hint)
     forces = {force.name: force for force in whole.forces}
-    found, added, along = list[Actuator](), list[Force](), dict[object, str]()
+    actuators, added, along = list[Actuator](), list[Force](), dict[object, str]()
     for name in names:
         if name in forces or name.rpartition(".")[0] in forces:
             force = name if name in forces else name.rpartition(".")[0]
             forces[force], new = _of_force(forces[force], name)
-            found += new
+            actuators += new
         elif name in whole.inputs:
-            found.append(Actuator(name, _unit(whole, name), name, None))
+            unit = next(p.unit for p in whole.parameters if p.name == name)
+            actuators.append(Actuator(name, unit, name, None))
         else:
             effort, unit = _of_joint(whole, name)
             if (other := along.setdefault(effort.measure, name)) != name:
                 raise InputError(WHERE, "each actuator once", f"{quoted(other)} and {quoted(name)}, which are one")
             added.append(Force(f"{name}{_MARK}", "torque" if unit == "N m" else "force", (), (effort,)))
-            found.append(Actuator(name, unit, _parameter(name), _rate(name, effort)))
-    if len({a.parameter for a in found}) < len(found):
+            actuators.append(Actuator(name, unit, f"{name}{_MARK}", _rate(name, effort)))
+    if len({a.parameter for a in actuators}) < len(actuators):
         raise InputError(WHERE, "each name once", ", ".join(names))
-    inputs = tuple(Parameter(a.parameter, 0.0, a.unit, input=True) for a in found if a.name not in whole.inputs)
-    loose = msgspec.structs.replace(without(whole, drivers), outputs=())  # which may read what drivers exert
-    made = msgspec.structs.replace(
-        loose, forces=(*forces.values(), *added), parameters=(*whole.parameters, *inputs), holds=()
-    )
-    return Actuated(made, tuple(found))
-
-
-def _parameter(name: str) -> str:
-    return f"{name}{_MARK}"
+    inputs = tuple(Parameter(a.parameter, 0.0, a.unit, input=True) for a in actuators if a.name not in whole.inputs)
+    changes = {"forces": (*forces.values(), *added), "parameters": (*whole.parameters, *inputs)}
+    loose = without(whole, drivers_of(whole))  # outputs may read what drivers exert
+    return msgspec.structs.replace(loose, outputs=(), holds=(), **changes), tuple(actuators)
 
 
 def _rate(name: str, effort: Effort) -> Expr:
@@ -115,25 +132,21 @@ def _rate(name: str, effort: Effort) -> Expr:
     return Reading(f"{name}.rate", Exerted((alone,), power=True))
 
 
-def _unit(mechanism: Mechanism, name: str) -> str:
-    return next(p.unit for p in mechanism.parameters if p.name == name)
-
-
 def _of_force(force: Force, name: str) -> tuple[Force, list[Actuator]]:
-    """Return a force with efforts as inputs, all of them or the one that `name` says, and what they are."""
+    """Return a force with efforts as inputs, all of them or the one that `name` ends in, and what they are."""
     labels = [effort.label for effort in force.efforts]
-    asked = name.removeprefix(f"{force.name}.") if name != force.name else ""
-    if asked and asked not in labels:
-        raise InputError(WHERE, f"an effort of {force.name}", quoted(name), nearest(asked, labels))
-    efforts, found = list[Effort](), list[Actuator]()
+    label = name.removeprefix(f"{force.name}.") if name != force.name else ""
+    if label and label not in labels:
+        raise InputError(WHERE, f"an effort of {force.name}", quoted(name), nearest(label, labels))
+    efforts, actuators = list[Effort](), list[Actuator]()
     for effort in force.efforts:
         whole = f"{force.name}.{effort.label}"
-        if asked in ("", effort.label):
+        if label in ("", effort.label):
             own, unit = name if len(labels) == 1 else whole, "N m" if is_turning(effort.measure) else "N"
-            found.append(Actuator(own, unit, _parameter(whole), _rate(own, effort)))
-            effort = msgspec.structs.replace(effort, magnitude=Name(_parameter(whole)), potential=ZERO)
+            actuators.append(Actuator(own, unit, f"{whole}{_MARK}", _rate(own, effort)))
+            effort = msgspec.structs.replace(effort, magnitude=Name(f"{whole}{_MARK}"), potential=ZERO)
         efforts.append(effort)
-    return msgspec.structs.replace(force, efforts=tuple(efforts)), found
+    return msgspec.structs.replace(force, efforts=tuple(efforts)), actuators
 
 
 def _of_joint(mechanism: Mechanism, name: str) -> tuple[Effort, str]:
@@ -141,18 +154,205 @@ def _of_joint(mechanism: Mechanism, name: str) -> tuple[Effort, str]:
     joints = {joint.name: joint for joint in mechanism.joints}
     owner = name if name in joints else name.rpartition(".")[0]
     if owner not in joints:
-        known = [*joints, *(force.name for force in mechanism.forces), *mechanism.inputs]
-        raise InputError(WHERE, "a driver, joint, force or input", quoted(name), nearest(name, known))
-    joint = joints[owner]
+        names = [*joints, *(force.name for force in mechanism.forces), *mechanism.inputs]
+        raise InputError(WHERE, "a driver, joint, force or input", quoted(name), nearest(name, names))
+    joint, magnitude = joints[owner], Name(f"{name}{_MARK}")
     row = joint.rows[0] if joint.kind == DRIVER else None
     if isinstance(row, Holonomic):
-        return Effort("effort", row.measure, Name(_parameter(name))), "N m" if row.unit == "rad" else "N"
-    labels = {label: measure for label, measure in joint.coordinates}
-    asked = name.removeprefix(f"{owner}.") if name != owner else ""
-    if not asked and len(labels) != 1:
-        told = f"'{owner}', which has {len(labels)}"
-        raise InputError(WHERE, "a coordinate of a joint", told, ", ".join(f"{owner}.{x}" for x in labels))
-    label = asked or next(iter(labels))
-    if label not in labels:
-        raise InputError(WHERE, f"a coordinate of {owner}", quoted(name), nearest(label, labels))
-    return Effort("effort", labels[label], Name(_parameter(name))), "N m" if Joint.unit(label) == "rad" else "N"
+        return Effort("effort", row.measure, magnitude), "N m" if row.unit == "rad" else "N"
+    measures = dict(joint.coordinates)
+    label = name.removeprefix(f"{owner}.") if name != owner else ""
+    if not label and len(measures) != 1:
+        got = f"'{owner}', which has {len(measures)}"
+        raise InputError(WHERE, "a coordinate of a joint", got, ", ".join(f"{owner}.{x}" for x in measures))
+    label = label or next(iter(measures))
+    if label not in measures:
+        raise InputError(WHERE, f"a coordinate of {owner}", quoted(name), nearest(label, measures))
+    return Effort("effort", measures[label], magnitude), "N m" if Joint.unit(label) == "rad" else "N"
+
+
+@dataclass(frozen=True)
+class Balanced:
+    """A motion with what its actuators exert; arrays have one row a time.
+
+    Attributes
+    ----------
+    motion : PrescribedMotion
+        With the multipliers that belong to the efforts.
+    efforts : Array, shape (k, n)
+        Of the actuators.
+    rates : Array, shape (k, r)
+        Of what those work along that have a rate.
+    missing : Array, shape (k,)
+        Largest acceleration that no effort gives [m/s^2], angles by the bodies' lengths.
+    notes : list of str
+        What is not unique, and what no effort gives, in sentences.
+    """
+
+    motion: PrescribedMotion
+    efforts: Array
+    rates: Array
+    missing: Array
+    notes: list[str]
+
+
+def balance(
+    mechanism: Mechanism,
+    actuators: tuple[Actuator, ...],
+    settings: Settings,
+    record: Recorded,
+    weights: Mapping[str, float] | None,
+) -> Balanced:
+    """Return what actuators exert in a recorded motion.
+
+    Parameters
+    ----------
+    mechanism, actuators
+        From `actuated`.
+    settings : Settings
+        Of the mechanism, inputs put in place.
+    record : Recorded
+        The motion.
+    weights : mapping of str to float, optional
+        Of efforts that are not unique, by actuators.
+
+    Raises
+    ------
+    InputError
+        If the motion is not one of the mechanism, an input is not one that efforts are proportional to, or a weight is
+        wrong.
+    """
+    weights, names = (
+        arguments.mapping("weights", weights, "numbers by the names of actuators"),
+        [a.name for a in actuators],
+    )
+    for name, value in weights.items():
+        if name not in names:
+            raise InputError("weights", "the name of an actuator", quoted(name), nearest(name, names))
+        arguments.number(f"weights '{name}'", value, positive=True)
+    still, *others = _motions(mechanism, actuators, settings, record)
+    length = float(still.start.w[abi.LENGTH])
+    weighed = [float(weights.get(a.name, 1.0 / length if a.turning else 1.0)) for a in actuators]
+    efforts, missing, ranks = _solved(still, others, np.array(weighed))
+    base = still.responses.multipliers
+    lam = base + sum((o.responses.multipliers - base) * efforts[:, [j]] for j, o in enumerate(others))
+    motion = replace(still, found=lam)
+    formulas = [(f"{a.name}.rate", a.rate) for a in actuators if a.rate is not None]
+    rates = np.zeros((len(motion.times), 0))
+    if formulas:
+        side = compile_side(mechanism, motion.compiled, "rates", "rates of what actuators work along", formulas)
+        rates = motion.observed(side.function, len(formulas))
+    notes, count, rank = list[str](), efforts.shape[1], int(ranks.max(initial=0))
+    if rank < count:
+        how = "weighted as asked" if weights else "torques over the mechanism's length"
+        several = "1 actuator moves" if count == 1 else f"{count} actuators move"
+        degrees = "1 degree" if rank == 1 else f"{rank} degrees"
+        notes.append(f"{several} {degrees} of freedom: efforts are those of minimum norm, {how}")
+    if np.any(ranks < rank):
+        t = motion.times[int(np.argmax(ranks < rank))]
+        notes.append(f"at t = {t:.6g} s actuators move less than elsewhere: efforts are those of minimum norm")
+    scale = 1.0 / np.sqrt(motion.compiled.section(motion.w, "gauge"))
+    largest = float(np.abs(motion.accelerations * scale).max(initial=0.0))
+    if missing.max(initial=0.0) > MISSING * max(largest, 1e-300):
+        k = int(np.argmax(missing))
+        what = f"at t = {motion.times[k]:.6g} s an acceleration of {missing[k]:.3g} m/s^2 is left"
+        notes.append(f"these actuators alone do not give the motion: {what}")
+    return Balanced(motion, efforts, rates, missing, notes)
+
+
+def _motions(
+    mechanism: Mechanism, actuators: tuple[Actuator, ...], settings: Settings, record: Recorded
+) -> list[PrescribedMotion]:
+    """Return the motion without efforts, then with an effort of 1 of each actuator."""
+    plan = make_plan(mechanism, settings, Purpose.STATE)
+    values, code = parameter_values(mechanism, settings.parameters), compiled_for(mechanism, plan.choice)
+    info = code.info
+    velocities = [v.name for v in info.velocities]
+    q, v = record.table([c.name for c in info.coordinates]), record.table(velocities)
+    a = record.table(accelerations_of(velocities))
+    instant = (float(record.t[0]), ())
+
+    def close(compiled: CompiledModel, ask_light: bool) -> Start:
+        p = compiled.parameter_array(values, plan.method_parameters)
+        return assemble(compiled, q[0].copy(), list(v[0]), p, False, None, ask_light, None, instant)
+
+    compiled, start = closed_by(plan, code, close)
+    states = np.zeros((len(record.t), info.ny))
+    states[:, : info.nq], states[:, info.nq : info.work] = q, v
+    # angles that count turns are those that joints have reported
+    status = np.full((len(record.t), abi.N_STATUS + info.windings), np.nan)
+    prefix = PREFIX["joint_coordinates"]
+    names = {m: f"{prefix}{joint.name}.{label}" for joint in mechanism.joints for label, m in joint.coordinates}
+    for i, measure in enumerate(winding_order(mechanism, compiled.shape)):
+        status[:, abi.N_STATUS + i] = record.columns.get(names.get(measure, ""), np.nan)
+    still = PrescribedMotion(
+        times=np.array(record.t),  # of files it is read-only
+        states=states,
+        status_columns=status,
+        compiled=compiled,
+        start=start,
+        p=start.p,
+        w=start.w,
+        given=a,
+    )
+    still = replace(still, status_columns=still.measured())
+    places = {parameter.name: i for i, parameter in enumerate(info.parameters)}
+
+    def with_effort(actuator: Actuator, value: float) -> PrescribedMotion:
+        other = start.p.copy()
+        other[places[actuator.parameter]] = value
+        compiled.prepare(other)
+        return replace(still, p=other)
+
+    for actuator in actuators:
+        still.p[places[actuator.parameter]] = 0.0
+    ones = [with_effort(actuator, 1.0) for actuator in actuators]
+    none = still.responses.accelerations
+    for actuator, one in zip(actuators, ones, strict=True):
+        if actuator.rate is None:
+            once = one.responses.accelerations - none
+            twice = with_effort(actuator, 2.0).responses.accelerations - none
+            if not np.abs(twice - 2.0 * once).max() <= LINEAR * np.abs(once).max(initial=1e-300):
+                raise InputError(WHERE, "inputs that efforts are proportional to", quoted(actuator.name))
+    return [still, *ones]
+
+
+def _solved(
+    still: PrescribedMotion, others: list[PrescribedMotion], weighed: Array
+) -> tuple[Array, Array, NDArray[np.int64]]:
+    """Return efforts, shape (k, n), the accelerations left, shape (k,), and degrees of freedom moved."""
+    scale = 1.0 / np.sqrt(still.compiled.section(still.start.w, "gauge"))
+    base = still.responses.accelerations
+    effects = np.stack([other.responses.accelerations - base for other in others], axis=-1)
+    effects = effects * scale[:, np.newaxis]
+    wanted = (still.given - base) * scale
+    # a motor of a crane and one of a watch: whether efforts are told apart does not depend on what they move
+    sizes = np.linalg.norm(effects, axis=1)
+    silent = sizes <= SILENT * np.maximum(sizes.max(axis=1), np.linalg.norm(base * scale, axis=1))[:, np.newaxis]
+    effects, sizes = np.where(silent[:, np.newaxis], 0.0, effects), np.where(silent, 1.0, sizes)
+    left, singular, right = np.linalg.svd(effects / sizes[:, np.newaxis], full_matrices=False)
+    kept = singular > CUTOFF * singular.max(axis=1, initial=0.0)[:, np.newaxis]
+    inverses = np.where(kept, 1.0 / np.where(kept, singular, 1.0), 0.0)
+    parts = np.einsum("kij,ki->kj", left, wanted) * inverses
+    efforts = np.einsum("kji,kj->ki", right, parts) / sizes
+    ranks = kept.sum(axis=1)
+    for k in np.flatnonzero(ranks < len(weighed)):
+        efforts[k] -= _unfelt(right[k][kept[k]], sizes[k], weighed, efforts[k])
+    rest = wanted - np.einsum("kij,kj->ki", effects, efforts)
+    return efforts, np.abs(rest).max(axis=1), ranks
+
+
+def _unfelt(felt: Array, sizes: Array, weighed: Array, efforts: Array) -> Array:
+    """Return the part of efforts that does nothing and whose absence leaves the least sum of weighted squares.
+
+    Parameters
+    ----------
+    felt : Array, shape (r, n)
+        Orthonormal efforts, each by the size of what it does, that are told apart.
+    sizes, weighed, efforts : Array, shape (n,)
+        These sizes, the weights, and the efforts.
+    """
+    n = len(sizes)
+    silent = np.linalg.svd(felt, full_matrices=True)[2][len(felt) :] if len(felt) else np.eye(n)
+    basis = np.linalg.qr((silent / sizes * weighed).T)[0]
+    return np.asarray(basis @ (basis.T @ (weighed * efforts)) / weighed)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Mapping
+from dataclasses import fields, is_dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from symgen.runtime.compiled import ModelInfo
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -63,6 +67,17 @@ def split(d: Array, loads: Array | None = None) -> tuple[Array, Array, Array]:
         nothing = np.linalg.qr(left / (sizes * loads)[:, None])[0]
         inverse = inverse - ((inverse / loads) @ nothing) @ nothing.T * loads
     return vt[rank:].T.copy(), inverse, left
+
+
+def apart(info: ModelInfo, a: Array, b: Array) -> Array:
+    """Return differences of coordinates, whole turns left out, of Euler parameters from the nearer sign."""
+    gaps = a[: info.nq] - b[: info.nq]
+    turns = np.array([q.unit == "rad" for q in info.coordinates], dtype=np.bool_)
+    gaps[turns] -= 2.0 * np.pi * np.round(gaps[turns] / (2.0 * np.pi))
+    for first, _ in info.spins:  # both signs are one orientation
+        one, other = a[first : first + 4], b[first : first + 4]
+        gaps[first : first + 4] = min(one - other, one + other, key=lambda x: float(np.linalg.norm(x)))
+    return gaps
 
 
 def symmetric(a: Array) -> Array:
@@ -170,6 +185,11 @@ def ranking(values: Array | Complex) -> NDArray[np.int64]:
     return np.asarray(np.lexsort((-found.imag, -np.round(found.real / grain))), dtype=np.int64)
 
 
+def in_order(values: Array | Complex) -> Complex:
+    """Return eigenvalues by `ranking`."""
+    return (np.asarray(values, dtype=np.complex128) + 0.0)[ranking(values)]
+
+
 def largest(matrix: Any) -> float:
     """Return the largest size of an element of a dense or sparse matrix, 0 of an empty one."""
     return float(abs(matrix).max()) if matrix.shape[0] else 0.0
@@ -219,3 +239,18 @@ def solver(stiffness: Any, rows: Any) -> Solver | None:
         return found[:n], found[n:] * scale
 
     return solve
+
+
+def plain(value: Any) -> Any:
+    """Return a result as JSON can express it: fields that a result shows, pairs of numbers for complex ones."""
+    if is_dataclass(value):
+        return {f.name: plain(getattr(value, f.name)) for f in fields(value) if f.repr}
+    if isinstance(value, Mapping):
+        return {name: plain(x) for name, x in value.items()}
+    if isinstance(value, tuple):
+        return [plain(x) for x in value]
+    if isinstance(value, complex):
+        return [value.real, value.imag]
+    if isinstance(value, np.ndarray):
+        return (np.stack([value.real, value.imag], -1) if np.iscomplexobj(value) else value).tolist()
+    return value

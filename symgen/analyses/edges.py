@@ -12,15 +12,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.subject import given_at_start
 from symgen.compiling.side import compile_side
 from symgen.describe.kinks import changing
 
 if TYPE_CHECKING:
-    from symgen.analyses.sparse_state import Sparse
+    from symgen.analyses.large import Sparse
     from symgen.analyses.subject import Subject
-    from symgen.describe.mechanism import Force, Joint, Mechanism, Output
-    from symgen.settings import Settings
+    from symgen.describe.mechanism import Force, Joint, Output
 
 Array = NDArray[np.float64]
 
@@ -31,12 +29,12 @@ STEPS = (1e-5, 1e-7)
 BENT, JUMPING, GRAIN = 1 / 200, 1 / 20, 1e-12
 
 
-def edges(subject: Subject, y: Array, a: Array | None = None, outputs: Sequence[str] = ()) -> tuple[str, ...]:
-    """Return a sentence about formulas that have no derivative at a state, none where all have one.
+def edges(subject: Subject | Sparse, y: Array, a: Array | None = None, outputs: Sequence[str] = ()) -> tuple[str, ...]:
+    """Name formulas that have no derivative at a state in one sentence, in none where all have one.
 
     Parameters
     ----------
-    subject : Subject
+    subject : Subject or Sparse
         The mechanism.
     y : Array
         The state.
@@ -45,43 +43,25 @@ def edges(subject: Subject, y: Array, a: Array | None = None, outputs: Sequence[
     outputs : sequence of str
         Outputs that count beside joints and forces.
     """
-    motion = subject.evaluated(y).by("motion", "v") * subject.spans
-    return _note(subject, subject.mechanism, motion, subject.inputs, y, a, outputs)
-
-
-def edges_of_large(sparse: Sparse, mechanism: Mechanism, settings: Settings, y: Array, lam: Array) -> tuple[str, ...]:
-    """Return the same of a large mechanism at rest, whose joints carry multipliers."""
-    motion = sparse.matrices(y, lam)[0]
-    return _note(sparse, given_at_start(mechanism, settings).mechanism, motion, (), y, None, ())
-
-
-def _note(
-    place: Subject | Sparse,
-    mechanism: Mechanism,
-    motion: NDArray[np.float64],
-    inputs: Sequence[str],
-    y: Array,
-    a: Array | None,
-    outputs: Sequence[str],
-) -> tuple[str, ...]:
+    mechanism, inputs = subject.mechanism, subject.inputs
     parts: list[tuple[str, Joint | Force | Output]] = [("joint", x) for x in mechanism.joints]
     parts += [("force", x) for x in mechanism.forces]
     parts += [("output", x) for x in mechanism.outputs if x.name in outputs]
     formulas = [(f"{kind} '{part.name}'", e) for kind, part in parts for e in changing(part)]
     if not formulas:
         return ()
-    side = compile_side(mechanism, place.compiled, "edges", "Formulas that compare something", formulas)
-    info, t = place.compiled.info, getattr(place, "t", 0.0)
-    nq, nv, known = info.nq, info.nv, [q.name for q in info.parameters]
+    side = compile_side(mechanism, subject.compiled, "edges", "Formulas that compare something", formulas)
+    info, motion = subject.compiled.info, subject.motion(y)
+    nq, nv, names = info.nq, info.nv, [q.name for q in info.parameters]
     # no two change by the same part of their spans, so that their differences change as well
     along = np.split(np.linspace(1.0, 0.5, 3 * nv + len(inputs)), [nv, 2 * nv, 3 * nv])
 
     def values(step: float) -> Array:
-        there, p, rates = place.moved(y, motion @ (step * along[0])), place.p.copy(), np.zeros_like(y)
-        there[nq : nq + nv] += step * place.spans * along[1]
-        rates[nq : nq + nv] = step * place.spans * along[2] + (0.0 if a is None else a)
-        p[[known.index(name) for name in inputs]] += step * along[3]
-        return side(t, there, p, place.w.copy(), rates)
+        there, p, rates = subject.moved(y, motion @ (step * along[0])), subject.p.copy(), np.zeros_like(y)
+        there[nq : nq + nv] += step * subject.spans * along[1]
+        rates[nq : nq + nv] = step * subject.spans * along[2] + (0.0 if a is None else a)
+        p[[names.index(name) for name in inputs]] += step * along[3]
+        return side(subject.t, there, p, subject.w.copy(), rates)
 
     here, far, near = values(0.0), *((values(step), values(-step)) for step in STEPS)
     rounding = GRAIN * (np.abs(here) + np.abs(far[0] - here) / STEPS[0])

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import ZERO, Complex, split, squares_along, symmetric
+from symgen.analyses.algebra import ZERO, Complex, apart, plain, split, squares_along, symmetric
 from symgen.analyses.edges import edges
 from symgen.analyses.settle import Settled, settle
 from symgen.analyses.subject import Subject
@@ -80,35 +80,26 @@ class Equilibrium:
 
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON can express."""
-        return {
-            "q": self.q,
-            "stability": self.stability,
-            "omega_squared": list(self.omega_squared),
-            "residual": self.residual,
-            "iterations": self.iterations,
-            "multipliers": self.multipliers,
-            "not_unique": list(self.not_unique),
-            "notes": list(self.notes),
-        }
+        return dict(plain(self))
 
 
-def judged(subject: Subject, y: Array, steps: int) -> Equilibrium:
-    """Return what is known of an equilibrium: smallest multipliers, stiffness, reactions that are not unique."""
-    info = subject.compiled.info
-    e = subject.evaluated(y)
-    d, force = subject.rows(e), e.value("balance")
+def judged(rest: Settled) -> Equilibrium:
+    """Return an equilibrium with its smallest multipliers, its stiffness, and the reactions that are not unique."""
+    subject, y = rest.subject, rest.y
+    info, e = subject.compiled.info, subject.evaluated(y)
+    d = subject.rows(e)
     inverse, dependent = split(d, subject.loads)[1:]
-    lam = -inverse.T @ force
+    lam = -inverse.T @ e.value("balance")
     e = subject.evaluated(y, lam=lam)
     stiffness = e.by("balance", "q") @ e.by("motion", "v")
-    squares = reduced_squares(e.by("balance", "a"), stiffness, subject.free(e))
+    squares = reduced_squares(e.by("balance", "a"), stiffness, subject.split(d)[0])
     share = np.linalg.norm(dependent, axis=1) if dependent.size else np.zeros(info.m)
     return Equilibrium(
         q=subject.named(y),
         stability=stability_of(squares),
         omega_squared=tuple(float(x) for x in squares.real),
         residual=float(np.abs(e.value("balance")).max(initial=0.0)),
-        iterations=steps,
+        iterations=rest.steps,
         multipliers={row.name: float(x) for row, x in zip(info.rows, lam, strict=True)},
         not_unique=not_unique(subject.mechanism, info, share),
         y=y,
@@ -163,74 +154,69 @@ def reduced_squares(mass: Any, stiffness: Any, basis: Array) -> Array | Complex:
     if even:
         return squares
     along = basis @ shapes
-    found = np.sort_complex(np.linalg.eigvals(along.T @ (stiffness @ along)))
-    grain = len(found) * ZERO * np.abs(found).max(initial=0.0)
-    if np.any(np.abs(found.imag) > REAL * np.abs(found) + grain):
-        return np.asarray(found, dtype=np.complex128)
-    return np.where(np.abs(found.real) <= grain, 0.0, found.real)
+    values = np.sort_complex(np.linalg.eigvals(along.T @ (stiffness @ along)))
+    grain = len(values) * ZERO * np.abs(values).max(initial=0.0)
+    if np.any(np.abs(values.imag) > REAL * np.abs(values) + grain):
+        return np.asarray(values, dtype=np.complex128)
+    return np.where(np.abs(values.real) <= grain, 0.0, values.real)
 
 
-def equilibria(subject: Subject, scan: tuple[str, Array] | None = None) -> tuple[Equilibrium, ...]:
-    """Return the equilibrium that the start leads to, or all that are found over a range of a coordinate.
-
-    Parameters
-    ----------
-    subject : Subject
-        The mechanism and its start; velocities are taken to be 0.
-    scan : (str, Array), optional
-        A coordinate and its values. It is held at one after the other, while everything else comes to rest; where the
-        force that this takes changes its sign, an equilibrium is between.
+def rest_of(subject: Subject) -> Settled:
+    """Find the equilibrium that the start leads to; velocities are taken to be 0.
 
     Raises
     ------
     AnalysisError
         If none is found.
     """
-    if scan is None:
-        rest = at_rest_from(subject)
-        return (judged(rest.subject, rest.y, rest.steps),)
-    name, values = scan
+    y = subject.y.copy()
+    y[subject.nq :] = 0.0
+    return settle(subject, y)
+
+
+def scanned_rests(subject: Subject, name: str, values: Array) -> tuple[Equilibrium, ...]:
+    """Find all equilibria over a range of a coordinate.
+
+    It is held at one value after the other, while everything else comes to rest; where the force that this takes
+    changes its sign, an equilibrium is between.
+
+    Parameters
+    ----------
+    subject : Subject
+        The mechanism and its start; velocities are taken to be 0.
+    name, values : str, Array
+        The coordinate and its values.
+
+    Raises
+    ------
+    AnalysisError
+        If none is found.
+    """
+    unit = subject.unit(name)
     if len(values) < 2:
         raise InputError(f"scan {name}", "two values or more", f"{len(values)}")
-    subject = _reaching(subject, name, values)
-    found, before, seen, y = list[Equilibrium](), None, 0, _still(subject)
+    if unit == "m":  # steps are bounded by the mechanism's length, and its start may have none
+        subject = subject.as_long_as(float(np.abs(values - _value(subject, subject.y, name)).max()))
+    rests, before, y, reached = list[Equilibrium](), None, subject.y.copy(), False
+    y[subject.nq :] = 0.0
     for value in values:
         try:
-            rest = settle(subject, y, [(name, float(value))])
+            held = settle(subject, y, [(name, float(value))])
         except AnalysisError:
             before = None  # it cannot be there, or nothing else rests
             continue
-        seen += 1
-        subject, y, now = rest.subject, rest.y, (float(value), rest)
-        if before is not None and _changes_sign(before, now):
-            between = _between(name, before, now)
-            if between is not None:
-                _add(found, between)
+        reached, subject, y, now = True, held.subject, held.y, (float(value), held)
+        if before is not None and _changes_sign(before, now) and (rest := _between(name, before, now)) is not None:
+            places = rest.subject.lengths, rest.subject.compiled.info
+            if all(np.abs(apart(places[1], known.y, rest.y) / places[0]).max(initial=0.0) >= SAME for known in rests):
+                rests.append(judged(rest))
         before = now
-    if not seen:
+    if not reached:
         expected = "values that the coordinate can have"
         raise InputError(f"scan {name}", expected, f"none of {values[0]:g} to {values[-1]:g}")
-    if not found:
+    if not rests:
         raise AnalysisError(f"no equilibrium was found with {name} from {values[0]:g} to {values[-1]:g}")
-    return tuple(found)
-
-
-def _reaching(subject: Subject, name: str, values: Array) -> Subject:
-    """Return a subject as long as a scan leads it: steps are bounded by its length, and its start may have none."""
-    if subject.unit(name) != "m":
-        return subject
-    return subject.as_long_as(float(np.abs(values - _value(subject, subject.y, name)).max()))
-
-
-def at_rest_from(subject: Subject) -> Settled:
-    """Return the equilibrium that the start leads to."""
-    return settle(subject, _still(subject))
-
-
-def _still(subject: Subject) -> Array:
-    y = subject.y.copy()
-    y[subject.nq :] = 0.0
-    return y
+    return tuple(rests)
 
 
 #: A value of a coordinate, and the rest of everything else where it is held there by the last multiplier.
@@ -244,25 +230,28 @@ def _changes_sign(a: Held, b: Held) -> bool:
 
 
 def _between(name: str, a: Held, b: Held) -> Settled | None:
-    """Return the equilibrium between two values of a coordinate: by halves, and by Newton's method from there.
+    """Find the equilibrium between two values of a coordinate: by halves, and by Newton's method from there.
 
     From too far away Newton's method may lead elsewhere; where it does from everywhere, that is returned.
     """
     low, high, steps, elsewhere = min(a[0], b[0]), max(a[0], b[0]), 0, None
     slack = BESIDE * (high - low)
+
+    def nearer() -> Settled:
+        return (a if abs(a[1].lam[-1]) < abs(b[1].lam[-1]) else b)[1]
+
     for halved in range(HALVINGS):
-        middle, near = 0.5 * (a[0] + b[0]), _nearer(a, b)
+        middle = 0.5 * (a[0] + b[0])
         try:
-            rest = settle(near.subject, near.y, [(name, middle)])
+            held = settle(nearer().subject, nearer().y, [(name, middle)])
         except AnalysisError:
             break
-        steps, c = steps + rest.steps, (middle, rest)
+        steps, c = steps + held.steps, (middle, held)
         a, b = (a, c) if _changes_sign(a, c) else (c, b)
         if halved + 1 < FIRST_HALVINGS:
             continue
-        near = _nearer(a, b)
         try:
-            rest = settle(near.subject, near.y)
+            rest = settle(nearer().subject, nearer().y)
         except AnalysisError:
             continue
         steps += rest.steps
@@ -273,25 +262,6 @@ def _between(name: str, a: Held, b: Held) -> Settled | None:
     return elsewhere
 
 
-def _nearer(a: Held, b: Held) -> Settled:
-    return (a if abs(a[1].lam[-1]) < abs(b[1].lam[-1]) else b)[1]
-
-
 def _value(subject: Subject, y: Array, name: str) -> float:
     space, at = subject.position(name)
     return float(y[at] if space == "q" else subject.evaluated(y).value("functions")[at])
-
-
-def _add(found: list[Equilibrium], rest: Settled) -> None:
-    subject, at = rest.subject, rest.y
-    new = judged(subject, at, rest.steps)
-    for known in found:
-        apart = known.y[: subject.nq] - at[: subject.nq]
-        turns = np.array([q.unit == "rad" for q in subject.compiled.info.coordinates])
-        apart[turns] -= 2.0 * np.pi * np.round(apart[turns] / (2.0 * np.pi))
-        for first, _ in subject.compiled.info.spins:  # both signs of Euler parameters are one orientation
-            one, other = known.y[first : first + 4], at[first : first + 4]
-            apart[first : first + 4] = min(one - other, one + other, key=lambda x: float(np.linalg.norm(x)))
-        if np.abs(apart / subject.lengths).max(initial=0.0) < SAME:
-            return
-    found.append(new)

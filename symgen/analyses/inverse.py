@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import arguments
-from symgen.analyses.actuators import WHERE, actuated
-from symgen.analyses.balancing import balance, checked_weights
+from symgen.analyses.actuators import WHERE, actuated, balance
 from symgen.analyses.kinematics import Kinematics, kinematics
 from symgen.analyses.prescribed import drivers_of
 from symgen.describe.evaluate import parameter_values
@@ -29,7 +28,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.running.inputs import Inputs
     from symgen.settings import Settings
 
 Array = NDArray[np.float64]
@@ -98,7 +96,7 @@ class Inverse(Tables):
         Root mean square and energy are integrals over the times by the trapezoidal rule; `too_few` says where these are
         too few for that.
         """
-        found, t = dict[str, dict[str, Any]](), self.t
+        entries, t = dict[str, dict[str, Any]](), self.t
         span = float(t[-1] - t[0]) if len(t) else 0.0
         for i, (name, unit) in enumerate(zip(self.efforts.names, self.efforts.units, strict=True)):
             values = self.efforts.values[:, i]
@@ -106,12 +104,12 @@ class Inverse(Tables):
                 continue
             at = int(np.argmax(np.abs(values)))
             square = float(np.trapezoid(values**2, t)) / span if span > 0.0 else float(values[0] ** 2)
-            entry = {"unit": unit, "max": float(abs(values[at])), "at": float(t[at]), "rms": square**0.5}
+            entries[name] = {"unit": unit, "max": float(abs(values[at])), "at": float(t[at]), "rms": square**0.5}
             if name in self.power:
                 power = self.power[name]
-                entry |= {"peak_power": float(np.abs(power).max()), "energy": float(np.trapezoid(power, t))}
-            found[name] = entry
-        return found
+                energy = float(np.trapezoid(power, t))
+                entries[name] |= {"peak_power": float(np.abs(power).max()), "energy": energy}
+        return entries
 
     def too_few(self) -> str:
         """Return in a sentence that every second time would make other integrals of `summary`, or an empty text."""
@@ -128,14 +126,14 @@ class Inverse(Tables):
                     worst, which = float(apart), f"the {kind} of '{name}'"
         if worst <= COARSE:
             return ""
-        said = f"every second of these alone changes {which} by {worst:.0%}"
-        return f"integrals are over {len(t)} times, and {said}: ask for more"
+        change = f"every second of these alone changes {which} by {worst:.0%}"
+        return f"integrals are over {len(t)} times, and {change}: ask for more"
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen inverse --json``; numbers that are not finite become None."""
         from symgen.result.contract import finite
 
-        told = {
+        return {
             "mechanism": self.mechanism,
             "t": self.t.tolist(),
             "efforts": self.series("efforts"),
@@ -149,7 +147,6 @@ class Inverse(Tables):
             "parameters": dict(self.parameters),
             "notes": list(self.notes),
         }
-        return told
 
     def __repr__(self) -> str:
         return f"<Inverse dynamics of {self.mechanism} at {len(self.t)} times: {', '.join(self.efforts.names)}>"
@@ -168,35 +165,32 @@ def inverse(
     if len(set(names)) < len(names):
         raise InputError(WHERE, "each name once", ", ".join(names))
     drivers = drivers_of(mechanism)
+    names, moved = names or drivers, None
     if motion is None:
         moved = kinematics(mechanism, settings, times, where="inverse")
-        if set(names or drivers) == set(drivers) and not weights:
-            return _of_drivers(moved, names or drivers)
-        found = recorded(moved)
-        settings = _with_known(settings, mechanism, found, names or drivers)
-        told = _of_record(mechanism, settings, found, names or drivers, weights)
-        return replace(told, ended=moved.ended, notes=tuple(dict.fromkeys((*moved.notes, *told.notes))))
-    if times is not None:
+        if set(names) == set(drivers) and not weights:
+            return _of_drivers(moved, names)
+    elif times is not None:
         raise InputError("inverse: times", "the times of the motion that is given", "others")
-    if isinstance(motion, str | Path):
-        found = read_recorded("inverse: motion", Path(motion))
-    else:
-        found = recorded(motion)
-    sought = names or drivers
-    return _of_record(mechanism, _with_known(settings, mechanism, found, sought), found, sought, weights)
+    is_file = isinstance(motion, str | Path)
+    record = read_recorded("inverse: motion", Path(motion)) if is_file else recorded(moved or motion)
+    efforts = _of_record(mechanism, _with_recorded(settings, mechanism, record, names), record, names, weights)
+    if moved is None:
+        return efforts
+    return replace(efforts, ended=moved.ended, notes=tuple(dict.fromkeys((*moved.notes, *efforts.notes))))
 
 
-def _with_known(settings: Settings, mechanism: Mechanism, found: Recorded, sought: Sequence[str]) -> Settings:
+def _with_recorded(settings: Settings, mechanism: Mechanism, record: Recorded, names: Sequence[str]) -> Settings:
     """Return settings with the parameters and inputs that a motion was recorded with, where others are not given."""
-    for name, told in found.inputs.items():
-        given = (*settings.inputs, *settings.parameters, *sought)
-        if name in mechanism.inputs and name not in given and are_words_of_data(told):
+    for name, words in record.inputs.items():
+        own = (*settings.inputs, *settings.parameters, *names)
+        if name in mechanism.inputs and name not in own and are_words_of_data(words):
             expected = "the data of the recorded motion once more, of which it keeps no more than their number or file"
-            raise InputError(f"inverse: input '{name}'", expected, str(told))
-    known = {p.name for p in mechanism.parameters if not p.input}
-    parameters = {name: x for name, x in found.parameters.items() if name in known}
-    own = set(mechanism.inputs).difference(settings.parameters)
-    inputs = {name: x for name, x in found.inputs.items() if name in own}
+            raise InputError(f"inverse: input '{name}'", expected, str(words))
+    constants = {p.name for p in mechanism.parameters if not p.input}
+    parameters = {name: x for name, x in record.parameters.items() if name in constants}
+    free = set(mechanism.inputs).difference(settings.parameters)
+    inputs = {name: x for name, x in record.inputs.items() if name in free}
     return replace(settings, parameters={**parameters, **settings.parameters}, inputs={**inputs, **settings.inputs})
 
 
@@ -205,7 +199,8 @@ def _of_drivers(moved: Kinematics, names: Sequence[str]) -> Inverse:
     order = [moved.drivers.index(name) for name in names]
     values, units = moved.efforts.values[:, order], tuple(moved.efforts.units[i] for i in order)
     efforts = Labelled(values, tuple(names), units)
-    rates = np.column_stack([moved.elements[f"{name}.{_rate_of(moved, name)}"] for name in names])
+    elements = [next(x for x in moved.elements.names if x.startswith(f"{n}.") and x.endswith("rate")) for n in names]
+    rates = np.column_stack([moved.elements[name] for name in elements])
     speeds = tuple("rad/s" if unit == "N m" else "m/s" for unit in units)
     return Inverse(
         mechanism=moved.mechanism,
@@ -222,68 +217,47 @@ def _of_drivers(moved: Kinematics, names: Sequence[str]) -> Inverse:
     )
 
 
-def _rate_of(moved: Kinematics, driver: str) -> str:
-    """Return what the rate of a driver's coordinate is called in the table of elements."""
-    names = [name.removeprefix(f"{driver}.") for name in moved.elements.names if name.startswith(f"{driver}.")]
-    return next(name for name in names if name.endswith("rate"))
-
-
 def _of_record(
     mechanism: Mechanism,
     settings: Settings,
-    found: Recorded,
+    record: Recorded,
     names: Sequence[str],
     weights: Mapping[str, float] | None,
 ) -> Inverse:
     """Return the efforts of actuators in a recorded motion."""
-    known = {name: x for name, x in settings.inputs.items() if name not in names}
-    if not len(found.t):
-        raise InputError(found.whence, "a motion", "no outputs")
-    end = float(found.t[-1]) if found.t[-1] > 0.0 else 1.0
-    asked = replace(settings, method="lagrange", integrator=None, until=end, times=(end,), step=end, output_step=None)
-    given = put_inputs(mechanism, replace(asked, start={}, coordinates="absolute", inputs=known))
-    made = actuated(given.mechanism, names)
-    balanced = balance(made, _during(given, found, end), found, checked_weights(made, weights))
+    if not len(record.t):
+        raise InputError(record.whence, "a motion", "no outputs")
+    others = {name: x for name, x in settings.inputs.items() if name not in names}
+    end = float(record.t[-1]) if record.t[-1] > 0.0 else 1.0
+    whole = replace(settings, method="lagrange", integrator=None, until=end, times=(end,), step=end, output_step=None)
+    placed = put_inputs(mechanism, replace(whole, start={}, coordinates="absolute", inputs=others))
+    settings = placed.settings
+    if placed.driven is not None:  # inputs that jump elsewhere are what they are during the motion
+        numbers = parameter_values(placed.mechanism, settings.parameters)
+        stops = stops_of(placed.driven, numbers, end, float(record.t[0]))
+        if any(stop.values for stop in stops[1:] if stop.t < record.t[-1]):  # at a kink no number becomes another
+            raise InputError("inverse: inputs", "inputs without jumps", ", ".join(placed.words))
+        now = stops[0].values if stops else {}
+        settings = replace(settings, parameters={**settings.parameters, **now})
+    loose, actuators = actuated(placed.mechanism, names)
+    balanced = balance(loose, actuators, settings, record, weights)
     motion, info = balanced.motion, balanced.motion.compiled.info
     values = {q.name: float(x) for q, x in zip(info.parameters, motion.p, strict=False)}
-    forces = Forces(motion, seats(made.mechanism, values))
-    works = [(i, a) for i, a in enumerate(made.actuators) if a.rate is not None]
+    forces = Forces(motion, seats(loose, values))
+    works = [(i, a) for i, a in enumerate(actuators) if a.rate is not None]
     columns, working = [i for i, _ in works], tuple(a.name for _, a in works)
     power = balanced.efforts[:, columns] * balanced.rates
+    if (motion.start.redundant_rows or info.dropped_rows) and forces.non_unique:
+        balanced.notes.append("reactions are not unique at " + ", ".join(forces.non_unique))
     return Inverse(
         mechanism=mechanism.name,
         t=motion.times,
-        efforts=Labelled(balanced.efforts, *zip(*((a.name, a.unit) for a in made.actuators), strict=True)),
+        efforts=Labelled(balanced.efforts, tuple(a.name for a in actuators), tuple(a.unit for a in actuators)),
         rates=Labelled(balanced.rates, working, tuple("rad/s" if a.turning else "m/s" for _, a in works)),
         power=Labelled(power, working, ("W",) * len(works)),
         missing=balanced.missing,
         forces=forces,
         q=labelled(motion.states[:, : info.nq], info.coordinates),
-        parameters={q.name: values[q.name] for q in info.parameters if q.name not in made.mechanism.inputs},
-        notes=(*motion.start.notes, *balanced.said(bool(weights)), *_unique(forces)),
+        parameters={q.name: values[q.name] for q in info.parameters if q.name not in loose.inputs},
+        notes=(*motion.start.notes, *balanced.notes),
     )
-
-
-def _during(given: Inputs, found: Recorded, end: float) -> Settings:
-    """Return settings with what inputs that jump elsewhere are during a motion.
-
-    Raises
-    ------
-    InputError
-        If one jumps within it, or smooth data begin behind it.
-    """
-    if given.driven is None:
-        return given.settings
-    values = parameter_values(given.mechanism, given.settings.parameters)
-    stops = stops_of(given.driven, values, end, float(found.t[0]))
-    if any(stop.values for stop in stops[1:] if stop.t < found.t[-1]):  # at a kink no number becomes another
-        raise InputError("inverse: inputs", "inputs without jumps", ", ".join(given.words))
-    now = stops[0].values if stops else {}
-    return replace(given.settings, parameters={**given.settings.parameters, **now})
-
-
-def _unique(forces: Forces) -> list[str]:
-    """Return which reactions are not unique, in a sentence."""
-    motion = forces.outcome
-    found = forces.non_unique if motion.start.redundant_rows or motion.compiled.info.dropped_rows else ()
-    return ["reactions are not unique at " + ", ".join(found)] if found else []

@@ -9,6 +9,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -29,8 +30,6 @@ from symgen.runtime import abi
 from symgen.runtime.outcome import PrescribedMotion
 
 if TYPE_CHECKING:
-    from symgen.analyses.prescribed import PrescribedRun
-    from symgen.analyses.tracing import Traced
     from symgen.describe.mechanism import Mechanism
     from symgen.settings import Settings
 
@@ -138,16 +137,7 @@ class Kinematics(MotionTables):
             "t": self.t.tolist(),
             **{name: self.series(name) for name in tables},
             "not_unique": list(self.non_unique_reactions),
-            "passages": [
-                {
-                    "t": p.t,
-                    "kind": p.kind,
-                    "coordinates": list(p.coordinates),
-                    "drivers": list(p.drivers),
-                    "words": p.words,
-                }
-                for p in self.passages
-            ],
+            "passages": [msgspec.to_builtins(p) | {"words": p.words} for p in self.passages],
             "ended": self.ended or None,
             "parameters": dict(self.parameters),
             "inputs": dict(self.inputs),
@@ -164,11 +154,11 @@ class Kinematics(MotionTables):
             If no body has such a point.
         """
         table, names = self.points, [f"{arguments.text('point', point)}.{axis}" for axis in "xyz"]
-        found = [table[name] for name in names if name in table]
-        if not found:
-            known = sorted({name.rpartition(".")[0] for name in table.names})
-            raise InputError("point", "a named point", arguments.shown(point), nearest(point, known))
-        return np.column_stack(found)
+        columns = [table[name] for name in names if name in table]
+        if not columns:
+            points = sorted({name.rpartition(".")[0] for name in table.names})
+            raise InputError("point", "a named point", arguments.shown(point), nearest(point, points))
+        return np.column_stack(columns)
 
     def plot_curves(self, path: str | PathLike[str], points: Sequence[str] = ()) -> Path:
         """Draw the paths of points of bodies, the first two coordinates, into a PNG, SVG or PDF file.
@@ -222,54 +212,47 @@ def kinematics(
     AssemblyError
         If the mechanism cannot be closed.
     """
-    asked = default_times(mechanism) if times is None else checked_times(f"{where}: times", times)
-    angles = arguments.words("transmission", transmission)
-    found = make_driven(mechanism, settings, float(asked[-1]), where, min(0.0, float(asked[0])))
-    require(f"{where}: times", f"{len(asked)} times", 16.0 * len(asked) * (found.compiled.info.ny + 16))
-    return _result(found, trace(found, asked), angles)
-
-
-def _result(found: PrescribedRun, traced: Traced, transmission: tuple[str, ...]) -> Kinematics:
-    info, start = found.compiled.info, found.start
+    instants = default_times(mechanism) if times is None else checked_times(f"{where}: times", times)
+    pins = arguments.words("transmission", transmission)
+    run = make_driven(mechanism, settings, float(instants[-1]), where, min(0.0, float(instants[0])))
+    require(f"{where}: times", f"{len(instants)} times", 16.0 * len(instants) * (run.compiled.info.ny + 16))
+    traced, info, start, numbers = trace(run, instants), run.compiled.info, run.start, run.numbers
     motion = PrescribedMotion(
         times=traced.times,
         states=traced.states,
         status_columns=traced.status,
-        compiled=found.compiled,
+        compiled=run.compiled,
         start=start,
-        p=found.p,
+        p=run.p,
         w=start.w,
-        held=found.held,
+        held=run.held,
         given=traced.accelerations,
     )
-    forces = Forces(motion, seats(found.mechanism, {**found.parameters, **_numbers(found)}))
+    forces = Forces(motion, seats(run.mechanism, numbers))
+    parameters = {name: x for name, x in numbers.items() if name not in run.mechanism.inputs}
     q, v = info.parts(traced.states)
     velocities = labelled(v, info.velocities)
-    said = [p.words for p in traced.passages if p.kind == "passed"]
+    words = [p.words for p in traced.passages if p.kind == "passed"]
     if (start.redundant_rows or info.dropped_rows) and forces.non_unique:
-        said.append("reactions are not unique at " + ", ".join(forces.non_unique))
+        words.append("reactions are not unique at " + ", ".join(forces.non_unique))
     return Kinematics(
-        mechanism=found.mechanism.name,
+        mechanism=run.mechanism.name,
         t=traced.times,
         q=labelled(q, info.coordinates),
         v=velocities,
         a=Labelled(traced.accelerations, accelerations_of(velocities.names), tuple(f"{u}^2" for u in velocities.units)),
-        transmission=transmission_angles(found.mechanism, motion, found.parameters, transmission),
+        transmission=transmission_angles(run.mechanism, motion, parameters, pins),
         passages=traced.passages,
         ended=traced.ended,
-        parameters=found.parameters,
-        inputs=found.told,
-        notes=(*found.notes, *said),
+        parameters=parameters,
+        inputs=run.inputs,
+        notes=(*run.notes, *words),
         steps=traced.steps,
-        drivers=drivers_of(found.mechanism),
+        drivers=drivers_of(run.mechanism),
         motion=motion,
         forces=forces,
-        measured=Measured(found.mechanism, motion, lambda: forces.multipliers().values),
+        measured=Measured(run.mechanism, motion, lambda: forces.multipliers().values),
     )
-
-
-def _numbers(found: PrescribedRun) -> dict[str, float]:
-    return {q.name: float(x) for q, x in zip(found.compiled.info.parameters, found.start.p, strict=False)}
 
 
 def default_times(mechanism: Mechanism) -> Array:
@@ -291,10 +274,10 @@ def checked_times(where: str, given: Any) -> Array:
     kind = getattr(getattr(given, "dtype", None), "kind", "")
     if kind and kind not in "iuf":
         raise InputError(where, "a list of finite times", arguments.shown(given))
-    found = np.atleast_1d(np.asarray(given if kind else arguments.numbers(where, given), dtype=np.float64))
-    if found.ndim != 1 or not 1 <= len(found) <= MOST_TIMES or not np.all(np.isfinite(found)):
+    times = np.atleast_1d(np.asarray(given if kind else arguments.numbers(where, given), dtype=np.float64))
+    if times.ndim != 1 or not 1 <= len(times) <= MOST_TIMES or not np.all(np.isfinite(times)):
         raise InputError(where, "a list of finite times", arguments.shown(given))
-    if not np.all(np.diff(found) > 0.0):
-        k = int(np.argmin(np.diff(found) > 0.0))
-        raise InputError(where, "times that increase", f"{found[k + 1]:g} behind {found[k]:g}")
-    return np.ascontiguousarray(found)
+    if not np.all(np.diff(times) > 0.0):
+        k = int(np.argmin(np.diff(times) > 0.0))
+        raise InputError(where, "times that increase", f"{times[k + 1]:g} behind {times[k]:g}")
+    return np.ascontiguousarray(times)

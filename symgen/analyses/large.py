@@ -1,25 +1,32 @@
-"""Equilibria and lowest modes of large mechanisms: sparse matrices, and shift-invert iterations of Lanczos."""
+"""Equilibria and lowest modes of large mechanisms: sparse matrices, and shift-invert iterations of Lanczos.
+
+Nothing is formulated for the whole mechanism: the descriptor form and its derivatives are sums over elements, from
+looped code.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import ROUNDED, Solver, level, solver, split, summed, symmetric
-from symgen.analyses.edges import edges_of_large
+from symgen.analyses.algebra import ROUNDED, Solver, in_order, level, solver, split, summed, symmetric
+from symgen.analyses.edges import edges
 from symgen.analyses.equilibrium import Equilibrium, not_unique, reduced_squares, stability_of
-from symgen.analyses.linearise import in_order
 from symgen.analyses.modes import Modes
-from symgen.analyses.sparse_state import Sparse, settled
+from symgen.analyses.settle import search
+from symgen.analyses.subject import Yardsticks, at_start, inputs_at_start
 from symgen.errors import AnalysisError, InputError
 from symgen.runtime import abi
+from symgen.runtime.newton import Pattern
 from symgen.runtime.probe import Ready
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
+    from symgen.runtime.compiled import CompiledModel
 
 Array = NDArray[np.float64]
 
@@ -34,13 +41,123 @@ DENSE = 120
 LOOKED = 40
 
 
+@dataclass(frozen=True)
+class Sparse(Yardsticks):
+    """The descriptor form of a mechanism at rest as sparse matrices.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        With inputs in their places.
+    compiled : CompiledModel
+        `lagrange` with its descriptor form.
+    y, p, w : Array
+        The start without velocities, parameters and scratch.
+    pattern : Pattern
+        Where the numbers of ``tangent`` belong.
+    kept : Array of int
+        Rows that are not redundant.
+    """
+
+    mechanism: Mechanism
+    compiled: CompiledModel
+    y: Array
+    p: Array
+    w: Array
+    pattern: Pattern
+    kept: NDArray[np.int64]
+    t = 0.0
+    inputs = ()
+
+    def motion(self, y: Array) -> Any:
+        """Return N at a state, over lengths of the mechanism and radians."""
+        return self.matrices(y, np.zeros(self.pattern.m))[0]
+
+    def matrices(self, y: Array, lam: Array) -> tuple[Any, Any, Any, Any, Any]:
+        """Return N, M, D, the stiffness K and the derivative of the balance by v at a state at rest.
+
+        All over changes in lengths of the mechanism and radians, and violations in these, so that forces are work:
+        what is solved with them, and its pivots, are the same in micrometres.
+        """
+        from scipy.sparse import coo_matrix, diags
+
+        f, nq, nv, m, n = self.pattern, self.pattern.nq, self.pattern.nv, self.pattern.m, self.pattern.unknowns
+        k, j = np.zeros(n), np.zeros(f.size)
+        k[nq + nv : nq + nv + m] = lam
+        Ready(self.compiled.law_module.tangent, abi.STAGE)(0.0, y, k, self.p, self.w, j)
+
+        def block(rows: tuple[int, int], columns: tuple[int, int]) -> Any:
+            inside = (f.rows >= rows[0]) & (f.rows < rows[0] + rows[1])
+            inside &= (f.columns >= columns[0]) & (f.columns < columns[0] + columns[1])
+            places = f.rows[inside] - rows[0], f.columns[inside] - columns[0]
+            return coo_matrix((j[inside], places), shape=(rows[1], columns[1])).tocsc()
+
+        spans, loads = diags(self.spans, format="csc"), diags(1.0 / self.gaps, format="csc")
+        motion = -block((0, nq), (n + nq, nv)) @ spans
+        balance = (nq, nv)
+        mass, rows = spans @ block(balance, (nq, nv)) @ spans, (spans @ block(balance, (nq + nv, m)) @ loads).T
+        stiffness, damping = spans @ block(balance, (n, nq)) @ motion, spans @ block(balance, (n + nq, nv)) @ spans
+        return motion, mass, rows.tocsr()[self.kept].tocsc(), stiffness, damping
+
+    def forces(self, y: Array, lam: Array) -> tuple[Array, Array]:
+        """Return the work of D^T lambda - f along lengths of the mechanism and radians, and Phi in these."""
+        nq, nv, m = self.pattern.nq, self.pattern.nv, self.pattern.m
+        k, r = np.zeros(self.pattern.unknowns), np.zeros(self.pattern.unknowns)
+        k[nq + nv : nq + nv + m] = lam
+        Ready(self.compiled.law_module.residual, abi.STAGE)(0.0, y, k, self.p, self.w, r)
+        Ready(self.compiled.model.geometry, abi.MEASURE)(0.0, y, self.p, self.w)
+        gaps = self.compiled.section(self.w, "residual") / self.gaps
+        return r[nq : nq + nv] * self.spans, gaps[self.kept]
+
+    def derivatives(self, y: Array, lam: Array) -> tuple[Any, Any, Any]:
+        """Return N, D of rows that are not redundant, and the stiffness K."""
+        motion, _, rows, stiffness, _ = self.matrices(y, lam)
+        return motion, rows, stiffness
+
+    def whole(self, work: Array | None) -> Array:
+        """Return multipliers of all rows from the work of those that are kept; 0 without."""
+        loads = np.zeros(self.pattern.m)
+        loads[self.kept] = 0.0 if work is None else work
+        return loads / self.gaps
+
+    def wound(self, y: Array) -> Sparse:
+        """Return the same: angles of looped code are those of bodies."""
+        return self
+
+
+def settled(mechanism: Mechanism, settings: Settings) -> tuple[Sparse, Array, Array, int]:
+    """Find the equilibrium that the start leads to: descriptor form, state, multipliers, and the steps taken.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    settings : Settings
+        ``parameters``, ``inputs`` and ``start`` count; coordinates are those of bodies.
+
+    Raises
+    ------
+    InputError
+        If a setting is wrong.
+    AnalysisError
+        If no equilibrium is found.
+    """
+    placed = inputs_at_start(mechanism, settings)
+    settings = replace(placed.settings, method="lagrange", integrator="radau5", shape="looped", coordinates="absolute")
+    mechanism, compiled, start, _ = at_start(placed.mechanism, settings)
+    pattern, y = Pattern.of(compiled, start.w), start.y.copy()
+    y[pattern.nq :] = 0.0
+    kept = np.setdiff1d(np.arange(pattern.m), pattern.masked)
+    return search(Sparse(mechanism, compiled, y, start.p, start.w, pattern, kept), y)
+
+
 def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
-    """Return the modes at the equilibrium that the start leads to whose frequencies are the lowest.
+    """Find the modes of the lowest frequencies at the equilibrium that the start leads to.
 
     Parameters
     ----------
     mechanism, settings
-        As for `symgen.analyses.sparse_state.settled`.
+        As for `settled`.
     count : int
         How many.
 
@@ -66,7 +183,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     about = {name: float(x) for name, x in zip(names, y, strict=False)}
     shapes = (motion @ vectors).T.astype(np.complex128)
     owners = np.array([v.name.partition(".")[0] for v in sparse.compiled.info.velocities])
-    notes, energy = edges_of_large(sparse, mechanism, settings, y, lam), vectors * (mass @ vectors)
+    notes, energy = edges(sparse, y), vectors * (mass @ vectors)
     bodies = {body: energy[owners == body].sum(axis=0) / energy.sum(axis=0) for body in dict.fromkeys(owners.tolist())}
     return Modes(
         in_order(np.concatenate([roots, -roots])), squares, free, names, shapes, bodies, about=about, notes=notes
@@ -74,17 +191,17 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
 
 
 def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
-    """Return the equilibrium that the start leads to, by sparse matrices; of many squares those nearest to 0.
+    """Find the equilibrium that the start leads to, by sparse matrices; of many squares those nearest to 0.
 
     Parameters
     ----------
     mechanism, settings
-        As for `symgen.analyses.sparse_state.settled`.
+        As for `settled`.
 
     Raises
     ------
     InputError, AnalysisError
-        As by `symgen.analyses.sparse_state.settled`.
+        As by `settled`.
     """
     sparse, y, lam, steps = settled(mechanism, settings)
     _, mass, rows, stiffness, _ = sparse.matrices(y, lam)
@@ -113,7 +230,7 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         not_unique=not_unique(mechanism, info, share),
         y=y,
         lam=lam,
-        notes=edges_of_large(sparse, mechanism, settings, y, lam),
+        notes=edges(sparse, y),
     )
 
 
@@ -152,7 +269,7 @@ def _smallest(sparse: Sparse, y: Array, lam: Array) -> tuple[Array, Array]:
     extra = np.setdiff1d(np.arange(sparse.pattern.m), sparse.kept)
     if not len(extra):
         return lam, np.zeros(sparse.pattern.m)
-    whole = sparse.all_rows(y).tocsr()
+    whole = replace(sparse, kept=np.arange(sparse.pattern.m)).derivatives(y, np.zeros(sparse.pattern.m))[1].tocsr()
     kept = whole[sparse.kept]
     solve = _regular(level(whole.T @ whole), kept)
     # D_extra = C D_kept, so that (C, -1) exerts nothing: C from least squares

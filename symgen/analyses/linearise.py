@@ -1,4 +1,8 @@
-"""Linear systems x' = A x + B u, y = C x + D u about a state of rest or of steady motion."""
+"""Linear systems x' = A x + B u, y = C x + D u about a state of rest or of steady motion, and their eigenvalues.
+
+At rest these are those of M r'' + C r' + K r = 0 along the shapes of M and K, where stiffnesses are the squares of
+frequencies, each with its own digits. In the matrix of first order each has the rounding of the largest one.
+"""
 
 from __future__ import annotations
 
@@ -9,14 +13,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import eigenvalues_of, ranking
+from symgen.analyses.algebra import ROUNDED, Complex, eigenvalues_of, in_order, plain, squares_along, summed
+from symgen.analyses.edges import edges
 from symgen.analyses.reduced import StateTangent, tangent
-from symgen.analyses.steady import after, at_rest, check_steady, chosen, found_states, system, with_rates
+from symgen.analyses.steady import at_rest, named_states, system
 from symgen.analyses.subject import Subject
-from symgen.analyses.vibration import eigenvectors, vibration
 from symgen.errors import InputError
 
 Array = NDArray[np.float64]
+
+#: What damping along two shapes may be of the faster one's frequency where there is none.
+UNDAMPED = 1e-11
 
 
 @dataclass(frozen=True)
@@ -86,92 +93,36 @@ class LinearSystem:
 
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON can express."""
-        matrices = {name: getattr(self, name).tolist() for name in ("A", "B", "C", "D")}
-        names = {name: list(getattr(self, name)) for name in ("states", "inputs", "outputs", "left_out", "parameters")}
-        return {**matrices, **names, "about": self.about, "t": self.t, "notes": list(self.notes)}
+        return dict(plain(self))
 
 
-def in_order(values: Array | NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """Return eigenvalues by decreasing real part, then by decreasing imaginary part; what rounding parts is one."""
-    found = np.asarray(values, dtype=np.complex128) + 0.0
-    return found[ranking(found)]
-
-
-def linear_system(
-    subject: Subject,
-    y: Array,
-    t: float | None = None,
-    states: Sequence[str] = (),
-    instantaneous: bool = False,
-    where: str = "linearise",
-) -> LinearSystem:
+def linear_system(subject: Subject, y: Array, states: Sequence[str] = (), instantaneous: bool = False) -> LinearSystem:
     """Return the linear system about a state.
 
     Parameters
     ----------
-    subject, y, t
-        As for `symgen.analyses.reduced.tangent`.
-    states : sequence of str
-        Quantities that are the states; rates of coordinates among them are added. Unless given, independent ones that
-        determine all others at rest, and in a motion those that stay as they are.
-    instantaneous : bool
-        Whether a motion that is not steady has the system of the instant.
-    where : str
-        Who asks, for messages.
+    subject : Subject
+        The mechanism.
+    y : Array
+        A state that satisfies the constraints.
+    states, instantaneous
+        As for `symgen.analyses.steady.named_states`.
 
     Raises
     ------
     InputError
         If a name means nothing, or the motion is not steady.
     """
-    x = tangent(subject, y, t)
-    names = named_states(subject, x, states, instantaneous, where)
+    x = tangent(subject, y)
+    names = named_states(subject, x, states, instantaneous, "linearise")
     a, b, _, _ = system(x, names)
-    return _with_outputs(subject, x, names, a, b)
-
-
-def named_states(
-    subject: Subject, x: StateTangent, states: Sequence[str], instantaneous: bool, where: str
-) -> tuple[str, ...]:
-    """Return the names of the states that are asked for or found, after a check that they make a linear system."""
-    resting, soon = at_rest(subject, x), None
-    if states:
-        given = tuple(dict.fromkeys(states))
-        # what tells all needs no more rates, also where Euler parameters are in it, whose rates have no names
-        names = given if _independent(x, given) == x.size else with_rates(subject, states)
-        if _independent(x, names) < len(names):
-            raise InputError("states", "states that do not depend on each other", ", ".join(names))
-    elif resting or instantaneous:
-        names = chosen(subject, x)
-    else:
-        soon = after(subject, x)
-        names = found_states(subject, x, soon)
-        speeds = np.array([x.quantity(name).changes[x.positions : x.size] for name in names])
-        if np.linalg.matrix_rank(speeds.reshape(len(names), x.velocities)) < x.velocities:  # some of them changes
-            check_steady(subject, x, chosen(subject, x), where)
-            expected = "a steady motion, or states that are named"
-            raise InputError(where, expected, "one in which not all velocities stay as they are")
-    if not instantaneous:
-        check_steady(subject, x, names, where, soon)
-    return names
-
-
-def _independent(x: StateTangent, names: Sequence[str]) -> int:
-    """Return how many of some states do not depend on each other."""
-    rows = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(len(names), x.size)
-    rows = rows * x.sizes / x.sizes_of(names)[:, np.newaxis]
-    return int(np.linalg.matrix_rank(rows, tol=1e-9 * np.abs(rows).max(initial=1e-300)))
-
-
-def _with_outputs(subject: Subject, x: StateTangent, names: Sequence[str], a: Array, b: Array) -> LinearSystem:
-    n, form, sizes = x.size, subject.form, x.sizes_of(names)
-    changes = np.array([x.quantity(name).changes for name in names]).reshape(len(names), n + len(x.inputs))
+    n, form, sizes, changes = x.size, subject.form, x.sizes_of(names), x.changes_of(names)
     outputs, left_out, c, d = list[str](), list[str](), list[Array](), list[Array]()
-    inputs = subject.varied
-    numbers = [p.name for p in subject.compiled.info.parameters]
     about = {name: x.quantity(name).value for name in names}
-    about |= {name: float(subject.p[numbers.index(name)]) for name in subject.by}
-    about |= subject.values_of_inputs(x.y, x.t)
+    about |= {
+        name: float(subject.p[at]) for name, at in zip(subject.by, subject.places[-len(subject.by) :], strict=False)
+    }
+    about |= subject.values_of_inputs(y, x.t)
     for output in subject.mechanism.outputs:
         if output.name not in form.functions:
             left_out.append(output.name)  # an integral
@@ -186,18 +137,96 @@ def _with_outputs(subject: Subject, x: StateTangent, names: Sequence[str], a: Ar
         about[output.name] = value
         c.append(by_states)
         d.append(row[n:] - by_states @ changes[:, n:])
-    k = len(inputs)
+    k = len(subject.varied)
     return LinearSystem(
         a,
         b.reshape(len(names), k),
         np.array(c).reshape(len(outputs), len(names)),
         np.array(d).reshape(len(outputs), k),
-        tuple(names),
-        inputs,
+        names,
+        subject.varied,
         tuple(outputs),
         about,
         x.t,
         tuple(left_out),
         subject.by,
-        poles=tuple(eigenvectors(x, names, vibration(x))[0].tolist()),
+        edges(subject, y, x.a, outputs),
+        tuple(eigenvectors(x, names, vibration(x))[0].tolist()),
     )
+
+
+@dataclass(frozen=True)
+class Vibration:
+    """Small motions about a state of rest.
+
+    Attributes
+    ----------
+    squares : Array, shape (n,)
+        Squares of the frequencies without damping, in increasing order.
+    shapes : Array, shape (nv, n)
+        Their shapes in terms of velocities, normalised by masses, one a column.
+    damping : Array, shape (n, n)
+        Damping along the shapes; what is rounding is 0.
+    """
+
+    squares: Array
+    shapes: Array
+    damping: Array
+
+    def changes(self, x: StateTangent) -> tuple[Array, Array]:
+        """Return the shapes as changes of s and as changes of u."""
+        positions, speeds = (np.linalg.lstsq(basis, self.shapes, rcond=None)[0] for basis in (x.free, x.basis))
+        return np.asarray(positions), np.asarray(speeds)
+
+    def eigenvectors(self, x: StateTangent) -> tuple[Complex, Complex]:
+        """Return eigenvalues and eigenvectors in terms of s and u."""
+        n = len(self.squares)
+        fast = np.sqrt(np.abs(self.squares))
+        # nothing depends on a coordinate without stiffness: its size must only not look like 0
+        fast[fast == 0.0] = max(fast.max(initial=0.0), np.abs(self.damping).max(initial=0.0)) or 1.0
+        first = np.block([[np.zeros((n, n)), np.eye(n)], [-np.diag(self.squares), -self.damping]])
+        values, parts = eigenvalues_of(first, np.concatenate([1.0 / fast, np.ones(n)]))
+        positions, speeds = self.changes(x)
+        return values, np.vstack([positions @ parts[:n], speeds @ parts[n:]])
+
+
+def vibration(x: StateTangent) -> Vibration | None:
+    """Return the small motions about a state of rest.
+
+    None where something moves or has no mass, a force follows, or joints hold velocities alone.
+    """
+    if not x.size or x.positions != x.velocities or not at_rest(x.subject, x):
+        return None
+    e, basis = x.base, x.subject.split(x.subject.rows(x.base))[0]
+    try:
+        squares, vectors, even = squares_along(e.by("balance", "a"), e.by("balance", "q") @ e.by("motion", "v"), basis)
+    except np.linalg.LinAlgError:
+        return None
+    if not even:
+        return None
+    along, whole = basis @ vectors, e.by("balance", "v")
+    fast, sizes = np.sqrt(np.abs(squares)), summed(whole, along)
+    damping = along.T @ whole @ along
+    limit = UNDAMPED * np.maximum.outer(fast, fast) + ROUNDED * np.sqrt(np.outer(sizes, sizes))
+    return Vibration(squares, along, np.where(np.abs(damping) > limit, damping, 0.0))
+
+
+def eigenvectors(x: StateTangent, names: Sequence[str], still: Vibration | None) -> tuple[Complex, Complex]:
+    """Return eigenvalues and eigenvectors in terms of s and u.
+
+    Parameters
+    ----------
+    x : StateTangent
+        What they are of.
+    names : sequence of str
+        Independent states; some motions have fewer than there are s and u.
+    still : Vibration, optional
+        The small motions about a state of rest.
+    """
+    if len(names) == x.size:
+        return eigenvalues_of(x.matrix, x.sizes) if still is None else still.eigenvectors(x)
+    sizes = x.sizes_of(names)
+    values, shapes = eigenvalues_of(system(x, names)[0], sizes)
+    changes = x.changes_of(names)[:, : x.size] * x.sizes / sizes[:, np.newaxis]
+    alike = np.linalg.lstsq(changes, shapes / sizes[:, np.newaxis], rcond=1e-11)[0]
+    return values, np.asarray(alike * x.sizes[:, np.newaxis], dtype=np.complex128)

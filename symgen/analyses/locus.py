@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import arguments
+from symgen.analyses.algebra import plain
 from symgen.analyses.places import Array, NamedPlace, modes_at, range_of
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, SymgenError
-from symgen.files import write_whole
 from symgen.result.export import PLOTTED, check_path
-from symgen.result.plots import COLOURS
+from symgen.result.plots import COLOURS, write_figure
 
 Complex = NDArray[np.complex128]
 
@@ -75,15 +75,7 @@ class Locus:
 
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON can express."""
-        return {
-            "name": self.name,
-            "values": self.values.tolist(),
-            "branches": [[[float(x.real), float(x.imag)] for x in row] for row in self.branches],
-            "crossings": [
-                {"value": c.value, "eigenvalue": [c.eigenvalue.real, c.eigenvalue.imag], "rising": c.rising}
-                for c in self.crossings
-            ],
-        }
+        return dict(plain(self))
 
     def plot(self, path: str | Path) -> Path:
         """Draw real and imaginary parts over the parameter, and the plane of eigenvalues, into a file.
@@ -98,16 +90,10 @@ class Locus:
         InputError
             If the ending is not known, matplotlib is missing, or the file cannot be written.
         """
-        path = arguments.path("plot", path)
-        check_path("plot", path, PLOTTED, "plot")
-        figure = self._drawn()
-        kind = path.suffix.lower().removeprefix(".")
-        metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})
-        return write_whole(path, lambda file: figure.savefig(file, format=kind, dpi=150, metadata=metadata))
-
-    def _drawn(self) -> Any:
         from matplotlib.figure import Figure
 
+        path = arguments.path("plot", path)
+        check_path("plot", path, PLOTTED, "plot")
         figure = Figure(figsize=(10.0, 4.5), layout="constrained")
         over, plane = figure.subplots(1, 2)
         for k, branch in enumerate(self.branches.T):
@@ -123,16 +109,16 @@ class Locus:
         over.set_ylabel("real part, and imaginary part dotted [1/s]")
         plane.set_xlabel("real part [1/s]")
         plane.set_ylabel("imaginary part [1/s]")
-        return figure
+        return write_figure(figure, path)
 
 
 def locus(place: NamedPlace, over: tuple[str, Sequence[float] | Array], states: Sequence[str] = ()) -> Locus:
-    """Return how the eigenvalues move with a parameter; see `symgen.api.Model.locus`.
+    """Follow eigenvalues over a parameter; see `symgen.api.Model.locus`.
 
     Raises
     ------
     InputError
-        If the range is none, what varies is said twice, or the number of eigenvalues changes.
+        If the range is none, what varies is set twice, or the number of eigenvalues changes.
     """
     name, values = range_of("over", over)
     if len(values) < 2 or np.any(np.diff(values) <= 0.0):
@@ -154,13 +140,13 @@ def locus(place: NamedPlace, over: tuple[str, Sequence[float] | Array], states: 
             raise InputError(f"over {name}", expected, f"{now} at {value:g}")
     largest = max(float(np.abs(eigenvalues(float(value))).max(initial=1e-300)) for value in values)
     search = _Search(eigenvalues, LEVEL * largest)
-    every = np.array(search.looked_at([float(value) for value in values]))
-    found = list[Complex]()
+    every = np.array(search.with_bends(values.tolist()))
+    rows = list[Complex]()
     for k, value in enumerate(every):
         further = (value - every[k - 1]) / (every[k - 1] - every[k - 2]) if k > 1 else 0.0
-        found.append(_followed(found, eigenvalues(float(value)), further))
-    branches = np.array(found)
-    return Locus(name, values, branches[np.isin(every, values)], _crossings(every, branches, search))
+        rows.append(_followed(rows, eigenvalues(float(value)), further))
+    branches = np.array(rows)
+    return Locus(name, values, branches[np.isin(every, values)], search.crossings(every, branches))
 
 
 def _followed(before: Sequence[Complex], now: Complex, further: float = 0.0) -> Complex:
@@ -175,23 +161,6 @@ def _followed(before: Sequence[Complex], now: Complex, further: float = 0.0) -> 
     expected = before[-1] if len(before) < 2 else before[-1] + further * (before[-1] - before[-2])
     far = np.abs(expected[:, None] - now[None, :]) + np.abs(before[-1][:, None] - now[None, :])
     return np.asarray(now[linear_sum_assignment(far)[1]])
-
-
-def _crossings(values: Array, branches: Complex, search: _Search) -> tuple[Crossing, ...]:
-    """Return where branches pass the imaginary axis, each pair of conjugates once."""
-    spans = [(k, k + 1) for k in range(len(values) - 1) if search.parted(branches[k], branches[k + 1])]
-    for branch in branches.T:
-        # a value at which nothing decays or grows may be the one that is passed
-        sided = np.flatnonzero(search.sides(branch))
-        spans += [(int(k), int(n)) for k, n in pairwise(sided) if branch[k].real * branch[n].real < 0.0]
-    apart = list[tuple[int, int]]()
-    for k, n in sorted(spans):
-        if apart and k < apart[-1][1]:
-            apart[-1] = apart[-1][0], max(n, apart[-1][1])
-        else:
-            apart.append((k, n))
-    found = [c for k, n in apart for c in search.within(float(values[k]), float(values[n]))]
-    return tuple(sorted(found, key=lambda c: c.value))
 
 
 @dataclass(frozen=True)
@@ -216,26 +185,32 @@ class _Search:
         same = np.count_nonzero(left) == np.count_nonzero(right)
         return bool(same and np.count_nonzero(left > 0.0) != np.count_nonzero(right > 0.0))
 
-    def looked_at(self, values: Sequence[float]) -> list[float]:
+    def ordered(self, value: float, leave: int) -> Complex:
+        """Return eigenvalues by decreasing real part without those nearest to the axis, which stay on it."""
+        now = self.eigenvalues(value)
+        moving = now[np.argsort(np.abs(now.real), kind="stable")[leave:]]
+        return moving[np.argsort(-moving.real, kind="stable")]
+
+    def on_axis(self, *values: float) -> int:
+        """Return how many eigenvalues are on the axis at all of some values."""
+        return int(min(np.count_nonzero(self.sides(self.eigenvalues(value)) == 0.0) for value in values))
+
+    def with_bends(self, values: Sequence[float]) -> list[float]:
         """Return values with those between them where a real part may have passed zero and come back.
 
-        In their order real parts are continuous. Where one is on the same side at both ends of a span, it has been on
-        the other one only if it bends there, by more than what is left of it: as the values beside the span show, and
-        those in it.
+        Where a real part is on the same side at both ends of a span, it has been on the other one only if it bends
+        there, by more than what is left of it: as the values beside the span show, and those in it.
         """
-        found = [values[0]]
-        for k in range(len(values) - 1):
-            a, b = values[k : k + 2]
+        every = [values[0]]
+        for k, (a, b) in enumerate(pairwise(values)):
             beside = [values[i - 1 : i + 2] for i in (k, k + 1) if 0 < i < len(values) - 1]
-            bends = [self.bend(*three) for three in beside]
-            bend = np.max(bends, axis=0) if bends else np.array(math.inf)
-            found += [*self.inside(a, b, bend, LOOKS), b]
-        return found
+            bend = np.max([self.bend(*three) for three in beside], axis=0) if beside else np.array(math.inf)
+            every += [*self.inside(a, b, bend, LOOKS), b]
+        return every
 
     def inside(self, a: float, b: float, bend: Array, looks: int) -> list[float]:
-        """Return values between two at which real parts are looked at, which may bend by so much there."""
-        zeros = [np.count_nonzero(self.sides(self.eigenvalues(value)) == 0.0) for value in (a, b)]
-        first, last = (self.ordered(value, int(min(zeros))).real for value in (a, b))
+        """Return values between two at which real parts count, which may bend by so much there."""
+        first, last = (self.ordered(value, self.on_axis(a, b)).real for value in (a, b))
         bend = bend if bend.ndim == 0 or len(bend) == len(first) else bend.max(initial=0.0)
         left = np.minimum(np.abs(first), np.abs(last))
         if not looks or not np.any((first * last > 0.0) & (left > self.level) & (bend > BENT * left)):
@@ -251,10 +226,24 @@ class _Search:
 
     def bend(self, a: float, b: float, c: float) -> Array:
         """Return by how much real parts at the middle one of three values are beside the line between the others."""
-        found = [self.eigenvalues(value) for value in (a, b, c)]
-        leave = int(min(np.count_nonzero(self.sides(x) == 0.0) for x in found))
-        first, middle, last = (self.ordered(value, leave).real for value in (a, b, c))
+        first, middle, last = (self.ordered(value, self.on_axis(a, b, c)).real for value in (a, b, c))
         return np.asarray(np.abs(middle - first - (last - first) * ((b - a) / (c - a))))
+
+    def crossings(self, values: Array, branches: Complex) -> tuple[Crossing, ...]:
+        """Return where branches pass the imaginary axis, each pair of conjugates once."""
+        spans = [(k, k + 1) for k in range(len(values) - 1) if self.parted(branches[k], branches[k + 1])]
+        for branch in branches.T:
+            # a value at which nothing decays or grows may be the one that is passed
+            sided = np.flatnonzero(self.sides(branch))
+            spans += [(int(k), int(n)) for k, n in pairwise(sided) if branch[k].real * branch[n].real < 0.0]
+        apart = list[tuple[int, int]]()
+        for k, n in sorted(spans):
+            if apart and k < apart[-1][1]:
+                apart[-1] = apart[-1][0], max(n, apart[-1][1])
+            else:
+                apart.append((k, n))
+        crossings = [c for k, n in apart for c in self.within(float(values[k]), float(values[n]))]
+        return tuple(sorted(crossings, key=lambda c: c.value))
 
     def within(self, a: float, b: float, halvings: int = HALVINGS) -> list[Crossing]:
         """Return the crossings between two values that branches followed between them show."""
@@ -264,23 +253,18 @@ class _Search:
         passing = left * right < 0.0
         if not (passing.any() or self.parted(before, after)):
             return []
-        leave = int(min(np.count_nonzero(left == 0.0), np.count_nonzero(right == 0.0)))
+        leave = self.on_axis(a, b)
         signs = (np.sign(self.ordered(value, leave).real) for value in (a, b))
-        found = [c for i in np.flatnonzero(np.multiply(*signs) < 0.0) if (c := self.passage(a, b, int(i), leave))]
+        places = np.flatnonzero(np.multiply(*signs) < 0.0)
+        crossings = [c for i in places if (c := self.passage(a, b, int(i), leave))]
         # one of a pair of conjugates does not pass alone: then another eigenvalue passes the other way
-        told = sum((1 if c.rising else -1) * (2 if c.eigenvalue.imag > self.level else 1) for c in found)
+        balance = sum((1 if c.rising else -1) * (2 if c.eigenvalue.imag > self.level else 1) for c in crossings)
         if halvings and (
-            len(set(right[passing])) > 1 or told != np.count_nonzero(right > 0.0) - np.count_nonzero(left > 0.0)
+            len(set(right[passing])) > 1 or balance != np.count_nonzero(right > 0.0) - np.count_nonzero(left > 0.0)
         ):
             middle = a + PARTED * (b - a)
             return self.within(a, middle, halvings - 1) + self.within(middle, b, halvings - 1)
-        return found
-
-    def ordered(self, value: float, leave: int) -> Complex:
-        """Return eigenvalues by decreasing real part without those nearest to the axis, which stay on it."""
-        now = self.eigenvalues(value)
-        moving = now[np.argsort(np.abs(now.real), kind="stable")[leave:]]
-        return moving[np.argsort(-moving.real, kind="stable")]
+        return crossings
 
     def passage(self, a: float, b: float, i: int, leave: int) -> Crossing | None:
         """Return where an eigenvalue of a place in the order passes, None of the other one of a pair of conjugates."""

@@ -19,12 +19,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import ranking, split
-from symgen.analyses.linearise import in_order, named_states
+from symgen.analyses.algebra import in_order, plain, ranking, split
+from symgen.analyses.edges import edges
+from symgen.analyses.linearise import eigenvectors, vibration
 from symgen.analyses.reduced import StateTangent, accelerations, tangent
-from symgen.analyses.steady import at_rest
+from symgen.analyses.steady import at_rest, named_states
 from symgen.analyses.subject import Subject
-from symgen.analyses.vibration import Vibration, eigenvectors, vibration
 from symgen.compiling.linearised import Evaluated
 
 Array = NDArray[np.float64]
@@ -93,171 +93,97 @@ class Modes:
     @property
     def damping(self) -> Array:
         """Ratio of damping of each shape: -Re / abs; 0 where the eigenvalue is 0."""
-        found = self.of_shapes
-        return np.asarray(-found.real / np.maximum(np.abs(found), 1e-300) + 0.0)
+        values = self.of_shapes
+        return np.asarray(-values.real / np.maximum(np.abs(values), 1e-300) + 0.0)
 
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON can express."""
-        return {
-            "eigenvalues": [[float(x.real), float(x.imag)] for x in self.eigenvalues],
-            "omega_squared": self.omega_squared.tolist(),
-            "degrees_of_freedom": self.degrees_of_freedom,
-            "frequencies": self.frequencies.tolist(),
-            "damping": self.damping.tolist(),
-            "names": list(self.names),
-            "shapes": [[[float(x.real), float(x.imag)] for x in shape] for shape in self.shapes],
-            "participation": {name: share.tolist() for name, share in self.participation.items()},
-            "stiffening": {name: share.tolist() for name, share in self.stiffening.items()},
-            "dissipation": {name: share.tolist() for name, share in self.dissipation.items()},
-            "about": dict(self.about),
-            "t": self.t,
-            "notes": list(self.notes),
-        }
+        return {**plain(self), "frequencies": plain(self.frequencies), "damping": plain(self.damping)}
 
 
-def modes(
-    subject: Subject,
-    y: Array,
-    t: float | None = None,
-    states: Sequence[str] = (),
-    where: str = "modes",
-    bodies: Callable[[], Subject] | None = None,
-) -> Modes:
+def modes(subject: Subject, y: Array, states: Sequence[str] = (), bodies: Callable[[], Subject] | None = None) -> Modes:
     """Return the modes about a state of rest or of steady motion.
 
     Parameters
     ----------
-    subject, y, t, states
+    subject, y, states
         As for `symgen.analyses.linearise.linear_system`.
-    where : str
-        Who asks, for messages.
     bodies : callable, optional
-        As for `shares`: without it modes of a tree have no tables.
+        Returns the mechanism in coordinates of bodies, where the state is that of joints: without it modes of a tree
+        have no tables.
 
     Raises
     ------
     InputError
         If the motion is neither at rest nor steady, or a name means nothing.
     """
-    x = tangent(subject, y, t)
-    names = named_states(subject, x, states, False, where)
+    x = tangent(subject, y)
+    names = named_states(subject, x, states, False, "modes")
+    coordinates = tuple(q.name for q in subject.compiled.info.coordinates)
     if not x.size:
         nothing = np.zeros(0, dtype=np.complex128)
         return Modes(nothing, np.zeros(0), 0, (), nothing.reshape(0, 0), about=subject.named(y), t=x.t)
-    resting = at_rest(subject, x)
     still = vibration(x)
+    vectors: Array | Complex
+    shapes: Array | Complex
     if still is not None and not states and not still.damping.any():
-        return _of_squares(x, still, bodies)
-    values, vectors = eigenvectors(x, names, still)
-    if states or not resting:
-        shapes = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(-1, x.size) @ vectors
-        about = {name: x.quantity(name).value for name in names}
-        largest = np.abs(shapes).max(axis=0, initial=0.0)
+        squares, about, names = still.squares, subject.named(y), coordinates
+        roots = np.sqrt(-squares.astype(np.complex128))
+        values, shapes = (
+            np.concatenate([roots, -roots]),
+            (x.base.by("motion", "v") @ still.shapes).astype(np.complex128),
+        )
+        # both positions and velocities change along the mode, as they do one after the other
+        vectors = np.vstack(still.changes(x))
     else:
-        names, shapes, about = _coordinates(subject), x.q[:, : x.size] @ vectors, subject.named(y)
-        largest = np.sqrt([_twice_kinetic(x, change) for change in _velocities(x, vectors)])
-    kept = [int(i) for i in ranking(values) if values[i].imag >= 0.0]
-    found = shares(x, vectors[:, kept], bodies)
-    return Modes(
-        in_order(values),
-        np.zeros(0),
-        x.velocities,
-        names,
-        (shapes / np.maximum(largest, 1e-300))[:, kept].T,
-        *(found.participation, found.stiffening, found.dissipation),
-        about,
-        x.t,
-    )
+        squares = np.zeros(0)
+        values, vectors = eigenvectors(x, names, still)
+        kept = [int(i) for i in ranking(values) if values[i].imag >= 0.0]
+        vectors = vectors[:, kept]
+        if states or not at_rest(subject, x):
+            shapes, about = x.changes_of(names)[:, : x.size] @ vectors, {name: x.quantity(name).value for name in names}
+            largest = np.abs(shapes).max(axis=0, initial=0.0)
+        else:
+            names, shapes, about = coordinates, x.q[:, : x.size] @ vectors, subject.named(y)
+            moved = x.free @ vectors[: x.positions]
+            largest = np.sqrt(_work(moved, x.base.by("balance", "a") @ moved))
+        shapes = shapes / np.maximum(largest, 1e-300)
+    tables, notes = _shares(x, vectors, bodies), edges(subject, y)
+    shapes = shapes.T.astype(np.complex128)
+    return Modes(in_order(values), squares, x.velocities, names, shapes, *tables, about, x.t, notes)
 
 
-def _of_squares(x: StateTangent, still: Vibration, bodies: Callable[[], Subject] | None) -> Modes:
-    """Return the modes of symmetric stiffness and masses."""
-    subject, squares = x.subject, still.squares
-    roots = np.sqrt(-squares.astype(np.complex128))
-    shapes = (x.base.by("motion", "v") @ still.shapes).T.astype(np.complex128)
-    # both positions and velocities change along the mode, as they do one after the other
-    found = shares(x, np.vstack(still.changes(x)), bodies)
-    return Modes(
-        in_order(np.concatenate([roots, -roots])),
-        squares,
-        x.velocities,
-        _coordinates(subject),
-        shapes,
-        *(found.participation, found.stiffening, found.dissipation),
-        subject.named(x.y),
-        x.t,
-    )
-
-
-def _coordinates(subject: Subject) -> tuple[str, ...]:
-    return tuple(q.name for q in subject.compiled.info.coordinates)
-
-
-def _velocities(x: StateTangent, vectors: Complex) -> Complex:
-    """Return the changes of position of eigenvectors in terms of velocities, one a row."""
-    return np.asarray((x.free @ vectors[: x.positions]).T)
-
-
-def _twice_kinetic(x: StateTangent, change: Complex) -> float:
-    return float(np.real(change.conj() @ x.base.by("balance", "a") @ change))
-
-
-@dataclass(frozen=True)
-class Shares:
-    """Tables of a few modes; each name has one number a mode.
-
-    Attributes
-    ----------
-    participation : mapping of str to Array
-        Of bodies in the kinetic energy.
-    stiffening : mapping of str to Array
-        Of forces and joints in the work against restoring forces.
-    dissipation : mapping of str to Array
-        Of forces in what dampers take; empty where nothing damps.
-    """
-
-    participation: Mapping[str, Array]
-    stiffening: Mapping[str, Array]
-    dissipation: Mapping[str, Array]
-
-
-def shares(x: StateTangent, vectors: Array | Complex, bodies: Callable[[], Subject] | None = None) -> Shares:
-    """Return the tables of modes.
-
-    Parameters
-    ----------
-    x : StateTangent
-        Where they are.
-    vectors : Array, shape (size, k)
-        Changes of s and u.
-    bodies : callable, optional
-        Returns the mechanism in coordinates of bodies, where the state is that of joints.
-    """
+def _shares(
+    x: StateTangent, vectors: Array | Complex, bodies: Callable[[], Subject] | None
+) -> tuple[dict[str, Array], dict[str, Array], dict[str, Array]]:
+    """Return participation, stiffening and dissipation of modes, which are changes of s and u in columns."""
     n = x.size
     subject, y, dq, dv = x.subject, x.y, x.q[:, :n] @ vectors, x.v[:, :n] @ vectors
     if subject.coordinates == "joint":
         if bodies is None:
-            return Shares({}, {}, {})
+            return {}, {}, {}
         subject = bodies().turned(x.subject.named(x.y))
         y, dq, dv = _of_bodies(x, subject, vectors)
     first = subject.evaluated(y, t=x.t)
     basis, inverse, _ = split(subject.rows(first), subject.loads)
     a, lam = accelerations(first, basis, inverse)
     e = subject.evaluated(y, a, lam, x.t)
-    dr = np.linalg.pinv(e.by("motion", "v")) @ dq
-    kinetic = _kinetic(subject, e.by("balance", "a"), dv)
+    dr, mass = np.linalg.pinv(e.by("motion", "v")) @ dq, e.by("balance", "a")
+    kinetic, momentum = dict[str, Array](), mass @ dv
+    owners = np.array([v.name.partition(".")[0] for v in subject.compiled.info.velocities])
+    for body in dict.fromkeys(owners.tolist()):
+        kinetic[body] = _work(dv[owners == body], momentum[owners == body])
     energy = np.maximum(sum(kinetic.values(), np.zeros(dq.shape[1])), 1e-300)
     moving = bool(np.abs(y[subject.nq : subject.nq + subject.nv]).max(initial=0.0) > 0.0)
     restoring = _by_force(subject, e, dr, dq, "q")
     for joint, geometric in _geometric(subject, y, a, lam, x.t):
         restoring[joint] = restoring.get(joint, 0.0) + _work(dr, geometric @ dq)
     whole = _work(dr, e.by("balance", "q") @ dq)
-    heavy = np.maximum(_work(dr, e.by("balance", "a") @ dr), 1e-300)
+    heavy = np.maximum(_work(dr, mass @ dr), 1e-300)
     taken, drag = _by_force(subject, e, dv, dv, "v"), _work(dv, e.by("balance", "v") @ dv)
-    rest = "gravity and turning" if moving else "gravity"
-    return Shares(
+    return (
         {name: part / energy for name, part in kinetic.items()},
-        _parts(restoring, whole, heavy, rest),
+        _parts(restoring, whole, heavy, "gravity and turning" if moving else "gravity"),
         _parts(taken, drag, energy, "turning"),
     )
 
@@ -266,43 +192,35 @@ def _of_bodies(
     x: StateTangent, bodies: Subject, vectors: Array | Complex
 ) -> tuple[Array, Array | Complex, Array | Complex]:
     """Return state and changes of bodies' own coordinates from those of joints."""
-    y, changes = np.zeros_like(bodies.y), list[Array]()
-    for i, name in enumerate(bodies.state_names):
-        y[i], change = x.function(x.subject.form.functions[name][0])
-        changes.append(change[: x.size])
-    found = np.array(changes).reshape(len(changes), x.size) @ vectors
-    return y, found[: bodies.nq], found[bodies.nq :]
+    y, functions = np.zeros_like(bodies.y), [x.function(x.subject.form.functions[n][0]) for n in bodies.state_names]
+    y[: len(functions)] = [value for value, _ in functions]
+    changes = np.array([change[: x.size] for _, change in functions]) @ vectors
+    return y, changes[: bodies.nq], changes[bodies.nq :]
 
 
 def _work(along: Array | Complex, force: Array | Complex) -> Array:
     return np.asarray(np.real(np.einsum("ik,ik->k", along.conj(), force)))
 
 
-def _kinetic(subject: Subject, mass: Array, dv: Array | Complex) -> dict[str, Array]:
-    owners = np.array([v.name.partition(".")[0] for v in subject.compiled.info.velocities])
-    momentum = mass @ dv
-    return {str(body): _work(dv[owners == body], momentum[owners == body]) for body in dict.fromkeys(owners.tolist())}
-
-
 def _by_force(
     subject: Subject, e: Evaluated, along: Array | Complex, change: Array | Complex, space: str
 ) -> dict[str, Array]:
     """Return what each force does along modes by its derivatives by q or v."""
-    found = dict[str, Array]()
+    works = dict[str, Array]()
     rows = e.by("elements", space) @ change
     for (name, i), row in zip(subject.form.elements, rows, strict=True):
-        found[name] = found.get(name, 0.0) + np.real(along[i].conj() * row)
-    return found
+        works[name] = works.get(name, 0.0) + np.real(along[i].conj() * row)
+    return works
 
 
 def _geometric(subject: Subject, y: Array, a: Array, lam: Array, t: float) -> list[tuple[str, Array]]:
     """Return the stiffness of each joint that carries something."""
-    without, found = subject.evaluated(y, a, None, t).by("balance", "q"), list[tuple[str, Array]]()
+    without = subject.evaluated(y, a, None, t).by("balance", "q")
     joints = np.array([row.joint for row in subject.compiled.info.rows])
-    for joint in dict.fromkeys(joints.tolist()):
-        own = subject.evaluated(y, a, np.where(joints == joint, lam, 0.0), t).by("balance", "q") - without
-        found.append((str(joint), own))
-    return found
+    return [
+        (joint, subject.evaluated(y, a, np.where(joints == joint, lam, 0.0), t).by("balance", "q") - without)
+        for joint in dict.fromkeys(joints.tolist())
+    ]
 
 
 def _parts(parts: dict[str, Array], whole: Array, measure: Array, rest: str) -> dict[str, Array]:
@@ -316,5 +234,5 @@ def _parts(parts: dict[str, Array], whole: Array, measure: Array, rest: str) -> 
     largest = float((np.abs(whole) / measure).max(initial=0.0))
     there = (np.abs(whole) > NONE * largest * measure) & (np.abs(whole) > REST * sizes)
     with np.errstate(all="ignore"):
-        found = {name: np.where(there, part / whole, 0.0) for name, part in parts.items()}
-    return found if np.any(there) else {}
+        shares = {name: np.where(there, part / whole, 0.0) for name, part in parts.items()}
+    return shares if np.any(there) else {}

@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import KroghInterpolator
 
+from symgen.runtime.model_arrays import velocity_of
+
 if TYPE_CHECKING:
     from symgen.runtime.compiled import ModelInfo
 
@@ -51,23 +53,23 @@ class Passage:
         return f"dead centre at t = {self.t:.9g} s: {who or 'the drivers'} can go no further; {free} would have to jump"
 
 
-def curve_through(info: ModelInfo, known: Sequence[tuple[Array, ...]]) -> Curve:
-    """Return the motion through known states, by polynomials that have their values and rates.
+def curve_through(info: ModelInfo, nodes: Sequence[tuple[Array, ...]]) -> Curve:
+    """Return the motion through a few states, by polynomials that have their values and rates.
 
     Parameters
     ----------
     info : ModelInfo
         The model.
-    known : sequence of tuple of Array
+    nodes : sequence of tuple of Array
         Time, q, q', v, v', and angles that count turns.
     """
-    times = np.repeat([float(node[0][0]) for node in known], 2)
+    times = np.repeat([float(node[0][0]) for node in nodes], 2)
 
     def through(value: int, rate: int) -> KroghInterpolator:
-        return KroghInterpolator(times, np.array([x for node in known for x in (node[value], node[rate])]))
+        return KroghInterpolator(times, np.array([x for node in nodes for x in (node[value], node[rate])]))
 
     q, v = through(1, 2), through(3, 4)
-    turned = np.array([node[5] for node in known])
+    turned = np.array([node[5] for node in nodes])
 
     def at(t: Array) -> tuple[Array, Array, Array]:
         y = np.zeros((len(t), info.ny))
@@ -83,19 +85,11 @@ def curve_through(info: ModelInfo, known: Sequence[tuple[Array, ...]]) -> Curve:
 
 def rates_of(info: ModelInfo, q: Array, v: Array) -> Array:
     """Return q' = N v: velocities, and of Euler parameters half their product with the angular velocity."""
-    spun = dict(info.spins)
-    found, i, j = np.zeros(info.nq), 0, 0
-    while i < info.nq:
-        if i not in spun:
-            found[i] = v[j]
-            i, j = i + 1, j + 1
-            continue
-        (a, b, c, d), (x, y, z) = q[i : i + 4], 0.5 * v[j : j + 3]
-        found[i : i + 4] = (
-            -(b * x + c * y + d * z),
-            a * x + c * z - d * y,
-            a * y + d * x - b * z,
-            a * z + b * y - c * x,
-        )
-        i, j = i + 4, j + 3
-    return found
+    rates = np.zeros(info.nq)
+    spun = {first + k for first, _ in info.spins for k in range(4)}
+    places = [i for i in range(info.nq) if i not in spun]
+    rates[places] = v[[velocity_of(i, info) for i in places]]
+    for first, at in info.spins:
+        scalar, vector, w = q[first], q[first + 1 : first + 4], 0.5 * v[at : at + 3]
+        rates[first], rates[first + 1 : first + 4] = -vector @ w, scalar * w + np.cross(vector, w)
+    return rates

@@ -11,14 +11,13 @@ from numpy.typing import NDArray
 
 from symgen import arguments
 from symgen.analyses.cyclic import steady_motion
-from symgen.analyses.edges import edges
-from symgen.analyses.equilibrium import Equilibrium, at_rest_from, equilibria, judged, stability_in_motion
-from symgen.analyses.linearise import LinearSystem, linear_system, named_states
+from symgen.analyses.equilibrium import Equilibrium, judged, rest_of, scanned_rests, stability_in_motion
+from symgen.analyses.linearise import LinearSystem, eigenvectors, linear_system
 from symgen.analyses.modes import Modes, modes
 from symgen.analyses.reduced import tangent
-from symgen.analyses.steady import at_rest
+from symgen.analyses.settle import Settled
+from symgen.analyses.steady import at_rest, named_states
 from symgen.analyses.subject import LARGE, Subject, subject_of
-from symgen.analyses.vibration import eigenvectors
 from symgen.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
 
 if TYPE_CHECKING:
@@ -32,30 +31,6 @@ Array = NDArray[np.float64]
 PLACES = ("equilibrium", "start", "steady")
 #: Tolerances of a run that leads to a state that is linearised about.
 FOLLOWED = {"method": "direct-correction", "integrator": "dop853", "rtol": 1e-12, "atol": 1e-14}
-
-
-def place_of(at: object, where: str = "at") -> str | float:
-    """Return a checked place: one of `PLACES`, or a time [s].
-
-    Raises
-    ------
-    InputError
-        If it is neither.
-    """
-    if isinstance(at, str):
-        if at in PLACES:
-            return at
-        try:
-            return arguments.number(where, float(at), positive=True)
-        except ValueError:
-            raise InputError(where, f"{', '.join(PLACES)} or a time in s", quoted(at), nearest(at, PLACES)) from None
-    return arguments.number(where, at, positive=True)
-
-
-def is_large(mechanism: Mechanism, settings: Settings) -> bool:
-    """Whether sparse matrices are asked for, or a mechanism is so large that they are taken."""
-    size = mechanism.body_coordinates
-    return settings.shape == "looped" or (settings.shape == "auto" and size > LARGE)
 
 
 @dataclass(frozen=True)
@@ -89,7 +64,14 @@ class NamedPlace:
     cyclic: Sequence[str] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "at", place_of(self.at))
+        at = self.at
+        if isinstance(at, str) and at not in PLACES:
+            try:
+                at = float(at)
+            except ValueError:
+                expected = f"{', '.join(PLACES)} or a time in s"
+                raise InputError("at", expected, quoted(self.at), nearest(str(at), PLACES)) from None
+        object.__setattr__(self, "at", at if isinstance(at, str) else arguments.number("at", at, positive=True))
         object.__setattr__(self, "cyclic", arguments.words("cyclic", self.cyclic))
         if self.cyclic and self.at != "steady":
             raise InputError("cyclic", "names where a steady motion is searched (at steady)", ", ".join(self.cyclic))
@@ -115,64 +97,59 @@ def arrived(place: NamedPlace) -> NamedPlace:
 
 
 def subject_at(place: NamedPlace, by: Sequence[str] = ()) -> tuple[Subject, Array]:
-    """Return what is analysed, and the state that it is analysed about.
+    """Return the mechanism, and the state that it is analysed about.
 
     Parameters
     ----------
     place : NamedPlace
-        What is asked for.
+        The place.
     by : sequence of str
-        Parameters that derivatives are wanted by.
+        Parameters that the form is differentiated by.
 
     Raises
     ------
     InputError
         If the start is wrong.
     AnalysisError
-        If no equilibrium or steady motion is found, or the run fails or does not come to the time asked for.
+        If no equilibrium or steady motion is found, or the run fails or does not come to its time.
     """
     place = arrived(place)
-    mechanism, settings, at = place.mechanism, place.settings, place.at
-    if at == "steady":
-        subject = subject_of(mechanism, replace(settings, coordinates="joint"), by)
-        moving = steady_motion(subject, place.cyclic)
-        return moving.subject, moving.y
-    subject = subject_of(mechanism, settings, by)
-    if at == "equilibrium":
-        rest = at_rest_from(subject)
-        return rest.subject, rest.y
-    if not subject.closed:
-        raise InputError("at start", "a start that closes the mechanism", "one that does not", "ask for an equilibrium")
-    return subject, subject.y
+    settings = replace(place.settings, coordinates="joint") if place.at == "steady" else place.settings
+    subject = subject_of(place.mechanism, settings, by)
+    if place.at == "start":
+        if not subject.closed:
+            expected = "a start that closes the mechanism"
+            raise InputError("at start", expected, "one that does not", "ask for an equilibrium")
+        return subject, subject.y
+    rest = rest_of(subject) if place.at == "equilibrium" else steady_motion(subject, place.cyclic)
+    return rest.subject, rest.y
 
 
 def steady_from(mechanism: Mechanism, settings: Settings, cyclic: Sequence[str] = ()) -> Equilibrium:
-    """Return a steady motion as an equilibrium; see `symgen.api.Model.steady`."""
+    """Find a steady motion as an equilibrium; see `symgen.api.Model.steady`."""
     subject = subject_of(mechanism, replace(settings, coordinates="joint"))
-    found = steady_motion(subject, arguments.words("cyclic", cyclic))
-    subject = found.subject
-    x = tangent(subject, found.y)
-    names = named_states(subject, x, (), False, "steady")
-    told = judged(subject, found.y, found.steps)
-    if at_rest(subject, x):
-        return told
+    rest = steady_motion(subject, arguments.words("cyclic", cyclic))
+    x = tangent(rest.subject, rest.y)
+    names = named_states(rest.subject, x, (), False, "steady")
+    if at_rest(rest.subject, x):
+        return judged(rest)
     # what turns on may slow down as the rest moves out: the stiffness at constant speeds does not tell
-    return replace(told, stability=stability_in_motion(eigenvectors(x, names, None)[0]))
+    return replace(judged(rest), stability=stability_in_motion(eigenvectors(x, names, None)[0]))
 
 
 def scanned(
     mechanism: Mechanism, settings: Settings, scan: tuple[str, Sequence[float] | Array]
 ) -> tuple[Equilibrium, ...]:
-    """Return the equilibria over a range of a coordinate; see `symgen.analyses.equilibrium.equilibria`."""
+    """Find the equilibria over a range of a coordinate; see `symgen.api.Model.equilibria`."""
     name, values = range_of("scan", scan)
     subject = subject_of(mechanism, settings)
-    subject.position(name)
-    return _of_bodies(mechanism, settings, subject, equilibria(subject, (name, values)))
+    return _of_bodies(mechanism, settings, subject, scanned_rests(subject, name, values))
 
 
 def rest_from(mechanism: Mechanism, settings: Settings) -> Equilibrium:
-    """Return the equilibrium that the start leads to; see `symgen.api.Model.equilibrium`."""
-    if settings.coordinates == "absolute" and is_large(mechanism, settings):
+    """Find the equilibrium that the start leads to; see `symgen.api.Model.equilibrium`."""
+    looped = settings.shape == "looped" or (settings.shape == "auto" and mechanism.body_coordinates > LARGE)
+    if settings.coordinates == "absolute" and looped:
         from symgen.analyses.large import large_equilibrium
 
         return large_equilibrium(mechanism, settings)
@@ -181,22 +158,21 @@ def rest_from(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     except AssemblyError:  # a tree is put together from bodies that close
         settings = replace(settings, coordinates="absolute")
         subject = subject_of(mechanism, settings)
-    return _of_bodies(mechanism, settings, subject, equilibria(subject))[0]
+    return _of_bodies(mechanism, settings, subject, (judged(rest_of(subject)),))[0]
 
 
 def _of_bodies(
-    mechanism: Mechanism, settings: Settings, subject: Subject, found: tuple[Equilibrium, ...]
+    mechanism: Mechanism, settings: Settings, subject: Subject, rests: tuple[Equilibrium, ...]
 ) -> tuple[Equilibrium, ...]:
     """Return equilibria with coordinates of bodies and multipliers of all joints, also where a tree carries them."""
     if subject.coordinates == "absolute":
-        return found
-    bodies = subject_of(mechanism, replace(settings, coordinates="absolute"))
-    whole = list[Equilibrium]()
-    for one in found:
+        return rests
+    bodies, whole = subject_of(mechanism, replace(settings, coordinates="absolute")), list[Equilibrium]()
+    for rest in rests:
         y = np.zeros_like(bodies.y)
-        y[: bodies.nq] = [one.q[name] for name in bodies.state_names[: bodies.nq]]
-        own = judged(bodies.turned(one.q), y, one.iterations)
-        whole.append(replace(own, y=one.y, lam=one.lam))
+        y[: bodies.nq] = [rest.q[name] for name in bodies.state_names[: bodies.nq]]
+        own = judged(Settled(bodies.turned(rest.q), y, rest.lam, rest.iterations))
+        whole.append(replace(own, y=rest.y, lam=rest.lam))
     return tuple(whole)
 
 
@@ -229,10 +205,8 @@ def modes_at(place: NamedPlace, states: Sequence[str] = (), count: int | None = 
     place = arrived(place)  # inputs may be others there than at the start
     subject, y = subject_at(place)
 
-    def bodies() -> Subject:
-        return subject_of(place.mechanism, replace(place.settings, coordinates="absolute"))
-
-    return replace(modes(subject, y, None, states, bodies=bodies), notes=edges(subject, y))
+    absolute = replace(place.settings, coordinates="absolute")
+    return modes(subject, y, states, lambda: subject_of(place.mechanism, absolute))
 
 
 def system_at(
@@ -241,6 +215,4 @@ def system_at(
     """Return the linear system at a place; see `symgen.api.Model.linearise`."""
     states = arguments.words("states", states)
     subject, y = subject_at(place, arguments.words("by", by))
-    found = linear_system(subject, y, None, states, arguments.switch("instantaneous", instantaneous))
-    accelerations = tangent(subject, y).a if found.outputs else None
-    return replace(found, notes=edges(subject, y, accelerations, found.outputs))
+    return linear_system(subject, y, states, arguments.switch("instantaneous", instantaneous))

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.analyses.algebra import apart
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.describe.start import described_start
@@ -54,13 +55,11 @@ class PrescribedRun:
         With its inputs put in place, without outputs that are integrals.
     compiled, start : CompiledModel, Start
         Its code, and its consistent start at t = 0.
-    parameters : mapping
-        Values of all parameters, as a run is given them.
     held : tuple of (float, Array)
         Parameters of earlier stops, see `symgen.runtime.outcome.Motion`.
     p : Array
         Parameters of the last stop.
-    told : mapping
+    inputs : mapping
         Inputs in words, or their numbers.
     notes : tuple of str
         What was settled on the way.
@@ -69,11 +68,15 @@ class PrescribedRun:
     mechanism: Mechanism
     compiled: CompiledModel
     start: Start
-    parameters: dict[str, float]
     held: tuple[tuple[float, Array], ...]
     p: Array
-    told: dict[str, str | float]
+    inputs: dict[str, str | float]
     notes: tuple[str, ...]
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """Values of all parameters at the start."""
+        return {q.name: float(x) for q, x in zip(self.compiled.info.parameters, self.start.p, strict=False)}
 
 
 def drivers_of(mechanism: Mechanism) -> tuple[str, ...]:
@@ -89,17 +92,14 @@ def without(mechanism: Mechanism, names: Sequence[str]) -> Mechanism:
 
 
 def instantaneous(mechanism: Mechanism) -> Mechanism:
-    """Return a mechanism without what only a run can say of it: outputs that are integrals, events, and velocities."""
-    kept = tuple(o for o in mechanism.outputs if not any(isinstance(r.source, Integral) for r in readings(o.value)))
-    bodies = tuple(_still(body) for body in mechanism.bodies)
-    return msgspec.structs.replace(mechanism, bodies=bodies, outputs=kept, events=())
-
-
-def _still(body: AnyBody) -> AnyBody:
-    """Return a body whose velocities follow from the drivers, whatever the file says of them."""
-    if isinstance(body, SpatialBody):
-        return msgspec.structs.replace(body, velocity=(None, None, None), angular_velocity=(None, None, None))
-    return msgspec.structs.replace(body, velocity=(None, None), angular_velocity=None)
+    """Return a mechanism without what a run alone determines: outputs that are integrals, events, and velocities."""
+    outputs = tuple(o for o in mechanism.outputs if not any(isinstance(r.source, Integral) for r in readings(o.value)))
+    bodies = list[AnyBody]()
+    for body in mechanism.bodies:
+        nothing = (None,) * len(body.velocity)
+        angular = nothing if isinstance(body, SpatialBody) else None
+        bodies.append(msgspec.structs.replace(body, velocity=nothing, angular_velocity=angular))
+    return msgspec.structs.replace(mechanism, bodies=tuple(bodies), outputs=outputs, events=())
 
 
 def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: float = 0.0) -> PrescribedRun:
@@ -120,27 +120,23 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
     InputError, AssemblyError
         If settings are wrong, or the mechanism cannot be closed.
     """
-    asked_start = settings.start if drivers_of(mechanism) else {}
-    if not isinstance(asked_start, Mapping):
+    branch = settings.start if drivers_of(mechanism) else {}
+    if not isinstance(branch, Mapping):
         raise InputError("start", "values of coordinates by name, to choose a branch by", "a state of a run")
-    settings = replace(settings, start={}) if asked_start else settings
     end = until if until > 0.0 else 1.0
-    asked = replace(settings, method="lagrange", integrator=None, until=end, times=(end,), step=end)
-    asked = replace(asked, output_step=None, coordinates="absolute")
-    given = put_inputs(mechanism, asked)
-    found = instantaneous(given.mechanism)
-    plan = make_plan(found, given.settings, Purpose.STATE)
-    near, notes = None, tuple[str, ...]()
-    if asked_start:
-        near, words = branch_near(plan, asked_start)
-        notes = (words,)
+    settings = replace(settings, start={} if branch else settings.start, until=end, times=(end,), step=end)
+    settings = replace(settings, method="lagrange", integrator=None, output_step=None, coordinates="absolute")
+    placed = put_inputs(mechanism, settings)
+    driven = instantaneous(placed.mechanism)
+    plan = make_plan(driven, placed.settings, Purpose.STATE)
+    near, words = branch_near(plan, branch) if branch else (None, ())
     run = assemble(plan, near)
     compiled, start = run.compiled, run.start
-    held, p, stops = list[tuple[float, Array]](), start.p, given.stops[1:]
+    held, p, stops = list[tuple[float, Array]](), start.p, placed.stops[1:]
     numbers = {q.name: i for i, q in enumerate(compiled.info.parameters)}
-    if first < 0.0 and given.driven is not None:  # the start is at 0, others hold before
-        values = parameter_values(given.mechanism, given.settings.parameters)
-        stops = stops_of(given.driven, values, end, first)
+    if first < 0.0 and placed.driven is not None:  # the start is at 0, others hold before
+        values = parameter_values(placed.mechanism, placed.settings.parameters)
+        stops = stops_of(placed.driven, values, end, first)
     for stop in stops:
         if stop.t > first:
             held.append((stop.t, p))
@@ -148,20 +144,18 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
         for name, value in stop.values.items():
             p[numbers[name]] = value
         compiled.prepare(p)
-    values = {q.name: float(x) for q, x in zip(compiled.info.parameters, start.p, strict=False)}
-    parameters = {name: x for name, x in values.items() if name not in found.inputs}
-    return PrescribedRun(found, compiled, start, parameters, tuple(held), p, dict(given.words), (*notes, *start.notes))
+    return PrescribedRun(driven, compiled, start, tuple(held), p, dict(placed.words), (*words, *start.notes))
 
 
 def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: str, first: float = 0.0) -> PrescribedRun:
-    """Return a mechanism whose freedom is all driven, ready to be followed; see `make_ready`.
+    """Make a mechanism whose freedom is all driven ready to be followed; see `make_ready`.
 
     Parameters
     ----------
     mechanism, settings, until, first
         As for `make_ready`.
     what : str
-        Who asks, for messages.
+        The analysis, for messages.
 
     Raises
     ------
@@ -173,11 +167,11 @@ def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: st
     """
     drivers = drivers_of(mechanism)
     try:
-        found = make_ready(mechanism, settings, until, first)
+        run = make_ready(mechanism, settings, until, first)
     except AssemblyError:
         _refuse_excess(mechanism, settings, until, what, drivers)
         raise
-    info, start = found.compiled.info, found.start
+    info, start = run.compiled.info, run.start
     for row in info.rows:
         if not row.holonomic:
             got = f"'{row.joint}', a condition on velocities, from which positions follow by integration alone"
@@ -187,22 +181,21 @@ def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: st
     # where the start is singular, rows may depend on others there alone
     loose = _refuse_excess(mechanism, settings, until, what, drivers) if masked else None
     if start.rank < info.m - masked or (freedom > 0 and loose == len(drivers)):
+        hint = "describe it, and begin its drivers, elsewhere"
         got = "a singular position, from which several motions go on"
-        raise InputError(
-            what, "a start that is none of several branches", got, "describe it, and begin its drivers, elsewhere"
-        )
+        raise InputError(what, "a start that is none of several branches", got, hint)
     if freedom > 0:
-        names = free_coordinates(found, freedom)
         of = "1 degree of freedom that is" if freedom == 1 else f"{freedom} degrees of freedom that are"
         hint = f"a driver drives {'it' if freedom == 1 else 'each'}, and symgen run needs none"
-        raise InputError(what, "a driver for every freedom", f"{of} not driven: {', '.join(names)}", hint)
-    return found
+        got = f"{of} not driven: {', '.join(free_coordinates(run, freedom))}"
+        raise InputError(what, "a driver for every freedom", got, hint)
+    return run
 
 
 def _refuse_excess(
     mechanism: Mechanism, settings: Settings, until: float, what: str, drivers: tuple[str, ...]
 ) -> int | None:
-    """Refuse more drivers than there are degrees of freedom without them; return how many there are, if that is known.
+    """Refuse more drivers than degrees of freedom without them, and return the number of these; None where it is open.
 
     Raises
     ------
@@ -226,66 +219,59 @@ def jacobian_at(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array)
     w = w.copy()
     Ready(compiled.model.geometry, abi.MEASURE)(t, y.copy(), p, w)
     weights = np.array([w[abi.LENGTH] if row.unit == "rad" else 1.0 for row in compiled.info.rows])
-    found: Array = weights[:, np.newaxis] * compiled.jacobian(w) * np.sqrt(compiled.section(w, "gauge"))
-    return found
+    return np.asarray(weights[:, np.newaxis] * compiled.jacobian(w) * np.sqrt(compiled.section(w, "gauge")))
 
 
-def free_coordinates(found: PrescribedRun, count: int) -> list[str]:
+def free_coordinates(run: PrescribedRun, count: int) -> list[str]:
     """Return the names of as many coordinates as the freedom that is left, each of another part of it.
 
-    Joints' own coordinates are named where they tell it, else coordinates of bodies.
+    Joints' own coordinates are named where they move with it, else coordinates of bodies.
     """
-    compiled, start, info = found.compiled, found.start, found.compiled.info
+    from scipy import linalg
+
+    compiled, start, info = run.compiled, run.start, run.compiled.info
     scale = np.sqrt(compiled.section(start.w, "gauge"))
     _, _, right = np.linalg.svd(jacobian_at(compiled, start.t, start.y, start.p, start.w), full_matrices=True)
     basis = (right[-count:] * scale).T  # directions of v, shape (nv, count)
-    names = [q.name for q in info.joint_coordinates] + [v.name for v in info.velocities]
-    rates = np.vstack([rates_of_joints(found, basis), basis])
-    chosen, rest, joints = list[str](), rates.copy(), len(info.joint_coordinates)
-    grounded = {joint.name for joint in found.mechanism.joints if GROUND in joint.bodies}
-    liked = np.array([ON_GROUND if name.partition(".")[0] in grounded else 1.0 for name in names])
-    liked[joints:] = CUTOFF  # these where no joint tells
-    for _ in range(count):
-        sizes = np.linalg.norm(rest, axis=1) * liked
-        k = int(np.argmax(sizes))
-        chosen.append(names[k])
-        if not np.any(rest[k]):
-            break
-        direction = rest[k] / np.linalg.norm(rest[k])
-        rest = rest - np.outer(rest @ direction, direction)
-    return chosen
 
-
-def rates_of_joints(found: PrescribedRun, basis: Array) -> Array:
-    """Return the rates of all joint coordinates along directions of the velocities, shape (n, directions)."""
-    compiled, start, info = found.compiled, found.start, found.compiled.info
-    observe = Ready(compiled.model.observe, abi.OBSERVE)
-
-    def rates(v: Array) -> Any:
-        y, out = start.y.copy(), np.zeros(info.observed)
+    def joint_rates(v: Array) -> Array:
+        y = start.y.copy()
         y[info.nq : info.nq + info.nv] = v
-        observe(start.t, y, start.p, start.w.copy(), np.zeros(info.ny), out)
-        return out[info.m + 1 :: 2]
+        return _observed(compiled, start, y)[info.m + 1 :: 2]
 
-    still = rates(np.zeros(info.nv))
-    return np.column_stack([rates(v) - still for v in basis.T]).reshape(len(info.joint_coordinates), basis.shape[1])
+    still = joint_rates(np.zeros(info.nv))
+    rates = np.vstack([np.column_stack([joint_rates(v) - still for v in basis.T]), basis])
+    names = [q.name for q in info.joint_coordinates] + [v.name for v in info.velocities]
+    grounded = {joint.name for joint in run.mechanism.joints if GROUND in joint.bodies}
+    weights = np.array([ON_GROUND if name.partition(".")[0] in grounded else 1.0 for name in names])
+    weights[len(info.joint_coordinates) :] = CUTOFF  # these where no joint moves
+    order = linalg.qr((rates * weights[:, np.newaxis]).T, mode="r", pivoting=True)[1]
+    return [names[k] for k in order[:count]]
 
 
-def branch_near(plan: Plan, asked: Mapping[str, float]) -> tuple[Array, str]:
-    """Return the coordinates of the way to close a mechanism at t = 0 that is nearest to a start.
+def _observed(compiled: CompiledModel, start: Start, y: Array) -> Array:
+    """Return what the model reports at a state: rows, then value and rate of each joint coordinate."""
+    out = np.zeros(compiled.info.observed)
+    observe = Ready(compiled.model.observe, abi.OBSERVE)
+    observe(start.t, y.copy(), start.p, start.w.copy(), np.zeros(compiled.info.ny), out)
+    return out
+
+
+def branch_near(plan: Plan, branch: Mapping[str, float]) -> tuple[Array, tuple[str, ...]]:
+    """Close a mechanism at t = 0 from many places, and choose the way that is nearest to a start.
 
     Parameters
     ----------
     plan : Plan
         Of a mechanism with drivers for all its freedom; nothing is held.
-    asked : mapping of str to float
+    branch : mapping of str to float
         Coordinates of bodies or joints.
 
     Returns
     -------
     near : Array, shape (nq,)
         Coordinates.
-    words : str
+    words : tuple of str
         Which way it is, in a sentence.
 
     Raises
@@ -296,70 +282,43 @@ def branch_near(plan: Plan, asked: Mapping[str, float]) -> tuple[Array, str]:
         If it cannot be closed at all.
     """
     mechanism, parameters, compiled = plan.mechanism, plan.parameters, compiled_for(plan.mechanism, plan.choice)
-    info = compiled.info
-    known = {q.name: q.unit for q in (*info.coordinates, *info.joint_coordinates)}
-    for name in asked:
-        if name not in known:
+    info, rng = compiled.info, np.random.default_rng(0)
+    names, units = zip(*((q.name, q.unit) for q in (*info.coordinates, *info.joint_coordinates)), strict=True)
+    for name in branch:
+        if name not in names:
             expected = "a coordinate of a body or joint: velocities follow from the drivers"
-            raise InputError(f"start '{name}'", expected, "none of that name", nearest(name, known))
-    q = np.array(described_start(mechanism, scalars(parameter_values(mechanism, parameters)))[0], dtype=np.float64)
-    ways, refused, last = list[tuple[Array, dict[str, float]]](), AssemblyError("no place closes it"), 0
-    for k, guess in enumerate(_places(compiled, q)):
+            raise InputError(f"start '{name}'", expected, "none of that name", nearest(name, names))
+    places = [names.index(name) for name in branch]
+    turning = np.array([units[i] == "rad" for i in places])
+    described = np.array(
+        described_start(mechanism, scalars(parameter_values(mechanism, parameters)))[0], dtype=np.float64
+    )
+    lengths = np.array([c.unit == "m" for c in info.coordinates])
+    size = float(np.ptp(described[lengths])) or 1.0 if lengths.any() else 1.0
+    ways, refusal, last = list[tuple[Array, Array]](), AssemblyError("no place closes it"), 0
+    for k in range(TRIES):
         if ways and k > last + ENOUGH:
             break
+        guess = described.copy()
+        if k:  # all over the place
+            guess += np.where(lengths, 0.5 * size, np.pi) * rng.uniform(-1.0, 1.0, len(guess))
+            for first, _ in info.spins:
+                turned = rng.standard_normal(4)
+                guess[first : first + 4] = turned / np.linalg.norm(turned)
         try:
             start = start_of(mechanism, compiled, parameters, plan.method_parameters, near=guess)
         except AssemblyError as error:
-            refused = error if k == 0 else refused
+            refusal = error if k == 0 else refusal
             continue
-        found = start.y[: info.nq].copy()
-        if not any(_apart(compiled, found, other) < SAME_WAY for other, _ in ways):
-            ways.append((found, _values(compiled, start)))
+        q = start.y[: info.nq].copy()
+        if not any(np.abs(apart(info, q, other)).max(initial=0.0) < SAME_WAY for other, _ in ways):
+            ways.append((q, np.concatenate([q, _observed(compiled, start, start.y)[info.m :: 2]])[places]))
             last = k
     if not ways:
-        raise refused
-    far = [sum(_gap(known[name], values[name], x) ** 2 for name, x in asked.items()) for _, values in ways]
-    chosen = int(np.argmin(far))
-    told = ", ".join(f"{name} = {ways[chosen][1][name]:.6g}" for name in asked)
+        raise refusal
+    gaps = np.array([values for _, values in ways]) - np.array(list(branch.values()))
+    gaps[:, turning] -= 2.0 * np.pi * np.round(gaps[:, turning] / (2.0 * np.pi))
+    near, values = ways[int(np.argmin(np.sum(gaps**2, axis=1)))]
+    which = ", ".join(f"{name} = {value:.6g}" for name, value in zip(branch, values, strict=True))
     several = "1 way to close it is" if len(ways) == 1 else f"{len(ways)} ways to close it are"
-    return ways[chosen][0], f"{several} known; that with {told} is nearest to the start"
-
-
-def _places(compiled: CompiledModel, q: Array) -> list[Array]:
-    """Return the described coordinates, then others all over the place."""
-    rng, info = np.random.default_rng(0), compiled.info
-    lengths = np.array([c.unit == "m" for c in info.coordinates])
-    size = float(np.ptp(q[lengths])) or 1.0 if lengths.any() else 1.0
-    found = [q]
-    for _ in range(TRIES - 1):
-        change = np.where(lengths, 0.5 * size, np.pi) * rng.uniform(-1.0, 1.0, len(q))
-        place = q + change
-        for first, _ in info.spins:
-            turned = rng.standard_normal(4)
-            place[first : first + 4] = turned / np.linalg.norm(turned)
-        found.append(place)
-    return found
-
-
-def _values(compiled: CompiledModel, start: Start) -> dict[str, float]:
-    info = compiled.info
-    out = np.zeros(info.observed)
-    observe = Ready(compiled.model.observe, abi.OBSERVE)
-    observe(start.t, start.y.copy(), start.p, start.w.copy(), np.zeros(info.ny), out)
-    values = {c.name: float(x) for c, x in zip(info.coordinates, start.y, strict=False)}
-    return values | {c.name: float(x) for c, x in zip(info.joint_coordinates, out[info.m :: 2], strict=True)}
-
-
-def _gap(unit: str, value: float, asked: float) -> float:
-    """Return how far a value is from another one, whole turns left out."""
-    gap = value - asked
-    return gap - 2.0 * np.pi * round(gap / (2.0 * np.pi)) if unit == "rad" else gap
-
-
-def _apart(compiled: CompiledModel, a: Array, b: Array) -> float:
-    info = compiled.info
-    gaps = np.array([_gap(c.unit, x, y) for c, x, y in zip(info.coordinates, a, b, strict=True)])
-    for first, _ in info.spins:
-        one, other = a[first : first + 4], b[first : first + 4]
-        gaps[first : first + 4] = min(np.linalg.norm(one - other), np.linalg.norm(one + other))
-    return float(np.abs(gaps).max(initial=0.0))
+    return near, (f"{several} known; that with {which} is nearest to the start",)

@@ -15,7 +15,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import split
 from symgen.analyses.subject import RATE, Subject
 from symgen.compiling.linearised import Evaluated
 from symgen.errors import AnalysisError, InputError, nearest
@@ -43,10 +42,8 @@ class StateTangent:
         Numbers of s and u.
     q, q_rates, v, rates, multipliers : Array
         Changes of q, q', v, v' and lambda.
-    states, state_rates : Array, shape (positions + velocities, ...)
-        Changes of s and u themselves, and of their rates.
-    drift : Array, shape (positions + velocities,)
-        Rates of s and u at the state.
+    state_rates : Array, shape (positions + velocities, ...)
+        Changes of the rates of s and u.
     free, basis : Array, shape (nv, positions) and (nv, velocities)
         Z_q and Z.
     """
@@ -64,9 +61,7 @@ class StateTangent:
     v: Array
     rates: Array
     multipliers: Array
-    states: Array
     state_rates: Array
-    drift: Array
     free: Array
     basis: Array
 
@@ -91,12 +86,12 @@ class StateTangent:
         e, basis, subject = self.base, np.abs(self.basis), self.subject
         heavy = np.einsum("ik,ij,jk->k", self.basis, e.by("balance", "a"), self.basis)
         stiffness = np.abs(e.by("balance", "q") @ e.by("motion", "v"))
-        found = [float(np.abs(self.speeds / subject.spans).max(initial=0.0))]
+        rates = [float(np.abs(self.speeds / subject.spans).max(initial=0.0))]
         for matrix, power in ((stiffness, 0.5), (np.abs(e.by("balance", "v")), 1.0)):
             sizes = np.einsum("ik,ij,jk->k", basis, matrix, basis)
             moved = heavy > 1e-13 * heavy.max(initial=0.0)
-            found.append(float((sizes[moved] / heavy[moved]).max(initial=0.0)) ** power)
-        return max(found) or 1.0
+            rates.append(float((sizes[moved] / heavy[moved]).max(initial=0.0)) ** power)
+        return max(rates) or 1.0
 
     @property
     def sizes(self) -> Array:
@@ -108,26 +103,27 @@ class StateTangent:
         subject = self.subject
         units = {q.name: q.unit for q in (*subject.compiled.info.coordinates, *subject.compiled.info.velocities)}
         own = {o.name for o in subject.mechanism.outputs}
-        found = list[float]()
+        sizes = list[float]()
         for name in names:
             base = name.removesuffix(RATE)
             unit = units.get(name) or ("" if base in own else subject.form.units.get(base, ""))
             slow = 1.0 if not unit or (unit in ("m", "rad") and not name.endswith(RATE)) else self.rate
-            found.append((subject.length if unit.startswith("m") else 1.0) * slow)
-        return np.array(found)
+            sizes.append((subject.length if unit.startswith("m") else 1.0) * slow)
+        return np.array(sizes)
 
     def function(self, place: int) -> tuple[float, Array]:
         """Return the value of a quantity of the state, and how it changes."""
         changes = self.base.by("functions", "q")[place] @ self.q + self.base.by("functions", "v")[place] @ self.v
         changes = changes + self.base.by("functions", "a")[place] @ self.rates
         changes = changes + self.base.by("functions", "lam")[place] @ self.multipliers
-        changes[self.size :] += self.base.by("functions", "p")[place][self.inputs]
+        changes[self.size :] += self.base.by("functions", "p")[place][self.subject.places]
         return float(self.base.value("functions")[place]), changes
 
-    @property
-    def inputs(self) -> list[int]:
-        """Where the inputs and parameters that vary stand among all parameters."""
-        return inputs_of(self.subject)
+    def changes_of(self, names: Sequence[str], rates: bool = False) -> Array:
+        """Return how quantities of the state, or their rates, change; shape (names, size + inputs)."""
+        quantities = [self.quantity(name) for name in names]
+        changes = [q.rate_changes if rates else q.changes for q in quantities]
+        return np.array(changes).reshape(len(names), self.q.shape[1])
 
     def quantity(self, name: str) -> StateQuantity:
         """Return a quantity of the state by name, with its rate.
@@ -137,11 +133,11 @@ class StateTangent:
         InputError
             If there is none of that name; says the nearest one.
         """
-        known = quantities_of(self.subject)
-        if name not in known:
+        quantities = quantities_of(self.subject)
+        if name not in quantities:
             expected = f"a coordinate, velocity or output of the state of {self.subject.mechanism.name}"
-            raise InputError(f"state '{name}'", expected, "none of that name", nearest(name, known))
-        space, at = known[name]
+            raise InputError(f"state '{name}'", expected, "none of that name", nearest(name, quantities))
+        space, at = quantities[name]
         e, y, nq = self.base, self.y, self.subject.nq
         if space == "q":
             return StateQuantity(name, float(y[at]), float(e.value("motion")[at]), self.q[at], self.q_rates[at])
@@ -162,12 +158,6 @@ class StateQuantity:
     rate_changes: Array
 
 
-def inputs_of(subject: Subject) -> list[int]:
-    """Return where the inputs, and what derivatives are known by beside them, stand among the parameters."""
-    names = [p.name for p in subject.compiled.info.parameters]
-    return [names.index(name) for name in subject.varied]
-
-
 def quantities_of(subject: Subject) -> Mapping[str, tuple[str, int]]:
     """Return the quantities of the state whose rates are known: by name where each stands.
 
@@ -175,15 +165,14 @@ def quantities_of(subject: Subject) -> Mapping[str, tuple[str, int]]:
     rates.
     """
     info = subject.compiled.info
-    known: dict[str, tuple[str, int]] = {}
+    quantities: dict[str, tuple[str, int]] = {}
     for name, (at, orders) in subject.form.functions.items():
         if orders >= 2:
-            known[name] = "functions", at
+            quantities[name] = "functions", at
         if orders == 3:
-            known[name + RATE] = "functions", at + 1
-    known |= {q.name: ("q", i) for i, q in enumerate(info.coordinates)}
-    known |= {v.name: ("v", i) for i, v in enumerate(info.velocities)}
-    return known
+            quantities[name + RATE] = "functions", at + 1
+    quantities |= {q.name: ("q", i) for i, q in enumerate(info.coordinates)}
+    return quantities | {v.name: ("v", i) for i, v in enumerate(info.velocities)}
 
 
 def accelerations(e: Evaluated, basis: Array, inverse: Array) -> tuple[Array, Array]:
@@ -225,20 +214,20 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> StateTangent:
     now = subject.t if t is None else t
     first = subject.evaluated(y, t=now)
     d = subject.rows(first)
-    basis, inverse = _split(subject, d, subject.loads)
+    basis, inverse = subject.split(d, subject.loads)
     a, lam = accelerations(first, basis, inverse)
     e = subject.evaluated(y, a, lam, now)
-    places = inputs_of(subject)
+    places = subject.places
     for group in ("velocities", "positions"):
         if np.any(e.by(group, "p")[:, places[: len(subject.inputs)]]):
             raise InputError("inputs", "inputs of forces and outputs", "one that moves a joint")
     motion, mass = e.by("motion", "v"), e.by("balance", "a")
-    free = _split(subject, d[subject.holonomic])[0]
+    free = subject.split(d[subject.holonomic])[0]
     positions, velocities, inputs = free.shape[1], basis.shape[1], len(places)
     width = positions + velocities + inputs
     q, v = np.zeros((subject.nq, width)), np.zeros((subject.nv, width))
     q[:, :positions] = motion @ free
-    q[:, positions + velocities :] = motion @ _shifted(subject, e, d, places)
+    q[:, positions + velocities :] = motion @ _shifted(subject, e, d)
     opened = e.by("velocities", "q") @ q
     opened[:, positions + velocities :] += e.by("velocities", "p")[:, places]
     v -= inverse @ opened
@@ -255,23 +244,14 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> StateTangent:
     q_rates[:, positions + velocities :] += e.by("motion", "p")[:, places]
     back = np.linalg.pinv((motion @ free) / subject.lengths[:, np.newaxis]) / subject.lengths
     along = (basis / subject.spans[:, np.newaxis] ** 2).T  # of orthonormal columns in spans
-    states = np.eye(positions + velocities, width)
     state_rates = np.vstack([back @ q_rates, along @ rates])
-    drift = np.concatenate([back @ e.value("motion"), along @ a])
     return StateTangent(
         *(subject, now, y, a, lam, e, positions, velocities, q, q_rates, v, rates, multipliers),
-        *(states, state_rates, drift, free, basis),
+        *(state_rates, free, basis),
     )
 
 
-def _split(subject: Subject, d: Array, loads: Array | None = None) -> tuple[Array, Array]:
-    """Return a basis of what rows leave free, and their pseudo-inverse, where the spans of velocities count alike."""
-    spans = subject.spans[:, np.newaxis]
-    basis, inverse, _ = split(d * spans.T, loads)
-    return spans * basis, spans * inverse
-
-
-def _shifted(subject: Subject, e: Evaluated, d: Array, places: list[int]) -> Array:
+def _shifted(subject: Subject, e: Evaluated, d: Array) -> Array:
     """Return the smallest change of position, in terms of velocities, that keeps joints closed while parameters change.
 
     Raises
@@ -280,10 +260,10 @@ def _shifted(subject: Subject, e: Evaluated, d: Array, places: list[int]) -> Arr
         If a parameter opens joints that depend on each other.
     """
     rows = subject.holonomic
-    opened, inverse = e.by("positions", "p")[:, places][rows], _split(subject, d[rows])[1]
-    found = -inverse @ opened
-    left = opened + d[rows] @ found
+    opened, inverse = e.by("positions", "p")[:, subject.places][rows], subject.split(d[rows])[1]
+    change = -inverse @ opened
+    left = opened + d[rows] @ change
     for name, gap, whole in zip(subject.varied, left.T, opened.T, strict=True):
         if np.abs(gap).max(initial=0.0) > 1e-8 * np.abs(whole).max(initial=0.0):
             raise InputError(f"by '{name}'", "a parameter that redundant joints allow to change", "one that opens them")
-    return np.asarray(found)
+    return np.asarray(change)

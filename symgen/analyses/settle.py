@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Protocol, Self, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,9 @@ from numpy.typing import NDArray
 from symgen.analyses.algebra import Solver, largest, level, solver
 from symgen.analyses.subject import Subject
 from symgen.errors import AnalysisError
+
+if TYPE_CHECKING:
+    from symgen.analyses.large import Sparse
 
 Array = NDArray[np.float64]
 
@@ -39,33 +42,9 @@ SINGULAR, ASTRAY = 1e6, 0.01
 FASTER, SLOWER = 4.0, 0.3
 
 
-class Statics(Protocol):
-    """A static problem over changes in lengths of the mechanism and radians: forces are work.
-
-    So it is the same one in micrometres, where moments are nothing beside forces as numbers.
-    """
-
-    @property
-    def lengths(self) -> Array:
-        """What changes of coordinates are compared with, shape (nq,)."""
-
-    def forces(self, y: Array, lam: Array) -> tuple[Array, Array]:
-        """Return D^T lambda - f, and by how much each row is open."""
-
-    def derivatives(self, y: Array, lam: Array) -> tuple[Any, Any, Any]:
-        """Return N, D of rows that do not depend on others, and the stiffness K."""
-
-    def whole(self, work: Array | None) -> Array:
-        """Return multipliers of all rows from the work of those in D; 0 without."""
-
-    def moved(self, y: Array, change: Array) -> Array:
-        """Return a state whose coordinates are moved by a change."""
-
-    def wound(self, y: Array) -> Self:
-        """Return the same with the angles that count turns as they are at a state less than half a turn away."""
-
-
-S = TypeVar("S", bound=Statics)
+#: A static problem over changes in lengths of the mechanism and radians: forces are work. So it is the same one in
+#: micrometres, where moments are nothing beside forces as numbers.
+S = TypeVar("S", "DenseStatics", "Sparse")
 
 
 @dataclass(frozen=True)
@@ -270,14 +249,14 @@ def _closed(statics: S, y: Array) -> tuple[S, Array, int]:
     raise AnalysisError("no equilibrium was found from this start: it cannot be closed; another start may do")
 
 
-def _length(statics: Statics, motion: Any, change: Array) -> float:
+def _length(statics: DenseStatics | Sparse, motion: Any, change: Array) -> float:
     if not np.all(np.isfinite(change)):
         return np.inf
     return float((np.abs(motion @ change) / statics.lengths).max(initial=0.0))
 
 
 def _newton(
-    statics: Statics, motion: Any, solve: Solver | None, right: tuple[Array, Array], near: float
+    statics: DenseStatics | Sparse, motion: Any, solve: Solver | None, right: tuple[Array, Array], near: float
 ) -> tuple[Array, Array] | None:
     """Return the step of Newton's method, or as much of it as a step may be long, where it is shorter than `near`."""
     if solve is None:
@@ -289,7 +268,11 @@ def _newton(
 
 
 def _down(
-    statics: Statics, at: tuple[Array, Array], matrices: tuple[Any, ...], right: tuple[Array, Array], shift: float
+    statics: DenseStatics | Sparse,
+    at: tuple[Array, Array],
+    matrices: tuple[Any, ...],
+    right: tuple[Array, Array],
+    shift: float,
 ) -> tuple[tuple[Array, Array], float]:
     """Return a step downhill that is short enough, and the s that the next one is to be tried with."""
     (y, work), (motion, even, rows, stiffness), (force, gaps) = at, matrices, right

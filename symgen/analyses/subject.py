@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from msgspec.structs import replace as replaced
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import split
-from symgen.analyses.yardsticks import Yardsticks
 from symgen.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
 from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import compile_side
@@ -21,10 +20,11 @@ from symgen.describe.start import described_start
 from symgen.errors import AssemblyError, InputError, nearest
 from symgen.lower.windings import winding_order
 from symgen.running.inputs import Inputs, put_inputs
-from symgen.running.plan import Plan, Purpose
-from symgen.running.prepare import assemble, begin, make_plan
+from symgen.running.plan import Purpose
+from symgen.running.prepare import make_plan, prepare
 from symgen.running.starts import held_of
 from symgen.runtime import abi
+from symgen.runtime.assembly import Start
 from symgen.runtime.model_arrays import lengths_of
 from symgen.runtime.probe import Ready
 from symgen.settings import Settings
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.compiled import CompiledModel
 
 Array = NDArray[np.float64]
 
@@ -45,6 +45,52 @@ NO_ROW = 1e-11
 BEYOND, HERE = 1e-9, 1e-13
 #: What a name of a rate ends in.
 RATE = ".rate"
+
+
+class Yardsticks:
+    """The measures of what has a compiled model and the scratch of a start."""
+
+    compiled: CompiledModel
+    w: Array
+
+    @property
+    def length(self) -> float:
+        """Length of the mechanism [m]."""
+        return float(self.w[abi.LENGTH]) or 1.0
+
+    @property
+    def lengths(self) -> Array:
+        """What changes of coordinates are compared with: the mechanism's length [m], or 1; shape (nq,)."""
+        return self._of(tuple(q.unit for q in self.compiled.info.coordinates), "m")
+
+    @property
+    def spans(self) -> Array:
+        """A way along each velocity that counts as large: the mechanism's length [m], or 1 rad; shape (nv,)."""
+        return self._of(tuple(v.unit for v in self.compiled.info.velocities), "m/s")
+
+    @property
+    def gaps(self) -> Array:
+        """What violations of rows are compared with: the mechanism's length [m], or 1 rad; shape (m,)."""
+        return self._of(tuple(row.unit for row in self.compiled.info.rows), "m")
+
+    @property
+    def loads(self) -> Array:
+        """What multipliers are divided by to be compared: a moment is the force that has it at the mechanism's length.
+
+        As in runs, whose multipliers are the smallest ones by the same measure; shape (m,).
+        """
+        return self._of(tuple(row.unit for row in self.compiled.info.rows), "rad")
+
+    def moved(self, y: Array, change: Array) -> Array:
+        """Return a state whose coordinates are moved by a change, Euler parameters kept at length 1."""
+        found = y.copy()
+        found[: self.compiled.info.nq] += change
+        for first, _ in self.compiled.info.spins:
+            found[first : first + 4] /= np.linalg.norm(found[first : first + 4])
+        return found
+
+    def _of(self, units: tuple[str, ...], long: str) -> Array:
+        return np.array([self.length if unit == long else 1.0 for unit in units])
 
 
 @dataclass(frozen=True)
@@ -65,12 +111,10 @@ class Subject(Yardsticks):
         The state at the start: q, v, and what stands behind.
     p, w : Array
         Parameters and scratch.
-    notes : tuple of str
-        What was changed to close the mechanism.
     closed : bool
         Whether the start satisfies the constraints.
     by : tuple of str
-        Parameters that derivatives are known by beside the inputs.
+        Parameters that the form is differentiated by beside the inputs.
     inputs : tuple of str
         Those of the file: a mechanism in which formulas stand for them has switches as well.
     """
@@ -82,15 +126,20 @@ class Subject(Yardsticks):
     y: Array
     p: Array
     w: Array
-    notes: tuple[str, ...] = ()
     closed: bool = True
     by: tuple[str, ...] = ()
     inputs: tuple[str, ...] = ()
 
     @property
     def varied(self) -> tuple[str, ...]:
-        """Inputs, then the parameters that derivatives are known by."""
+        """Inputs, then the parameters that the form is differentiated by."""
         return (*self.inputs, *self.by)
+
+    @property
+    def places(self) -> list[int]:
+        """Places of `varied` among all parameters."""
+        names = [q.name for q in self.compiled.info.parameters]
+        return [names.index(name) for name in self.varied]
 
     @property
     def coordinates(self) -> str:
@@ -111,6 +160,11 @@ class Subject(Yardsticks):
     def m(self) -> int:
         """Number of constraint rows."""
         return self.compiled.info.m
+
+    @property
+    def spun(self) -> set[int]:
+        """Coordinates that are Euler parameters."""
+        return {first + k for first, _ in self.compiled.info.spins for k in range(4)}
 
     @property
     def holonomic(self) -> NDArray[np.bool_]:
@@ -137,19 +191,24 @@ class Subject(Yardsticks):
         rates = np.zeros(self.nv) if a is None else a
         return self.form.at(self.t if t is None else t, y, rates, self.p, w)
 
+    def motion(self, y: Array) -> Array:
+        """Return N at a state, over lengths of the mechanism and radians; shape (nq, nv)."""
+        return self.evaluated(y).by("motion", "v") * self.spans
+
     def rows(self, e: Evaluated) -> Array:
         """Return D, with zeros for redundant rows that are nothing but rounding; shape (m, nv)."""
         d = e.by("velocities", "v")
         d[self.redundant & (np.linalg.norm(d * self.spans, axis=1) < NO_ROW * self.gaps)] = 0.0
         return d
 
-    def free(self, e: Evaluated) -> Array:
-        """Return directions that rows leave free, orthonormal where lengths of the mechanism and radians are as long.
+    def split(self, d: Array, loads: Array | None = None) -> tuple[Array, Array]:
+        """Return a basis of what rows leave free and their pseudo-inverse, lengths of the mechanism and radians alike.
 
         In metres a small mechanism turns without moving, and its moments of inertia are none beside its masses.
         """
         spans = self.spans[:, np.newaxis]
-        return np.asarray(spans * split(self.rows(e) * spans.T)[0])
+        basis, inverse, _ = split(d * spans.T, loads)
+        return spans * basis, spans * inverse
 
     def wound(self, y: Array) -> Subject:
         """Return the same with the angles that count turns as they are at a state less than half a turn away."""
@@ -164,10 +223,8 @@ class Subject(Yardsticks):
 
     def as_long_as(self, length: float) -> Subject:
         """Return the same as a mechanism of at least such a length [m]."""
-        if length <= self.length:
-            return self
         w = self.w.copy()
-        w[abi.LENGTH] = length
+        w[abi.LENGTH] = max(self.length, length)
         return replace(self, w=w)
 
     def turned(self, values: Mapping[str, float]) -> Subject:
@@ -179,15 +236,13 @@ class Subject(Yardsticks):
         return replace(self, w=w)
 
     def values_of_inputs(self, y: Array, t: float) -> dict[str, float]:
-        """Return what the inputs are at a state: numbers, or what formulas of the state are there."""
-        places = [q.name for q in self.compiled.info.parameters]
-        found = {name: float(self.p[places.index(name)]) for name in self.inputs}
+        """Return the values of inputs at a state: numbers, or what formulas of the state are there."""
+        values = {name: float(self.p[i]) for name, i in zip(self.inputs, self.places, strict=False)}
         if formulas := self.mechanism.given:
-            said = "what formulas of inputs are"
-            side = compile_side(self.mechanism, self.compiled, "given", said, formulas)
+            side = compile_side(self.mechanism, self.compiled, "given", "what formulas of inputs are", formulas)
             at = side(t, y, self.p, self.w.copy(), np.zeros_like(y))
-            found |= {name: found[name] + float(x) for (name, _), x in zip(formulas, at, strict=True)}
-        return found
+            values |= {name: values[name] + float(x) for (name, _), x in zip(formulas, at, strict=True)}
+        return values
 
     def position(self, name: str) -> tuple[str, int]:
         """Return where a coordinate stands: ``q`` and its index, or ``functions`` and the place of its value.
@@ -200,11 +255,11 @@ class Subject(Yardsticks):
         names = [q.name for q in self.compiled.info.coordinates]
         if name in names:
             return "q", names.index(name)
-        known = {f for f, (_, orders) in self.form.functions.items() if orders == 3}
-        if name in known:
-            return "functions", self.form.functions[name][0]
+        functions = {f: at for f, (at, orders) in self.form.functions.items() if orders == 3}
+        if name in functions:
+            return "functions", functions[name]
         expected = f"a coordinate of {self.mechanism.name}"
-        raise InputError(f"'{name}'", expected, "none of that name", nearest(name, {*names, *known}))
+        raise InputError(f"'{name}'", expected, "none of that name", nearest(name, {*names, *functions}))
 
     def unit(self, name: str) -> str:
         """Return the unit of a coordinate."""
@@ -213,167 +268,105 @@ class Subject(Yardsticks):
 
     def named(self, y: Array) -> dict[str, float]:
         """Return the coordinates by name: the state's own, those of bodies where a tree carries them, and of joints."""
-        info, found = self.compiled.info, self.evaluated(y).value("functions")
-        result = {q.name: float(x) for q, x in zip(info.coordinates, y, strict=False)}
+        values = self.evaluated(y).value("functions")
         shown = {f"{b.name}.{c}" for b in self.mechanism.bodies for c in b.coordinates}
         shown |= {f"{joint.name}.{label}" for joint in self.mechanism.joints for label, _ in joint.coordinates}
-        for name, (at, _) in self.form.functions.items():
-            if name in shown:
-                result[name] = float(found[at])
-        return result
+        own = {q.name: float(x) for q, x in zip(self.compiled.info.coordinates, y, strict=False)}
+        return own | {name: float(values[at]) for name, (at, _) in self.form.functions.items() if name in shown}
 
 
 def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ()) -> Subject:
-    """Return a mechanism with its start, ready to be analysed.
+    """Make a mechanism with its start ready to be analysed.
 
     Parameters
     ----------
     mechanism : Mechanism
         The description.
     settings : Settings
-        ``parameters``, ``inputs``, ``start``, ``coordinates`` and ``shape`` are looked at.
+        ``parameters``, ``inputs``, ``start``, ``coordinates`` and ``shape`` count.
     by : sequence of str
-        Parameters that derivatives are wanted by beside the inputs.
+        Parameters that the form is differentiated by beside the inputs.
 
     Raises
     ------
     InputError
-        If a setting is wrong.
+        If a setting is wrong, or a name of `by` is no parameter.
     """
-    given, inputs = given_at_start(mechanism, settings), mechanism.inputs
-    mechanism, settings = given.mechanism, given.settings
+    placed, inputs = inputs_at_start(mechanism, settings), mechanism.inputs
+    settings = placed.settings
     if settings.shape == "auto":
-        size = mechanism.body_coordinates
-        looped = size > LARGE and settings.coordinates == "absolute"
+        looped = mechanism.body_coordinates > LARGE and settings.coordinates == "absolute"
         settings = replace(settings, shape="looped" if looped else "straight")
-    found = at_start(mechanism, settings)
-    mechanism, compiled, t = found.mechanism, found.compiled, found.t
-    p = _at(compiled, found.p.copy(), given, t)
-    names = _parameters(mechanism, by)
-    form = compile_linearised(_as_given(_varied(mechanism, given), settings.parameters), compiled, (*inputs, *names))
-    state = t, found.y.copy(), p, found.w.copy()
-    return Subject(mechanism, compiled, form, *state, found.notes, found.closed, names, inputs)
+    mechanism, compiled, start, closed = at_start(placed.mechanism, settings)
+    names = [q.name for q in mechanism.parameters]
+    for name in by:
+        if name not in names:
+            expected = f"a parameter of {mechanism.name}"
+            raise InputError(f"by '{name}'", expected, "none of that name", nearest(name, names))
+    by = tuple(name for name in dict.fromkeys(by) if name not in mechanism.inputs)
+    varied = mechanism
+    if placed.driven is not None and mechanism.given:  # what stands in an input's slot is added to its formula
+        varied = replaced(mechanism, forces=placed.driven.varied.forces, outputs=placed.driven.varied.outputs)
+    if any(q.formula is not None and q.name in settings.parameters for q in varied.parameters):
+        plain = (replaced(q, formula=None) if q.name in settings.parameters else q for q in varied.parameters)
+        varied = replaced(varied, parameters=tuple(plain))
+    form = compile_linearised(varied, compiled, (*inputs, *by))
+    p, places = start.p.copy(), {q.name: i for i, q in enumerate(compiled.info.parameters)}
+    for stop in placed.stops[1:]:
+        if stop.t <= start.t * (1.0 + HERE):
+            p[[places[name] for name in stop.values]] = list(stop.values.values())
+    p[[places[name] for name, _ in placed.mechanism.given]] = 0.0
+    compiled.prepare(p)
+    return Subject(mechanism, compiled, form, start.t, start.y.copy(), p, start.w.copy(), closed, by, inputs)
 
 
-def given_at_start(mechanism: Mechanism, settings: Settings) -> Inputs:
-    """Return a mechanism and settings with inputs in their places: known up to the start, which may be one of a run."""
+def inputs_at_start(mechanism: Mechanism, settings: Settings) -> Inputs:
+    """Put inputs into their places up to the start, which may be the end of a run."""
     if isinstance(settings.start, Mapping) or (begin := settings.start.last_state.t) <= 0.0:
         return put_inputs(mechanism, settings)
     # a run from here on begins behind what jumps here; smooth data may end here
-    found = put_inputs(mechanism, replace(settings, until=begin), behind=BEYOND)
-    return replace(found, settings=replace(found.settings, until=2.0 * begin))  # nothing is run
+    inputs = put_inputs(mechanism, replace(settings, until=begin), behind=BEYOND)
+    return replace(inputs, settings=replace(inputs.settings, until=2.0 * begin))  # nothing is run
 
 
-def _at(compiled: CompiledModel, p: Array, given: Inputs, t: float) -> Array:
-    """Return parameters with what inputs that jump are at a time."""
-    places = {q.name: i for i, q in enumerate(compiled.info.parameters)}
-    for stop in given.stops[1:]:
-        if stop.t <= t * (1.0 + HERE):
-            p[[places[name] for name in stop.values]] = list(stop.values.values())
-    p[[places[name] for name, _ in given.mechanism.given]] = 0.0  # see `_varied`
-    compiled.prepare(p)
-    return p
+def at_start(mechanism: Mechanism, settings: Settings) -> tuple[Mechanism, CompiledModel, Start, bool]:
+    """Close a mechanism; where nothing closes it, take it as described, as a static search closes it on its way.
 
-
-def _varied(mechanism: Mechanism, given: Inputs) -> Mechanism:
-    """Return a mechanism in which inputs that follow formulas may be other than these by what stands in their slots."""
-    if given.driven is None or not mechanism.given:
-        return mechanism
-    varied = given.driven.varied
-    return replaced(mechanism, forces=varied.forces, outputs=varied.outputs)
-
-
-def _parameters(mechanism: Mechanism, by: Sequence[str]) -> tuple[str, ...]:
-    """Return the parameters among names, each once.
-
-    Raises
-    ------
-    InputError
-        If one is no parameter.
-    """
-    known = [p.name for p in mechanism.parameters]
-    for name in by:
-        if name not in known:
-            expected = f"a parameter of {mechanism.name}"
-            raise InputError(f"by '{name}'", expected, "none of that name", nearest(name, known))
-    return tuple(name for name in dict.fromkeys(by) if name not in mechanism.inputs)
-
-
-def _as_given(mechanism: Mechanism, given: Mapping[str, float]) -> Mechanism:
-    """Return a mechanism in which parameters that are given numbers follow no formula."""
-    if not any(p.formula is not None and p.name in given for p in mechanism.parameters):
-        return mechanism
-    plain = (replaced(p, formula=None) if p.name in given else p for p in mechanism.parameters)
-    return replaced(mechanism, parameters=tuple(plain))
-
-
-def _extent(mechanism: Mechanism, values: Mapping[str, float], info: ModelInfo, y: Array) -> float:
-    """Return the largest coordinate that is a length, or of a point in its body [m]; 0 where all are at one place."""
-    places = [e for body in mechanism.bodies for _, point in body.points for e in point]
-    places += [e for _, marker in mechanism.seats for e in marker.point]
-    sizes = [abs(evaluate(e, values, "points")) for e in places]
-    return max(float(np.abs(y[: info.nq] * lengths_of(info)).max(initial=0.0)), *sizes, 0.0)
-
-
-class AtStart(NamedTuple):
-    """Code of a mechanism with its state at the start.
-
-    Attributes
-    ----------
+    Returns
+    -------
     mechanism : Mechanism
         With its tree where the state is that of joints.
-    compiled : CompiledModel
-        Its code.
-    t : float
-        Time [s].
-    y, p, w : Array
-        State, parameters and scratch.
-    notes : tuple of str
-        What was changed to close the mechanism.
+    compiled, start : CompiledModel, Start
+        Its code and its start.
     closed : bool
-        Whether the state satisfies the constraints.
-    """
-
-    mechanism: Mechanism
-    compiled: CompiledModel
-    t: float
-    y: Array
-    p: Array
-    w: Array
-    notes: tuple[str, ...] = ()
-    closed: bool = True
-
-
-def at_start(mechanism: Mechanism, settings: Settings) -> AtStart:
-    """Return a mechanism at its start; as described where nothing closes it, which a static search does on its way.
+        Whether the start satisfies the constraints.
 
     Raises
     ------
     AssemblyError
         If nothing closes a mechanism in joint coordinates.
     """
-    plan = make_plan(mechanism, settings, Purpose.STATE)
     try:
-        run = begin(plan, assemble(plan))
+        run = prepare(mechanism, settings, Purpose.STATE)
     except AssemblyError:
+        plan = make_plan(mechanism, settings, Purpose.STATE)
         if plan.coordinates == "joint":
             raise
-        return _as_described(plan)
-    start = run.start
-    return AtStart(run.mechanism, run.compiled, start.t, start.y, start.p, start.w, start.notes)
-
-
-def _as_described(plan: Plan) -> AtStart:
+    else:
+        return run.mechanism, run.compiled, run.start, True
     mechanism, compiled = plan.mechanism, compile_model(plan.mechanism, plan.choice)
     info, values = compiled.info, parameter_values(mechanism, plan.parameters)
     numbers = scalars(values)
     q, v = described_start(mechanism, numbers)
-    held = held_of(info, plan.holds or holds_of(mechanism), numbers, v)
     y, w = np.zeros(info.ny), compiled.scratch()
     y[: info.nq] = q
-    for i, value in held.coordinates.items():
+    for i, value in held_of(info, plan.holds or holds_of(mechanism), numbers, v).coordinates.items():
         y[i] = value
-    w[abi.LENGTH] = _extent(mechanism, values, info, y) or 1.0
+    # the largest coordinate that is a length, or of a point in its body
+    places = [e for body in mechanism.bodies for _, point in body.points for e in point]
+    places += [e for _, marker in mechanism.seats for e in marker.point]
+    sizes = [abs(evaluate(e, values, "points")) for e in places]
+    w[abi.LENGTH] = max(float(np.abs(y[: info.nq] * lengths_of(info)).max(initial=0.0)), *sizes, 0.0) or 1.0
     p = compiled.parameter_array(values, plan.method_parameters)
     compiled.prepare(p)
-    return AtStart(mechanism, compiled, 0.0, y, p, w, closed=False)
+    return mechanism, compiled, Start(y, p, w, 0, (), ()), False

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,8 +43,7 @@ JUMP = 1e-6
 MOST_NAMED, COUNTS = 3, 0.3
 
 
-@dataclass(frozen=True)
-class Traced:
+class Traced(NamedTuple):
     """A motion that was followed; arrays have one row a time, up to where it ended."""
 
     times: Array
@@ -55,41 +54,30 @@ class Traced:
     ended: str
     steps: int
 
-    def reversed(self) -> Traced:
-        """Return the same in the other order."""
-        # copies, as compiled code takes rows that follow each other
-        moved = self.times[::-1].copy(), self.states[::-1].copy(), self.accelerations[::-1].copy()
-        return Traced(*moved, self.status[::-1].copy(), self.passages[::-1], self.ended, self.steps)
 
-
-def trace(found: PrescribedRun, times: Array) -> Traced:
+def trace(run: PrescribedRun, times: Array) -> Traced:
     """Follow a motion through increasing times, those before 0 backwards.
 
     Parameters
     ----------
-    found : PrescribedRun
+    run : PrescribedRun
         Ready, and all driven.
     times : Array, shape (k,)
         Increasing [s].
     """
     first = int(np.searchsorted(times, 0.0))
-    parts = list[Traced]()
-    if first:
-        parts.append(Tracer(found, times[:first][::-1]).run().reversed())
-    if first < len(times):
-        parts.append(Tracer(found, times[first:]).run())
-    if len(parts) == 1:
-        return parts[0]
-    before, behind = parts
-    return Traced(
-        np.concatenate([before.times, behind.times]),
-        np.concatenate([before.states, behind.states]),
-        np.concatenate([before.accelerations, behind.accelerations]),
-        np.concatenate([before.status, behind.status]),
-        before.passages + behind.passages,
-        "; ".join(part.ended for part in parts if part.ended),
-        before.steps + behind.steps,
-    )
+    if not first:
+        return Tracer(run, times).run()
+    back = Tracer(run, times[:first][::-1]).run()
+    # copies, as compiled code takes rows that follow each other
+    rows = (array[::-1].copy() for array in back[:4])
+    before = Traced._make((*rows, back.passages[::-1], back.ended, back.steps))
+    if first == len(times):
+        return before
+    behind = Tracer(run, times[first:]).run()
+    rows = (np.concatenate(arrays) for arrays in zip(before[:4], behind[:4], strict=True))
+    ended = "; ".join(part.ended for part in (before, behind) if part.ended)
+    return Traced._make((*rows, before.passages + behind.passages, ended, before.steps + behind.steps))
 
 
 def followed(times: Array) -> tuple[Array, NDArray[np.bool_]]:
@@ -103,11 +91,11 @@ def followed(times: Array) -> tuple[Array, NDArray[np.bool_]]:
     end = float(times[-1])
     if end == 0.0:
         return times, np.ones(len(times), dtype=bool)
-    given = np.append(0.0, times / end)
+    own = np.append(0.0, times / end)
     more = np.arange(1, FOLLOWED) / FOLLOWED
-    k = np.clip(np.searchsorted(given, more), 1, len(given) - 1)
-    apart = np.minimum(more - given[k - 1], given[k] - more)
-    more = more[(apart > SAME) & (given[k] - given[k - 1] > 1.0 / FOLLOWED + SAME)]
+    k = np.clip(np.searchsorted(own, more), 1, len(own) - 1)
+    apart = np.minimum(more - own[k - 1], own[k] - more)
+    more = more[(apart > SAME) & (own[k] - own[k - 1] > 1.0 / FOLLOWED + SAME)]
     together = np.concatenate([times, more * end])
     order = np.argsort(np.abs(together), kind="stable")
     return together[order], order < len(times)
@@ -115,30 +103,32 @@ def followed(times: Array) -> tuple[Array, NDArray[np.bool_]]:
 
 @dataclass
 class Tracer:
-    """The loop over times that all lie on one side of 0, with what it has found.
+    """The loop over times that all lie on one side of 0, with the singular positions on the way.
 
     Parameters
     ----------
-    found : PrescribedRun
+    motion : PrescribedRun
         Ready, and all driven.
     times : Array, shape (k,)
         In the order in which they are met [s].
     """
 
-    found: PrescribedRun
+    motion: PrescribedRun
     times: Array
     passages: list[Passage] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        compiled, start = self.found.compiled, self.found.start
+        compiled, start = self.motion.compiled, self.motion.start
         info, model = compiled.info, compiled.model
-        self.info, self.p, self.w = info, start.p, start.w.copy()
+        self.compiled, self.info, self.p, self.w = compiled, info, start.p, start.w.copy()
         self.span = max(float(np.abs(self.times).max()), 1e-9)
-        self.times, self.asked = followed(self.times)
+        self.times, self.requested = followed(self.times)
         sections = (info.sections[name][0] for name in ("residual", "change", "mask", "jacobian"))
         length = float(self.w[abi.LENGTH])
         numbers = (info.nq, info.nv, info.m, info.ny, info.windings, *sections, len(start.redundant_rows), info.nv)
         scale = np.array([1.0 if v.unit == "rad/s" else 1.0 / length for v in info.velocities])
+        self.spun = {i for first, _ in info.spins for i in range(first, first + 4)}
+        self.sizes = [1.0 / length if i in self.spun else scale[velocity_of(i, info)] for i in range(info.nq)]
         tolerance = decisions.ROUNDING * length * max(info.m, 1)
         self.course = f.Course._make((*numbers, tolerance, LEAST * self.span, *entries_of(info), scale))
         move = model.move if info.nq != info.nv else compiled_form(stay)
@@ -165,38 +155,38 @@ class Tracer:
     def run(self) -> Traced:
         """Follow the motion through all times, or as far as it goes."""
         info, k = self.info, len(self.times)
-        seen = f.Followed(np.empty((k, info.ny)), np.empty((k, info.nv)), np.empty((k, abi.N_STATUS + info.windings)))
+        rows = f.Followed(np.empty((k, info.ny)), np.empty((k, info.nv)), np.empty((k, abi.N_STATUS + info.windings)))
         ended = ""
         while True:
             # in pieces, between which the process can be interrupted
             done = min(int(self.stand.counts[f.AT]) + PIECE, k)
-            code = self.follow(self.times[:done], seen)
+            code = self.follow(self.times[:done], rows)
             if code == f.DONE:
                 if done == k:
                     break
                 continue
-            if self._choose is not None and self._chosen_anew():
+            if self._chosen_anew():
                 continue
             if code == f.CHOOSE:  # the same ones
                 self.clock[f.BEST] = self.clock[f.SINE]
                 continue
-            crossed = self._cross(code, seen) if code in (f.SINGULAR, f.PASSING) else False
+            crossed = self._cross(code, rows) if code in (f.SINGULAR, f.PASSING) else False
             if not crossed and not self._shortened(code):
                 ended = self._reason(code)
                 break
         if not ended and self.clock[f.SINE] < NEAR and np.isfinite(self.clock[f.SLOPE]):
-            self._cross(f.DONE, seen)  # the last states are beside a singular position
+            self._cross(f.DONE, rows)  # the last states are beside a singular position
         n = int(self.stand.counts[f.AT])
         taken = int(self.stand.counts[f.TAKEN])
-        here: Any = slice(n) if self.asked.all() else np.flatnonzero(self.asked[:n])
-        moved = self.times[here], seen.states[here], seen.accelerations[here]
-        return Traced(*moved, seen.status[here], (*self.passages,), ended, taken)
+        here: Any = slice(n) if self.requested.all() else np.flatnonzero(self.requested[:n])
+        moved = self.times[here], rows.states[here], rows.accelerations[here]
+        return Traced(*moved, rows.status[here], (*self.passages,), ended, taken)
 
-    def follow(self, times: Array, seen: Any) -> int:
+    def follow(self, times: Array, rows: Any) -> int:
         """Enter the compiled loop."""
         here = np.ascontiguousarray(times)
         model = self.course, *self.functions
-        return int(f.follow(model, here, self.p, self.w, self.stand, seen, self.control))
+        return int(f.follow(model, here, self.p, self.w, self.stand, rows, self.control))
 
     def _shortened(self, code: int) -> bool:
         """Take shorter steps from here on; return whether they are long enough to be taken."""
@@ -207,8 +197,9 @@ class Tracer:
 
     def _chosen_anew(self) -> bool:
         """Choose the rows that stand for all at the present position; return whether they are others."""
+        if self._choose is None:
+            return False
         Ready(self.functions[0], abi.MEASURE)(self.clock[f.TIME], self.stand.y, self.p, self.w)
-        assert self._choose is not None, "rows are redundant"
         if not self._choose(self.w):
             return False
         self.stand.counts[f.SETTLED], self.clock[f.REACH] = 0, self.span
@@ -238,7 +229,7 @@ class Tracer:
     def _status_row(self) -> Array:
         return np.empty((1, abi.N_STATUS + self.info.windings))
 
-    def _cross(self, code: int, seen: Any) -> bool:
+    def _cross(self, code: int, rows: Any) -> bool:
         """Go over a singular position ahead, on the branch that continues the motion; return whether there is one."""
         kept, clock = self._taken(), self.clock.copy()
         elapsed = abs(clock[f.TRIED] - clock[f.TIME])
@@ -251,19 +242,19 @@ class Tracer:
         middle = clock[f.TIME] + self.sign * clock[f.SINE] / slope
         for attempt in range(ATTEMPTS):
             width = max(SPACING / slope / 2.0**attempt, abs(middle - clock[f.TIME]))
-            if self._over(middle, width, seen):
+            if self._over(middle, width, rows):
                 return True
             self._back_to(kept)
         return False
 
-    def _over(self, middle: float, width: float, seen: Any) -> bool:
+    def _over(self, middle: float, width: float, rows: Any) -> bool:
         """Go over a singular position near `middle` from states before it to states behind it, `width` apart [s]."""
-        known = list[tuple[Array, ...]]()
+        nodes = list[tuple[Array, ...]]()
         for k in range(1, NODES + 1):
             if not self._at(middle - self.sign * k * width):
                 return False
-            known.append(self._node())
-        guess = curve_through(self.info, known)
+            nodes.append(self._node())
+        guess = curve_through(self.info, nodes)
         t = middle + self.sign * width
         y, a, _ = guess(np.array([t]))
         self.stand.y[:], self.stand.a[:], self.stand.jerk[:] = y[0], a[0], 0.0
@@ -271,19 +262,20 @@ class Tracer:
         nothing = f.Followed(np.empty((0, self.info.ny)), np.empty((0, self.info.nv)), self._status_row()[:0])
         if self.follow(np.zeros(0), nothing) != f.DONE:
             return False
-        if not self._distance(self.stand.y, y[0]) <= CONTINUED * self.clock[f.SINE]:
+        far = np.abs(self.stand.y - y[0])[: self.info.nq] * self.sizes
+        if not far.max() <= CONTINUED * self.clock[f.SINE]:
             return False
         behind = self._taken()
         for k in range(1, NODES + 1):
             if not self._at(middle + self.sign * k * width):
                 return False
-            known.append(self._node())
-        known.sort(key=lambda node: float(node[0][0]))
-        curve = curve_through(self.info, known)
+            nodes.append(self._node())
+        nodes.sort(key=lambda node: float(node[0][0]))
+        curve = curve_through(self.info, nodes)
         self._back_to(behind)
         t = self._place(curve, middle, width)
         self.passages.append(self._passage(t, "passed", curve))
-        self._write(curve, middle - self.sign * width, middle + self.sign * width, seen)
+        self._write(curve, middle - self.sign * width, middle + self.sign * width, rows)
         self.clock[f.REACH] = self.span
         return True
 
@@ -294,74 +286,53 @@ class Tracer:
         now = np.array([self.clock[f.TIME]]), q, rates_of(self.info, q, v), v, s.a.copy(), s.turned.copy()
         return (*now, np.array([self.clock[f.SINE]]))
 
-    def _write(self, curve: Curve, first: float, last: float, seen: Any) -> None:
+    def _write(self, curve: Curve, first: float, last: float, rows: Any) -> None:
         """Write the outputs between two times from a curve, and go on behind them."""
         here = np.flatnonzero((self.sign * (self.times - first) > 0.0) & (self.sign * (self.times - last) < 0.0))
         geometry, measure = (Ready(function, abi.MEASURE) for function in self.functions[:2])
         if len(here):
             states, rates, turned = curve(self.times[here])
-            seen.states[here], seen.accelerations[here] = states, rates
+            rows.states[here], rows.accelerations[here] = states, rates
             w, count = self.w.copy(), self.info.windings
             for k, y, turns in zip(here, states, turned, strict=True):
                 w[abi.WINDING : abi.WINDING + count] = turns
                 geometry(float(self.times[k]), y, self.p, w)
                 measure(float(self.times[k]), y, self.p, w)
-                seen.status[k] = np.append(w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + count])
+                rows.status[k] = np.append(w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + count])
         self.stand.counts[f.AT] = int(np.count_nonzero(self.sign * (self.times - last) < 0.0))
-
-    def _distance(self, y: Array, other: Array) -> float:
-        """Return how far the positions of two states are apart, as a number."""
-        info, scale, length = self.info, self.course.scale, float(self.w[abi.LENGTH])
-        spun = {i for first, _ in info.spins for i in range(first, first + 4)}
-        sizes = [
-            abs(y[i] - other[i]) * (1.0 / length if i in spun else scale[velocity_of(i, info)]) for i in range(info.nq)
-        ]
-        return float(max(sizes))
 
     def _place(self, curve: Curve, middle: float, width: float) -> float:
         """Return where the determinant of D changes its sign, near `middle`."""
+        from scipy.optimize import bisect
 
         def sign(t: float) -> float:
             y, _, _ = curve(np.array([t]))
-            d = jacobian_at(self.found.compiled, t, y[0], self.p, self.w)
-            kept = self.found.compiled.section(self.w, "mask") == 0.0
-            return float(np.linalg.slogdet(d[kept])[0])
+            d = jacobian_at(self.compiled, t, y[0], self.p, self.w)
+            return float(np.linalg.slogdet(d[self.compiled.section(self.w, "mask") == 0.0])[0])
 
-        low, high = middle - width, middle + width
-        before = sign(low)
-        if before == sign(high):
+        if sign(middle - width) == sign(middle + width):
             return middle
-        for _ in range(60):
-            t = 0.5 * (low + high)
-            if not low < t < high:
-                break
-            low, high = (t, high) if sign(t) == before else (low, t)
-        return 0.5 * (low + high)
+        return float(bisect(sign, middle - width, middle + width, xtol=1e-300, maxiter=60, disp=False))
 
     # -- words ---------------------------------------------------------------------------------------------------------
 
     def _passage(self, t: float, kind: str, curve: Curve | None) -> Passage:
-        """Return what is known of a singular position: of the curve there, or of where the loop stands."""
+        """Return a singular position: of the curve there, or where the loop stands."""
         y = self.stand.y if curve is None else curve(np.array([t]))[0][0]
         info = self.info
-        d = jacobian_at(self.found.compiled, t, y, self.p, self.w)
-        left, _, right = np.linalg.svd(d[self.found.compiled.section(self.w, "mask") == 0.0])
+        kept = np.flatnonzero(self.compiled.section(self.w, "mask") == 0.0)
+        left, _, right = np.linalg.svd(jacobian_at(self.compiled, t, y, self.p, self.w)[kept])
         moving, holding = np.abs(right[-1]), np.abs(left[:, -1])
         order = [j for j in np.argsort(-moving) if moving[j] > COUNTS * moving.max()]
-        kept = np.flatnonzero(self.found.compiled.section(self.w, "mask") == 0.0)
-        kinds = {joint.name: joint.kind for joint in self.found.mechanism.joints}
-        involved = [info.rows[kept[i]].joint for i in range(len(kept)) if holding[i] > CUTOFF**0.5 * holding.max()]
-        positions = {velocity_of(i, info): c.name for i, c in enumerate(info.coordinates) if not self._spun(i)}
+        drivers = dict.fromkeys(info.rows[i].joint for i in kept[holding > CUTOFF**0.5 * holding.max()])
+        kinds = {joint.name: joint.kind for joint in self.motion.mechanism.joints}
+        positions = {velocity_of(i, info): c.name for i, c in enumerate(info.coordinates) if i not in self.spun}
         names = [positions.get(int(j), info.velocities[j].name) for j in order[:MOST_NAMED]]
-        drivers = dict.fromkeys(name for name in involved if kinds[name] == DRIVER)
-        return Passage(float(t), kind, tuple(names), tuple(drivers))
-
-    def _spun(self, coordinate: int) -> bool:
-        return any(first <= coordinate < first + 4 for first, _ in self.info.spins)
+        return Passage(float(t), kind, tuple(names), tuple(name for name in drivers if kinds[name] == DRIVER))
 
     def _reason(self, code: int) -> str:
         """Return why the motion does not go on, in a sentence."""
-        t, sine, slope = self.clock[f.TIME], self.clock[f.SINE], self.clock[f.SLOPE]
+        t, sine, slope, least = self.clock[f.TIME], self.clock[f.SINE], self.clock[f.SLOPE], self.course.least
         if code == f.UNDEFINED:
             return f"a formula is not finite behind t = {t:.9g} s"
         if sine < SPACING:
@@ -369,24 +340,13 @@ class Tracer:
             passage = self._passage(t + self.sign * rest, "dead centre", None)
             self.passages.append(passage)
             return passage.words
-        rows = [i for i, row in enumerate(self.info.rows) if self._jumps(i)]
-        if rows:
-            who = ", ".join(dict.fromkeys(f"'{self.info.rows[i].joint}'" for i in rows))
-            least, rates = self.course.least, np.abs(self.found.compiled.section(self.w, "nu"))
-            if all(2.0 * rates[i] * least > JUMP * self._size(i, self.w) for i in rows):
-                return (
-                    f"{who} goes too far behind t = {t:.9g} s in {least:.3g} s, the shortest step of so long a motion"
-                )
-            return f"the value of {who} jumps at t = {t:.9g} s"
-        return f"no position near the last one closes the mechanism behind t = {t:.9g} s"
-
-    def _jumps(self, row: int) -> bool:
-        """Whether a row is open a moment later although nothing has moved."""
+        # rows that are open a moment later although nothing has moved; the last attempt was nearer
         w = self.w.copy()
-        later = float(self.clock[f.TIME]) + self.sign * 2.0 * self.course.least  # the last attempt was nearer
-        Ready(self.functions[0], abi.MEASURE)(later, self.stand.y.copy(), self.p, w)
-        return bool(abs(self.found.compiled.section(w, "residual")[row]) > JUMP * self._size(row, w))
-
-    def _size(self, row: int, w: Array) -> float:
-        """Return what a row is measured by."""
-        return float(w[abi.LENGTH]) if self.info.rows[row].unit == "m" else 1.0
+        Ready(self.functions[0], abi.MEASURE)(float(t) + self.sign * 2.0 * least, self.stand.y.copy(), self.p, w)
+        sizes = np.array([float(w[abi.LENGTH]) if row.unit == "m" else 1.0 for row in self.info.rows])
+        jumps = np.flatnonzero(np.abs(self.compiled.section(w, "residual")) > JUMP * sizes)
+        if len(jumps):
+            who = ", ".join(dict.fromkeys(f"'{self.info.rows[i].joint}'" for i in jumps))
+            long = f"or goes too far in {least:.3g} s, the shortest step of so long a motion"
+            return f"the value of {who} jumps at t = {t:.9g} s, {long}"
+        return f"no position near the last one closes the mechanism behind t = {t:.9g} s"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from symgen.analyses.kinds import ANALYSES, AnalysisTable, Note, Option
+from symgen.analyses.kinds import ANALYSES, AnalysisTable, Option
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
 from symgen.cli._options import (
     assignments,
@@ -109,13 +109,11 @@ def _range(flag: str, text: str) -> tuple[str, NDArray[np.float64]]:
     return name.strip(), parse(values.strip(), f"{flag} {name.strip()}")
 
 
-def _show(item: str | AnalysisTable | Note | Mapping[str, Mapping[str, Any]]) -> None:
+def _show(item: str | AnalysisTable | Mapping[str, Mapping[str, Any]]) -> None:
     from symgen.cli._tables import show_quantities, show_table
 
     if isinstance(item, str):
         click.echo(item)
-    elif isinstance(item, Note):
-        tell([item.text])
     elif isinstance(item, AnalysisTable):
         show_table(item)
     else:

@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 import math
+import tomllib
 
 from support.emitted import mechanism_of
 
 import symgen
+from analyses import linkages
 
 GRAVITY = 9.81
+
+
+def of_raw(raw):
+    return symgen.load(mechanism_of(raw))
+
+
+def of_text(text):
+    return of_raw(tomllib.loads(text))
 
 
 def model(bodies, joints, space="planar", **sections):
     """A model of a raw description, hanging in gravity."""
     down = [0.0, -GRAVITY] if space == "planar" else [0.0, 0.0, -GRAVITY]
     head = {"name": "rods", "space": space, "gravity": sections.pop("gravity", down)}
-    return symgen.load(mechanism_of({"mechanism": head, "bodies": bodies, "joints": joints, **sections}))
+    return of_raw({"mechanism": head, "bodies": bodies, "joints": joints, **sections})
 
 
 def pin(first, second, a, b, kind="revolute", **more):
@@ -95,30 +105,14 @@ def catenary(angle, n=10, span=1.0):
 
 def four_bar(doubled=False):
     """Rods of 1, 3 and 3 m and kg on ground pins 4 m apart; the pin of coupler and rocker stays above the ground."""
-
-    def rod(mass, length, first, second, place, angle):
-        ends = {first: [-length / 2, 0.0], second: [length / 2, 0.0]}
-        inertia = mass * length**2 / 12
-        return {"mass": mass, "inertia": inertia, "points": ends, "position": place, "angle": angle}
-
-    bodies = {
-        "crank": rod(1.0, 1.0, "A", "B", [0.25, 0.43], math.pi / 3),
-        "coupler": rod(3.0, 3.0, "B", "C", [2.0, 1.3], 0.4),
-        "rocker": rod(3.0, 3.0, "D", "C", [3.7, 1.3], 1.8),
-    }
-    joints = {
-        "A": pin("ground", "crank", GROUND2, "A"),
-        "B": pin("crank", "coupler", "B", "B"),
-        "C": pin("coupler", "rocker", "C", "C"),
-        "D": pin("ground", "rocker", [4.0, 0.0], "D"),
-    }
+    raw = linkages.four_bar((4.0, 1.0, 3.0, 3.0), math.pi / 3, None, (1.0, 3.0, 3.0))
     if doubled:  # the same place, written so that no row is one of the other joint's
-        joints["D2"] = pin("rocker", "ground", "D", [4.0, 0.0])
-        joints["link"] = pin("ground", "rocker", [4.0, 2.0], "D", "distance", length=2.0)
-    return model(bodies, joints)
+        raw["joints"]["D2"] = pin("rocker", "ground", "near", [4.0, 0.0])
+        raw["joints"]["link"] = pin("ground", "rocker", [4.0, 2.0], "near", "distance", length=2.0)
+    return model(raw["bodies"], raw["joints"])
 
 
-def mass_spring_damper():
+def mass_spring_damper(**sections):
     """A body on a rail with a spring and a damper to the ground, and a force as input."""
     body = {"mass": 1.6, "inertia": 0.1, "position": [0.5, 0.0], "points": {"P": [0.0, 0.0]}}
     rail = pin("ground", "body", GROUND2, "centre", "translational", axis=[1.0, 0.0])
@@ -132,4 +126,5 @@ def mass_spring_damper():
         inputs={"push": 0.0},
         forces={"spring": {**spring, "stiffness": "k", "damping": "c"}, "push": push},
         outputs={"where": "body.x", "pull": "spring.force", "both": "2*body.vx + push"},
+        **sections,
     )

@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from analyses import rods
-from analyses.test_what_is_said import COLUMN, made
+from analyses.test_what_is_said import column
 from symgen.errors import InputError
 
 #: Stiffness [N/m] of a spring that has nothing to do with the rest.
@@ -40,30 +40,12 @@ def test_a_rod_beside_a_stiff_spring(stiffness, way):
 
 @pytest.mark.parametrize("way", WAYS[::2], ids=str)
 def test_a_column_flutters_beside_a_stiff_spring(way):
-    model = made(COLUMN + STIFF_BLOCK)
+    block, rail, spring = beside(1e12, 1.0)
+    model = column(bodies={"block": block}, joints={"rail": rail}, forces={"spring": spring})
     for load, word in ((1.0, "stable"), (3.0, "unstable")):
         assert model.equilibrium(parameters={"load": load}, **way).stability == word
     with pytest.raises(InputError, match="forces that have a potential"):
         model.modes(parameters={"load": 3.0}, count=1)
-
-
-STIFF_BLOCK = """
-[bodies.aside]
-type = "point"
-mass = 1.0
-position = [5.0, 0.0]
-[joints.aside_rail]
-type = "pin-in-slot"
-between = ["aside", "ground"]
-at = ["centre", [5.0, 0.0]]
-axis = [1.0, 0.0]
-[forces.aside_spring]
-type = "spring-damper"
-between = ["ground", "aside"]
-at = [[4.0, 0.0], "centre"]
-stiffness = 1e12
-free_length = 1.0
-"""
 
 
 def test_a_damper_beside_a_stiff_spring():

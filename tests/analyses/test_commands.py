@@ -96,8 +96,7 @@ def test_bad_use_ends_in_a_sentence(cli, words, code, says):
 
 MASS = '''"""Find the mass of a mechanism."""
 
-from symgen.analyses.kinds import Analysis, Option, AnalysisOutput
-from symgen.analyses.kinds._settings import settings_of
+from symgen.analyses.kinds import Analysis, Option, AnalysisOutput, settings_of
 
 
 def mass(model, settings=None, **changes):

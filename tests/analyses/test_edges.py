@@ -33,17 +33,17 @@ CASES = {
 SENTENCE = "formulas with a kink or a jump at this state count with the derivative of one side"
 
 
-@pytest.fixture(scope="module")
-def held():
-    def model(force: str) -> Model:
-        built = MechanismBuilder("held", gravity=(0.0, 0.0)).run(until=1.0).body("a", type="point", mass=1.0)
-        return symgen.load(built.force("f", "force", body="a", force=["-2*a.x", force]).build())
-
-    return model
+def held(force: str, output: str = "", table: bool = False) -> Model:
+    """A point that a spring holds along x, with a force along y that may read an input and a table."""
+    built = MechanismBuilder("held", gravity=(0.0, 0.0)).run(until=1.0).body("a", type="point", mass=1.0)
+    built = built.input("push", 0.0) if output else built
+    built = built.table("lines", x=[-1.0, 0.0, 1.0], y=[2.0, 0.0, -3.0], interpolation="linear") if table else built
+    built = built.force("f", "force", body="a", force=["-2*a.x", force])
+    return symgen.load((built.output("seen", output) if output else built).build())
 
 
 @pytest.mark.parametrize("force", CASES)
-def test_forces_without_a_derivative_are_named(held, force):
+def test_forces_without_a_derivative_are_named(force):
     model = held(force)
     for found in (model.equilibrium(), model.modes(), model.linearise(at="start")):
         assert found.to_dict()["notes"] == list(found.notes)
@@ -63,31 +63,23 @@ OUTPUTS = {
 
 @pytest.mark.parametrize("output", OUTPUTS)
 def test_outputs_without_a_derivative_are_named(output):
-    built = MechanismBuilder("held", gravity=(0.0, 0.0)).run(until=1.0).body("a", type="point", mass=1.0)
-    built = built.input("push", 0.0).force("f", "force", body="a", force=["-2*a.x", "push - 3*a.y"])
-    notes = symgen.load(built.output("seen", output).build()).linearise().notes
+    notes = held("push - 3*a.y", output).linearise().notes
     assert notes == (() if OUTPUTS[output] else (f"{SENTENCE}: output 'seen'",))
 
 
 @pytest.mark.parametrize("force", ["max(0, push)", "sign(push)*sqrt(abs(push))"])
 def test_formulas_without_a_derivative_by_an_input_are_named_together(force):
-    built = MechanismBuilder("held", gravity=(0.0, 0.0)).run(until=1.0).body("a", type="point", mass=1.0)
-    built = built.input("push", 0.0).force("f", "force", body="a", force=["-2*a.x", f"{force} - 3*a.y"])
-    model = symgen.load(built.output("seen", "abs(push)").build())
-    (note,) = model.linearise().notes
-    assert note == f"{SENTENCE}: force 'f', output 'seen'"
+    model = held(f"{force} - 3*a.y", "abs(push)")
+    assert model.linearise().notes == (f"{SENTENCE}: force 'f', output 'seen'",)
     assert not model.linearise(inputs={"push": 0.3}).notes
 
 
 def test_a_table_of_straight_lines_has_kinks_at_its_points():
-    built = MechanismBuilder("held", gravity=(0.0, 0.0)).run(until=1.0).body("a", type="point", mass=1.0)
-    built = built.table("lines", x=[-1.0, 0.0, 1.0], y=[2.0, 0.0, -3.0], interpolation="linear")
-    model = symgen.load(built.force("f", "force", body="a", force=["-2*a.x", "lines(a.y)"]).build())
-    assert model.equilibrium().notes == (f"{SENTENCE}: force 'f'",)
+    assert held("lines(a.y)", table=True).equilibrium().notes == (f"{SENTENCE}: force 'f'",)
 
 
 @pytest.mark.parametrize("force", ["-3*sign(a.y)", "-3*a.y - 2*max(a.vy, 0)", "-3*a.y*abs(a.y)", "-3*a.y"])
-def test_large_mechanisms_name_the_same(held, force):
+def test_large_mechanisms_name_the_same(force):
     model = held(force)
     assert model.equilibrium(shape="looped").notes == model.equilibrium().notes
     if force == "-3*a.y":

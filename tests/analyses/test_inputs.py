@@ -1,13 +1,10 @@
 """Linear systems whose inputs follow formulas or data: changes are those beside what is given, derived by hand."""
 
-import tomllib
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from symgen.api import Model
-from symgen.describe.validate import validate
+from analyses.rods import of_text
 from symgen.errors import InputError
 
 MASS, STIFFNESS = 2.0, 30.0
@@ -53,7 +50,7 @@ GIVEN = {
 
 @pytest.fixture(scope="module")
 def model():
-    return Model(validate(tomllib.loads(FILE), "test"))
+    return of_text(FILE)
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
@@ -97,13 +94,13 @@ value = "0.1*t"
     ],
 )
 def test_prescribed_motions_before_zero_have_what_inputs_are_then(given, expected):
-    driven = Model(validate(tomllib.loads(DRIVEN), "test"))
+    driven = of_text(DRIVEN)
     found = driven.kinematics([-0.1, 0.0, 0.1, 0.3], inputs={"push": given})
     assert_allclose(found.efforts["motor"], np.negative(expected), rtol=0.0, atol=1e-12)
 
 
 def test_smooth_data_cover_the_times_before_zero():
-    driven = Model(validate(tomllib.loads(DRIVEN), "test"))
+    driven = of_text(DRIVEN)
     short = {"t": [0.0, 0.1, 0.2, 0.3], "u": [0.0, 0.1, 0.2, 0.3], "interpolation": "cubic"}
     with pytest.raises(InputError, match=r"data from -0\.1 to 0\.3 s"):
         driven.kinematics([-0.1, 0.3], inputs={"push": short})

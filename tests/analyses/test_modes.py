@@ -117,6 +117,11 @@ def test_four_bar_by_sympy_s_linearizer():
     assert_allclose(-found.A[1, 0], 22.57021890188508, rtol=1e-9)
 
 
+def test_what_drivers_hold_has_the_empty_system():
+    model = symgen.load("driven-four-bar")
+    assert model.linearise().states == () and model.modes().degrees_of_freedom == 0
+
+
 def test_a_library_that_is_missing_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "control", None)
     with pytest.raises(InputError, match="pip install control"):

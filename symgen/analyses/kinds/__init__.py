@@ -11,7 +11,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
+from symgen.errors import InputError
 from symgen.registry import Registry
+from symgen.settings import Settings, changed
+
+#: Settings that count for analyses about a state, and for motions that drivers prescribe.
+OF_STATES = ("parameters", "inputs", "start", "coordinates", "shape")
+OF_MOTIONS = ("parameters", "inputs", "start", "strict", "shape")
+#: Those of them that count where drivers say the motion, not where it was recorded.
+OF_DRIVEN = ("start", "strict")
+#: And beside those of states for a run that leads to one.
+OF_RUNS = (*OF_STATES, "options", "events", "strict", "max_violation", "max_energy_error", "max_step", "max_attempts")
 
 Kind = Literal["text", "texts", "whole", "switch", "words", "numbers", "range", "times", "plot", "tables"]
 
@@ -106,13 +116,6 @@ class AnalysisTable:
 
 
 @dataclass(frozen=True)
-class Note:
-    """A sentence on standard error, where no JSON is wanted."""
-
-    text: str
-
-
-@dataclass(frozen=True)
 class AnalysisOutput:
     """What a command puts out.
 
@@ -121,7 +124,7 @@ class AnalysisOutput:
     json : mapping
         With ``--json``.
     shown : iterable
-        Without: lines, tables, notes, or mappings, which are extremes of quantities by name.
+        Without: lines, tables, or mappings, which are extremes of quantities by name.
     notes : iterable of str
         Sentences on standard error.
     ended : str
@@ -131,7 +134,7 @@ class AnalysisOutput:
     """
 
     json: Mapping[str, Any]
-    shown: Iterable[str | AnalysisTable | Note | Mapping[str, Mapping[str, Any]]]
+    shown: Iterable[str | AnalysisTable | Mapping[str, Mapping[str, Any]]]
     notes: Iterable[str] = ()
     ended: str = ""
     files: Mapping[Path | None, Callable[[Path], object]] = field(default_factory=dict)
@@ -158,6 +161,28 @@ class Analysis:
     command: Callable[..., AnalysisOutput]
     options: tuple[Option, ...]
     examples: tuple[str, ...]
+
+
+def settings_of(
+    where: str, settings: Settings | None, changes: Mapping[str, object], counting: Sequence[str] = OF_STATES
+) -> Settings:
+    """Replace single settings.
+
+    Raises
+    ------
+    InputError
+        If a single one would count for nothing; of settings that are given all at once, those are of no account.
+    """
+    whole = changed(settings, changes)
+    for name in changes:
+        if name not in counting:
+            raise InputError(f"{where}: {name}", f"one of {', '.join(counting)}", "a setting of runs")
+    return whole
+
+
+def settings_at(where: str, settings: Settings | None, changes: Mapping[str, object], at: str | float) -> Settings:
+    """Return settings of an analysis about a place; those of a run count where one leads there."""
+    return settings_of(where, settings, changes, OF_STATES if isinstance(at, str) else OF_RUNS)
 
 
 ANALYSES: Registry[Analysis] = Registry(__name__, "analysis")

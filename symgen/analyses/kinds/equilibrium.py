@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from symgen.analyses.kinds import STATE, Analysis, AnalysisOutput, AnalysisTable, Option
-from symgen.analyses.kinds._settings import settings_of
+from symgen.analyses.kinds import STATE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_of
 from symgen.errors import InputError
 from symgen.settings import Settings
 

@@ -6,8 +6,17 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from symgen.analyses.kinds import Analysis, AnalysisOutput, AnalysisTable, Note, Option, of_motion, of_tables
-from symgen.analyses.kinds._settings import OF_DRIVEN, OF_MOTIONS, settings_of
+from symgen.analyses.kinds import (
+    OF_DRIVEN,
+    OF_MOTIONS,
+    Analysis,
+    AnalysisOutput,
+    AnalysisTable,
+    Option,
+    of_motion,
+    of_tables,
+    settings_of,
+)
 from symgen.errors import InputError
 from symgen.settings import Settings, flag, is_given
 
@@ -87,7 +96,7 @@ def command(
     return AnalysisOutput(
         result.to_json(),
         _shown(result),
-        result.notes,
+        (*result.notes, *filter(None, [result.too_few()])),
         result.ended,
         {
             save: lambda path: result.save(path, ("efforts", *quantities) if quantities else ()),
@@ -96,7 +105,7 @@ def command(
     )
 
 
-def _shown(result: Inverse) -> Iterator[str | AnalysisTable | Note]:
+def _shown(result: Inverse) -> Iterator[str | AnalysisTable]:
     """Yield what sizes each actuator: its largest effort and when, root mean square, peak power and energy."""
     yield f"{result.mechanism}: efforts at {len(result.t)} times"
     columns = {"largest": "max", "rms": "rms", "unit": "unit", "at [s]": "at"}
@@ -106,8 +115,6 @@ def _shown(result: Inverse) -> Iterator[str | AnalysisTable | Note]:
         for name, entry in result.summary().items()
     ]
     yield AnalysisTable(("effort", *columns), rows, left=("effort", "unit"))
-    if few := result.too_few():
-        yield Note(few)
 
 
 KIND = Analysis(

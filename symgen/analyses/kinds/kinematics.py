@@ -6,8 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from symgen.analyses.kinds import Analysis, AnalysisOutput, Option, of_motion, of_tables
-from symgen.analyses.kinds._settings import OF_MOTIONS, settings_of
+from symgen.analyses.kinds import OF_MOTIONS, Analysis, AnalysisOutput, Option, of_motion, of_tables, settings_of
 from symgen.settings import Settings
 
 if TYPE_CHECKING:

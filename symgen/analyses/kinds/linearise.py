@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option
-from symgen.analyses.kinds._settings import settings_at
+from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
 from symgen.settings import Settings
 
 if TYPE_CHECKING:

@@ -7,8 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from symgen import arguments
-from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option
-from symgen.analyses.kinds._settings import settings_at
+from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
 from symgen.errors import InputError
 from symgen.settings import Settings
 
