@@ -17,8 +17,8 @@ from symgen import arguments
 from symgen.analyses.places import Array, NamedPlace, modes_at, range_of
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, SymgenError
-from symgen.files import write_whole
-from symgen.result.export import PLOTTED, check_path
+from symgen.files import check_path, write_whole
+from symgen.result.export import PLOTTED
 from symgen.result.plots import COLOURS
 
 Complex = NDArray[np.complex128]

@@ -172,8 +172,8 @@ def output_file(option: str, text: str | None, kind: str = "") -> Path | None:
     """
     if text is None:
         return None
-    from symgen.files import check_writable
-    from symgen.result.export import COLUMNS, PLOTTED, SAVED, check_path
+    from symgen.files import check_path, check_writable
+    from symgen.result.export import COLUMNS, PLOTTED, SAVED
 
     path = Path(text)
     if kind:

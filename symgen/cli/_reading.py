@@ -71,12 +71,12 @@ def write_page(name: str, settings: Settings, output: str) -> None:
     """Write the page of a mechanism."""
     from symgen.api import load
     from symgen.errors import AssemblyError
-    from symgen.files import write_whole
-    from symgen.player.motion_page import check_page
-    from symgen.reading.function_source import text_of
+    from symgen.files import check_path, write_whole
+    from symgen.player.motion_page import PAGES
+    from symgen.reading.listing import text_of
     from symgen.reading.page import MOST_STRAIGHT, PageSubject, check_size, page
 
-    path = check_page("inspect: -o", Path(output))
+    path = check_path("inspect: -o", Path(output), PAGES, "plot")
     model = load(name)
     check_size(model.mechanism)
     speeds = sum(len(body.speeds) for body in model.mechanism.bodies)

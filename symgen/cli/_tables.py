@@ -1,17 +1,129 @@
-"""What commands show on a terminal of runs, analyses and comparisons."""
+"""Tables as a terminal shows them: every name and number whole, wide tables in parts."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from symgen.cli._columns import TableColumn, columns_of, console, fitting, show, show_facts, show_parts
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
 
 if TYPE_CHECKING:
     from symgen.analyses.kinds import AnalysisTable as Shown
+    from symgen.ensemble.sweep_study import Sweep
     from symgen.result.result import Result
     from symgen.study.comparison.compare import Study
     from symgen.study.comparison.comparison_rows import Row
+    from symgen.study.stress.stress_rows import Limit, Stress
+
+
+#: Between two columns.
+GAP = 2
+COLOURS = {"ok": "green", "unverified": "yellow", "failed": "red"}
+
+
+def console() -> Console:
+    """Return a console on standard output; where that is no terminal, wide enough that no figure is cut."""
+    wide = Console(highlight=False, markup=False)
+    return wide if wide.is_terminal else Console(highlight=False, markup=False, width=200)
+
+
+@dataclass(frozen=True)
+class TableColumn:
+    """A column of a table.
+
+    Attributes
+    ----------
+    heading : str
+        Its name.
+    cells : tuple of str
+        One a row.
+    left : bool
+        Whether it is flush left, as words are.
+    weight : int
+        How important it is: the columns of least weight are left out first; 0 is never left out.
+    coloured : bool
+        Whether its cells are statuses, which have colours.
+    """
+
+    heading: str
+    cells: tuple[str, ...]
+    left: bool = False
+    weight: int = 0
+    coloured: bool = False
+
+    @property
+    def width(self) -> int:
+        """Its longest cell or heading."""
+        return max(map(len, (self.heading, *self.cells)), default=0)
+
+
+def room(columns: Sequence[TableColumn]) -> int:
+    """Return how wide a table of columns is."""
+    return sum(column.width for column in columns) + GAP * (len(columns) - 1)
+
+
+def fitting(columns: Sequence[TableColumn], width: int) -> list[TableColumn]:
+    """Return the columns without the least important ones, so that they fit if they can."""
+    kept = list(columns)
+    while room(kept) > width and any(column.weight for column in kept):
+        kept.remove(min((c for c in kept if c.weight), key=lambda c: c.weight))
+    return kept
+
+
+def in_parts(columns: Sequence[TableColumn], width: int, first: int = 1) -> Iterator[list[TableColumn]]:
+    """Yield tables of as many columns as fit, each beginning with the first ones."""
+    head, part = list(columns[:first]), list[TableColumn]()
+    for column in columns[first:]:
+        if part and room([*head, *part, column]) > width:
+            yield [*head, *part]
+            part = []
+        part.append(column)
+    yield [*head, *part]
+
+
+def columns_of(
+    headings: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    left: Sequence[str] = (),
+    weights: Mapping[str, int] | None = None,
+) -> list[TableColumn]:
+    """Return the columns of rows of cells, with the headings of those that are flush left and the weights of some."""
+    cells = list(zip(*rows, strict=True)) or [()] * len(headings)
+    of = weights or {}
+    return [TableColumn(h, c, h in left, of.get(h, 0), h == "status") for h, c in zip(headings, cells, strict=True)]
+
+
+def show(out: Console, columns: Sequence[TableColumn], title: str = "") -> None:
+    """Print a table, none of its cells cut: what is wider than the terminal goes on in the next line."""
+    table = Table(title=title or None, title_justify="left", box=None, header_style="dim", pad_edge=False)
+    for column in columns:
+        side: Any = "left" if column.left else "right"
+        table.add_column(column.heading, justify=side, no_wrap=True, min_width=column.width, overflow="fold")
+    for row in zip(*(column.cells for column in columns), strict=True):
+        pairs = zip(columns, row, strict=True)
+        table.add_row(*(Text(cell, COLOURS.get(cell, "") if column.coloured else "") for column, cell in pairs))
+    out.print(table, soft_wrap=room(columns) > out.width, crop=False)
+
+
+def show_parts(out: Console, columns: Sequence[TableColumn], title: str = "") -> None:
+    """Print a table, on a narrow terminal in parts."""
+    for k, part in enumerate(in_parts(columns, out.width)):
+        show(out, part, "" if k else title)
+
+
+def show_facts(out: Console, facts: Iterable[tuple[str, str]]) -> None:
+    """Print labels with what belongs to them; statuses have colours."""
+    table = Table(show_header=False, box=None, pad_edge=False)
+    table.add_column(style="dim")
+    table.add_column(overflow="fold")
+    for label, text in facts:
+        status = text.partition(" ")[0].rstrip(":") if label == "status" else ""
+        table.add_row(label, Text(text, COLOURS.get(status, "")))
+    out.print(table)
 
 
 def show_result(result: Result) -> None:
@@ -106,3 +218,70 @@ def _cells(row: Row) -> tuple[str, ...]:
         *("" if row.cost_ratio is None else f"{row.cost_ratio:.2f}", str(row.evaluations)),
         *(f"{row.position_violation_max:.1e}", f"{row.velocity_violation_max:.1e}", f"{row.energy_drift_max:.1e}"),
     )
+
+
+def show_stress(study: Stress) -> None:
+    """Print a stress study."""
+    from symgen.study.stress.findings import findings
+    from symgen.study.stress.map import LEGEND, Map
+
+    out = console()
+    out.print(f"{', '.join(study.models)}: {len(study.rows)} cells")
+    shown = Map.of(study)
+    if shown.rows:
+        table = Table(box=None, header_style="dim", pad_edge=False)
+        table.add_column("method", no_wrap=True)
+        table.add_column("integrator", no_wrap=True)
+        for family in shown.families:
+            table.add_column(family.replace("-", " "), overflow="fold")
+        for line in shown.lines:
+            cells = []
+            for family in shown.families:
+                entry = shown.entry(line, family)
+                style = "" if not entry.judged else "green" if entry.good == entry.judged else "yellow"
+                cells.append(Text(entry.text, style=style))
+            table.add_row(*line, *cells)
+        out.print(table)
+        out.print(f"accurate cells of those judged; {LEGEND}", style="dim")
+    if study.limits:
+        out.print("largest constant step [s] that follows the motion, and that keeps the error below 1e-3 m")
+        rows = [(x.model, f"{x.family} {x.case}", x.method, x.integrator, *_steps(x)) for x in study.limits]
+        headings = ("model", "case", "method", "integrator", "stable", "accurate")
+        show(out, fitting(columns_of(headings, rows, headings[:4], {"model": 1, "integrator": 2}), out.width))
+    for sentence in findings(study):
+        out.print(sentence)
+
+
+def _steps(limit: Limit) -> list[str]:
+    return ["none" if x is None else f"{x:.3g}" for x in (limit.stable_step, limit.accurate_step)]
+
+
+def show_sweep(found: Sweep, written: Path | None) -> None:
+    """Print what an ensemble gave: axes, statuses, reasons, and the ends of what was kept."""
+    import numpy as np
+
+    facts, ensemble = found.to_json(), found.ensemble
+    steps = f"step {facts['step']:g} s" if facts["rtol"] is None else f"rtol {facts['rtol']:g}"
+    rate = f", {len(found) / found.seconds:.3g} runs a second" if found.seconds > 0.0 and not found.interrupted else ""
+    axes = [item for axis in ensemble.grid.axes for item in axis.values.items()]
+    lines = [
+        ("mechanism", facts["mechanism"]),
+        ("method", f"{facts['method']}, {facts['integrator']}, {steps}, until {facts['until']:g} s"),
+        *(("varies", f"{name}: {len(x)} values from {x.min():.6g} to {x.max():.6g}") for name, x in axes),
+        ("runs", f"{len(found)} in {found.seconds:.3g} s{rate}"),
+        *(("status", f"{status}: {count}") for status, count in found.counts.items() if count),
+        *(("reason", f"{count} x {reason}") for reason, count in found.reasons()),
+        ("error", "not estimated: symgen run --verify does so for a single run"),
+        *([("written", str(written))] if written is not None and not found.interrupted else []),
+    ]
+    out = console()
+    show_facts(out, lines)
+    rows = list[tuple[str, ...]]()
+    for i, q in enumerate(ensemble.recipe.quantities[:24]):
+        last = found.values[:, i, -1]
+        last = last[np.isfinite(last)]
+        if len(last):
+            rows.append((q.name, q.unit, *(f"{x:.6g}" for x in (last.min(), last.mean(), last.max()))))
+    if rows:
+        headings = ("quantity", "unit", "least", "mean", "largest")
+        show_parts(out, columns_of(headings, rows, left=headings[:2]), "at the last output")

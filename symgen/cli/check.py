@@ -33,9 +33,10 @@ def command(
     """
     if picture is not None:
         from symgen.api import load
-        from symgen.drawing.drawing import check_picture
+        from symgen.drawing.drawing import PICTURES
+        from symgen.files import check_path
 
-        file = check_picture("--draw", Path(picture))
+        file = check_path("--draw", Path(picture), PICTURES, "plot")
         load(model).draw(parameters, start).save(file)
         if not as_json:
             click.echo(f"written: {file}", err=True)

@@ -86,7 +86,7 @@ def command(
 
     loaded = load(model)
     if whence is not None:
-        from symgen.result.resume import read_last_state
+        from symgen.result.saved import read_last_state
 
         settings = replace(settings, start=read_last_state("--from", Path(whence)))  # type: ignore[arg-type]  # one of two
     if save_path is not None:

@@ -76,7 +76,7 @@ def command(
     if as_json:
         write_json(study.to_json())
     else:
-        from symgen.cli._stress_tables import show_stress
+        from symgen.cli._tables import show_stress
 
         show_stress(study)
 

@@ -120,7 +120,7 @@ def command(
     if as_json:
         write_json({**found.to_json(), "output": output})
     else:
-        from symgen.cli._sweep_table import show_sweep
+        from symgen.cli._tables import show_sweep
 
         show_sweep(found, path)
     return _exit_code(found, path)

@@ -8,8 +8,7 @@ import numpy as np
 
 from symgen.describe.mechanism import Force
 from symgen.drawing.joint_parts import DRIVE, turned_about
-from symgen.drawing.markers import BodyPoint, parts
-from symgen.drawing.pen import PLAIN, Pen, across
+from symgen.drawing.pen import PLAIN, BodyPoint, Pen, across, parts
 from symgen.drawing.scene import GROUNDED, INK, Array, BodyFrame, Item, Look, Mark, Poses
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import ZERO, Number, names

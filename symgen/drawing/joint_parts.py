@@ -8,8 +8,7 @@ import numpy as np
 
 from symgen.describe.mechanism import Joint
 from symgen.describe.topology import articulation_of
-from symgen.drawing.markers import BodyPoint, PlacedMechanism, parts
-from symgen.drawing.pen import EARTH, FILLED, PLAIN, Pen, across
+from symgen.drawing.pen import EARTH, FILLED, PLAIN, BodyPoint, Pen, PlacedMechanism, across, parts
 from symgen.drawing.scene import COLOURS, GREY, GROUNDED, Array, Look, Mark
 from symgen.vocabulary.measures import Component, Sum, Turning
 

@@ -10,12 +10,10 @@ import numpy as np
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.describe.start import described_start
+from symgen.drawing.body_parts import outline, shape_marks
 from symgen.drawing.force_parts import force_item
-from symgen.drawing.markers import BodyPoint, PlacedMechanism, parts
-from symgen.drawing.outline import outline
-from symgen.drawing.pen import RIGID, Pen
-from symgen.drawing.scene import COLOURS, Array, Item, Look, Mark, Point, Scene, is_spatial, upwards
-from symgen.drawing.shape_marks import shape_marks
+from symgen.drawing.pen import RIGID, BodyPoint, Pen, PlacedMechanism, parts
+from symgen.drawing.scene import COLOURS, Array, Item, Look, Mark, Point, Scene, upwards
 from symgen.drawing.symbols import gap_item, joint_item
 from symgen.errors import InputError
 from symgen.vocabulary.measures import Marker
@@ -59,9 +57,8 @@ def build_scene(
     if rows.ndim != 2 or rows.shape[1] != size or not len(rows):
         raise InputError("q", f"{size} coordinates, as {mechanism.name} has", str(rows.shape[-1]))
     rows = rows[:: max(1, len(rows) // 60)]
-    spatial = is_spatial(mechanism)
     numbers = PlacedMechanism(mechanism, known, rows)
-    up = upwards([numbers.number(g) for g in mechanism.gravity], spatial)
+    up = upwards([numbers.number(g) for g in mechanism.gravity], numbers.spatial)
     points = _points(numbers)
     unit = _unit(numbers, points)
     pen = Pen(numbers, unit, up)
@@ -74,7 +71,7 @@ def build_scene(
         name=mechanism.name,
         title=mechanism.title,
         items=(*bodies, *forces, *joints, *faults),
-        spatial=spatial,
+        spatial=numbers.spatial,
         up=up,
         unit=unit,
         frames=numbers.frames,

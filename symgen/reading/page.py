@@ -19,11 +19,22 @@ from symgen.lower.model import lower_model
 from symgen.player.live import rates_parts
 from symgen.player.motion_page import as_json, rates_script
 from symgen.reading.boxes import dot, name, row, sign, transposed
-from symgen.reading.function_source import Computed, computed, sections
-from symgen.reading.html import attribute, equation, equations, fold, math, section, short, small, table
+from symgen.reading.html import (
+    attribute,
+    equation,
+    equations,
+    fold,
+    math,
+    of_factor,
+    of_jacobian,
+    picture,
+    section,
+    short,
+    small,
+    table,
+)
 from symgen.reading.law import law
-from symgen.reading.listing import code_listing, file_listing
-from symgen.reading.patterns import of_factor, of_jacobian, picture
+from symgen.reading.listing import Computed, code_listing, computed, file_listing, sections
 from symgen.reading.sheet import Sheet
 
 if TYPE_CHECKING:

@@ -16,8 +16,7 @@ from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, nearest
 from symgen.formulate.formulate import formulate
 from symgen.reading import boxes
-from symgen.reading.interpolated import functions
-from symgen.reading.quantity_names import OF_DRIVERS, QUANTITIES, Entries, nodes_of
+from symgen.reading.quantity_names import OF_DRIVERS, QUANTITIES, Entries, functions, nodes_of
 from symgen.reading.structure import shared_terms, structure
 from symgen.reading.symbolic import Boxed, Symbolic
 

@@ -8,7 +8,7 @@ from statistics import median
 
 from symgen.report import words
 from symgen.report.row_selection import methods, representatives, settings_text
-from symgen.result.run_data import FAILED, OK, UNVERIFIED
+from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study
 
 #: An error above this in a run that ended ok is a success that was none [m].

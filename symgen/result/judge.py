@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from symgen.ir.numerics import WARN
-from symgen.result.run_data import FAILED, INTERRUPTED, OK, UNVERIFIED
+from symgen.result.result import FAILED, INTERRUPTED, OK, UNVERIFIED
 from symgen.runtime import abi
 
 if TYPE_CHECKING:
-    from symgen.result.agreement import Verification
+    from symgen.result.points import Verification
     from symgen.running.prepare import Prepared
     from symgen.runtime.outcome import Ended, Outcome
 

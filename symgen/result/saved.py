@@ -1,10 +1,10 @@
-"""Files that results were saved to, read back as columns."""
+"""Files that results were saved to, read back: as columns, as a recorded motion, as a last state to go on from."""
 
 from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -12,10 +12,12 @@ from typing import Any, TypeVar
 import numpy as np
 
 from symgen.describe.columns import PREFIX
-from symgen.errors import InputError
-from symgen.files import check_name, unheaded
-from symgen.result.export import DIMENSIONS, LAST_HEADER, LAST_PREFIX, SAVED, need
+from symgen.describe.mechanism import ACCELERATIONS
+from symgen.errors import InputError, quoted
+from symgen.files import check_name, need, unheaded
+from symgen.result.export import DIMENSIONS, LAST_HEADER, LAST_PREFIX, SAVED
 from symgen.result.labelled import Array
+from symgen.runtime.last_state import LastState
 
 _Value = TypeVar("_Value")
 #: Tables of a NetCDF file that are read.
@@ -119,3 +121,124 @@ def _of_parquet(path: Path) -> Saved:
     frame = pd.read_parquet(path, engine="pyarrow")
     columns = {str(name): np.asarray(frame[name], dtype=np.float64) for name in frame.columns}
     return Saved(np.asarray(frame.index, dtype=np.float64), columns)
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """A recorded motion.
+
+    Attributes
+    ----------
+    whence : str
+        Where it is from, for messages.
+    t : Array, shape (k,)
+        Times [s].
+    columns : mapping of str to Array
+        Coordinates, velocities and accelerations by name, each of shape (k,); coordinates of joints behind ``joint.``,
+        where they are known: angles of these count turns.
+    parameters : mapping of str to float
+        Values that are known to have held.
+    inputs : mapping of str to float or str
+        The same of inputs, in words where they were no numbers.
+    """
+
+    whence: str
+    t: Array
+    columns: Mapping[str, Array]
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    inputs: Mapping[str, float | str] = field(default_factory=dict)
+
+    def table(self, names: Sequence[str]) -> Array:
+        """Return columns in an order, shape (k, n).
+
+        Raises
+        ------
+        InputError
+            If one is missing, or holds numbers that are not finite.
+        """
+        for name in names:
+            if name not in self.columns:
+                raise InputError(self.whence, "the motion of this mechanism", f"no column {quoted(name)}")
+        found = np.zeros((len(self.t), len(names)))
+        for i, name in enumerate(names):
+            found[:, i] = self.columns[name]
+        if not np.all(np.isfinite(found)):
+            raise InputError(self.whence, "finite numbers", "others")
+        return found
+
+
+def recorded(motion: Any) -> Recorded:
+    """Return the motion of a result, or of whatever has the tables ``q``, ``v`` and ``a`` over ``t``.
+
+    Raises
+    ------
+    InputError
+        If it has not.
+    """
+    if isinstance(motion, Recorded):
+        return motion
+    if not all(hasattr(motion, name) for name in ("t", "q", "v", "a")):
+        raise InputError("motion", "a result of a run, or a motion of kinematics", f"a {type(motion).__name__}")
+    tables = motion.q, motion.v, motion.a
+    columns = {name: table.values[:, i] for table in tables for i, name in enumerate(table.names)}
+    if hasattr(motion, "joint_coordinates"):
+        joints, prefix = motion.joint_coordinates, PREFIX["joint_coordinates"]
+        columns |= {f"{prefix}{name}": joints[name] for name in joints.names}
+    parameters, inputs = getattr(motion, "parameters", {}), getattr(motion, "inputs", {})
+    return Recorded("motion", np.asarray(motion.t, dtype=np.float64), columns, dict(parameters), dict(inputs))
+
+
+def read_recorded(option: str, path: Path) -> Recorded:
+    """Return the motion that a file of a result holds.
+
+    Parameters
+    ----------
+    option : str
+        Who asks, for messages.
+    path : Path
+        A ``.nc``, ``.parquet`` or ``.csv`` file with all columns of coordinates, velocities and accelerations.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, or it is none of a result.
+    """
+    where = f"{option} '{path.name}'"
+    return read_saved(
+        option, path, lambda s: Recorded(where, s.t, s.columns, s.run.get("parameters", {}), s.run.get("inputs", {}))
+    )
+
+
+_PLACES = ("x", "y", "z", "theta", "e0", "e1", "e2", "e3")
+
+
+def read_last_state(option: str, path: Path) -> LastState:
+    """Return the last state of a run from a file that its result was saved to.
+
+    A NetCDF file holds all that the run kept; of other files, and of those that hold it no more, the last outputs are
+    taken.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, or it is none of a result.
+    """
+
+    def state(saved: Saved) -> LastState:
+        if saved.last is None:
+            return _of_columns(saved)
+        found = LastState.of_header(*saved.last)
+        if found is None:
+            raise InputError(option, "the last state as it was written", f"'{path}', in which it was changed")
+        return found
+
+    return read_saved(option, path, state)
+
+
+def _of_columns(saved: Saved) -> LastState:
+    def row(labels: Iterable[str]) -> dict[str, float]:
+        own = (name for name in saved.columns if name.count(".") == 1 and name.partition(".")[2] in labels)
+        return {name: float(saved.columns[name][-1]) for name in own}
+
+    work = 0.0 if saved.mechanism else float(saved.columns["energy.work"][-1])
+    return LastState(saved.mechanism, "", float(saved.t[-1]), row(_PLACES), row(ACCELERATIONS), work)

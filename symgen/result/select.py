@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from symgen.describe.columns import PREFIX
 from symgen.describe.outputs import TABLES as MEASURED
-from symgen.result.acting import reaction_names
 from symgen.result.contract import finite
 from symgen.result.labelled import Labelled
-from symgen.result.run_data import ENERGIES, TABLES, VIOLATIONS, accelerations_of
+from symgen.result.reactions import reaction_names
+from symgen.result.result import ENERGIES, TABLES, VIOLATIONS, accelerations_of
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism

@@ -6,13 +6,13 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from symgen.result.labelled import html_table
-from symgen.result.run_data import FAILED
+from symgen.result.result import FAILED
 
 if TYPE_CHECKING:
-    from symgen.result.run_data import RunData
+    from symgen.result.result import Result
 
 
-def lines(result: RunData) -> list[tuple[str, str]]:
+def lines(result: Result) -> list[tuple[str, str]]:
     """Return (label, text) pairs that say what was run and how it went."""
     steps = f"step {result.step:g} s" if result.rtol is None else f"rtol {result.rtol:g}, atol {result.atol:g}"
     rejected = f", {result.rejected} rejected" if result.rejected else ""
@@ -42,13 +42,13 @@ def lines(result: RunData) -> list[tuple[str, str]]:
     return found
 
 
-def _coordinates(result: RunData) -> str:
+def _coordinates(result: Result) -> str:
     """Return what the state was made of, in words."""
     count = len(result.state)
     return f"{result.coordinates}, {count} numbers of the state; the rank is that over all rows of the mechanism"
 
 
-def status_in_words(result: RunData) -> str:
+def status_in_words(result: Result) -> str:
     """Return status, reason, and how the error was estimated: ``ok (error about 3.2e-07 m, from ...)``."""
     said = result.status + (f": {result.reason}" if result.reason else "")
     if result.status == FAILED:
@@ -64,7 +64,7 @@ def status_in_words(result: RunData) -> str:
     return f"{said} ({local}global error not estimated: --verify runs again with a tenth of it)"
 
 
-def html(result: RunData) -> str:
+def html(result: Result) -> str:
     """Return the summary as an HTML table."""
     rows = [*lines(result), *(("warning", w) for w in result.warnings), *(("note", n) for n in result.notes)]
     return html_table((), rows)

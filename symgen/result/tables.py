@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -13,16 +14,57 @@ import numpy as np
 
 from symgen.arguments import one_of, shown, words
 from symgen.arguments import path as argument_path
+from symgen.compiling.side import compile_side
 from symgen.describe.columns import PREFIX
+from symgen.describe.outputs import TABLES, Column
 from symgen.errors import InputError, nearest, quoted
-from symgen.result.export import COLUMNS, PLOTTED, check_path, data_frame, write_frame
-from symgen.result.labelled import Array, Labelled
+from symgen.files import check_path
+from symgen.result.export import COLUMNS, PLOTTED, data_frame, write_frame
+from symgen.result.labelled import Array, Labelled, labelled
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from symgen.result.measured import Measured
+    from symgen.describe.mechanism import Mechanism
     from symgen.result.reactions import Forces
+    from symgen.runtime.outcome import Motion
+
+
+@dataclass(frozen=True, repr=False)
+class Measured:
+    """What quantities beside the state are evaluated from.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        What was run.
+    outcome : Motion
+        States and accelerations at the outputs.
+    multipliers : callable
+        Returns lambda at the outputs, shape (k, m), of minimum norm where the rows of D are dependent.
+    """
+
+    mechanism: Mechanism
+    outcome: Motion
+    multipliers: Callable[[], Array]
+
+    def __repr__(self) -> str:
+        return f"<Measured of {self.mechanism.name} at {len(self.outcome.times)} outputs>"
+
+    def columns(self, table: str) -> tuple[Column, ...]:
+        """Return the columns of a table of `symgen.describe.outputs`: names, units and formulas."""
+        return TABLES[table](self.mechanism)
+
+    def table(self, table: str) -> Labelled:
+        """Return the values of a table at the outputs."""
+        columns = self.columns(table)
+        if not columns or not len(self.outcome.times):
+            return labelled(np.zeros((len(self.outcome.times), len(columns))), columns)
+        formulas = [(column.name, column.formula) for column in columns]
+        compiled = self.outcome.compiled
+        side = compile_side(self.mechanism, compiled, table, f"the table {table} of results", formulas)
+        return labelled(self.outcome.observed(side.function, len(columns), self.multipliers()), columns)
+
 
 #: Tables that need code of their own, and tables of forces: names of their columns are there without their values.
 SIDE = ("points", "elements", "outputs")

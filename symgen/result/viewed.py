@@ -25,19 +25,19 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.result.run_data import RunData
+    from symgen.result.result import Result
     from symgen.running.prepare import Prepared
     from symgen.running.tree import TreeRun
 
 
-def view(result: RunData, beside: RunData | None = None, live: bool = True) -> Page:
+def view(result: Result, beside: Result | None = None, live: bool = True) -> Page:
     """Return the page of a result.
 
     Parameters
     ----------
-    result : RunData
+    result : Result
         Of this process.
-    beside : RunData, optional
+    beside : Result, optional
         Another motion of the same mechanism, drawn faintly behind.
     live : bool
         Whether the page shall be able to work out other motions.
@@ -55,7 +55,7 @@ def view(result: RunData, beside: RunData | None = None, live: bool = True) -> P
     return Page(page(first, part, note, second), first.mechanism.name, part is not None)
 
 
-def recorded(result: RunData) -> Recording:
+def recorded(result: Result) -> Recording:
     """Return a result as a page plays it.
 
     Raises
@@ -140,7 +140,7 @@ def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> l
 JUMPS = "what the run gave its inputs jumps, and pages do not look for times"
 
 
-def _live(result: RunData, recording: Recording) -> tuple[Live | None, str]:
+def _live(result: Result, recording: Recording) -> tuple[Live | None, str]:
     """Return the live part of a page of a result: with its coordinates, its start, its parameters and its inputs."""
     mechanism = recording.mechanism
     if _jump(mechanism, result.inputs):

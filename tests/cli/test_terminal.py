@@ -14,7 +14,7 @@ import pytest
 from rich.console import Console
 
 from symgen.api import load
-from symgen.cli import COMMANDS, _columns, _tables, group, main
+from symgen.cli import COMMANDS, _tables, group, main
 from symgen.cli import list as list_command
 from symgen.study.comparison.comparison_rows import Row, Study
 
@@ -79,13 +79,13 @@ def test_names_of_the_list_are_whole(narrow: None, capsys: pytest.CaptureFixture
 
 
 def test_columns_go_by_importance_or_into_parts() -> None:
-    columns = [_columns.TableColumn(f"c{k}", ("x" * 20,), weight=k) for k in range(5)]
-    assert [c.heading for c in _columns.fitting(columns, 70)] == ["c0", "c3", "c4"]
-    assert [[c.heading for c in part] for part in _columns.in_parts(columns, 70)] == [
+    columns = [_tables.TableColumn(f"c{k}", ("x" * 20,), weight=k) for k in range(5)]
+    assert [c.heading for c in _tables.fitting(columns, 70)] == ["c0", "c3", "c4"]
+    assert [[c.heading for c in part] for part in _tables.in_parts(columns, 70)] == [
         ["c0", "c1", "c2"],
         ["c0", "c3", "c4"],
     ]
-    assert _columns.room(columns) == 108
+    assert _tables.room(columns) == 108
 
 
 def commands(command: click.Command, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], click.Command]]:

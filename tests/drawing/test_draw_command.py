@@ -105,7 +105,7 @@ def test_check_draws_on_request(tmp_path: Path, capsys: pytest.CaptureFixture[st
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["-o", "x.gif"], "ends in .svg"),
+        (["-o", "x.gif"], "ending in .svg"),
         (["-o", "no/x.svg"], "folder that exists"),
         (["--at", "yesterday"], "start, described or a time"),
         (["--at", "-1"], "start, described or a time"),

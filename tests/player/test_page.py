@@ -342,7 +342,7 @@ def test_a_film_lasts_as_long_as_the_motion(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["pendulum", "-o", "x.pdf"], "ends in .html"),
+        (["pendulum", "-o", "x.pdf"], "ending in .html"),
         (["pendulum", "-o", "no/x.html"], "folder that exists"),
         (["pendulum", "--beside", "a.nc"], "two saved results"),
         (["pendulum", "--model", "pendulum"], "a saved result to be viewed"),

@@ -11,7 +11,7 @@ from symgen.formulate.formulate import formulate
 from symgen.lower.model import lower_model
 from symgen.native.compiler import interpreted
 from symgen.reading import page as pages
-from symgen.reading.patterns import of_factor
+from symgen.reading.html import of_factor
 
 #: Elements without an end.
 VOID = {"meta", "link"}
@@ -155,7 +155,7 @@ def test_a_mechanism_that_nobody_could_read_is_refused_before_it_is_derived(tmp_
 @pytest.mark.parametrize(
     ("arguments", "word"),
     [
-        (["-o", "x.pdf"], "ends in .html"),
+        (["-o", "x.pdf"], "ending in .html"),
         (["-o", "x.html", "--json"], "beside it"),
         (["-o", "x.html", "--format", "latex"], "beside it"),
         (["-o", "no/such/folder/x.html"], "a folder that exists"),

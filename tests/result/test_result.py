@@ -9,7 +9,7 @@ import pytest
 import symgen
 from symgen.describe.columns import PREFIX
 from symgen.errors import InputError
-from symgen.result.run_data import TABLES
+from symgen.result.result import TABLES
 from symgen.result.select import columns_of
 
 RUN_KEYS = {

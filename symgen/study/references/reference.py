@@ -21,8 +21,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError
-from symgen.result.agreement import AGREEMENT
-from symgen.result.points import Points
+from symgen.result.points import AGREEMENT, Points
 from symgen.study.references.closed_space import CLOSED_SPACE
 from symgen.study.references.singular_passing import SingularWatch, pass_through
 from symgen.study.references.solvers import (

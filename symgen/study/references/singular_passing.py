@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.errors import SimulationError
-from symgen.result.agreement import agreement
+from symgen.result.points import agreement
 from symgen.study.references.solvers import Scheme, by_steps
 from symgen.study.references.time_parts import longest_of
 
@@ -87,7 +87,7 @@ class SingularPassage:
     difference : float
         Largest distance between the two [m].
     parted : float or None
-        First output time at which they do not agree (`symgen.result.agreement`) [s]; None if they do.
+        First output time at which they do not agree (`symgen.result.points`) [s]; None if they do.
     runs : int
         How many were made.
     step : float
