@@ -110,13 +110,13 @@ def _range(flag: str, text: str) -> tuple[str, NDArray[np.float64]]:
 
 
 def _show(item: str | AnalysisTable | Note | Mapping[str, Mapping[str, Any]]) -> None:
-    from symgen.cli._tables import show_quantities, show_table
+    from symgen.cli._tables import console, show_quantities, show_rows
 
     if isinstance(item, str):
         click.echo(item)
     elif isinstance(item, Note):
         tell([item.text])
     elif isinstance(item, AnalysisTable):
-        show_table(item)
+        show_rows(console(), item.headings, item.rows, item.left)
     else:
         show_quantities(item)
