@@ -72,9 +72,9 @@ def _checked(name: str, value: Any) -> Any:
     if name in ("parameters", "start"):
         return assignments(where, value)
     if name == "options":
-        return option_pairs(value)
+        return {**pairs("--option", value)}
     if name == "inputs":
-        return _pairs(where, value)
+        return pairs(where, value)
     return known.check(where, time_list(where, value) if known.kind is tuple else value)
 
 
@@ -85,6 +85,13 @@ def jobs_option(text: str) -> Callable[[F], F]:
         return None if value is None else arguments.whole("--jobs", value, 1, MOST_JOBS)
 
     return click.option("--jobs", type=int, callback=check, show_default="one for every core", help=text)
+
+
+def target_option(text: str) -> Callable[[F], F]:
+    """Return the option ``--target``; `text` is its help."""
+    from symgen.ir.program import TARGETS
+
+    return click.option("--target", type=click.Choice(TARGETS), default="cpu", show_default=True, help=text)
 
 
 def units_option(function: F) -> F:
@@ -99,17 +106,17 @@ def json_option(function: F) -> F:
     )
 
 
-def _pairs(option: str, texts: Sequence[str]) -> dict[str, str]:
+def pairs(option: str, texts: Sequence[str], form: str = "NAME=VALUE") -> dict[str, str]:
     """Return the values of ``NAME=VALUE`` words by name; names may not repeat."""
-    found = dict[str, str]()
+    values = dict[str, str]()
     for text in texts:
         name, equals, value = (part.strip() for part in text.partition("="))
         if not equals or not name or not value:
-            raise InputError(option, "NAME=VALUE", quoted(text))
-        if name in found:
+            raise InputError(option, form, quoted(text))
+        if name in values:
             raise InputError(f"{option} {name}", "each name once", "it twice")
-        found[name] = value
-    return found
+        values[name] = value
+    return values
 
 
 def assignments(option: str, texts: Sequence[str]) -> dict[str, float]:
@@ -120,13 +127,8 @@ def assignments(option: str, texts: Sequence[str]) -> dict[str, float]:
     InputError
         If a word has another form, a name repeats or a value is not a finite number.
     """
-    pairs = _pairs(option, texts)
-    return {name: _number(f"{option} {name}", "a finite number", value) for name, value in pairs.items()}
-
-
-def option_pairs(texts: Sequence[str]) -> dict[str, str | float]:
-    """Return the values of ``KEY=VALUE`` words by key, not yet interpreted."""
-    return {**_pairs("--option", texts)}
+    given = pairs(option, texts)
+    return {name: _number(f"{option} {name}", "a finite number", value) for name, value in given.items()}
 
 
 def _number(where: str, expected: str, text: str, above: float = -math.inf) -> float:

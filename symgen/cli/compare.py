@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -100,13 +99,10 @@ def command(
     with ExitStack() as stack:
         journal = None if files.journal is None else stack.enter_context(Journal(files.journal))
         lines = stack.enter_context(Lines())
-        began = time.monotonic()
 
         def progress(what: str, reached: float, total: float) -> None:
-            share = reached / total
-            left = (time.monotonic() - began) * (1.0 - share) / share if share > 0.02 else None
             name = "" if len(loaded) > 1 or what.startswith("preparing") else f"{loaded[0].name}: "
-            lines.say(f"{name}{what}", share, left)
+            lines.say(f"{name}{what}", reached / total)
 
         runs = Combinations(method_list, integrator_list, step_list, rtol_list, words("--coordinates", states))
         settings = Settings(**asked)

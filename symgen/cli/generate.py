@@ -5,8 +5,7 @@ from __future__ import annotations
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import examples, json_option, setting_options
-from symgen.cli._target import target_option
+from symgen.cli._options import examples, json_option, setting_options, target_option
 from symgen.errors import InputError
 
 

@@ -67,7 +67,7 @@ def command(
         lines = stack.enter_context(Lines())
 
         def progress(what: str, status: Status) -> None:
-            lines(what, status.done, status.total, status.share, status.seconds_left)
+            lines.say(f"{what}: {status.done} of {status.total}", status.share)
 
         asked = dict.fromkeys((*models, *(names() if catalogue else ())))
         seconds = math.inf if compilation is None else compilation

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import examples, jobs_option, json_option, setting_options, tell
-from symgen.cli._target import target_option
-from symgen.errors import InputError, quoted
+from symgen.cli._options import examples, jobs_option, json_option, pairs, setting_options, target_option, tell
+from symgen.errors import InputError
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -128,17 +127,10 @@ def command(
 
 def _axes(words: tuple[str, ...]) -> dict[str, str]:
     """Return the text of the values by name; names may not repeat."""
-    axes: dict[str, str] = {}
-    for word in words:
-        name, equals, text = word.partition("=")
-        name = name.strip().removesuffix("(0)")
-        if not equals or not name or not text.strip():
-            raise InputError("--vary", "NAME=VALUES, such as crank_mass=lin(1,3,21)", quoted(word))
-        if name in axes:
-            raise InputError(f"--vary {name}", "each name once", "it twice")
-        axes[name] = text.strip()
     from symgen.ensemble.axes import parse
 
+    form = "NAME=VALUES, such as crank_mass=lin(1,3,21)"
+    axes = pairs("--vary", [word.replace("(0)=", "=", 1) for word in words], form)
     for name, text in axes.items():
         parse(text, f"--vary {name}")
     return axes

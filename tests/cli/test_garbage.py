@@ -10,7 +10,7 @@ import pytest
 SPARING = """
 import gc
 usual = gc.get_threshold()
-from symgen.cli._garbage import FIRST, sparing
+from symgen.cli import FIRST, sparing
 sparing()
 {body}
 """

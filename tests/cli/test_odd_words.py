@@ -69,9 +69,6 @@ def said(capsys, tmp_path, monkeypatch):
             "--quantity: expected --save or --plot, where quantities go, got neither",
         ),
         ("schema --json", "there is no option '--json' (symgen schema --help)"),
-        ("stress rod.toml --input u=sin(t)", "there is no option '--input'; 'symgen run' has it (symgen stress"),
-        ("compare rod.toml --input u=sin(t)", "here an input is a number, which --set NAME=VALUE gives (symgen comp"),
-        ("compare rod.toml --stop-when t>1", "there is no option '--stop-when'; 'symgen run' has it (symgen comp"),
     ],
 )
 def test_what_contradicts_or_counts_for_nothing_is_refused(said, tmp_path, words, sentence):
