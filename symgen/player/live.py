@@ -206,34 +206,25 @@ def live_part(
     return Live(f"{HELPERS}{code}\n{script}", _spec(mechanism, compiled, start, step, joint, told, kept)), ""
 
 
-def rates_parts(compiled: CompiledModel, start: Start) -> tuple[list[Live], str]:
-    """Return the right-hand side alone, for pages that show no motion, or nothing and why there is none.
+def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:
+    """Return the right-hand side alone, for pages that show no motion, or None and why there is none.
 
     Parameters
     ----------
     compiled : CompiledModel
         Code for one method.
     start : Start
-        Parameters, and what a start settles.
-
-    Returns
-    -------
-    list of Live, str
-        Whole; then without the function that decides anew which rows depend on others, half as long, which gives no
-        numbers where that would be needed.
+        Parameters, and scratch as a start leaves it.
     """
     if compiled.shape != "straight":
-        return [], "the code of a run is looped"
+        return None, "the code of a run is looped"
     if not hasattr(compiled.law_module, "rhs"):
-        return [], "the method has none"
-    spec, found = _rates_spec(compiled, start), list[Live]()
+        return None, "the method has none"
     try:
-        for names in (("rhs", "confirm", "masses"), ("rhs", "masses")):
-            code = HELPERS + javascript(checked(compiled, names))
-            found.append(Live(code, {**spec, "partial": "confirm" not in names}))
+        code = HELPERS + javascript(checked(compiled, ("rhs", "confirm", "masses")))
     except Foreign as error:
-        return [], f"its code has {error}"
-    return (found if len(found[1].code) < len(found[0].code) else found[:1]), ""
+        return None, f"its code has {error}"
+    return Live(code, _rates_spec(compiled, start)), ""
 
 
 def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
@@ -353,6 +344,3 @@ def _fixed(mechanism: Mechanism, compiled: CompiledModel) -> list[int]:
         elif hold.name in speeds:
             found.add(velocities.index(speeds[hold.name]))
     return sorted(found)
-
-
-__all__ = ["Live", "Script", "live_part", "rates_parts"]

@@ -45,7 +45,7 @@ def _web(name: str) -> str:
     return "".join(f"{line}\n" for line in lines if line and not line.startswith("//"))
 
 
-def page(recording: Recording, live: Live | None = None, note: str = "", second: Recording | None = None) -> str:
+def page(recording: Recording, live: Live | None = None, note: str = "", second: Recording | None = None) -> Page:
     """Return the page of a motion.
 
     Parameters
@@ -87,7 +87,7 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
     parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": as_json(data), "SCRIPT": script}
     for name, part in parts.items():
         text = text.replace(f"<!--{name}-->", part, 1) if name != "TITLE" else text.replace("<!--TITLE-->", part)
-    return text
+    return Page(text, recording.mechanism.name, live is not None)
 
 
 def _gaps(scene: Scene, q: Array) -> dict[str, Any]:

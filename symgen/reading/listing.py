@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from symgen import catalogue
 from symgen.emit.printer import ElementAccess
 from symgen.ir.program import Target
-from symgen.reading.html import attribute, fold, small
+from symgen.reading.html import attribute, fold
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -135,9 +135,7 @@ def file_listing(text: str, places: Mapping[str, int], joints: Container[str]) -
     return [fold(f"{len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
 
 
-def code_listing(
-    source: str, parts: Mapping[str, str], listed: Container[str], back: Mapping[int, Computed]
-) -> list[str]:
+def code_listing(source: str, parts: Mapping[str, str], back: Mapping[int, Computed]) -> list[str]:
     """Return emitted modules; lines that compute what belongs to a row lead to it.
 
     Parameters
@@ -146,8 +144,6 @@ def code_listing(
         Of the module ``model``.
     parts : mapping of str to str
         Sources of the method's modules, by name.
-    listed : container of str
-        Which of them are listed.
     back : mapping of int to Computed
         What lines of ``model`` compute.
     """
@@ -162,6 +158,5 @@ def code_listing(
     listings = [fold(f"module model, {len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
     for stem, text in parts.items():
         head = f"module {escape(stem)}, {text.count(chr(10))} lines"
-        shown = f"<pre>{escape(text)}</pre>" if stem in listed else small("Left out, for the size of this page.")
-        listings.append(fold(head, shown))
+        listings.append(fold(head, f"<pre>{escape(text)}</pre>"))
     return listings

@@ -16,7 +16,7 @@ from symgen.errors import InputError
 from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
-from symgen.player.live import rates_parts
+from symgen.player.live import rates_part
 from symgen.player.motion_page import as_json, rates_script
 from symgen.reading.boxes import dot, name, row, sign, transposed
 from symgen.reading.html import (
@@ -123,11 +123,10 @@ def page(subject: PageSubject) -> str:
         If it is larger without the code, too.
     """
     parts, size = _Page(subject), 0
-    scripts, why = parts.rates()
-    listings = parts.listings()
-    for listed, script in (*product(listings, scripts), *product(listings, [""])):
-        if scripts and not script:
-            why = f"its {min(map(len, scripts))} characters are more than this page has room for"
+    whole, why = parts.rates()
+    for script, listed in product(dict.fromkeys((whole, "")), (parts.parts, {}, None)):
+        if whole and not script:
+            why = f"its {len(whole)} characters are more than this page has room for"
         text = parts.text(listed, script, why)
         size = len(text.encode())
         if size <= LARGEST:
@@ -155,25 +154,17 @@ class _Page:
             by_row.setdefault(line.row, []).append(line)
         return by_row
 
-    def listings(self) -> list[frozenset[str]]:
-        """Return which modules are listed, from all to none: those go first that no link leads to."""
-        rest = sorted((stem for stem in self.parts if not stem.startswith("rhs_")), key=lambda s: len(self.parts[s]))
-        choices = [frozenset(("model", *self.parts))]
-        for stem in reversed(rest):
-            choices.append(choices[-1] - {stem})
-        return [*choices, frozenset(("model",)), frozenset()]
-
-    def rates(self) -> tuple[list[str], str]:
-        """Return the right-hand side as scripts, the best first, or why there is none."""
+    def rates(self) -> tuple[str, str]:
+        """Return the right-hand side as a script, or an empty text and why there is none."""
         run = self.subject.run
         if run is None:
-            return [], "the mechanism does not close"
-        parts, why = rates_parts(run.compiled, run.start)
-        return [rates_script(part) for part in parts], why
+            return "", "the mechanism does not close"
+        part, why = rates_part(run.compiled, run.start)
+        return "" if part is None else rates_script(part), why
 
-    def text(self, listed: frozenset[str], script: str, why: str) -> str:
-        """Return the page, with these modules listed, and a script that evaluates the rates or why there is none."""
-        s, e, is_listed = self.subject, self.e, "model" in listed
+    def text(self, listed: Mapping[str, str] | None, script: str, why: str) -> str:
+        """Return the page with the module ``model`` and others, or no code, and a script of the rates or why there is none."""
+        s, e = self.subject, self.e
         title = s.whole.title or s.whole.name
         kind = "bodies" if s.mechanism.topology is None else "the joints of a tree"
         sizes = f"{e.nq} coordinates, {e.nv} velocities, {e.m} constraint rows, {len(e.parameters)} parameters"
@@ -186,7 +177,7 @@ class _Page:
             section("sketch", "Sketch", [f'<div class="scene">{self._sketch()}</div>', small(_SKETCH)]),
             section("topology", "Topology", self._topology()),
             section("coordinates", "Coordinates", self._coordinates()),
-            section("rows", "Joints and their rows", [self._joint(j, is_listed) for j in s.mechanism.joints]),
+            section("rows", "Joints and their rows", [self._joint(j, listed is not None) for j in s.mechanism.joints]),
             section("patterns", "Patterns", self._patterns()),
             section("motion", "Equations of motion", self._motion()),
             section("law", f"The law of {s.choice.method.name}, as solved", self._law()),
@@ -350,10 +341,11 @@ class _Page:
             fold("by emitted function", table(blocks, numbers=2), True),
         ]
 
-    def _code(self, listed: frozenset[str]) -> list[str]:
-        if "model" in listed:
+    def _code(self, listed: Mapping[str, str] | None) -> list[str]:
+        if listed is not None:
             back = {c.line: c for lines in self.computed.values() for c in lines}
-            return code_listing(self.source, self.parts, listed, back)
+            left_out = [] if listed else [small("Modules of the method are left out, for the size of this page.")]
+            return [*code_listing(self.source, listed, back), *left_out]
         size = len(self.source) + sum(map(len, self.parts.values()))
         return [f"<p>It has {size} characters and is left out, as the page would be larger than {LARGEST} bytes.</p>"]
 

@@ -138,7 +138,7 @@ def test_near_bars_hide_far_ones_from_either_side(
     aside, upright = np.array([0.3, 0.0, 0.0]), [1.0, 0.0, 0.0, 0.0]
     q = np.array([[*(aside + apart), *upright, *(0.4 * np.array(along) - apart), *upright]])
     path = tmp_path / "crossed.html"
-    path.write_text(page(Recording(crossed.build(), {}, np.zeros(1), q)))
+    page(Recording(crossed.build(), {}, np.zeros(1), q)).save(path)
     chromium.open(path)
     middle = """(() => {
       window.symgen.look(%r, %r, [0, 0, 0]);
@@ -200,7 +200,7 @@ def test_rates_are_those_of_the_compiled_code(
         return
     recording = Recording(mechanism, load(name).parameters(), np.zeros(1), q[None, :])
     path = tmp_path / "page.html"
-    path.write_text(page(recording, live, why))
+    page(recording, live, why).save(path)
     random, info = np.random.default_rng(7), compiled.info
     states, fused, w = [], [], start.w.copy()
     pivots = range(info.sections["pivot"][0], info.sections["pivot"][0] + info.m)
@@ -362,7 +362,7 @@ def test_frames_with_200_bodies(chromium: Chromium, tmp_path: Path) -> None:
             q[k, 3 * i : 3 * i + 3] = x + 0.5 * math.cos(angle), y + 0.5 * math.sin(angle), angle
             x, y = x + math.cos(angle), y + math.sin(angle)
     path = tmp_path / "long.html"
-    path.write_text(page(Recording(mechanism, {}, t, q)))
+    page(Recording(mechanism, {}, t, q)).save(path)
     chromium.open(path)
     chromium.call("Performance.enable", timeDomain="threadTicks")
     found = []

@@ -117,18 +117,18 @@ def test_a_page_that_would_be_too_large_leaves_out_the_code(tmp_path, monkeypatc
     assert {link[1:] for link in found.links} <= set(found.ids)
 
 
-def test_listings_make_room_for_the_right_hand_side(four_bar, tmp_path, monkeypatch):
+def test_the_listing_makes_room_for_the_right_hand_side(four_bar, tmp_path, monkeypatch):
     text, _ = four_bar
     if interpreted():  # there is no machine code to list, and the page says so
         assert "Python, by NUMBA_DISABLE_JIT." in text and "const rates = null;" in text
         return
     script = re.search(r"const rates = (\(\(\) => \{.*?\}\)\(\));", text, re.DOTALL)[1]
-    assert "function rhs(" in script and "function confirm(" in script and "Left out, for the size" not in text
-    whole = len(text.encode())
-    monkeypatch.setattr(pages, "LARGEST", whole - 1)
+    assert "function rhs(" in script and "function confirm(" in script and "module model, " in text
+    monkeypatch.setattr(pages, "LARGEST", len(text.encode()) - 1)
     smaller, found = page_of("four-bar", tmp_path)
-    assert "Left out, for the size" in smaller or "function confirm(" not in smaller
-    assert "function rhs(" in smaller and len(smaller.encode()) < whole
+    assert (
+        "function rhs(" in smaller and "module model, " in smaller and "Modules of the method are left out" in smaller
+    )
     assert {link[1:] for link in found.links} <= set(found.ids)
 
 
