@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -41,6 +41,10 @@ class NotInPages(SymgenError):
     """A formula has something that pages do not."""
 
 
+def _operator(function: str, turned: bool = False) -> Callable[[Script, object], Script]:
+    return lambda self, other: self._with(function, *((other, self) if turned else (self, other)))
+
+
 @dataclass(frozen=True)
 class Script:
     """A number in a script: what it is called there. Arithmetic with it writes further lines."""
@@ -57,23 +61,9 @@ class Script:
     def __radd__(self, other: object) -> Script:
         return self if _text(other) == "0" else self._with("add", other, self)
 
-    def __sub__(self, other: object) -> Script:
-        return self._with("sub", self, other)
-
-    def __rsub__(self, other: object) -> Script:
-        return self._with("sub", other, self)
-
-    def __mul__(self, other: object) -> Script:
-        return self._with("mul", self, other)
-
-    def __rmul__(self, other: object) -> Script:
-        return self._with("mul", other, self)
-
-    def __truediv__(self, other: object) -> Script:
-        return self._with("div", self, other)
-
-    def __rtruediv__(self, other: object) -> Script:
-        return self._with("div", other, self)
+    __sub__, __rsub__ = _operator("sub"), _operator("sub", turned=True)
+    __mul__, __rmul__ = _operator("mul"), _operator("mul", turned=True)
+    __truediv__, __rtruediv__ = _operator("div"), _operator("div", turned=True)
 
 
 def _text(value: object) -> str:

@@ -108,18 +108,19 @@ def _script(live: Live | None, spatial: bool) -> str:
     own = "".join(_web(name) for name in SCRIPTS[spatial])
     if live is None:
         return f"(() => {{\n'use strict';\nconst emitted = null, makeLive = null;\n{own}}})();"
-    wanted = "rhs accept geometry masses prepareModel prepareLaw derive describe".split()
-    optional = [name for name in ("confirm", "move", "bodies") if f"function {name}(" in live.code]
-    code = f"{live.code}const emitted = {{ {', '.join([*wanted, *optional])} }};\n"
-    return f"(() => {{\n'use strict';\n{code}{_web('rates.js')}{_web('live.js')}{own}}})();"
+    functions = "rhs accept geometry masses prepareModel prepareLaw derive describe confirm move bodies"
+    return f"(() => {{\n'use strict';\n{_emitted(live, functions)}{_web('live.js')}{own}}})();"
+
+
+def _emitted(live: Live, functions: str, *further: str) -> str:
+    """Return emitted code, an object of those of its functions that it has, and what evaluates them."""
+    names = [n for n in functions.split() if f"function {n}(" in live.code or f"const {n} =" in live.code]
+    return f"{live.code}const emitted = {{ {', '.join([*names, *further])} }};\n{_web('rates.js')}"
 
 
 def rates_script(live: Live) -> str:
     """Return a script that is a function: the rates of a state, given time, state and parameters."""
-    wanted = [
-        name for name in ("confirm", "rhs", "masses", "prepareModel", "prepareLaw") if f"function {name}(" in live.code
-    ]
-    code = f"{live.code}const emitted = {{ {', '.join([*wanted, 'derive: () => {}'])} }};\n{_web('rates.js')}"
+    code = _emitted(live, "confirm rhs masses prepareModel prepareLaw", "derive: () => {}")
     return f"(() => {{\n'use strict';\n{code}return makeRates({as_json(live.spec)}, emitted).rates;\n}})()"
 
 

@@ -77,7 +77,7 @@ class Recording:
         Coordinates of all bodies.
     facts : tuple of (str, str)
         What was run, and how it went.
-    status, reason : str
+    status : str
         Of the run.
     groups : tuple of PlottedGroup
         What can be plotted.
@@ -99,7 +99,6 @@ class Recording:
     q: Array
     facts: tuple[tuple[str, str], ...] = ()
     status: str = "ok"
-    reason: str = ""
     groups: tuple[PlottedGroup, ...] = ()
     reactions: Array | None = None
     pushed: tuple[str, ...] = ()
@@ -185,7 +184,6 @@ def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str,
         "count": len(keep),
         "facts": [list(fact) for fact in recording.facts],
         "status": recording.status,
-        "reason": recording.reason,
         "groups": [
             {
                 "title": group.title,

@@ -163,7 +163,7 @@ class _Page:
         return "" if part is None else rates_script(part), why
 
     def text(self, listed: Mapping[str, str] | None, script: str, why: str) -> str:
-        """Return the page with the module ``model`` and others, or no code, and a script of the rates or why there is none."""
+        """Return the page with the module ``model`` and others, or without code, and a script of the rates if any."""
         s, e = self.subject, self.e
         title = s.whole.title or s.whole.name
         kind = "bodies" if s.mechanism.topology is None else "the joints of a tree"

@@ -73,18 +73,14 @@ def judge_alone(outcome: Ended, position_correction: bool) -> Verdict:
         return Verdict(FAILED, outcome.reason, warnings)
     jump = relative_jump(outcome)
     if jump > JUMP_FAILURE:
-        reason = (
-            f"energy jumped by {outcome.energy_jump:.3g} J, {jump:.2g} of the energy in motion, over a singular passage"
-        )
-        return Verdict(FAILED, reason, warnings)
-    verdict = Verdict(OK, None, warnings)
-    if passed and not position_correction:
-        reason = (
-            f"passed near a singular position{_when(outcome)} and positions are not corrected: "
-            "nothing tells whether the right branch was taken"
-        )
-        verdict = Verdict(UNVERIFIED, reason, warnings)
-    return verdict
+        return Verdict(FAILED, _jumped(outcome), warnings)
+    if not passed or position_correction:
+        return Verdict(OK, None, warnings)
+    reason = (
+        f"passed near a singular position{_when(outcome)} and positions are not corrected: "
+        "nothing tells whether the right branch was taken"
+    )
+    return Verdict(UNVERIFIED, reason, warnings)
 
 
 def _passed(outcome: Ended) -> bool:
