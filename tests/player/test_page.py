@@ -339,25 +339,6 @@ def test_a_film_lasts_as_long_as_the_motion(tmp_path: Path) -> None:
     assert shown == 460
 
 
-@pytest.mark.parametrize(
-    ("words", "told"),
-    [
-        (["pendulum", "-o", "x.pdf"], "ending in .html"),
-        (["pendulum", "-o", "no/x.html"], "folder that exists"),
-        (["pendulum", "--beside", "a.nc"], "two saved results"),
-        (["pendulum", "--model", "pendulum"], "a saved result to be viewed"),
-        (["none.nc"], "a file of a result"),
-        (["a.nc", "--model", "pendulum", "--mode", "1"], "about whose equilibrium"),
-        (["pendulum", "--mode", "9"], "from 1 to"),
-        (["pendulum", "--at", "start"], "asked for with --mode"),
-        (["pendulum", "--mode", "1", "--until", "3"], "--until: expected settings of a mode shape"),
-    ],
-)
-def test_wrong_words_are_refused(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["view", *words]) == 2
-    assert told in capsys.readouterr().err
-
-
 def test_a_file_of_something_else_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str], result: Any) -> None:
     (tmp_path / "x.nc").write_bytes(b"nothing")
     assert main(["view", str(tmp_path / "x.nc")]) == 2

@@ -133,95 +133,109 @@ def test_settings(model, name, value, sentence):
         assert len(str(error.value)) < 500
 
 
+def each(label, values, call, sentence):
+    """Rows of one call with several values; ``{}`` in the sentence is how it calls each of them."""
+    named = values.items() if isinstance(values, dict) else [(f"{value!r:.20}", value) for value in values]
+    for shown, value in named:
+        yield f"{label} {shown}", lambda x, v=value: call(x, v), sentence.replace("{}", shown)
+
+
+def comparing(name):
+    """Comparisons with one argument."""
+    return lambda x, v: symgen.compare(x.model, **{name: v})
+
+
+def sweeping(name):
+    """Sweeps with one argument."""
+    return lambda x, v: symgen.sweep(x.model, **{name: v})
+
+
+def building(part, further):
+    """Parts of a mechanism with a name and further arguments."""
+    return lambda x, v: getattr(symgen.MechanismBuilder("a"), part)(v, *further)
+
+
+def built(name="a", **keys):
+    """A mechanism of one body with these keys."""
+    return symgen.MechanismBuilder(name).body("b", **{"mass": 1, "inertia": 1, **keys})
+
+
 def rows():
     """Rows of everything else: label, call on the fixtures, sentence."""
-    for shown, value in {"3": 3, "None": None, "a list of 1": ["a"], "b'a'": b"a", "a Thing": Thing()}.items():
-        yield f"load {shown}", lambda x, v=value: symgen.load(v), f"model: expected a path, got {shown}"
-        yield f"simulate {shown}", lambda x, v=value: symgen.simulate(v), f"model: expected a path, got {shown}"
-        yield f"compare {shown}", lambda x, v=value: symgen.compare(v), f"model: expected a path, got {shown}"
-        yield f"sweep {shown}", lambda x, v=value: symgen.sweep(v, {"a": [1.0]}), f"model: expected a path, got {shown}"
-        yield (
-            f"Model {shown}",
-            lambda x, v=value: symgen.Model(v),
-            "mechanism: expected a Mechanism; symgen.load takes",
-        )
+    vy = {"bob.vy": [1.0]}
+    paths = {"3": 3, "None": None, "a list of 1": ["a"], "b'a'": b"a", "a Thing": Thing()}
+    for name, call in {
+        "load": lambda x, v: symgen.load(v),
+        "simulate": lambda x, v: symgen.simulate(v),
+        "compare": lambda x, v: symgen.compare(v),
+        "sweep": lambda x, v: symgen.sweep(v, {"a": [1.0]}),
+    }.items():
+        yield from each(name, paths, call, "model: expected a path, got {}")
+    yield from each("Model", paths, lambda x, v: symgen.Model(v), "mechanism: expected a Mechanism; symgen.load takes")
     yield "load empty", lambda x: symgen.load(""), "got ''"
     yield "load null", lambda x: symgen.load("a\0b"), "got 'a\\x00b'"
-    for value in ("lagrange", 3, {}, Settings):
-        yield f"settings {value!r:.9}", lambda x, v=value: x.model.simulate(v), "settings: expected Settings, got "
-        yield (
-            f"sweep settings {value!r:.9}",
-            lambda x, v=value: symgen.sweep(x.model, {"bob.vy": [1.0]}, settings=v),
-            ("settings: expected Settings, got "),
-        )
-    for value in (3, "yes", []):
-        for name, call in {
-            "simulate": lambda x, v: x.model.simulate(progress=v),
-            "sweep": lambda x, v: symgen.sweep(x.model, {"bob.vy": [1.0]}, progress=v),
-            "compare": lambda x, v: symgen.compare(x.model, progress=v),
-        }.items():
-            yield f"progress of {name} {value!r}", lambda x, v=value, c=call: c(x, v), "progress: expected a function"
+    records, wrong = ("lagrange", 3, {}, Settings), "settings: expected Settings, got "
+    yield from each("settings", records, lambda x, v: x.model.simulate(v), wrong)
+    yield from each("sweep settings", records, lambda x, v: symgen.sweep(x.model, vy, settings=v), wrong)
+    for name, call in {
+        "simulate": lambda x, v: x.model.simulate(progress=v),
+        "sweep": lambda x, v: symgen.sweep(x.model, vy, progress=v),
+        "compare": lambda x, v: symgen.compare(x.model, progress=v),
+    }.items():
+        yield from each(f"progress of {name}", (3, "yes", []), call, "progress: expected a function")
     # analyses: the pendulum is not driven, but what is wrong with an argument is said first
-    for shown, value in {"'x'": "x", "True": True, "a dict of 1": {"a": 1}, "a Thing": Thing(), "1j": 1j}.items():
-        yield f"kinematics {shown}", lambda x, v=value: x.model.kinematics(v), "kinematics: times: expected a"
-        yield f"inverse times {shown}", lambda x, v=value: x.model.inverse(times=v), "inverse: times: expected a"
-    for value in (np.zeros((2, 2)), np.array(["a"]), np.array([1j]), np.array([NAN]), np.zeros(0), [1.0, 0.0]):
-        yield f"kinematics {value!r:.19}", lambda x, v=value: x.model.kinematics(v), "kinematics: times: expected"
-    for shown, value in {"3": 3, "a list of 1": [3], "a dict of 0": {}}.items():
-        yield f"pins {shown}", lambda x, v=value: x.model.kinematics([0.0], transmission=v), "a list of names, got"
-        yield f"actuators {shown}", lambda x, v=value: x.model.inverse(x.result, actuators=v), "a list of names"
-        yield f"motion {shown}", lambda x, v=value: x.model.inverse(v), "a result of a run, or a motion of kinematics"
+    times = ["x", True, {"a": 1}, Thing(), 1j]
+    yield from each("kinematics", times, lambda x, v: x.model.kinematics(v), "kinematics: times: expected a")
+    yield from each("inverse times", times, lambda x, v: x.model.inverse(times=v), "inverse: times: expected a")
+    arrays = (np.zeros((2, 2)), np.array(["a"]), np.array([1j]), np.array([NAN]), np.zeros(0), [1.0, 0.0])
+    yield from each("kinematics", arrays, lambda x, v: x.model.kinematics(v), "kinematics: times: expected")
+    names = (3, [3], {})
+    for label, call, sentence in (
+        ("pins", lambda x, v: x.model.kinematics([0.0], transmission=v), "a list of names, got"),
+        ("actuators", lambda x, v: x.model.inverse(x.result, actuators=v), "a list of names"),
+        ("motion", lambda x, v: x.model.inverse(v), "a result of a run, or a motion of kinematics"),
+    ):
+        yield from each(label, names, call, sentence)
     yield "kinematics setting", lambda x: x.model.kinematics([0.0], speed=1.0), "the name of a setting, got 'speed'"
     yield "inverse file", lambda x: x.model.inverse("nothing.nc"), "expected a file of a result, got 'nothing.nc'"
     yield "inverse of nothing", lambda x: x.model.inverse(x.result), "names of what exerts the motion, got none"
-    for shown, value in {"3": 3, "'x'": "x", "a list": [1.0]}.items():
-        yield (
-            f"scan {shown}",
-            lambda x, v=value: x.model.equilibria(v),
-            "scan: expected a pair of a name and its values",
-        )
-        yield f"locus {shown}", lambda x, v=value: x.model.locus(v), "over: expected a pair of a name and its values"
+    ranges = (3, "x", [1.0])
+    yield from each(
+        "scan", ranges, lambda x, v: x.model.equilibria(v), "scan: expected a pair of a name and its values"
+    )
+    yield from each("locus", ranges, lambda x, v: x.model.locus(v), "over: expected a pair of a name and its values")
     yield "scan text", lambda x: x.model.equilibria(("bob.x", "x")), "scan bob.x: expected"
     yield "scan of nothing", lambda x: x.model.equilibria(("nope", [0.0])), "a coordinate of pendulum, got none"
     yield "equilibrium setting", lambda x: x.model.equilibrium(nope=1), "the name of a setting, got 'nope'"
-    for value in ("never", None, [1.0], NAN, -1.0):
-        yield f"modes at {value!r}", lambda x, v=value: x.model.modes(at=v), "at: expected"
-        yield f"linearise at {value!r}", lambda x, v=value: x.model.linearise(at=v), "at: expected"
-    for value in (4, {"x": 1}):
-        yield f"states {value!r}", lambda x, v=value: x.model.modes(states=v), "states: expected a list of names"
-        yield f"cyclic {value!r}", lambda x, v=value: x.model.steady(cyclic=v), "cyclic: expected a list of names"
-    yield (
-        "states by name",
-        lambda x: x.model.linearise(states=("nope",)),
-        "state 'nope': expected a coordinate, velocity",
-    )
-    for value in (0, -1, "x", 1.5, True):
-        yield f"count {value!r}", lambda x, v=value: x.model.modes(count=v), "count: expected a whole number"
-    for value in (0, -1, 1.5, "1", None, True):
-        yield f"mode {value!r}", lambda x, v=value: x.model.view_mode(v), "number: expected a whole number"
+    moments = ("never", None, [1.0], NAN, -1.0)
+    yield from each("modes at", moments, lambda x, v: x.model.modes(at=v), "at: expected")
+    yield from each("linearise at", moments, lambda x, v: x.model.linearise(at=v), "at: expected")
+    yield from each("states", (4, {"x": 1}), lambda x, v: x.model.modes(states=v), "states: expected a list of names")
+    yield from each("cyclic", (4, {"x": 1}), lambda x, v: x.model.steady(cyclic=v), "cyclic: expected a list of names")
+    wrong = "state 'nope': expected a coordinate, velocity"
+    yield "states by name", lambda x: x.model.linearise(states=("nope",)), wrong
+    counts = (0, -1, "x", 1.5, True)
+    yield from each("count", counts, lambda x, v: x.model.modes(count=v), "count: expected a whole number")
+    numbers = (0, -1, 1.5, "1", None, True)
+    yield from each("mode", numbers, lambda x, v: x.model.view_mode(v), "number: expected a whole number")
     yield "mode 99", lambda x: x.model.view_mode(99), "mode: expected a number from 1 to"
     yield "mode at", lambda x: x.model.view_mode(1, at="nowhere"), "at: expected"
     yield "instantaneous", lambda x: x.model.linearise(instantaneous="x"), "instantaneous: expected True or False"
     # models
-    for shown, value in NO_MAPPING.items():
-        yield f"parameters {shown}", lambda x, v=value: x.model.parameters(v), f"got {shown}"
-        yield f"compile options {shown}", lambda x, v=value: x.model.compile("lagrange", v), f"got {shown}"
-        yield f"assemble {shown}", lambda x, v=value: x.model.assemble(x.compiled, v), f"got {shown}"
-        yield f"assemble method {shown}", lambda x, v=value: x.model.assemble(x.compiled, {}, v), f"got {shown}"
+    for label, call in {
+        "parameters": lambda x, v: x.model.parameters(v),
+        "compile options": lambda x, v: x.model.compile("lagrange", v),
+        "assemble": lambda x, v: x.model.assemble(x.compiled, v),
+        "assemble method": lambda x, v: x.model.assemble(x.compiled, {}, v),
+    }.items():
+        yield from each(label, NO_MAPPING, call, "got {}")
     yield "parameter text", lambda x: x.model.parameters({"x": "1"}), "expected a parameter of pendulum"
-    for shown, value in NO_TEXT.items():
-        yield f"compile {shown}", lambda x, v=value: x.model.compile(v), f"expected a method, got {shown}"
-        yield (
-            f"shape {shown}",
-            lambda x, v=value: x.model.compile("lagrange", shape=v),
-            "shape: expected one of straight",
-        )
+    yield from each("compile", NO_TEXT, lambda x, v: x.model.compile(v), "expected a method, got {}")
+    wrong = "shape: expected one of straight"
+    yield from each("shape", NO_TEXT, lambda x, v: x.model.compile("lagrange", shape=v), wrong)
     yield "compile auto", lambda x: x.model.compile("lagrange", shape="auto"), "one of straight, looped, got 'auto'"
-    yield (
-        "compile option",
-        lambda x: x.model.compile("lagrange", {"weight": 1}),
-        "option 'weight': expected a text, got 1",
-    )
+    wrong = "option 'weight': expected a text, got 1"
+    yield "compile option", lambda x: x.model.compile("lagrange", {"weight": 1}), wrong
     for changes, sentence in (
         ({"path": 3}, "path: expected a path, got 3"),
         ({"methods": 3}, "methods: expected a list of names, got 3"),
@@ -234,11 +248,8 @@ def rows():
     ):
         yield f"generate {changes}", lambda x, c=changes: x.model.generate(**c), sentence
     yield "assemble what", lambda x: x.model.assemble(3), "compiled: expected what Model.compile returned, got 3"
-    yield (
-        "assemble other",
-        lambda x: symgen.load("four-bar").assemble(x.compiled),
-        "compiled code of four-bar, got that",
-    )
+    wrong = "compiled code of four-bar, got that"
+    yield "assemble other", lambda x: symgen.load("four-bar").assemble(x.compiled), wrong
     yield "assemble strict", lambda x: x.model.assemble(x.compiled, strict="no"), "strict: expected True or False"
     yield "assemble alpha", lambda x: x.model.assemble(x.compiled, {}, {"alpha": 1.0}), "a parameter of lagrange, got"
     yield "body", lambda x: x.model.mechanism.body("bo"), "body: expected a body of pendulum, got 'bo'; did you mean"
@@ -246,26 +257,28 @@ def rows():
     yield "joint", lambda x: x.model.mechanism.joint_named("hinge"), wrong
     yield "body 3", lambda x: x.model.mechanism.body(3), "body: expected a body of pendulum, got 3"
     # results
-    for shown, value in {"-1": -1, "None": None, "a tuple of 2": (0, 1), "1.5": 1.5, "a slice": slice(3)}.items():
-        yield f"q {shown}", lambda x, v=value: x.result.q[v], f"got {shown}; outputs are rows: table.values[-1]"
-        yield f"column {shown}", lambda x, v=value: x.result[v], f"got {shown}; outputs are rows: result.q.values[-1]"
-        yield f"unit {shown}", lambda x, v=value: x.result.q.unit(v), f"got {shown}"
-        yield (
-            f"reaction {shown}",
-            lambda x, v=value: x.result.reaction(v),
-            f"joint: expected the name of a joint, got {shown}",
-        )
+    keys = {"-1": -1, "None": None, "a tuple of 2": (0, 1), "1.5": 1.5, "a slice": slice(3)}
+    for label, call, sentence in (
+        ("q", lambda x, v: x.result.q[v], "got {}; outputs are rows: table.values[-1]"),
+        ("column", lambda x, v: x.result[v], "got {}; outputs are rows: result.q.values[-1]"),
+        ("unit", lambda x, v: x.result.q.unit(v), "got {}"),
+        ("reaction", lambda x, v: x.result.reaction(v), "joint: expected the name of a joint, got {}"),
+    ):
+        yield from each(label, keys, call, sentence)
     yield "column", lambda x: x.result["bob.z"], "result: expected the name of a column, got 'bob.z'; did you mean"
     yield "column long", lambda x: x.result["x" * 9999], "got 'xxxxxxxxxxxx"
     yield "labelled", lambda x: x.result.q["bob.z"], "did you mean"
     yield "reaction", lambda x: x.result.reaction("lin"), "joint: expected the name of a joint, got 'lin'"
-    for value in (99, -99, "last", None, 1.5, [0]):
-        yield f"row {value!r}", lambda x, v=value: x.result.q.row(v), "row: expected a whole number from -"
-    for shown, value in {"3": 3, "None": None, "b'a.csv'": b"a.csv", "a list of 1": ["a.csv"]}.items():
-        yield f"save {shown}", lambda x, v=value: x.result.save(v), f"save: expected a path, got {shown}"
-        yield f"plot {shown}", lambda x, v=value: x.result.plot(v), f"plot: expected a path, got {shown}"
-        yield f"study {shown}", lambda x, v=value: x.study.save(v), f"save: expected a path, got {shown}"
-        yield f"sweep save {shown}", lambda x, v=value: x.sweep.save(v), f"save: expected a path, got {shown}"
+    indices = (99, -99, "last", None, 1.5, [0])
+    yield from each("row", indices, lambda x, v: x.result.q.row(v), "row: expected a whole number from -")
+    for label, call, where in (
+        ("save", lambda x, v: x.result.save(v), "save"),
+        ("plot", lambda x, v: x.result.plot(v), "plot"),
+        ("study", lambda x, v: x.study.save(v), "save"),
+        ("sweep save", lambda x, v: x.sweep.save(v), "save"),
+    ):
+        names = {"3": 3, "None": None, "b'a.csv'": b"a.csv", "a list of 1": ["a.csv"]}
+        yield from each(label, names, call, f"{where}: expected a path, got {{}}")
     yield "save ending", lambda x: x.result.save("a.xls"), "save: expected a file ending in .nc"
     yield "save folder", lambda x: x.result.save("no/where/a.csv"), "save: expected a file in a folder that exists"
     yield "save null", lambda x: x.result.save("a\0.csv"), "save: expected a name that a file can have"
@@ -277,127 +290,91 @@ def rows():
     yield "plot what", lambda x: x.result.plot("a.png", 3), "plot: expected a list of names, got 3"
     yield "plot panel", lambda x: x.result.plot("a.png", "energi"), "plot: expected the name of a panel, got 'energi'"
     # studies
+    lists = {"3": 3, "a dict of 0": {}, "the function len": len}
     for name in ("methods", "integrators"):
-        for shown, value in {"3": 3, "a dict of 0": {}, "the function len": len}.items():
-            yield (
-                f"compare {name} {shown}",
-                lambda x, n=name, v=value: symgen.compare(x.model, **{n: v}),
-                (f"{name}: expected a list of names, got {shown}"),
-            )
-        yield f"compare {name}", lambda x, n=name: symgen.compare(x.model, **{n: ["x", 3]}), f"{name}: expected a list"
+        call = comparing(name)
+        yield from each(f"compare {name}", lists, call, f"{name}: expected a list of names, got {{}}")
+        yield from each(f"compare {name}", [["x", 3]], call, f"{name}: expected a list")
     for name in ("steps", "rtols"):
-        for value in ("1e-3", [0.0], [-1.0], [NAN], ["x"], [None], [True], {"a": 1}, np.zeros((2, 2)), len):
-            yield (
-                f"compare {name} {value!r:.20}",
-                lambda x, n=name, v=value: symgen.compare(x.model, **{n: v}),
-                (f"{name[:-1]}: expected a "),
-            )
+        values = ("1e-3", [0.0], [-1.0], [NAN], ["x"], [None], [True], {"a": 1}, np.zeros((2, 2)), len)
+        call = comparing(name)
+        yield from each(f"compare {name}", values, call, f"{name[:-1]}: expected a ")
     for name in ("until", "output_step", "max_violation", "max_energy_error"):
-        for value in (0, -1.0, NAN, "1", True, [1.0]):
-            yield (
-                f"compare {name} {value!r}",
-                lambda x, n=name, v=value: symgen.compare(x.model, **{n: v}),
-                (f"{name}: expected a finite number above 0, got "),
-            )
+        call = comparing(name)
+        wrong = f"{name}: expected a finite number above 0, got "
+        yield from each(f"compare {name}", (0, -1.0, NAN, "1", True, [1.0]), call, wrong)
     yield "view beside", lambda x: x.result.view("a.nc"), "beside: expected a Result, got"
     yield "view live", lambda x: x.result.view(live="no"), "live: expected "
     yield "draw at", lambda x: x.model.draw(at="end"), "at: expected one of"
     yield "draw parameters", lambda x: x.model.draw({"nothing": 1.0}), "parameter 'nothing': expected a parameter"
     yield "draw start", lambda x: x.model.draw(start={"nothing": 1.0}), "start 'nothing'"
-    for value in ("q", [1.0], np.zeros((2, 2)), [None], 3):
-        yield f"draw q {value!r:.20}", lambda x, v=value: x.model.draw(q=v), "q: expected"
+    yield from each("draw q", ("q", [1.0], np.zeros((2, 2)), [None], 3), lambda x, v: x.model.draw(q=v), "q: expected")
     yield "draw view", lambda x: x.model.draw(view=(1, 2)), "view: expected a symgen.drawing.View, got"
-    for value in (0, 1.5, "3", None):
-        yield (
-            f"compare repeat {value}",
-            lambda x, v=value: symgen.compare(x.model, repeat=v),
-            "repeat: expected a whole",
-        )
-        yield (
-            f"compare jobs {value}",
-            lambda x, v=value: symgen.compare(x.model, jobs=v),
-            "jobs: expected a whole number",
-        )
-    yield (
-        "compare journal",
-        lambda x: symgen.compare(x.model, journal="file"),
-        "journal: expected a symgen.study.journal",
+    counts = (0, 1.5, "3", None)
+    yield from each(
+        "compare repeat", counts, lambda x, v: symgen.compare(x.model, repeat=v), "repeat: expected a whole"
     )
-    yield "compare by", lambda x: symgen.compare(x.model, reference_by=3), "--reference: expected one of auto"
-    yield "compare shape", lambda x: symgen.compare(x.model, shape="round"), "shape: expected one of auto"
-    yield "compare options", lambda x: symgen.compare(x.model, options=3), "options: expected values by the names"
-    yield "compare parameters", lambda x: symgen.compare(x.model, parameters={"g": "x"}), "expected a finite number"
-    for name, value in {"cases": 3, "methods": len}.items():
-        yield f"stress {name}", lambda x, n=name, v=value: stress(**{n: v}), f"{name}: expected a list of names"
-    yield "stress models", lambda x: stress([3]), "model: expected a path, got 3"
-    yield "stress jobs", lambda x: stress(jobs=0), "jobs: expected a whole number"
-    yield "stress quick", lambda x: stress(quick="no"), "quick: expected True or False"
-    yield "stress compilation", lambda x: stress(compilation="long"), "compilation: expected"
+    yield from each(
+        "compare jobs", counts, lambda x, v: symgen.compare(x.model, jobs=v), "jobs: expected a whole number"
+    )
+    for changes, sentence in (
+        ({"journal": "file"}, "journal: expected a symgen.study.journal"),
+        ({"reference_by": 3}, "--reference: expected one of auto"),
+        ({"shape": "round"}, "shape: expected one of auto"),
+        ({"options": 3}, "options: expected values by the names"),
+        ({"parameters": {"g": "x"}}, "expected a finite number"),
+    ):
+        yield f"compare {changes}", lambda x, c=changes: symgen.compare(x.model, **c), sentence
+    for changes, sentence in (
+        ({"cases": 3}, "cases: expected a list of names"),
+        ({"methods": len}, "methods: expected a list of names"),
+        ({"models": [3]}, "model: expected a path, got 3"),
+        ({"jobs": 0}, "jobs: expected a whole number"),
+        ({"quick": "no"}, "quick: expected True or False"),
+        ({"compilation": "long"}, "compilation: expected"),
+    ):
+        yield f"stress {changes}", lambda x, c=changes: stress(**c), sentence
     # sweeps
     for name in ("vary", "runs"):
-        for shown, value in NO_MAPPING.items():
-            yield (
-                f"{name} {shown}",
-                lambda x, n=name, v=value: symgen.sweep(x.model, **{n: v}),
-                f"{name}: expected values",
-            )
-        yield f"{name} 3", lambda x, n=name: symgen.sweep(x.model, **{n: {3: [1.0]}}), "named by texts, got 3"
-        for value in (3.0, None, [], [[1.0]], ["x"], [NAN], [None], len, {"a": 1}, "lin(0,1)", "cube(1,2,3)", [1j]):
-            yield (
-                f"{name} bob.vy {value!r:.20}",
-                lambda x, n=name, v=value: symgen.sweep(x.model, **{n: {"bob.vy": v}}),
-                ("bob.vy: expected "),
-            )
+        call = sweeping(name)
+        yield from each(name, NO_MAPPING, call, f"{name}: expected values")
+        yield from each(name, [{3: [1.0]}], call, "named by texts, got 3")
+        of_axis = (3.0, None, [], [[1.0]], ["x"], [NAN], [None], len, {"a": 1}, "lin(0,1)", "cube(1,2,3)", [1j])
+        yield from each(f"{name} bob.vy", [{"bob.vy": v} for v in of_axis], call, "bob.vy: expected ")
     yield "vary nothing", lambda x: symgen.sweep(x.model, {}), "sweep: expected something that varies, got nothing"
     yield "vary name", lambda x: symgen.sweep(x.model, {"bob.vz": [1.0]}), "did you mean 'bob.v"
-    for value in (0, 5000, 1.5, "3", True):
-        yield (
-            f"sweep jobs {value}",
-            lambda x, v=value: symgen.sweep(x.model, {"bob.vy": [1.0]}, jobs=v),
-            "jobs: expected",
-        )
-    for name, value, sentence in (
-        ("quantities", 3, "quantities: expected a list of names"),
-        ("quantities", ["bob.z"], "quantity 'bob.z': expected a quantity of pendulum"),
-        ("quantities", [3], "quantities: expected a list of names, got 3"),
-        ("output", 3, "output: expected a path, got 3"),
-        ("output", "a.xls", "output: expected a file ending in .nc"),
-        ("resume", "yes", "resume: expected True or False"),
-        ("resume", True, "resume: expected an output that was begun"),
-        ("scheduler", 3, "scheduler: expected the address of a Dask scheduler, or a client, got 3"),
-        ("target", 3, "target: expected one of cpu"),
-        ("target", "gpu", "target: expected one of cpu, lanes, cuda, got 'gpu'"),
-        ("verify", True, "verify: expected single runs"),
-        ("repeat", 2, "repeat: expected single runs"),
-        ("method", 3, "method: expected a name, got 3"),
+    for changes, sentence in (
+        *(({"jobs": v}, "jobs: expected") for v in (0, 5000, 1.5, "3", True)),
+        ({"quantities": 3}, "quantities: expected a list of names"),
+        ({"quantities": ["bob.z"]}, "quantity 'bob.z': expected a quantity of pendulum"),
+        ({"quantities": [3]}, "quantities: expected a list of names, got 3"),
+        ({"output": 3}, "output: expected a path, got 3"),
+        ({"output": "a.xls"}, "output: expected a file ending in .nc"),
+        ({"resume": "yes"}, "resume: expected True or False"),
+        ({"resume": True}, "resume: expected an output that was begun"),
+        ({"scheduler": 3}, "scheduler: expected the address of a Dask scheduler, or a client, got 3"),
+        ({"target": 3}, "target: expected one of cpu"),
+        ({"target": "gpu"}, "target: expected one of cpu, lanes, cuda, got 'gpu'"),
+        ({"verify": True}, "verify: expected single runs"),
+        ({"repeat": 2}, "repeat: expected single runs"),
+        ({"method": 3}, "method: expected a name, got 3"),
     ):
-        yield (
-            f"sweep {name} {value!r}",
-            lambda x, n=name, v=value: symgen.sweep(x.model, {"bob.vy": [1.0]}, **{n: v}),
-            (sentence),
-        )
-    for shown, value in {"3": 3, "None": None, "'bob.z'": "bob.z"}.items():
-        yield (
-            f"sweep column {shown}",
-            lambda x, v=value: x.sweep[v],
-            "sweep: expected a quantity that was kept, or a number",
-        )
+        yield f"sweep {changes}", lambda x, c=changes: symgen.sweep(x.model, vy, **c), sentence
+    wrong = "sweep: expected a quantity that was kept, or a number"
+    yield from each("sweep column", (3, None, "bob.z"), lambda x, v: x.sweep[v], wrong)
     yield "sweep reasons", lambda x: x.sweep.reasons("all"), "most: expected a whole number"
     # builders
-    for shown, value in {"3": 3, "None": None, "a list of 0": []}.items():
-        yield (
-            f"builder {shown}",
-            lambda x, v=value: symgen.MechanismBuilder(v).body("a", mass=1).build(),
-            "mechanism.name",
-        )
-        for part in ("parameter", "input", "table", "body", "joint", "force", "output", "event"):
-            numbers = {"parameter": (1.0,), "input": (1.0,), "table": ([0, 1], [0, 1]), "output": ("t",)}
-            extra = {**numbers, "joint": ("rigid",), "force": ("torque",)}.get(part, ())
-            yield (
-                f"{part} {shown}",
-                lambda x, v=value, p=part, e=extra: getattr(symgen.MechanismBuilder("a"), p)(v, *e),
-                (f"expected a text, got {shown}"),
-            )
+    names = {"3": 3, "None": None, "a list of 0": []}
+    yield from each(
+        "builder", names, lambda x, v: symgen.MechanismBuilder(v).body("a", mass=1).build(), "mechanism.name"
+    )
+    further = {
+        **dict.fromkeys(("body", "event"), ()),
+        **{"parameter": (1.0,), "input": (1.0,), "table": ([0, 1], [0, 1]), "output": ("t",)},
+        **{"joint": ("rigid",), "force": ("torque",)},
+    }
+    for part, more in further.items():
+        yield from each(part, names, building(part, more), "expected a text, got {}")
     for key, value in (
         *(("mass", v) for v in (None, "", [], NAN, INF, -1.0, True, Thing(), len, 1j, 10**400, {"a": 1})),
         *(("inertia", v) for v in (np.eye(3), object, float("-inf"))),
@@ -407,54 +384,26 @@ def rows():
         ("points", {3: [0.0, 0.0]}),
         ("nonsense", 1.0),
     ):
-        keys = {"mass": 1.0, "inertia": 1.0, key: value}
-        yield (
-            f"body {key} {value!r:.15}",
-            lambda x, k=keys: symgen.MechanismBuilder("a").body("b", **k).build(),
-            ("builder 'a': bodies.b"),
-        )
-    yield (
-        "table",
-        lambda x: symgen.MechanismBuilder("a").table("f", 3, 4).body("b", mass=1, inertia=1).build(),
-        ("tables.f.x: expected a list of numbers, got 3"),
-    )
-    yield (
-        "joint type",
-        lambda x: symgen.MechanismBuilder("a").body("b", mass=1, inertia=1).joint("j", 3).build(),
-        ("joints.j.type: expected a joint type, got 3"),
-    )
-    yield (
-        "run",
-        lambda x: symgen.MechanismBuilder("a").run(until="long").body("b", mass=1, inertia=1).build(),
-        "run.until",
-    )
+        yield f"body {key} {value!r:.15}", lambda x, k=key, v=value: built(**{k: v}).build(), "builder 'a': bodies.b"
+    yield "table", lambda x: built().table("f", 3, 4).build(), "tables.f.x: expected a list of numbers, got 3"
+    yield "joint type", lambda x: built().joint("j", 3).build(), "joints.j.type: expected a joint type, got 3"
+    yield "run", lambda x: built().run(until="long").build(), "run.until"
     yield "start output", lambda x: x.model.start(output_step=0.1), "start: output_step: expected settings of a run"
     yield "start name", lambda x: x.model.start(stepp=0.1), "did you mean 'step'?"
-    for shown, value in NO_NUMBER.items():
-        above = f"expected a finite number above 0, got {shown}"
-        yield f"step {shown}", lambda x, v=value: x.sim.step(v), f"dt: {above}"
-        yield f"every {shown}", lambda x, v=value: x.sim.every(v, print), f"interval: {above}"
-        yield f"run {shown}", lambda x, v=value: x.sim.run(v), "until: expected "
-    for shown, value in NO_MAPPING.items():
-        yield (
-            f"set {shown}",
-            lambda x, v=value: x.sim.set(v),
-            f"set: expected numbers by the names of parameters, got {shown}",
-        )
-        yield f"step u {shown}", lambda x, v=value: x.sim.step(0.01, v), f"parameters, got {shown}"
-        yield f"restore {shown}", lambda x, v=value: x.sim.restore(v), f"expected what `save` returned, got {shown}"
-    for shown, value in {"3": 3, "None": None, "'f'": "f"}.items():
-        yield (
-            f"controller {shown}",
-            lambda x, v=value: x.sim.every(0.1, v),
-            f"controller: expected a function, got {shown}",
-        )
-    for shown, value in {"'joints'": "joints", "3": 3}.items():
-        yield (
-            f"equations_in {shown}",
-            lambda x, v=value: x.model.equations_in(v),
-            f"coordinates: expected one of absolute, joint, got {shown}",
-        )
+    above = "expected a finite number above 0, got {}"
+    yield from each("step", NO_NUMBER, lambda x, v: x.sim.step(v), f"dt: {above}")
+    yield from each("every", NO_NUMBER, lambda x, v: x.sim.every(v, print), f"interval: {above}")
+    yield from each("run", NO_NUMBER, lambda x, v: x.sim.run(v), "until: expected ")
+    numbers = "set: expected numbers by the names of parameters, got {}"
+    yield from each("set", NO_MAPPING, lambda x, v: x.sim.set(v), numbers)
+    yield from each("step u", NO_MAPPING, lambda x, v: x.sim.step(0.01, v), "parameters, got {}")
+    yield from each("restore", NO_MAPPING, lambda x, v: x.sim.restore(v), "expected what `save` returned, got {}")
+    functions = {"3": 3, "None": None, "'f'": "f"}
+    yield from each(
+        "controller", functions, lambda x, v: x.sim.every(0.1, v), "controller: expected a function, got {}"
+    )
+    wrong = "coordinates: expected one of absolute, joint, got {}"
+    yield from each("equations_in", {"'joints'": "joints", "3": 3}, lambda x, v: x.model.equations_in(v), wrong)
     yield "equations 3", lambda x: x.model.equations.quantity(3), "quantity: expected one of Phi, D, nu"
     yield "toml", lambda x: symgen.MechanismBuilder("a").body("b", mass=Thing()).to_toml(), "a Thing"
 
@@ -507,44 +456,16 @@ def test_every_analysis_takes_settings_and_refuses_others(model, method):
 def test_no_function_with_arguments_is_left_out():
     """Every public name that can be called, and every method of a public class that takes something, has rows."""
     tested = {
-        *("load", "simulate", "compare", "sweep", "Model", "Settings", "MechanismBuilder"),
-        *(
-            "Model.parameters",
-            "Model.compile",
-            "Model.equations_in",
-            "Model.generate",
-            "Model.draw",
-            "Model.assemble",
-            "Model.simulate",
-            "Mechanism.body",
-            "Mechanism.joint_named",
-        ),
-        *("Result.save", "Result.plot", "Result.reaction", "Labelled.row", "Labelled.unit", "Study.save"),
-        *("Sweep.save", "Sweep.reasons", "Model.start"),
-        *(f"SteppedRun.{name}" for name in ("step", "run", "every", "set", "restore")),
-        *(f"MechanismBuilder.{name}" for name in ("run", "parameter", "input", "table", "body", "joint", "force")),
-        *(
-            "MechanismBuilder.output",
-            "MechanismBuilder.event",
-            "Result.columns",
-            "Result.select",
-            "Result.series",
-            "Result.view",
-        ),
+        *"load simulate compare sweep Model Settings MechanismBuilder Mechanism.body Mechanism.joint_named".split(),
+        *(f"Model.{n}" for n in "parameters compile equations_in generate draw assemble simulate start".split()),
+        *(f"Result.{n}" for n in "save plot reaction columns select series view".split()),
+        *"Labelled.row Labelled.unit Study.save Sweep.save Sweep.reasons".split(),
+        *(f"SteppedRun.{n}" for n in "step run every set restore".split()),
+        *(f"MechanismBuilder.{n}" for n in "run parameter input table body joint force output event".split()),
     }
     tested |= {f"Model.{method.__name__}" for method in ANALYSIS_METHODS}
     # what only the package makes or calls
-    inner = {
-        "Result",
-        "Labelled",
-        "Study",
-        "Sweep",
-        "SteppedRun",
-        "Mechanism",
-        "Model.compiled",
-        "Model.ready",
-        "Model.initial_state",
-    }
+    inner = {*"Result Labelled Study Sweep SteppedRun Mechanism Model.compiled Model.ready Model.initial_state".split()}
     found = set()
     for name in symgen.__all__:
         thing = getattr(symgen, name)

@@ -152,22 +152,6 @@ def test_a_mechanism_that_nobody_could_read_is_refused_before_it_is_derived(tmp_
     assert not path.exists()
 
 
-@pytest.mark.parametrize(
-    ("arguments", "word"),
-    [
-        (["-o", "x.pdf"], "ending in .html"),
-        (["-o", "x.html", "--json"], "beside it"),
-        (["-o", "x.html", "--format", "latex"], "beside it"),
-        (["-o", "no/such/folder/x.html"], "a folder that exists"),
-    ],
-)
-def test_what_means_nothing_is_refused(arguments, word, capsys, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    assert main(["inspect", "pendulum", *arguments]) == 2
-    assert word in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_a_mechanism_that_does_not_close_is_drawn_as_described(tmp_path):
     path = tmp_path / "open.toml"
     path.write_text(
