@@ -74,7 +74,7 @@ def write_page(name: str, settings: Settings, output: str) -> None:
     from symgen.files import check_path, write_whole
     from symgen.player.motion_page import PAGES
     from symgen.reading.listing import text_of
-    from symgen.reading.page import MOST_STRAIGHT, PageSubject, check_size, page
+    from symgen.reading.page import MOST_STRAIGHT, EquationPage, check_size
 
     path = check_path("inspect: -o", Path(output), PAGES, "plot")
     model = load(name)
@@ -94,14 +94,7 @@ def write_page(name: str, settings: Settings, output: str) -> None:
             facts.append(f"Coordinates: {run.plan.coordinates_reason}.")
     except AssemblyError as error:
         facts = [f"It does not close, and is drawn as described: {error}"]
-    subject = PageSubject(
-        whole=model.mechanism,
-        mechanism=mechanism,
-        choice=choice,
-        values=model.parameters(settings.parameters),
-        facts=facts,
-        text=text_of(name),
-        run=run,
-    )
-    written = write_whole(path, page(subject))
+    values = model.parameters(settings.parameters)
+    page = EquationPage(model.mechanism, mechanism, choice, values, facts, text_of(name), run)
+    written = write_whole(path, page.html())
     click.echo(f"{written}  {written.stat().st_size} bytes")

@@ -5,16 +5,14 @@ from __future__ import annotations
 import io
 import json
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.errors import InputError
-from symgen.files import check_path, headed, need, write_whole
-from symgen.memory import require
+from symgen.files import headed, need, write_whole
 from symgen.result.contract import contract
 
 if TYPE_CHECKING:
@@ -133,23 +131,3 @@ def to_xarray(result: Result) -> xr.Dataset:
 
 def _texts(names: tuple[str, ...]) -> np.ndarray[tuple[int], np.dtype[np.object_]]:
     return np.array(names, dtype=object)
-
-
-def save(result: Result, path: Path, quantities: Sequence[str] = (), units: bool = False) -> Path:
-    """Write all tables, or some columns, in the format that the ending of `path` names.
-
-    Columns of CSV files that were chosen carry their units, all of them where `units` ask for it:
-    ``spring.force [N]``.
-    """
-    check_path("save", path, SAVED, "data")
-    ending = path.suffix.lower()
-    if units and ending != ".csv":
-        raise InputError("save: units", "a file ending in .csv, whose headings carry them", f"'{path}'")
-    if quantities and ending != ".nc":
-        return write_frame(data_frame(result.t, result.select(quantities), ending == ".csv"), path)
-    size = 40.0 * len(result.t) * sum(len(result.columns(table)) for table in result.names)
-    require("save", f"{len(result.t)} outputs of {result.mechanism}", size)
-    if ending == ".nc":
-        return write_whole(path, netcdf(with_last_state(to_xarray(result), result)))
-    frame = data_frame(result.t, result.select(result.names), True) if units else result.to_dataframe()
-    return write_frame(frame, path)

@@ -16,7 +16,12 @@ from symgen.arguments import of_kind, shown, switch, words
 from symgen.arguments import path as argument_path
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, nearest
+from symgen.files import check_path, write_whole
+from symgen.memory import require
+from symgen.result.contract import contract
+from symgen.result.export import SAVED, data_frame, netcdf, to_xarray, with_last_state, write_frame
 from symgen.result.labelled import Array, Labelled
+from symgen.result.plots import plot
 from symgen.result.tables import MotionTables
 
 if TYPE_CHECKING:
@@ -256,8 +261,6 @@ class Result(MotionTables):
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen run --json``; numbers that are not finite become None."""
-        from symgen.result.contract import contract
-
         return contract(self)
 
     def to_dataframe(self) -> pd.DataFrame:
@@ -274,8 +277,6 @@ class Result(MotionTables):
 
     def to_xarray(self) -> xr.Dataset:
         """Return all tables as a dataset over time, with units and what was run; raises as `to_dataframe` does."""
-        from symgen.result.export import to_xarray
-
         return to_xarray(self)
 
     def view(self, beside: Result | None = None, *, live: bool = True) -> Page:
@@ -320,9 +321,18 @@ class Result(MotionTables):
         InputError
             If the ending is not known, the library for it is missing, or the file cannot be written.
         """
-        from symgen.result.export import save
-
-        return save(self, argument_path("save", path), words("quantities", quantities), switch("units", units))
+        file = check_path("save", argument_path("save", path), SAVED, "data")
+        chosen, ending, headed = words("quantities", quantities), file.suffix.lower(), switch("units", units)
+        if headed and ending != ".csv":
+            raise InputError("save: units", "a file ending in .csv, whose headings carry them", f"'{file}'")
+        if chosen and ending != ".nc":
+            return write_frame(data_frame(self.t, self.select(chosen), ending == ".csv"), file)
+        size = 40.0 * len(self.t) * sum(len(self.columns(table)) for table in self.names)
+        require("save", f"{len(self.t)} outputs of {self.mechanism}", size)
+        if ending == ".nc":
+            return write_whole(file, netcdf(with_last_state(to_xarray(self), self)))
+        frame = data_frame(self.t, self.select(self.names), True) if headed else self.to_dataframe()
+        return write_frame(frame, file)
 
     def plot(self, path: str | PathLike[str], what: Sequence[str] = ("positions", "energy", "violations")) -> Path:
         """Draw panels over time into a PNG, SVG or PDF file.
@@ -334,8 +344,6 @@ class Result(MotionTables):
         what : sequence of str
             Any of ``positions``, ``velocities``, ``energy``, ``violations``, ``reactions``.
         """
-        from symgen.result.plots import plot
-
         return plot(self, argument_path("plot", path), words("plot", what))
 
     def __repr__(self) -> str:

@@ -21,6 +21,7 @@ from symgen.errors import InputError, nearest, quoted
 from symgen.files import check_path
 from symgen.result.export import COLUMNS, PLOTTED, data_frame, write_frame
 from symgen.result.labelled import Array, Labelled, labelled
+from symgen.result.plots import by_unit, over_time, write_figure
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -250,8 +251,6 @@ class Tables(ABC):
         what : sequence of str, optional
             As `select` takes them; the first table by default.
         """
-        from symgen.result.plots import by_unit, over_time, write_figure
-
         where = argument_path("plot", path)
         check_path("plot", where, PLOTTED, "plot")
         chosen = words("plot", what) or self.names[:1]
