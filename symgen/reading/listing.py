@@ -55,8 +55,6 @@ class Computed:
     ----------
     row, what : str
         The row, and what of it: ``Phi``, ``nu``, ``gamma``, or the velocity whose entry of D it is.
-    function : str
-        The emitted function.
     line : int
         Line of the module, from 1.
     text : str
@@ -65,7 +63,6 @@ class Computed:
 
     row: str
     what: str
-    function: str
     line: int
     text: str
 
@@ -96,7 +93,7 @@ def computed(program: ModelProgram, equations: Equations, source: str) -> list[C
     for function, target, row, what in wanted:
         line = lines.get((function, access.write(target)))
         if line is not None:
-            entries.append(Computed(row, what, function, *line))
+            entries.append(Computed(row, what, *line))
     return entries
 
 
