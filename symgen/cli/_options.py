@@ -51,22 +51,22 @@ def setting_options(
 
 
 def _option(name: str, text: str | None, otherwise: Any) -> Callable[[F], F]:
-    known, usual = about(name), default(name)
-    words = otherwise if isinstance(otherwise, str) and otherwise.startswith("(") else known.otherwise
+    setting, usual = about(name), default(name)
+    words = otherwise if isinstance(otherwise, str) and otherwise.startswith("(") else setting.otherwise
     value = usual if otherwise is None or words is otherwise else otherwise
-    extra: dict[str, Any] = {"help": text or known.help, "callback": lambda c, p, v: _checked(name, v)}
-    if known.kind is bool:
+    extra: dict[str, Any] = {"help": text or setting.help, "callback": lambda c, p, v: _checked(name, v)}
+    if setting.kind is bool:
         extra["is_flag"] = True
-    elif known.kind in (dict, list):
-        extra |= {"multiple": True, "metavar": known.metavar} | ({"default": value} if known.kind is list else {})
+    elif setting.kind in (dict, list):
+        extra |= {"multiple": True, "metavar": setting.metavar} | ({"default": value} if setting.kind is list else {})
     else:
-        extra |= {"type": str if known.kind is tuple else known.kind, "default": value}
-        extra |= {"metavar": known.metavar or None, "show_default": words.strip("()") if words else value is not None}
+        extra |= {"type": str if setting.kind is tuple else setting.kind, "default": value}
+        extra |= {"metavar": setting.metavar or None, "show_default": words.strip("()") if words else value is not None}
     return click.option(flag(name), name, **extra)
 
 
 def _checked(name: str, value: Any) -> Any:
-    known, where = about(name), flag(name)
+    setting, where = about(name), flag(name)
     if value is None:
         return None
     if name in ("parameters", "start"):
@@ -75,7 +75,7 @@ def _checked(name: str, value: Any) -> Any:
         return {**pairs("--option", value)}
     if name == "inputs":
         return pairs(where, value)
-    return known.check(where, time_list(where, value) if known.kind is tuple else value)
+    return setting.check(where, time_list(where, value) if setting.kind is tuple else value)
 
 
 def jobs_option(text: str) -> Callable[[F], F]:
@@ -127,8 +127,8 @@ def assignments(option: str, texts: Sequence[str]) -> dict[str, float]:
     InputError
         If a word has another form, a name repeats or a value is not a finite number.
     """
-    given = pairs(option, texts)
-    return {name: _number(f"{option} {name}", "a finite number", value) for name, value in given.items()}
+    texts_by_name = pairs(option, texts)
+    return {name: _number(f"{option} {name}", "a finite number", value) for name, value in texts_by_name.items()}
 
 
 def _number(where: str, expected: str, text: str, above: float = -math.inf) -> float:
@@ -145,10 +145,10 @@ def words(option: str, text: str | None) -> tuple[str, ...]:
     """Return the words of a comma-separated list, empty where none is given."""
     if text is None:
         return ()
-    found = tuple(part.strip() for part in text.split(","))
-    if not all(found):
+    parts = tuple(part.strip() for part in text.split(","))
+    if not all(parts):
         raise InputError(option, "words separated by commas", quoted(text))
-    return found
+    return parts
 
 
 def number_list(option: str, text: str | None) -> tuple[float, ...]:
@@ -194,14 +194,14 @@ def differ(files: Mapping[str, Path | None]) -> None:
     files : mapping
         Options and their files; None: there is none.
     """
-    seen = dict[str, str]()
+    owners = dict[str, str]()
     for option, path in files.items():
         if path is None:
             continue
         real = os.path.realpath(path)
-        if real in seen:
-            raise InputError(option, f"another file than {seen[real]} has", f"'{path}' for both")
-        seen[real] = option
+        if real in owners:
+            raise InputError(option, f"another file than {owners[real]} has", f"'{path}' for both")
+        owners[real] = option
 
 
 def tell(notes: Iterable[str]) -> None:

@@ -98,11 +98,11 @@ def show_result(result: Result) -> None:
         show_rows(out, ("body", *labels), rows, left=("body",), title="final state")
 
 
-def show_quantities(found: Mapping[str, Mapping[str, Any]]) -> None:
+def show_quantities(quantities: Mapping[str, Mapping[str, Any]]) -> None:
     """Print last, smallest and largest values of quantities."""
     rows = [
         (name, *("" if entry[key] is None else f"{entry[key]:.6g}" for key in ("final", "min", "max")), entry["unit"])
-        for name, entry in found.items()
+        for name, entry in quantities.items()
     ]
     headings = ("quantity", "final", "smallest", "largest", "unit")
     show_rows(console(), headings, rows, left=("quantity", "unit"))
@@ -190,29 +190,29 @@ def show_stress(study: Stress) -> None:
         out.print(sentence)
 
 
-def show_sweep(found: Sweep, written: Path | None) -> None:
+def show_sweep(study: Sweep, written: Path | None) -> None:
     """Print what an ensemble gave: axes, statuses, reasons, and the ends of what was kept."""
     import numpy as np
 
-    facts, ensemble = found.to_json(), found.ensemble
+    facts, ensemble = study.to_json(), study.ensemble
     steps = f"step {facts['step']:g} s" if facts["rtol"] is None else f"rtol {facts['rtol']:g}"
-    rate = f", {len(found) / found.seconds:.3g} runs a second" if found.seconds > 0.0 and not found.interrupted else ""
+    rate = f", {len(study) / study.seconds:.3g} runs a second" if study.seconds > 0.0 and not study.interrupted else ""
     axes = [item for axis in ensemble.grid.axes for item in axis.values.items()]
     lines = [
         ("mechanism", facts["mechanism"]),
         ("method", f"{facts['method']}, {facts['integrator']}, {steps}, until {facts['until']:g} s"),
         *(("varies", f"{name}: {len(x)} values from {x.min():.6g} to {x.max():.6g}") for name, x in axes),
-        ("runs", f"{len(found)} in {found.seconds:.3g} s{rate}"),
-        *(("status", f"{status}: {count}") for status, count in found.counts.items() if count),
-        *(("reason", f"{count} x {reason}") for reason, count in found.reasons()),
+        ("runs", f"{len(study)} in {study.seconds:.3g} s{rate}"),
+        *(("status", f"{status}: {count}") for status, count in study.counts.items() if count),
+        *(("reason", f"{count} x {reason}") for reason, count in study.reasons()),
         ("error", "not estimated: symgen run --verify does so for a single run"),
-        *([("written", str(written))] if written is not None and not found.interrupted else []),
+        *([("written", str(written))] if written is not None and not study.interrupted else []),
     ]
     out = console()
     show_facts(out, lines)
     rows = list[tuple[str, ...]]()
     for i, q in enumerate(ensemble.recipe.quantities[:24]):
-        last = found.values[:, i, -1]
+        last = study.values[:, i, -1]
         last = last[np.isfinite(last)]
         if len(last):
             rows.append((q.name, q.unit, *(f"{x:.6g}" for x in (last.min(), last.mean(), last.max()))))

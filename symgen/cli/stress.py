@@ -69,10 +69,10 @@ def command(
         def progress(what: str, status: Status) -> None:
             lines.say(f"{what}: {status.done} of {status.total}", status.share)
 
-        asked = dict.fromkeys((*models, *(names() if catalogue else ())))
+        requested = dict.fromkeys((*models, *(names() if catalogue else ())))
         seconds = math.inf if compilation is None else compilation
         work = journal, jobs or processors(), progress, seconds
-        study = stress(tuple(asked), case_list, method_list, quick, *work, **limits)
+        study = stress(tuple(requested), case_list, method_list, quick, *work, **limits)
     if as_json:
         write_json(study.to_json())
     else:

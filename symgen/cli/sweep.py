@@ -63,7 +63,7 @@ def command(
     scheduler: str | None,
     target: str,
     as_json: bool,
-    **asked: Any,
+    **values: Any,
 ) -> int:
     """Run MODEL for every combination of what varies, on all cores or a CUDA device.
 
@@ -74,7 +74,7 @@ def command(
     """
     # before anything expensive: what is wrong with the words of the command
     axes = _axes(varied)
-    settings = Settings(**asked)
+    settings = Settings(**values)
     if settings.times is not None and settings.output_step is not None:
         raise InputError("--times", "one way of choosing outputs", "--output-step as well")
     if resume and output is None:
@@ -101,7 +101,7 @@ def command(
         def progress(done: float, total: int) -> None:
             bar(done / total)
 
-        found = sweep(
+        study = sweep(
             loaded,
             {} if together else axes,
             runs=axes if together else {},
@@ -114,15 +114,15 @@ def command(
             settings=settings,
             progress=progress,
         )
-    tell(found.ensemble.notes)
-    tell(f"warning: in {count} of {len(found)} runs: {sentence}" for sentence, count in found.told())
+    tell(study.ensemble.notes)
+    tell(f"warning: in {count} of {len(study)} runs: {sentence}" for sentence, count in study.told())
     if as_json:
-        write_json({**found.to_json(), "output": output})
+        write_json({**study.to_json(), "output": output})
     else:
         from symgen.cli._tables import show_sweep
 
-        show_sweep(found, path)
-    return _exit_code(found, path)
+        show_sweep(study, path)
+    return _exit_code(study, path)
 
 
 def _axes(words: tuple[str, ...]) -> dict[str, str]:
@@ -136,15 +136,15 @@ def _axes(words: tuple[str, ...]) -> dict[str, str]:
     return axes
 
 
-def _exit_code(found: Sweep, path: Path | None) -> int:
-    counts = found.counts
-    if found.interrupted:
-        done = len(found) - counts["not run"]
-        kept = f"{done} of {len(found)} runs are done"
+def _exit_code(study: Sweep, path: Path | None) -> int:
+    counts = study.counts
+    if study.interrupted:
+        done = len(study) - counts["not run"]
+        kept = f"{done} of {len(study)} runs are done"
         hint = " and kept; --resume goes on from there" if path is not None else ""
         return complain(f"interrupted; {kept}{hint}", INTERRUPTED)
-    if counts["failed"] == len(found):
-        return complain(f"all {len(found)} runs failed: {found.reasons(1)[0][0]}", FAILURE)
+    if counts["failed"] == len(study):
+        return complain(f"all {len(study)} runs failed: {study.reasons(1)[0][0]}", FAILURE)
     if counts["failed"]:
-        complain(f"warning: {counts['failed']} of {len(found)} runs failed", OK)
+        complain(f"warning: {counts['failed']} of {len(study)} runs failed", OK)
     return OK

@@ -145,12 +145,12 @@ def hull(points: Array) -> list[int]:
     order = [int(i) for i in np.lexsort((points[:, 1], points[:, 0]))]
 
     def chain(indices: Sequence[int]) -> list[int]:
-        found: list[int] = []
+        corners: list[int] = []
         for i in indices:
-            while len(found) > 1 and _turn(points[found[-2]], points[found[-1]], points[i]) <= 0.0:
-                found.pop()
-            found.append(i)
-        return found[:-1]
+            while len(corners) > 1 and _turn(points[corners[-2]], points[corners[-1]], points[i]) <= 0.0:
+                corners.pop()
+            corners.append(i)
+        return corners[:-1]
 
     return chain(order) + chain(order[::-1])
 

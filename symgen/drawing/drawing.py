@@ -15,9 +15,10 @@ from symgen.arguments import path as argument_path
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.start import described_start
 from symgen.drawing.mechanism_scene import build_scene
-from symgen.drawing.paper import Drawn, View, on_paper
+from symgen.drawing.paper import Drawn, View, axes, on_paper
+from symgen.drawing.paper import Path as Stroke
 from symgen.drawing.pictures import svg, write_pixels
-from symgen.drawing.scene import Array, Scene
+from symgen.drawing.scene import COLOURS, Array, Item, Look, Point, Scene
 from symgen.files import check_path, write_whole
 
 if TYPE_CHECKING:
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 #: Endings of pictures with the libraries that they need.
 PICTURES: Mapping[str, tuple[str, ...]] = {".svg": (), ".png": ("matplotlib",), ".pdf": ("matplotlib",)}
+#: Positions in a picture of a motion, and points of a way.
+POSES, PATH = 4, 300
 #: From where scenes in space are seen.
 ABOVE = View()
 
@@ -43,6 +46,8 @@ class Drawing:
         From where it is seen, where it is spatial.
     ghosts : tuple of tuple of float
         Other positions that are drawn faintly behind, the first one faintest; none by default.
+    paths : tuple of tuple of Point
+        Lines of the ground frame behind everything, such as the ways of points.
     labels : bool or None
         Whether bodies have their names beside them; where they are few by default.
     caption : str
@@ -53,6 +58,7 @@ class Drawing:
     q: tuple[float, ...]
     view: View = ABOVE
     ghosts: tuple[tuple[float, ...], ...] = ()
+    paths: tuple[tuple[Point, ...], ...] = ()
     labels: bool | None = None
     caption: str = ""
 
@@ -75,7 +81,32 @@ class Drawing:
         scene = build_scene(mechanism, q, values, open_joints)
         where = tuple(float(x) for x in np.asarray(q, dtype=np.float64).ravel())
         behind = tuple(tuple(map(float, ghost)) for ghost in ghosts)
-        return cls(scene, where, view or ABOVE, behind, labels, caption)
+        return cls(scene, where, view or ABOVE, behind, (), labels, caption)
+
+    @classmethod
+    def of_motion(
+        cls, mechanism: Mechanism, q: Array, values: Mapping[str, float] | None = None, view: View | None = None
+    ) -> Drawing:
+        """Return the picture of a mechanism in motion: its start, a few later positions, the ways of its bodies.
+
+        Parameters
+        ----------
+        mechanism : Mechanism
+            Any.
+        q : Array, shape (k, nq)
+            Coordinates of all bodies over time.
+        values : mapping of str to float, optional
+            Parameters that differ from the described ones.
+        view : View, optional
+            From where a spatial mechanism is seen.
+        """
+        scene = build_scene(mechanism, q, values)
+        later = np.unique(np.linspace(0, len(q) - 1, POSES).round().astype(int))[1:]
+        ghosts = tuple(tuple(q[k].tolist()) for k in reversed(later))
+        rows = [scene.poses(row).centres for row in q[:: max(1, len(q) // PATH)]]
+        ways = np.stack(rows)[:, : len(scene.frames)].transpose(1, 0, 2)
+        paths = tuple(tuple((float(x), float(y), float(z)) for x, y, z in way) for way in ways)
+        return cls(scene, tuple(q[0].tolist()), view or ABOVE, ghosts, paths, labels=False)
 
     @cached_property
     def svg(self) -> str:
@@ -86,8 +117,16 @@ class Drawing:
         return on_paper(self.scene, np.array(self.q), self.view)
 
     def _behind(self) -> list[Drawn]:
-        ghosts = (on_paper(self.scene, np.array(ghost), self.view, bodies=True) for ghost in self.ghosts)
-        return [part for ghost in ghosts for part in ghost]
+        found: list[Drawn] = []
+        eye = axes(self.scene, self.view)
+        for i, path in enumerate(self.paths):
+            points = np.array(path) @ eye.T
+            look = Look(COLOURS[i % len(COLOURS)], "", 0.8)
+            way = Item("path", "", "", ())
+            found.append(Drawn(way, (Stroke(points[:, :2], look, False),), 0.0, None))
+        for ghost in self.ghosts:
+            found += on_paper(self.scene, np.array(ghost), self.view, bodies=True)
+        return found
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the picture to ``.svg``, or with matplotlib to ``.png`` or ``.pdf``; whole or not at all.

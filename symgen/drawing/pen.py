@@ -85,14 +85,14 @@ class PlacedMechanism:
 
     def at(self, expression: Any, further: Mapping[str, float]) -> float:
         """Return what a formula of the state is in the first positions, at rest."""
-        known = {**self.values, **self.state, **further}
-        return evaluate(expression, known, tables={table.name: table for table in self.mechanism.tables})
+        values = {**self.values, **self.state, **further}
+        return evaluate(expression, values, tables={table.name: table for table in self.mechanism.tables})
 
     def vector(self, expressions: Any) -> Array:
         """Return a vector of constants with three components."""
-        found = np.zeros(3)
-        found[: len(expressions)] = [self.number(e) for e in expressions]
-        return found
+        vector = np.zeros(3)
+        vector[: len(expressions)] = [self.number(e) for e in expressions]
+        return vector
 
     def place(self, marker: Marker) -> BodyPoint:
         """Return a marker as a point from the centre of mass of its body."""
@@ -105,9 +105,9 @@ class PlacedMechanism:
 
     def direction(self, direction: Direction) -> Array:
         """Return a direction in the ground frame, of length 1."""
-        found = self.now.turns[self.index[direction.body]] @ self.vector(direction.vector)
-        length = float(np.linalg.norm(found))
-        return np.asarray(found / length if length else found)
+        turned = self.now.turns[self.index[direction.body]] @ self.vector(direction.vector)
+        length = float(np.linalg.norm(turned))
+        return np.asarray(turned / length if length else turned)
 
     def markers(self, value: Any) -> list[BodyPoint]:
         """Return the different points that a value names, in order."""
@@ -123,11 +123,11 @@ class PlacedMechanism:
         The guide of a body that moves begins at the body's own point; that of the ground is only as long as it is used.
         """
         own = self.now.turns[a.body].T @ along
-        found = [] if a.body == GROUNDED else [0.0]
+        places = [] if a.body == GROUNDED else [0.0]
         for poses in self.all:
             d = poses.out(b.body, [b.at])[0] - poses.out(a.body, [a.at])[0]
-            found.append(float(d @ (poses.turns[a.body] @ own)))
-        return min(found), max(found)
+            places.append(float(d @ (poses.turns[a.body] @ own)))
+        return min(places), max(places)
 
 
 #: How joints and the ground are drawn.
@@ -172,13 +172,13 @@ class Pen:
 
     def points(self, body: int, points: Sequence[Array] | Array) -> tuple[Point, ...]:
         """Return points of the ground frame as points of a frame."""
-        now, given, frames = self.numbers.now, np.asarray(points, dtype=np.float64), self.numbers.frames
+        now, places, frames = self.numbers.now, np.asarray(points, dtype=np.float64), self.numbers.frames
         if body < len(frames):
-            found = now.inside(body, given)
+            local = now.inside(body, places)
         else:
             own = self.carried[body - len(frames)]
-            found = (given - now.out(own.body, [own.at])) @ now.turns[own.turned]
-        return tuple((float(x), float(y), float(z)) for x, y, z in found)
+            local = (places - now.out(own.body, [own.at])) @ now.turns[own.turned]
+        return tuple((float(x), float(y), float(z)) for x, y, z in local)
 
     def line(self, body: int, points: Sequence[Array] | Array, look: Look = PLAIN, closed: bool = False) -> Line:
         """Return a polyline of a body."""

@@ -109,8 +109,8 @@ def fitted(drawn: Iterable[Drawn]) -> tuple[Array, float, float, float]:
             corners += [centre - part.radius, centre + part.radius]
         else:
             corners += [part.points.min(axis=0), part.points.max(axis=0)]
-    found = np.array(corners or [np.zeros(2), np.ones(2)])
-    low, high = found.min(axis=0), found.max(axis=0)
+    bounds = np.array(corners or [np.zeros(2), np.ones(2)])
+    low, high = bounds.min(axis=0), bounds.max(axis=0)
     size = np.maximum(high - low, 1e-3 * float((high - low).max()) or 1.0)
     scale = float(min((WIDTH - 2 * MARGIN) / size[0], (HEIGHT - 2 * MARGIN) / size[1]))
     width = max(160.0, size[0] * scale + 2 * MARGIN)

@@ -223,8 +223,11 @@ def _shaft_with_pin(pen: Pen, joint: Joint) -> list[Mark]:
 def _cross(pen: Pen, joint: Joint) -> list[Mark]:
     numbers, u = pen.numbers, pen.unit
     a, b = ends_of(numbers, joint)
-    at, found, marks = numbers.out(a), articulation_of(joint), grounded(pen, (a, b))
-    for place, frame in ((a, found.of_a if found else ()), (b, found.of_b if found else ())):
+    at, articulation, marks = numbers.out(a), articulation_of(joint), grounded(pen, (a, b))
+    for place, frame in (
+        (a, articulation.of_a if articulation else ()),
+        (b, articulation.of_b if articulation else ()),
+    ):
         axis = numbers.direction(frame[2]) if frame else Z
         marks.append(pen.tube(place.body, at - u * axis, at + u * axis, 0.25))
     return marks
@@ -322,11 +325,11 @@ def joint_item(pen: Pen, joint: Joint) -> Item:
     """Return what is drawn of a joint; kinds without a symbol show the points that they tie."""
     numbers = pen.numbers
     draw = (SPATIAL if numbers.spatial else PLANAR).get(joint.kind, plain)
-    held = [m for row in joint.rows for m in parts(row) if isinstance(m, Component | LinkStretch)]
-    ends: tuple[BodyPoint, ...] = tuple(numbers.markers(held)) if len(joint.bodies) == 2 else ()
-    found = articulation_of(joint)
-    if found is not None:
-        ends = numbers.place(found.a), numbers.place(found.b)
+    measures = [m for row in joint.rows for m in parts(row) if isinstance(m, Component | LinkStretch)]
+    ends: tuple[BodyPoint, ...] = tuple(numbers.markers(measures)) if len(joint.bodies) == 2 else ()
+    articulation = articulation_of(joint)
+    if articulation is not None:
+        ends = numbers.place(articulation.a), numbers.place(articulation.b)
     return Item("joint", joint.name, joint.kind, tuple(draw(pen, joint)), tuple((p.body, p.at) for p in ends[:2]))
 
 

@@ -185,15 +185,15 @@ def live_part(
     if len(code) > MOST[spatial]:
         return None, f"{NONE}: {len(code)} characters are more than the {MOST[spatial]} that a page may have"
     joint = "function bodies(" in code
-    told = None if joint or begun is None or np.array_equal(begun, start.y[: len(begun)]) else begun
+    begin = None if joint or begun is None or np.array_equal(begun, start.y[: len(begun)]) else begun
     try:
-        script = _script(mechanism, joint, told)
+        script = _script(mechanism, joint, begin)
     except NotInPages:
         return None, f"{NONE}: a formula of the start is not one that pages know"
-    if told is not None:
-        start = replace(start, y=np.concatenate([told, start.y[len(told) :]]))
+    if begin is not None:
+        start = replace(start, y=np.concatenate([begin, start.y[len(begin) :]]))
     kept = {*still, *dict(mechanism.given)}
-    return Live(f"{HELPERS}{code}\n{script}", _spec(mechanism, compiled, start, step, joint, told, kept)), ""
+    return Live(f"{HELPERS}{code}\n{script}", _spec(mechanism, compiled, start, step, joint, begin, kept)), ""
 
 
 def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:
@@ -233,15 +233,15 @@ def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
     if begun is not None:
         nq = mechanism.body_coordinates
         numbers = [repr(float(x)) for x in begun]
-        told = f"q: [{', '.join(numbers[:nq])}], v: [{', '.join(numbers[nq:])}]"
-        return f"{text}function describe(p) {{ return {{ {told} }}; }}\n"
+        texts = f"q: [{', '.join(numbers[:nq])}], v: [{', '.join(numbers[nq:])}]"
+        return f"{text}function describe(p) {{ return {{ {texts} }}; }}\n"
     lines = ScriptLines(places)
     q, v = described_start(mechanism, lines)
     own = {h.name: h.value for h in holds_of(mechanism)}
     _held_values(mechanism, own, lines, q, v)
-    told = ", ".join("null" if x is None else lines.result(x) for x in v)
+    texts = ", ".join("null" if x is None else lines.result(x) for x in v)
     body, places_of_bodies = "\n".join(lines.lines), ", ".join(map(lines.result, q))
-    return f"{text}function describe(p) {{\n{body}\nreturn {{ q: [{places_of_bodies}], v: [{told}] }};\n}}\n"
+    return f"{text}function describe(p) {{\n{body}\nreturn {{ q: [{places_of_bodies}], v: [{texts}] }};\n}}\n"
 
 
 def _held_values(mechanism: Mechanism, own: Mapping[str, Any], lines: ScriptLines, q: list[Any], v: list[Any]) -> None:
@@ -320,7 +320,7 @@ def _spec(
 
 def _fixed(mechanism: Mechanism, compiled: CompiledModel) -> list[int]:
     """Return the velocities whose coordinates stay where they are described."""
-    info, found = compiled.info, set[int]()
+    info, still = compiled.info, set[int]()
     velocities = [v.name for v in info.velocities]
     speeds = {
         f"{b.name}.{c}": f"{b.name}.{s}"
@@ -330,7 +330,7 @@ def _fixed(mechanism: Mechanism, compiled: CompiledModel) -> list[int]:
     for hold in holds_of(mechanism):
         body, _, what = hold.name.rpartition(".")
         if what == "orientation":
-            found |= {velocities.index(f"{body}.{s}") for s in ("wx", "wy", "wz")}
+            still |= {velocities.index(f"{body}.{s}") for s in ("wx", "wy", "wz")}
         elif hold.name in speeds:
-            found.add(velocities.index(speeds[hold.name]))
-    return sorted(found)
+            still.add(velocities.index(speeds[hold.name]))
+    return sorted(still)

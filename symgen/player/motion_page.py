@@ -178,16 +178,16 @@ def scene_data(scene: Scene) -> dict[str, Any]:
 
 def _points(recording: Recording, scene: Scene) -> list[list[Any]]:
     """Return the points whose traces a page can draw: those with names, and centres of mass."""
-    found: list[list[Any]] = []
+    points: list[list[Any]] = []
     size = 3 if scene.spatial else 2
     bodies: tuple[AnyBody, ...] = recording.mechanism.bodies
     for i, body in enumerate(bodies):
-        found.append([f"{body.name}.centre", i, [0.0] * size])
+        points.append([f"{body.name}.centre", i, [0.0] * size])
         centre = np.array([evaluate(e, recording.values) for e in body.centre_of_mass])
         for name, p in body.points:
             at = np.array([evaluate(e, recording.values) for e in p]) - centre
-            found.append([f"{body.name}.{name}", i, [float(f"{x:.6g}") for x in at]])
-    return found
+            points.append([f"{body.name}.{name}", i, [float(f"{x:.6g}") for x in at]])
+    return points
 
 
 @dataclass(frozen=True, repr=False)

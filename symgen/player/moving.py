@@ -112,11 +112,11 @@ def _encoded(pictures: Iterator[Image.Image], rate: float) -> bytes:
     even = "crop=trunc(iw/2)*2:trunc(ih/2)*2"
     with tempfile.TemporaryDirectory(prefix="symgen-film-") as folder:
         path = Path(folder) / "film.mp4"
-        given = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", f"{rate:.6g}", "-i", "-"]
+        source = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", f"{rate:.6g}", "-i", "-"]
         kind = ["-vf", even, "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-bitexact", str(path)]
-        command = ["ffmpeg", "-hide_banner", "-loglevel", "error", "-y", *given, *kind]
-        with tempfile.TemporaryFile() as said:
-            process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=said, stderr=said)
+        command = ["ffmpeg", "-hide_banner", "-loglevel", "error", "-y", *source, *kind]
+        with tempfile.TemporaryFile() as messages:
+            process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=messages, stderr=messages)
             assert process.stdin is not None
             with suppress(BrokenPipeError):  # it has said why
                 for picture in itertools.chain([first], pictures):
@@ -124,7 +124,7 @@ def _encoded(pictures: Iterator[Image.Image], rate: float) -> bytes:
             with suppress(BrokenPipeError):
                 process.stdin.close()
             if process.wait() or not path.is_file():
-                said.seek(0)
-                why = " ".join(said.read().decode(errors="replace").split())[:200]
+                messages.seek(0)
+                why = " ".join(messages.read().decode(errors="replace").split())[:200]
                 raise InputError("film", "ffmpeg to make an MP4", f"its error: {why or 'none told'}")
         return path.read_bytes()

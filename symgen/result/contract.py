@@ -31,7 +31,7 @@ def contract(result: Result) -> dict[str, Any]:
         "lam": result._final_multipliers,
         **({"outputs": result.outputs.row()} if result.columns("outputs") else {}),
     }
-    found: dict[str, Any] = finite(
+    facts: dict[str, Any] = finite(
         {
             **{name: getattr(result, name) for name in _FIRST},
             "seconds": seconds,
@@ -47,7 +47,7 @@ def contract(result: Result) -> dict[str, Any]:
             "final": final,
         }
     )
-    return found
+    return facts
 
 
 def finite(value: Any) -> Any:

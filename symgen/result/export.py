@@ -80,9 +80,9 @@ def with_last_state(dataset: xr.Dataset, result: Result) -> xr.Dataset:
         for name, array in (last.arrays or {}).items()
         if len(array)
     }
-    found = dataset.assign(arrays)
-    found.attrs[LAST_HEADER] = json.dumps(last.header())
-    return found
+    extended = dataset.assign(arrays)
+    extended.attrs[LAST_HEADER] = json.dumps(last.header())
+    return extended
 
 
 def data_frame(t: Array, columns: Labelled, units: bool = False) -> pd.DataFrame:

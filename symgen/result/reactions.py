@@ -185,13 +185,13 @@ class Acting:
 
     def _axes(self, body: str) -> Array:
         """Return the rotation matrices of a body at the outputs, shape (k, 3, 3)."""
-        known = {quantity.name for quantity in self.info.coordinates}
-        found = np.zeros((len(self.states), 3, 3)) + np.eye(3)
-        if f"{body}.theta" in known:
-            found[:, :2, :2] = rotation_matrices(np.column_stack(self._coordinates(body, ("theta",))))
-        elif f"{body}.e0" in known:
-            found = rotation_matrices(np.column_stack(self._coordinates(body, ("e0", "e1", "e2", "e3"))))
-        return found
+        names = {quantity.name for quantity in self.info.coordinates}
+        turns = np.zeros((len(self.states), 3, 3)) + np.eye(3)
+        if f"{body}.theta" in names:
+            turns[:, :2, :2] = rotation_matrices(np.column_stack(self._coordinates(body, ("theta",))))
+        elif f"{body}.e0" in names:
+            turns = rotation_matrices(np.column_stack(self._coordinates(body, ("e0", "e1", "e2", "e3"))))
+        return turns
 
     @staticmethod
     def _in_space(vectors: Array) -> Array:
@@ -201,8 +201,8 @@ class Acting:
 
     def _coordinates(self, body: str, names: Iterable[str]) -> list[Array]:
         """Return coordinates of a body at the outputs."""
-        known = {quantity.name: i for i, quantity in enumerate(self.info.coordinates)}
-        return [self.states[:, known[f"{body}.{name}"]] for name in names]
+        indices = {quantity.name: i for i, quantity in enumerate(self.info.coordinates)}
+        return [self.states[:, indices[f"{body}.{name}"]] for name in names]
 
 
 #: Singular values of D^T below this fraction of the largest one count as zero.
@@ -214,7 +214,7 @@ _SHARE = 1e-8
 def seats(mechanism: Mechanism, parameters: Mapping[str, float]) -> dict[str, Seat]:
     """Return where the reactions of all joints act, by name: at the points ``at`` of their first bodies."""
     markers, nothing = dict(mechanism.seats), (0.0,) * len(mechanism.gravity)
-    found = dict[str, Seat]()
+    by_joint = dict[str, Seat]()
     for joint in mechanism.joints:
         body, place = joint.bodies[0], nothing
         if joint.name in markers:
@@ -222,8 +222,8 @@ def seats(mechanism: Mechanism, parameters: Mapping[str, float]) -> dict[str, Se
             if body != GROUND:
                 centre = (evaluate(e, parameters, f"bodies.{body}") for e in mechanism.body(body).centre_of_mass)
                 place = tuple(x - c for x, c in zip(place, centre, strict=True))
-        found[joint.name] = Seat(body, place)
-    return found
+        by_joint[joint.name] = Seat(body, place)
+    return by_joint
 
 
 @dataclass(frozen=True, repr=False)
@@ -283,14 +283,14 @@ class Forces:
     def non_unique(self) -> tuple[str, ...]:
         """Joints whose reactions are not determined, in the order of the file."""
         info = self.compiled.info
-        found = {name.partition(".")[0] for pair in info.dropped_rows for name in pair.split(" = ")}
+        ambiguous = {name.partition(".")[0] for pair in info.dropped_rows for name in pair.split(" = ")}
         if self.redundant:
             columns, _ = _weighed(self.outcome, self.outcome.start.t, self.outcome.start.y)
             left, singular, _ = np.linalg.svd(columns.T, full_matrices=True)
             rank = int(np.sum(singular > CUTOFF * singular.max(initial=0.0)))
             share = np.linalg.norm(left[:, rank:], axis=1)
-            found |= {row.joint for row, x in zip(info.rows, share, strict=True) if x > _SHARE}
-        return tuple(joint for joint in self.seats if joint in found)
+            ambiguous |= {row.joint for row, x in zip(info.rows, share, strict=True) if x > _SHARE}
+        return tuple(joint for joint in self.seats if joint in ambiguous)
 
     # -- reactions -----------------------------------------------------------------------------------------------------
 

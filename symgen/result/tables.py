@@ -155,8 +155,8 @@ class Tables(ABC):
         one_of("table", table, self.names)
         if table not in self.__dict__ and table in _OF_FORCES:
             return self.forces.columns(table)
-        found: Labelled = getattr(self, table)
-        return found.names
+        labelled: Labelled = getattr(self, table)
+        return labelled.names
 
     def select(self, names: Sequence[str]) -> Labelled:
         """Return columns of any tables, in this order.
@@ -196,18 +196,18 @@ class Tables(ABC):
             raise InputError("result", "the name of a column", shown(name), hint)
         if name == "t":
             return self.t
-        known = list[str]()
+        every = list[str]()
         for table in self.searched:
             names = self.columns(table)
             if name in names:
-                found: Labelled = getattr(self, table)
-                return found[name]
-            known += names
+                labelled: Labelled = getattr(self, table)
+                return labelled[name]
+            every += names
         for table in self.names:
             if name.startswith(PREFIX[table]) and (own := name.removeprefix(PREFIX[table])) in self.columns(table):
-                found = getattr(self, table)
-                return found[own]
-        raise InputError("result", "the name of a column", quoted(name), nearest(name, known))
+                labelled = getattr(self, table)
+                return labelled[own]
+        raise InputError("result", "the name of a column", quoted(name), nearest(name, every))
 
     # -- leaving Python ------------------------------------------------------------------------------------------------
 
@@ -259,10 +259,10 @@ class Tables(ABC):
 
     def series(self, table: str) -> dict[str, list[Any]]:
         """Return a table as JSON has it: lists by name; numbers that are not finite are None."""
-        found: Labelled = getattr(self, one_of("table", table, self.names))
-        if np.all(np.isfinite(found.values)):
-            return {name: found.values[:, i].tolist() for i, name in enumerate(found.names)}
-        columns = ((name, found.values[:, i].tolist()) for i, name in enumerate(found.names))
+        labelled: Labelled = getattr(self, one_of("table", table, self.names))
+        if np.all(np.isfinite(labelled.values)):
+            return {name: labelled.values[:, i].tolist() for i, name in enumerate(labelled.names)}
+        columns = ((name, labelled.values[:, i].tolist()) for i, name in enumerate(labelled.names))
         return {name: [x if np.isfinite(x) else None for x in column] for name, column in columns}
 
 
@@ -326,15 +326,15 @@ def choose(
     chosen, groups = dict[str, str](), dict.fromkeys((*columns.values(), *tables))
     for name in words("quantities", names):
         if name in columns:
-            found = {name: columns[name]}
+            matches = {name: columns[name]}
         elif name in groups:
-            found = {column: table for column, table in columns.items() if table == name}
+            matches = {column: table for column, table in columns.items() if table == name}
         else:
-            found = {column: table for column, table in columns.items() if column.startswith(f"{name}.")}
-        if not found and name not in tables:
+            matches = {column: table for column, table in columns.items() if column.startswith(f"{name}.")}
+        if not matches and name not in tables:
             groups |= dict.fromkeys(column.partition(".")[0] for column in columns)
-            known = [*columns, *groups] if len(columns) <= 60 or "." in name else [*groups]
+            candidates = [*columns, *groups] if len(columns) <= 60 or "." in name else [*groups]
             expected = f"a quantity of {mechanism}"
-            raise InputError(f"quantity '{name}'", expected, "none of that name", nearest(name, known))
-        chosen |= found
+            raise InputError(f"quantity '{name}'", expected, "none of that name", nearest(name, candidates))
+        chosen |= matches
     return chosen

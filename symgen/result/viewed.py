@@ -122,17 +122,17 @@ def _reactions(mechanism: Mechanism, table: Labelled) -> tuple[Array | None, tup
 
 def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> list[PlottedGroup]:
     """Return what can be plotted: outputs of the file first, then energy, violations and positions of few bodies."""
-    found: list[PlottedGroup] = []
+    groups: list[PlottedGroup] = []
     outputs = tables["outputs"]
     for unit in dict.fromkeys(outputs.units):
         chosen = [i for i, u in enumerate(outputs.units) if u == unit][:LONGEST_KEY]
-        found.append(PlottedGroup("outputs", unit, tuple(outputs.names[i] for i in chosen), outputs.values[:, chosen]))
-    found += position_groups(mechanism, q)
+        groups.append(PlottedGroup("outputs", unit, tuple(outputs.names[i] for i in chosen), outputs.values[:, chosen]))
+    groups += position_groups(mechanism, q)
     energy, violations = tables["energy"], tables["violations"]
-    found.append(PlottedGroup("energy", "J", energy.names[:3], energy.values[:, :3]))
-    found.append(PlottedGroup("energy error", "J", ("error",), energy.values[:, 3:4], logarithmic=True))
-    found.append(PlottedGroup("violation", "", violations.names, violations.values, logarithmic=True))
-    return found
+    groups.append(PlottedGroup("energy", "J", energy.names[:3], energy.values[:, :3]))
+    groups.append(PlottedGroup("energy error", "J", ("error",), energy.values[:, 3:4], logarithmic=True))
+    groups.append(PlottedGroup("violation", "", violations.names, violations.values, logarithmic=True))
+    return groups
 
 
 def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, str]:
