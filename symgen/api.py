@@ -217,7 +217,7 @@ class Model(Analysed):
         view : View, optional
             From where a mechanism in space is seen.
         """
-        from symgen.drawing.drawing import Drawing, gaps
+        from symgen.drawing.drawing import Drawing
         from symgen.drawing.paper import View
 
         if view is not None:
@@ -239,7 +239,7 @@ class Model(Analysed):
             q = error.q or described
             scene = Drawing.of(self.mechanism, q, values).scene
             limit = 1e-3 * scene.unit
-            wide = [item.name for item, gap in gaps(scene, q) if gap > limit]
+            wide = [item.name for item, gap in zip(scene.pins, scene.gaps(q), strict=True) if gap > limit]
             return Drawing.of(
                 *(self.mechanism, q, values),
                 open_joints=tuple(dict.fromkeys((*error.joints, *wide))),

@@ -7,9 +7,10 @@ import io
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
+from importlib.util import find_spec
 from pathlib import Path
 
-from symgen.errors import InputError
+from symgen.errors import InputError, nearest
 
 #: What a file is to hold, or what writes it to an open file.
 Content = bytes | str | Callable[[io.BytesIO], object]
@@ -43,6 +44,48 @@ def check_writable(where: str, path: Path) -> None:
             raise InputError(where, "a file that can be written", f"'{path}'")
     except (OSError, RuntimeError) as error:  # a link that leads to itself
         raise InputError(where, "a file that can be written", f"'{path}' ({why(error)})") from None
+
+
+def need(where: str, *libraries: str, extra: str = "data") -> None:
+    """Refuse to go on without a library, saying how to get it.
+
+    Raises
+    ------
+    InputError
+        If one of `libraries` is not installed.
+    """
+    for library in libraries:
+        if find_spec(library) is None:
+            raise InputError(where, f"the library {library}", "none", f"pip install 'symgen[{extra}]' installs it")
+
+
+def check_path(where: str, path: Path, endings: Mapping[str, tuple[str, ...]], extra: str) -> Path:
+    """Refuse a file that cannot be written, by its ending, its libraries or its folder, and return it otherwise.
+
+    Parameters
+    ----------
+    where : str
+        Option or argument, for the message.
+    path : Path
+        The file.
+    endings : mapping
+        Endings with the libraries that they need.
+    extra : str
+        What to install for the libraries.
+
+    Raises
+    ------
+    InputError
+        With what was expected.
+    """
+    ending = path.suffix.lower()
+    if ending not in endings:
+        hint = nearest(ending, endings) if ending else ""
+        expected = f"a file ending in {', '.join(endings)}"
+        raise InputError(where, expected, f"'{path}'", "" if hint.startswith("known") else hint)
+    need(where, *endings[ending], extra=extra)
+    check_writable(where, path)
+    return path
 
 
 def check_name(where: str, path: Path) -> None:

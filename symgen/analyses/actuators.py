@@ -25,8 +25,8 @@ from symgen.describe.mechanism import Force, Joint, Mechanism, Parameter
 from symgen.describe.readings import is_turning
 from symgen.errors import InputError, nearest, quoted
 from symgen.lower.windings import winding_order
-from symgen.result.recorded import Recorded
-from symgen.result.run_data import accelerations_of
+from symgen.result.result import accelerations_of
+from symgen.result.saved import Recorded
 from symgen.running.plan import Purpose
 from symgen.running.prepare import make_plan
 from symgen.running.starts import closed_by, compiled_for

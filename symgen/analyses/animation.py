@@ -78,7 +78,7 @@ def mode_page(mechanism: Mechanism, modes: Modes, number: int, given: Mapping[st
     still = replace(
         found, q=np.tile([modes.about[n] for n in _names(mechanism)], (2, 1)), t=found.t[[0, -1]], groups=()
     )
-    return Page(page(found, second=still), mechanism.name, False)
+    return page(found, second=still)
 
 
 def _names(mechanism: Mechanism) -> list[str]:

@@ -19,7 +19,7 @@ from symgen.describe.inputs import are_words_of_data
 from symgen.errors import InputError
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.reactions import Forces, seats
-from symgen.result.recorded import Recorded, read_recorded, recorded
+from symgen.result.saved import Recorded, read_recorded, recorded
 from symgen.result.tables import Tables
 from symgen.running.inputs import put_inputs
 from symgen.runtime.stops import stops_of

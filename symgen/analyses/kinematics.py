@@ -21,10 +21,9 @@ from symgen.analyses.transmission import transmission_angles
 from symgen.errors import InputError, nearest
 from symgen.memory import require
 from symgen.result.labelled import Labelled, labelled
-from symgen.result.measured import Measured
 from symgen.result.reactions import Forces, multiplier_unit, seats
-from symgen.result.run_data import accelerations_of
-from symgen.result.tables import MotionTables
+from symgen.result.result import accelerations_of
+from symgen.result.tables import Measured, MotionTables
 from symgen.running.outputs import multiples, output_size
 from symgen.runtime import abi
 from symgen.runtime.outcome import PrescribedMotion
@@ -170,7 +169,8 @@ class Kinematics(MotionTables):
         points : sequence of str, optional
             Such as ``leg.foot``; all by default.
         """
-        from symgen.result.export import PLOTTED, check_path
+        from symgen.files import check_path
+        from symgen.result.export import PLOTTED
         from symgen.result.plots import paths, write_figure
 
         where = arguments.path("plot", path)

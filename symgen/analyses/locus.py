@@ -18,7 +18,8 @@ from symgen.analyses.algebra import plain
 from symgen.analyses.places import Array, NamedPlace, modes_at, range_of
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, SymgenError
-from symgen.result.export import PLOTTED, check_path
+from symgen.files import check_path
+from symgen.result.export import PLOTTED
 from symgen.result.plots import COLOURS, write_figure
 
 Complex = NDArray[np.complex128]

@@ -6,6 +6,9 @@ with ``--json`` nothing but JSON does; everything else goes to standard error. S
 
 from __future__ import annotations
 
+import atexit
+import gc
+import os
 import signal
 import sys
 import threading
@@ -17,12 +20,13 @@ from typing import Any
 import click
 
 from symgen.analyses.kinds import ANALYSES
-from symgen.cli._garbage import sparing
 from symgen.errors import SymgenError, nearest, printable
 from symgen.registry import Registry
 from symgen.version import __version__
 
 OK, FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+#: Objects that may come into being before they are looked through for the first time; imports make about as many.
+FIRST = 100_000
 
 #: Commands in the order of the help; one that is not named here comes last.
 ORDER = (
@@ -173,35 +177,38 @@ def _sentence(error: click.ClickException) -> str:
     context = getattr(error, "ctx", None)
     if isinstance(error, click.NoSuchOption):
         options = [o for p in context.command.params for o in p.opts] if context is not None else []
-        hint = _elsewhere(error.option_name, options) or nearest(
-            error.option_name, [o for o in options if o.startswith("--")]
-        )
+        hint = nearest(error.option_name, [o for o in options if o.startswith("--")])
         text = f"there is no option '{error.option_name}'" + (f"; {hint}" if hint else "")
     help_at = f" (symgen {context.info_name} --help)" if context is not None and context.parent is not None else ""
     return text[:1].lower() + text[1:].rstrip(".") + help_at
 
 
-def _elsewhere(option: str, own: Sequence[str]) -> str:
-    """Return what is to be done where single runs have an option that other runs have not, empty where none has."""
-    if "--max-violation" not in own or option not in {o for p in OWN.get("run").params for o in p.opts}:
-        return ""
-    if option == "--input" and "--set" in own:
-        return "'symgen run' has it; here an input is a number, which --set NAME=VALUE gives"
-    return "'symgen run' has it"
+def sparing() -> None:
+    """Keep garbage collection away from what a process imports, and from everything when it ends.
+
+    Modules, classes and functions live as long as the process. Python looks through them some hundred and eighty times
+    while they are imported, and twice more before it ends, which took a third of a short run.
+    """
+    usual = gc.get_threshold()
+
+    def at_first(phase: str, info: dict[str, Any]) -> None:
+        gc.callbacks.remove(at_first)
+        gc.freeze()
+        gc.set_threshold(*usual)
+
+    gc.callbacks.append(at_first)
+    gc.set_threshold(FIRST, *usual[1:])
+    atexit.register(gc.freeze)
 
 
 def _open_streams() -> None:
     """Give what is said by a process that was begun with closed streams somewhere to go."""
-    import os
-
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # as long as the process
 
 
 def _forget_stdout() -> None:
-    import os
-
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 

@@ -42,12 +42,12 @@ def command_of(name: str) -> click.Command:
     """Return the command of the analysis called `name`."""
     analysis = ANALYSES.get(name)
 
-    def run(model: str, as_json: bool, **given: Any) -> int:
+    def run(model: str, as_json: bool, **values: Any) -> int:
         from symgen.api import load
 
-        settings = Settings(**{o.name: given.pop(o.name) for o in analysis.options if o.is_setting})
-        differ({o.name: given[o.argument] for o in analysis.options if o.kind in FILES})
-        output = analysis.command(lambda: load(model), settings, **given)
+        settings = Settings(**{o.name: values.pop(o.name) for o in analysis.options if o.is_setting})
+        differ({o.name: values[o.argument] for o in analysis.options if o.kind in FILES})
+        output = analysis.command(lambda: load(model), settings, **values)
         tell(output.notes)
         if as_json:
             write_json(output.json)
@@ -79,18 +79,18 @@ def _option(option: Option) -> Callable[[Callable[..., int]], Callable[..., int]
     )
 
 
-def _read(option: Option, given: Any) -> Any:
+def _read(option: Option, value: Any) -> Any:
     """Return what an analysis takes of what was typed for an option."""
     flag, kind = option.name, option.kind
     if kind == "words":
-        return words(flag, given)
+        return words(flag, value)
     if kind == "numbers":
-        return assignments(flag, given)
+        return assignments(flag, value)
     if kind in FILES:
-        return output_file(flag, given, kind)
-    if given is not None and kind in ("times", "range"):
-        return time_list(flag, given) if kind == "times" else _range(flag, given)
-    return given
+        return output_file(flag, value, kind)
+    if value is not None and kind in ("times", "range"):
+        return time_list(flag, value) if kind == "times" else _range(flag, value)
+    return value
 
 
 def _range(flag: str, text: str) -> tuple[str, NDArray[np.float64]]:
@@ -110,11 +110,11 @@ def _range(flag: str, text: str) -> tuple[str, NDArray[np.float64]]:
 
 
 def _show(item: str | AnalysisTable | Mapping[str, Mapping[str, Any]]) -> None:
-    from symgen.cli._tables import show_quantities, show_table
+    from symgen.cli._tables import console, show_quantities, show_rows
 
     if isinstance(item, str):
         click.echo(item)
     elif isinstance(item, AnalysisTable):
-        show_table(item)
+        show_rows(console(), item.headings, item.rows, item.left)
     else:
         show_quantities(item)

@@ -51,31 +51,31 @@ def setting_options(
 
 
 def _option(name: str, text: str | None, otherwise: Any) -> Callable[[F], F]:
-    known, usual = about(name), default(name)
-    words = otherwise if isinstance(otherwise, str) and otherwise.startswith("(") else known.otherwise
+    setting, usual = about(name), default(name)
+    words = otherwise if isinstance(otherwise, str) and otherwise.startswith("(") else setting.otherwise
     value = usual if otherwise is None or words is otherwise else otherwise
-    extra: dict[str, Any] = {"help": text or known.help, "callback": lambda c, p, v: _checked(name, v)}
-    if known.kind is bool:
+    extra: dict[str, Any] = {"help": text or setting.help, "callback": lambda c, p, v: _checked(name, v)}
+    if setting.kind is bool:
         extra["is_flag"] = True
-    elif known.kind in (dict, list):
-        extra |= {"multiple": True, "metavar": known.metavar} | ({"default": value} if known.kind is list else {})
+    elif setting.kind in (dict, list):
+        extra |= {"multiple": True, "metavar": setting.metavar} | ({"default": value} if setting.kind is list else {})
     else:
-        extra |= {"type": str if known.kind is tuple else known.kind, "default": value}
-        extra |= {"metavar": known.metavar or None, "show_default": words.strip("()") if words else value is not None}
+        extra |= {"type": str if setting.kind is tuple else setting.kind, "default": value}
+        extra |= {"metavar": setting.metavar or None, "show_default": words.strip("()") if words else value is not None}
     return click.option(flag(name), name, **extra)
 
 
 def _checked(name: str, value: Any) -> Any:
-    known, where = about(name), flag(name)
+    setting, where = about(name), flag(name)
     if value is None:
         return None
     if name in ("parameters", "start"):
         return assignments(where, value)
     if name == "options":
-        return option_pairs(value)
+        return {**pairs("--option", value)}
     if name == "inputs":
-        return _pairs(where, value)
-    return known.check(where, time_list(where, value) if known.kind is tuple else value)
+        return pairs(where, value)
+    return setting.check(where, time_list(where, value) if setting.kind is tuple else value)
 
 
 def jobs_option(text: str) -> Callable[[F], F]:
@@ -85,6 +85,13 @@ def jobs_option(text: str) -> Callable[[F], F]:
         return None if value is None else arguments.whole("--jobs", value, 1, MOST_JOBS)
 
     return click.option("--jobs", type=int, callback=check, show_default="one for every core", help=text)
+
+
+def target_option(text: str) -> Callable[[F], F]:
+    """Return the option ``--target``; `text` is its help."""
+    from symgen.ir.program import TARGETS
+
+    return click.option("--target", type=click.Choice(TARGETS), default="cpu", show_default=True, help=text)
 
 
 def units_option(function: F) -> F:
@@ -99,17 +106,17 @@ def json_option(function: F) -> F:
     )
 
 
-def _pairs(option: str, texts: Sequence[str]) -> dict[str, str]:
+def pairs(option: str, texts: Sequence[str], form: str = "NAME=VALUE") -> dict[str, str]:
     """Return the values of ``NAME=VALUE`` words by name; names may not repeat."""
-    found = dict[str, str]()
+    values = dict[str, str]()
     for text in texts:
         name, equals, value = (part.strip() for part in text.partition("="))
         if not equals or not name or not value:
-            raise InputError(option, "NAME=VALUE", quoted(text))
-        if name in found:
+            raise InputError(option, form, quoted(text))
+        if name in values:
             raise InputError(f"{option} {name}", "each name once", "it twice")
-        found[name] = value
-    return found
+        values[name] = value
+    return values
 
 
 def assignments(option: str, texts: Sequence[str]) -> dict[str, float]:
@@ -120,13 +127,8 @@ def assignments(option: str, texts: Sequence[str]) -> dict[str, float]:
     InputError
         If a word has another form, a name repeats or a value is not a finite number.
     """
-    pairs = _pairs(option, texts)
-    return {name: _number(f"{option} {name}", "a finite number", value) for name, value in pairs.items()}
-
-
-def option_pairs(texts: Sequence[str]) -> dict[str, str | float]:
-    """Return the values of ``KEY=VALUE`` words by key, not yet interpreted."""
-    return {**_pairs("--option", texts)}
+    texts_by_name = pairs(option, texts)
+    return {name: _number(f"{option} {name}", "a finite number", value) for name, value in texts_by_name.items()}
 
 
 def _number(where: str, expected: str, text: str, above: float = -math.inf) -> float:
@@ -143,10 +145,10 @@ def words(option: str, text: str | None) -> tuple[str, ...]:
     """Return the words of a comma-separated list, empty where none is given."""
     if text is None:
         return ()
-    found = tuple(part.strip() for part in text.split(","))
-    if not all(found):
+    parts = tuple(part.strip() for part in text.split(","))
+    if not all(parts):
         raise InputError(option, "words separated by commas", quoted(text))
-    return found
+    return parts
 
 
 def number_list(option: str, text: str | None) -> tuple[float, ...]:
@@ -172,8 +174,8 @@ def output_file(option: str, text: str | None, kind: str = "") -> Path | None:
     """
     if text is None:
         return None
-    from symgen.files import check_writable
-    from symgen.result.export import COLUMNS, PLOTTED, SAVED, check_path
+    from symgen.files import check_path, check_writable
+    from symgen.result.export import COLUMNS, PLOTTED, SAVED
 
     path = Path(text)
     if kind:
@@ -192,14 +194,14 @@ def differ(files: Mapping[str, Path | None]) -> None:
     files : mapping
         Options and their files; None: there is none.
     """
-    seen = dict[str, str]()
+    owners = dict[str, str]()
     for option, path in files.items():
         if path is None:
             continue
         real = os.path.realpath(path)
-        if real in seen:
-            raise InputError(option, f"another file than {seen[real]} has", f"'{path}' for both")
-        seen[real] = option
+        if real in owners:
+            raise InputError(option, f"another file than {owners[real]} has", f"'{path}' for both")
+        owners[real] = option
 
 
 def tell(notes: Iterable[str]) -> None:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 import sys
 import time
-from types import TracebackType
-from typing import Any
+from typing import Any, Self
 
 #: Shorter work shows nothing, and does not import what draws the bar.
 PATIENCE = 0.7
@@ -32,7 +31,7 @@ class Bar:
         self.progress: Any = None
         self.task: Any = None
 
-    def __enter__(self) -> Bar:
+    def __enter__(self) -> Self:
         return self
 
     def __call__(self, reached: float) -> None:
@@ -48,43 +47,30 @@ class Bar:
             self.task = self.progress.add_task(self.title, total=self.total)
         self.progress.update(self.task, completed=reached, description=self.title)
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         if self.progress is not None:
             self.progress.stop()
 
 
-class Lines:
+class Lines(Bar):
     """Progress of a long study: a bar on a terminal, elsewhere a line on standard error from time to time."""
 
     def __init__(self) -> None:
-        self.bar = Bar("", 1.0)
-        self.last = time.perf_counter()
+        super().__init__("", 1.0)
+        self.last = self.began
 
-    def __enter__(self) -> Lines:
-        return self
-
-    def __call__(self, what: str, done: int, total: int, share: float, seconds_left: float | None) -> None:
-        self.say(f"{what}: {done} of {total}", share, None if done == total else seconds_left)
-
-    def say(self, text: str, share: float, seconds_left: float | None) -> None:
-        """Show what is being done, how much of the work is behind it, and about how long the rest takes."""
-        self.bar.title = text  # the bar says by itself how much is done, and how long the rest takes
-        self.bar(share)
-        if not self.bar.shown and time.perf_counter() - self.last > BETWEEN_LINES:
-            self.last = time.perf_counter()
-            left = "" if seconds_left is None else f", about {_duration(seconds_left)} left"
+    def say(self, text: str, share: float) -> None:
+        """Show what is being done, how much of the work is done, and about how long the rest takes."""
+        self.title = text
+        self(share)
+        now = time.perf_counter()
+        if not self.shown and now - self.last > BETWEEN_LINES:
+            self.last = now
+            left = f", about {_duration((now - self.began) * (1.0 - share) / share)} left" if 0.02 < share < 1.0 else ""
             print(f"symgen: {math.floor(100.0 * share)} %, {text}{left}", file=sys.stderr, flush=True)
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.bar.__exit__(kind, error, trace)
 
 
 def _duration(seconds: float) -> str:
-    """Return a duration in the unit that suits it."""
     for unit, size in (("h", 3600.0), ("min", 60.0)):
         if seconds >= 1.5 * size:
             return f"{seconds / size:.1f} {unit}"

@@ -71,12 +71,12 @@ def write_page(name: str, settings: Settings, output: str) -> None:
     """Write the page of a mechanism."""
     from symgen.api import load
     from symgen.errors import AssemblyError
-    from symgen.files import write_whole
-    from symgen.player.motion_page import check_page
-    from symgen.reading.function_source import text_of
-    from symgen.reading.page import MOST_STRAIGHT, PageSubject, check_size, page
+    from symgen.files import check_path, write_whole
+    from symgen.player.motion_page import PAGES
+    from symgen.reading.listing import text_of
+    from symgen.reading.page import MOST_STRAIGHT, EquationPage, check_size
 
-    path = check_page("inspect: -o", Path(output))
+    path = check_path("inspect: -o", Path(output), PAGES, "plot")
     model = load(name)
     check_size(model.mechanism)
     speeds = sum(len(body.speeds) for body in model.mechanism.bodies)
@@ -94,14 +94,7 @@ def write_page(name: str, settings: Settings, output: str) -> None:
             facts.append(f"Coordinates: {run.plan.coordinates_reason}.")
     except AssemblyError as error:
         facts = [f"It does not close, and is drawn as described: {error}"]
-    subject = PageSubject(
-        whole=model.mechanism,
-        mechanism=mechanism,
-        choice=choice,
-        values=model.parameters(settings.parameters),
-        facts=facts,
-        text=text_of(name),
-        run=run,
-    )
-    written = write_whole(path, page(subject))
+    values = model.parameters(settings.parameters)
+    page = EquationPage(model.mechanism, mechanism, choice, values, facts, text_of(name), run)
+    written = write_whole(path, page.html())
     click.echo(f"{written}  {written.stat().st_size} bytes")

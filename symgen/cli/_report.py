@@ -94,7 +94,7 @@ def _report_file(text: str | None) -> Path | None:
 def command_again() -> str:
     """Return the command that makes the report again: this one without where its working files are."""
     context = click.get_current_context()
-    found = ["symgen", context.info_name or "", *context.params["models"]]
+    parts = ["symgen", context.info_name or "", *context.params["models"]]
     for parameter in context.command.params:
         value = context.params.get(parameter.name or "")
         flag = max(parameter.opts, key=len)
@@ -102,14 +102,14 @@ def command_again() -> str:
         if left_out or value in (None, (), {}, False, parameter.default):
             continue
         if value is True:
-            found.append(flag)
+            parts.append(flag)
             continue
         if isinstance(value, dict):
             value = tuple(f"{name}={str(item).removesuffix('.0')}" for name, item in value.items())
         for item in value if isinstance(value, tuple) else (value,):
             # where the file lies is nobody's business
-            found += [flag, Path(item).name if flag in ("--output", "--csv") else str(item).removesuffix(".0")]
-    return shlex.join(found)
+            parts += [flag, Path(item).name if flag in ("--output", "--csv") else str(item).removesuffix(".0")]
+    return shlex.join(parts)
 
 
 def sketches_of(

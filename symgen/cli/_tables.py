@@ -1,17 +1,90 @@
-"""What commands show on a terminal of runs, analyses and comparisons."""
+"""Tables as a terminal shows them: every name and number whole, wide tables in parts."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from symgen.cli._columns import TableColumn, columns_of, console, fitting, show, show_facts, show_parts
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
 
 if TYPE_CHECKING:
-    from symgen.analyses.kinds import AnalysisTable as Shown
+    from symgen.ensemble.sweep_study import Sweep
     from symgen.result.result import Result
     from symgen.study.comparison.compare import Study
     from symgen.study.comparison.comparison_rows import Row
+    from symgen.study.stress.stress_rows import Stress
+
+
+#: Between two columns.
+GAP = 2
+COLOURS = {"ok": "green", "unverified": "yellow", "failed": "red"}
+
+
+def console() -> Console:
+    """Return a console on standard output; where that is no terminal, wide enough that no figure is cut."""
+    wide = Console(highlight=False, markup=False)
+    return wide if wide.is_terminal else Console(highlight=False, markup=False, width=200)
+
+
+def show_rows(
+    out: Console,
+    headings: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    left: Sequence[str] = (),
+    title: str = "",
+    first: int = 1,
+    in_parts: bool = True,
+) -> None:
+    """Print a table, none of its cells cut.
+
+    Parameters
+    ----------
+    out : Console
+        Where it is printed.
+    headings, rows : sequence of str, iterable of sequences of str
+        Columns and cells.
+    left : sequence of str
+        Headings of columns that are flush left, as words are.
+    title : str
+        Above the table.
+    first : int
+        Columns with which each part of a table begins that is wider than the terminal.
+    in_parts : bool
+        Whether further parts are printed; otherwise a line names their columns.
+    """
+    listed = list(rows)
+    widths = [max(map(len, column)) for column in zip(headings, *listed, strict=True)]
+    parts = [[*range(first)]]
+    for k in range(first, len(headings)):
+        if len(parts[-1]) > first and sum(widths[i] + GAP for i in (*parts[-1], k)) - GAP > out.width:
+            parts.append([*range(first)])
+        parts[-1].append(k)
+    for n, part in enumerate(parts if in_parts else parts[:1]):
+        above = title if title and not n else None
+        table = Table(title=above, title_justify="left", box=None, header_style="dim", pad_edge=False)
+        for k in part:
+            side: Any = "left" if headings[k] in left else "right"
+            table.add_column(headings[k], justify=side, no_wrap=True, min_width=widths[k], overflow="fold")
+        for row in listed:
+            table.add_row(*(Text(row[k], COLOURS.get(row[k], "") if headings[k] == "status" else "") for k in part))
+        out.print(table, soft_wrap=sum(widths[k] + GAP for k in part) - GAP > out.width, crop=False)
+    if not in_parts and parts[1:]:
+        missing = ", ".join(headings[k] for part in parts[1:] for k in part[first:])
+        out.print(f"left out for want of room: {missing} (--csv has them)", style="dim")
+
+
+def show_facts(out: Console, facts: Iterable[tuple[str, str]]) -> None:
+    """Print labels with what belongs to them; statuses have colours."""
+    table = Table(show_header=False, box=None, pad_edge=False)
+    table.add_column(style="dim")
+    table.add_column(overflow="fold")
+    for label, text in facts:
+        status = text.partition(" ")[0].rstrip(":") if label == "status" else ""
+        table.add_row(label, Text(text, COLOURS.get(status, "")))
+    out.print(table)
 
 
 def show_result(result: Result) -> None:
@@ -21,25 +94,21 @@ def show_result(result: Result) -> None:
     out = console()
     show_facts(out, lines(result))
     if len(result.t):
-        show_parts(out, _final(result), "final state")
+        labels, rows = _final(result)
+        show_rows(out, ("body", *labels), rows, left=("body",), title="final state")
 
 
-def show_quantities(found: Mapping[str, Mapping[str, Any]]) -> None:
+def show_quantities(quantities: Mapping[str, Mapping[str, Any]]) -> None:
     """Print last, smallest and largest values of quantities."""
     rows = [
         (name, *("" if entry[key] is None else f"{entry[key]:.6g}" for key in ("final", "min", "max")), entry["unit"])
-        for name, entry in found.items()
+        for name, entry in quantities.items()
     ]
     headings = ("quantity", "final", "smallest", "largest", "unit")
-    show_parts(console(), columns_of(headings, rows, left=("quantity", "unit")))
+    show_rows(console(), headings, rows, left=("quantity", "unit"))
 
 
-def show_table(found: Shown) -> None:
-    """Print a table of an analysis."""
-    show_parts(console(), columns_of(found.headings, found.rows, found.left))
-
-
-def _final(result: Result, most: int = 12) -> list[TableColumn]:
+def _final(result: Result, most: int = 12) -> tuple[list[str], list[tuple[str, ...]]]:
     """Return the last positions and velocities, of the first bodies where there are many."""
     bodies = dict[str, dict[str, str]]()
     for name, value in (result.q.row() | result.v.row()).items():
@@ -49,7 +118,7 @@ def _final(result: Result, most: int = 12) -> list[TableColumn]:
     rows = [(body, *(row.get(label, "") for label in labels)) for body, row in list(bodies.items())[:most]]
     if len(bodies) > most:
         rows.append((f"... {len(bodies) - most} more", *("" for _ in labels)))
-    return columns_of(("body", *labels), rows, left=("body",))
+    return labels, rows
 
 
 #: Coordinates and velocities of bodies in the order in which they are shown.
@@ -57,18 +126,13 @@ _LABELS = ("x", "y", "z", "theta", "e0", "e1", "e2", "e3", "vx", "vy", "vz", "om
 
 
 def show_study(study: Study) -> None:
-    """Print the rows of a study, every number whole: on a narrow terminal columns are left out by importance."""
+    """Print the rows of a study."""
     out = console()
     off = "" if study.how == "none" else f" (off by about {study.estimated_error:.1g} m)"
     out.print(f"{study.mechanism}, {study.until:g} s; reference: {study.how}{off}")
     if study.note:
         out.print(study.note)
-    columns = columns_of(_HEADINGS, map(_cells, study.rows), _HEADINGS[:4], _WEIGHTS)
-    kept = fitting(columns, out.width)
-    show(out, kept)
-    if len(kept) < len(columns):
-        missing = ", ".join(column.heading for column in columns if column not in kept)
-        out.print(f"left out for want of room: {missing} (--csv has them)", style="dim")
+    show_rows(out, _HEADINGS, map(_cells, study.rows), (*_HEADINGS[:3], "status"), first=3, in_parts=False)
     if any(row.below_reference for row in study.rows):
         out.print("* below what the reference itself may be off")
     spreads = study.ratio_spreads
@@ -86,23 +150,72 @@ def show_study(study: Study) -> None:
             out.print(f"{row.label}, {row.integrator}, {steps}: {sentence}", style="dim")
 
 
-#: Columns of a study; the first four are words. Those of least weight are left out first on a narrow terminal.
+#: Columns of a study, of which a narrow terminal shows the first ones.
 _HEADINGS = (
-    *("method", "integrator", "step, rtol", "status", "error [m]", "run [ms]", "spread", "x lagrange", "evaluations"),
-    *("|Phi|", "|D v - nu|", "energy [J]"),
+    *("method", "integrator", "step, rtol", "error [m]", "run [ms]", "status", "x lagrange", "|Phi|", "energy [J]"),
+    *("evaluations", "|D v - nu|", "spread"),
 )
-_WEIGHTS = {
-    **{"spread": 1, "|D v - nu|": 2, "evaluations": 3, "energy [J]": 5, "|Phi|": 6, "x lagrange": 7},
-    **{"status": 8, "run [ms]": 9},
-}
 
 
 def _cells(row: Row) -> tuple[str, ...]:
-    """Return the cells of a row of a study."""
     return (
-        *(row.label, row.integrator, f"rtol {row.rtol:g}" if row.rtol is not None else f"{row.step:g} s", row.status),
+        *(row.label, row.integrator, f"rtol {row.rtol:g}" if row.rtol is not None else f"{row.step:g} s"),
         "" if row.error is None else f"{row.error:.2e}" + (" *" if row.below_reference else ""),
-        *(f"{1e3 * row.run_seconds:.3f}", f"{1e3 * row.run_seconds_spread:.3f}"),
-        *("" if row.cost_ratio is None else f"{row.cost_ratio:.2f}", str(row.evaluations)),
-        *(f"{row.position_violation_max:.1e}", f"{row.velocity_violation_max:.1e}", f"{row.energy_drift_max:.1e}"),
+        *(f"{1e3 * row.run_seconds:.3f}", row.status, "" if row.cost_ratio is None else f"{row.cost_ratio:.2f}"),
+        *(f"{row.position_violation_max:.1e}", f"{row.energy_drift_max:.1e}", str(row.evaluations)),
+        *(f"{row.velocity_violation_max:.1e}", f"{1e3 * row.run_seconds_spread:.3f}"),
     )
+
+
+def show_stress(study: Stress) -> None:
+    """Print a stress study."""
+    from symgen.study.stress.findings import findings
+    from symgen.study.stress.stress_rows import LEGEND, Map
+
+    out = console()
+    out.print(f"{', '.join(study.models)}: {len(study.rows)} cells")
+    shown = Map.of(study)
+    if shown.rows:
+        headings = ("method", "integrator", *(family.replace("-", " ") for family in shown.families))
+        rows = [(*line, *(shown.entry(line, family).text for family in shown.families)) for line in shown.lines]
+        show_rows(out, headings, rows, headings, first=2)
+        out.print(f"accurate cells of those judged; {LEGEND}", style="dim")
+    if study.limits:
+        out.print("largest constant step [s] that follows the motion, and that keeps the error below 1e-3 m")
+        steps = [["none" if h is None else f"{h:.3g}" for h in (x.stable_step, x.accurate_step)] for x in study.limits]
+        words = [(x.model, f"{x.family} {x.case}", x.method, x.integrator) for x in study.limits]
+        headings = ("model", "case", "method", "integrator", "stable", "accurate")
+        show_rows(out, headings, [(*a, *b) for a, b in zip(words, steps, strict=True)], headings[:4], first=4)
+    for sentence in findings(study):
+        out.print(sentence)
+
+
+def show_sweep(study: Sweep, written: Path | None) -> None:
+    """Print what an ensemble gave: axes, statuses, reasons, and the ends of what was kept."""
+    import numpy as np
+
+    facts, ensemble = study.to_json(), study.ensemble
+    steps = f"step {facts['step']:g} s" if facts["rtol"] is None else f"rtol {facts['rtol']:g}"
+    rate = f", {len(study) / study.seconds:.3g} runs a second" if study.seconds > 0.0 and not study.interrupted else ""
+    axes = [item for axis in ensemble.grid.axes for item in axis.values.items()]
+    lines = [
+        ("mechanism", facts["mechanism"]),
+        ("method", f"{facts['method']}, {facts['integrator']}, {steps}, until {facts['until']:g} s"),
+        *(("varies", f"{name}: {len(x)} values from {x.min():.6g} to {x.max():.6g}") for name, x in axes),
+        ("runs", f"{len(study)} in {study.seconds:.3g} s{rate}"),
+        *(("status", f"{status}: {count}") for status, count in study.counts.items() if count),
+        *(("reason", f"{count} x {reason}") for reason, count in study.reasons()),
+        ("error", "not estimated: symgen run --verify does so for a single run"),
+        *([("written", str(written))] if written is not None and not study.interrupted else []),
+    ]
+    out = console()
+    show_facts(out, lines)
+    rows = list[tuple[str, ...]]()
+    for i, q in enumerate(ensemble.recipe.quantities[:24]):
+        last = study.values[:, i, -1]
+        last = last[np.isfinite(last)]
+        if len(last):
+            rows.append((q.name, q.unit, *(f"{x:.6g}" for x in (last.min(), last.mean(), last.max()))))
+    if rows:
+        headings = ("quantity", "unit", "least", "mean", "largest")
+        show_rows(out, headings, rows, headings[:2], "at the last output")

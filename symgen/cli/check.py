@@ -33,13 +33,14 @@ def command(
     """
     if picture is not None:
         from symgen.api import load
-        from symgen.drawing.drawing import check_picture
+        from symgen.drawing.drawing import PICTURES
+        from symgen.files import check_path
 
-        file = check_picture("--draw", Path(picture))
+        file = check_path("--draw", Path(picture), PICTURES, "plot")
         load(model).draw(parameters, start).save(file)
         if not as_json:
             click.echo(f"written: {file}", err=True)
-    facts = examine(model, parameters, start, strict)
+    facts = _facts(model, parameters, start, strict)
     if as_json:
         write_json(facts)
         return OK
@@ -63,7 +64,7 @@ def command(
     return OK
 
 
-def examine(model: str, parameters: dict[str, float], held: dict[str, float], strict: bool) -> dict[str, Any]:
+def _facts(model: str, parameters: dict[str, float], held: dict[str, float], strict: bool) -> dict[str, Any]:
     """Return what assembling a mechanism shows: sizes, rank, degrees of freedom, redundant rows and notes."""
     from symgen.api import load
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -78,7 +77,7 @@ def command(
     files: StudyFiles,
     jobs: int | None,
     as_json: bool,
-    **asked: Any,
+    **values: Any,
 ) -> int:
     """Run every MODEL with every method, integrator, step and tolerance; show error against run time.
 
@@ -100,16 +99,13 @@ def command(
     with ExitStack() as stack:
         journal = None if files.journal is None else stack.enter_context(Journal(files.journal))
         lines = stack.enter_context(Lines())
-        began = time.monotonic()
 
         def progress(what: str, reached: float, total: float) -> None:
-            share = reached / total
-            left = (time.monotonic() - began) * (1.0 - share) / share if share > 0.02 else None
             name = "" if len(loaded) > 1 or what.startswith("preparing") else f"{loaded[0].name}: "
-            lines.say(f"{name}{what}", share, left)
+            lines.say(f"{name}{what}", reached / total)
 
         runs = Combinations(method_list, integrator_list, step_list, rtol_list, words("--coordinates", states))
-        settings = Settings(**asked)
+        settings = Settings(**values)
         studies = compare_all(loaded, settings, runs, reference_by, progress, jobs or processors(), journal)
     rows = [row for study in studies for row in study.rows]
     used = {
@@ -120,8 +116,8 @@ def command(
         if given and rows and not used[option]:
             click.echo(f"symgen: {option} counted for nothing: no run of these integrators has such steps", err=True)
     if as_json:
-        found = [study.to_json() for study in studies]
-        write_json(found[0] if len(models) == 1 else {"studies": found})
+        tables = [study.to_json() for study in studies]
+        write_json(tables[0] if len(models) == 1 else {"studies": tables})
     else:
         from symgen.cli._tables import show_study
 
@@ -132,9 +128,9 @@ def command(
         from symgen.report.comparison import comparison
         from symgen.report.write import write
 
-        sketches = sketches_of(loaded, asked["parameters"], asked["start"])
-        told = [text for option, text in _asked(step_list, rtol_list).items() if used[option]]
-        write(comparison(studies, command_again(), told, sketches), file)
+        sketches = sketches_of(loaded, values["parameters"], values["start"])
+        texts = [text for option, text in _asked(step_list, rtol_list).items() if used[option]]
+        write(comparison(studies, command_again(), texts, sketches), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
     report = files.report if any(study.rows for study in studies) else None

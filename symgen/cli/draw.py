@@ -46,13 +46,14 @@ def command(
     code is 2 then.
     """
     from symgen.api import load
-    from symgen.drawing.drawing import check_picture
+    from symgen.drawing.drawing import PICTURES
+    from symgen.files import check_path
 
     view = _view(angles)
     loaded = load(model)
     if view is not None and loaded.mechanism.space == "planar":
         click.echo(f"symgen: --view counts for nothing: {loaded.name} is planar", err=True)
-    file = check_picture("--output", Path(f"{loaded.name}.svg" if output is None else output))
+    file = check_path("--output", Path(output or f"{loaded.name}.svg"), PICTURES, "plot")
     drawing = _drawing(loaded, at, parameters, start, view)
     drawing.save(file)
     marked = [item.name for item in drawing.scene.items if item.role == "fault"]
@@ -70,7 +71,7 @@ def command(
 def _drawing(
     model: Model, at: str, parameters: dict[str, float], start: dict[str, float], view: View | None
 ) -> Drawing:
-    from symgen.result.run_data import FAILED
+    from symgen.result.result import FAILED
 
     if at in ("start", "described"):
         return model.draw(parameters, start, at=at, view=view)

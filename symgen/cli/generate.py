@@ -5,8 +5,7 @@ from __future__ import annotations
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import examples, json_option, setting_options
-from symgen.cli._target import target_option
+from symgen.cli._options import examples, json_option, setting_options, target_option
 from symgen.errors import InputError
 
 
@@ -52,12 +51,12 @@ def command(
         raise InputError("--all", "no --method beside it", ", ".join(methods))
     mechanism = load(model)
     wanted = None if every else methods or "direct-correction"
-    found = mechanism.generate(output, wanted, options, coordinates=coordinates, shape=shape, target=target)
+    package = mechanism.generate(output, wanted, options, coordinates=coordinates, shape=shape, target=target)
     if as_json:
-        files = [{"path": str(path), "bytes": path.stat().st_size} for path in found.files]
-        seconds = {"derive": found.derive_seconds, "emit": found.emit_seconds}
-        write_json({"mechanism": mechanism.name, "folder": str(found.folder), "files": files, "seconds": seconds})
+        files = [{"path": str(path), "bytes": path.stat().st_size} for path in package.files]
+        seconds = {"derive": package.derive_seconds, "emit": package.emit_seconds}
+        write_json({"mechanism": mechanism.name, "folder": str(package.folder), "files": files, "seconds": seconds})
         return OK
-    for path in found.files:
+    for path in package.files:
         click.echo(f"{path}  {path.stat().st_size} bytes")
     return OK

@@ -42,7 +42,7 @@ def command(as_json: bool) -> int:
         return OK
     from rich.table import Table
 
-    from symgen.cli._columns import console
+    from symgen.cli._tables import console
 
     out = console()
     names = [f"{row['name']}:{row['default_size']}" if row["sized"] else str(row["name"]) for row in rows]

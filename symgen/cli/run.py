@@ -63,7 +63,7 @@ def command(
     units: bool,
     plot: str | None,
     as_json: bool,
-    **asked: Any,
+    **values: Any,
 ) -> int:
     """Simulate MODEL and say how it went.
 
@@ -72,7 +72,7 @@ def command(
     in the same time.
     """
     # before anything expensive: what is wrong with the words of the command
-    settings = Settings(**asked)
+    settings = Settings(**values)
     if whence is not None and settings.start:
         raise InputError("--from", "one way of saying where a run begins", "--start as well")
     save_path = output_file("--save", save, "data")
@@ -86,7 +86,7 @@ def command(
 
     loaded = load(model)
     if whence is not None:
-        from symgen.result.resume import read_last_state
+        from symgen.result.saved import read_last_state
 
         settings = replace(settings, start=read_last_state("--from", Path(whence)))  # type: ignore[arg-type]  # one of two
     if save_path is not None:

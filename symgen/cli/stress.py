@@ -67,16 +67,16 @@ def command(
         lines = stack.enter_context(Lines())
 
         def progress(what: str, status: Status) -> None:
-            lines(what, status.done, status.total, status.share, status.seconds_left)
+            lines.say(f"{what}: {status.done} of {status.total}", status.share)
 
-        asked = dict.fromkeys((*models, *(names() if catalogue else ())))
+        requested = dict.fromkeys((*models, *(names() if catalogue else ())))
         seconds = math.inf if compilation is None else compilation
         work = journal, jobs or processors(), progress, seconds
-        study = stress(tuple(asked), case_list, method_list, quick, *work, **limits)
+        study = stress(tuple(requested), case_list, method_list, quick, *work, **limits)
     if as_json:
         write_json(study.to_json())
     else:
-        from symgen.cli._stress_tables import show_stress
+        from symgen.cli._tables import show_stress
 
         show_stress(study)
 

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import examples, jobs_option, json_option, setting_options, tell
-from symgen.cli._target import target_option
-from symgen.errors import InputError, quoted
+from symgen.cli._options import examples, jobs_option, json_option, pairs, setting_options, target_option, tell
+from symgen.errors import InputError
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -64,7 +63,7 @@ def command(
     scheduler: str | None,
     target: str,
     as_json: bool,
-    **asked: Any,
+    **values: Any,
 ) -> int:
     """Run MODEL for every combination of what varies, on all cores or a CUDA device.
 
@@ -75,7 +74,7 @@ def command(
     """
     # before anything expensive: what is wrong with the words of the command
     axes = _axes(varied)
-    settings = Settings(**asked)
+    settings = Settings(**values)
     if settings.times is not None and settings.output_step is not None:
         raise InputError("--times", "one way of choosing outputs", "--output-step as well")
     if resume and output is None:
@@ -102,7 +101,7 @@ def command(
         def progress(done: float, total: int) -> None:
             bar(done / total)
 
-        found = sweep(
+        study = sweep(
             loaded,
             {} if together else axes,
             runs=axes if together else {},
@@ -115,44 +114,37 @@ def command(
             settings=settings,
             progress=progress,
         )
-    tell(found.ensemble.notes)
-    tell(f"warning: in {count} of {len(found)} runs: {sentence}" for sentence, count in found.told())
+    tell(study.ensemble.notes)
+    tell(f"warning: in {count} of {len(study)} runs: {sentence}" for sentence, count in study.told())
     if as_json:
-        write_json({**found.to_json(), "output": output})
+        write_json({**study.to_json(), "output": output})
     else:
-        from symgen.cli._sweep_table import show_sweep
+        from symgen.cli._tables import show_sweep
 
-        show_sweep(found, path)
-    return _exit_code(found, path)
+        show_sweep(study, path)
+    return _exit_code(study, path)
 
 
 def _axes(words: tuple[str, ...]) -> dict[str, str]:
     """Return the text of the values by name; names may not repeat."""
-    axes: dict[str, str] = {}
-    for word in words:
-        name, equals, text = word.partition("=")
-        name = name.strip().removesuffix("(0)")
-        if not equals or not name or not text.strip():
-            raise InputError("--vary", "NAME=VALUES, such as crank_mass=lin(1,3,21)", quoted(word))
-        if name in axes:
-            raise InputError(f"--vary {name}", "each name once", "it twice")
-        axes[name] = text.strip()
     from symgen.ensemble.axes import parse
 
+    form = "NAME=VALUES, such as crank_mass=lin(1,3,21)"
+    axes = pairs("--vary", [word.replace("(0)=", "=", 1) for word in words], form)
     for name, text in axes.items():
         parse(text, f"--vary {name}")
     return axes
 
 
-def _exit_code(found: Sweep, path: Path | None) -> int:
-    counts = found.counts
-    if found.interrupted:
-        done = len(found) - counts["not run"]
-        kept = f"{done} of {len(found)} runs are done"
+def _exit_code(study: Sweep, path: Path | None) -> int:
+    counts = study.counts
+    if study.interrupted:
+        done = len(study) - counts["not run"]
+        kept = f"{done} of {len(study)} runs are done"
         hint = " and kept; --resume goes on from there" if path is not None else ""
         return complain(f"interrupted; {kept}{hint}", INTERRUPTED)
-    if counts["failed"] == len(found):
-        return complain(f"all {len(found)} runs failed: {found.reasons(1)[0][0]}", FAILURE)
+    if counts["failed"] == len(study):
+        return complain(f"all {len(study)} runs failed: {study.reasons(1)[0][0]}", FAILURE)
     if counts["failed"]:
-        complain(f"warning: {counts['failed']} of {len(found)} runs failed", OK)
+        complain(f"warning: {counts['failed']} of {len(study)} runs failed", OK)
     return OK

@@ -14,7 +14,7 @@ from symgen.errors import InputError
 from symgen.settings import Settings, flag, is_given, names
 
 if TYPE_CHECKING:
-    from symgen.api import Model
+    from symgen.player.recording import Recording
     from symgen.result.result import Result
 
 
@@ -62,117 +62,76 @@ def command(
     mode: int | None,
     at: str,
     as_json: bool,
-    **asked: Any,
+    **values: Any,
 ) -> int:
     """Make a page or film of the motion of MODEL, which is run for that, of a mode of it, or of a saved result.
 
     The page is one file without anything from elsewhere: play, scrub, loop, traces of points, forces, plots with a
     cursor. Where the equations are not too large it holds them, so that sliders of parameters change the motion.
     """
+    stored, film = what.lower().endswith(".nc"), output is not None and Path(output).suffix.lower() in (".gif", ".mp4")
+    model_given = f"the model '{what}'"
+    for refused, option, expected, got in (
+        (described is not None and not stored, "--model", "a saved result to be viewed", model_given),
+        (beside is not None and not stored, "--beside", "two saved results", model_given),
+        (beside is not None and film, "--beside", "a page, .html", f"'{output}'"),
+        (mode is not None and stored, "--mode", "a model, about whose equilibrium modes are", f"the result '{what}'"),
+        (mode is None and at != "equilibrium", "--at", "a mode shape, asked for with --mode", "no --mode"),
+        (live and film, "--live", "a page of a run, which alone has equations in it", f"'{output}'"),
+        (live and mode is not None, "--live", "a page of a run, which alone has equations in it", "--mode as well"),
+    ):
+        if refused:
+            raise InputError(option, expected, got)
+    settings = Settings(**values)
+    if stored or mode is not None:
+        _refuse(settings, () if stored else _OF_MODES, "a saved result" if stored else "a mode shape")
+
     from symgen.api import load
+    from symgen.files import check_path
+    from symgen.player.motion_page import PAGES, Page
+    from symgen.player.moving import check_film, write_film
+    from symgen.result.viewed import mechanism_name, recorded, recorded_file, view_file
 
-    stored = Path(what) if what.lower().endswith(".nc") else None
-    settings = Settings(**asked)
-    if stored is not None:
-        from symgen.result.viewed import mechanism_name
-
-        model = load(described or mechanism_name("view", stored))
-    elif described is not None:
-        raise InputError("--model", "a saved result to be viewed", f"the model '{what}'")
-    else:
-        model = load(what)
-    if beside is not None and stored is None:
-        raise InputError("--beside", "two saved results", f"the model '{what}'")
-    without = () if stored is not None else _OF_MODES if mode is not None else None
-    if without is not None:
-        _refuse(settings, without, "a saved result" if mode is None else "a mode shape")
-    if mode is not None and stored is not None:
-        raise InputError("--mode", "a model, about whose equilibrium modes are", f"the saved result '{what}'")
-    if mode is None and at != "equilibrium":
-        raise InputError("--at", "a mode shape, asked for with --mode", "no --mode")
-    file = _checked(Path(f"{model.name}.html" if output is None else output))
-    if live and (mode is not None or file.suffix.lower() != ".html"):
-        expected = "a page of a run, which alone has equations in it"
-        raise InputError("--live", expected, f"'{file}'" if mode is None else "--mode as well")
+    model = load(described or mechanism_name("view", Path(what)) if stored else what)
+    file = Path(output or f"{model.name}.html")
+    file = check_film("--output", file) if film else check_path("--output", file, PAGES, "plot")
+    result: Result | None = None
+    shown: Page | Recording
     if mode is not None:
-        return _mode(model, settings, mode, at, file, as_json)
-    if stored is not None:
-        return _stored(stored, model, beside, live is not False, file, as_json)
-    from symgen.cli._progress import Bar
+        from symgen.analyses.animation import mode_page, mode_recording
 
-    with Bar(f"{model.name}, {settings.method}", settings.until or model.mechanism.defaults.until) as bar:
-        result = model.simulate(settings, progress=bar)
-    if not len(result.t):
-        return complain(f"failed: {result.reason}", FAILURE)
-    if file.suffix.lower() != ".html":
-        from symgen.player.moving import write_film
-        from symgen.result.viewed import recorded
-
-        write_film(file, recorded(result))
-        return _told(file, False, as_json, result.status) or _code(result)
-    made = result.view(live=live is not False)
-    made.save(file)
-    return _told(file, made.live, as_json, result.status) or _code(result)
-
-
-def _refuse(settings: Settings, known: Collection[str], what: str) -> None:
-    """Refuse settings that mean nothing where nothing is run by them."""
-    for name in names():
-        if name not in known and is_given(settings, name):
-            raise InputError(flag(name), f"settings of {what}", "one of a run")
-
-
-def _checked(file: Path) -> Path:
-    """Return the file if it can be written: a film or a page."""
-    from symgen.player.motion_page import check_page
-    from symgen.player.moving import check_film, is_film
-
-    if is_film(file):
-        check_film("--output", file)
+        shape = (model.mechanism, model.modes(settings, at=at), mode, settings.parameters)
+        shown = mode_recording(*shape) if film else mode_page(*shape)
+    elif stored:
+        source, behind = Path(what), None if beside is None else Path(beside)
+        if film:
+            shown = recorded_file("view", source, model.mechanism)
+        else:
+            shown = view_file("view", source, model.mechanism, behind, live is not False)
     else:
-        check_page("--output", file)
-    return file
+        from symgen.cli._progress import Bar
 
-
-def _mode(model: Model, settings: Settings, mode: int, at: str, file: Path, as_json: bool) -> int:
-    """Write a page or film of a mode shape."""
-    from symgen.analyses.animation import mode_page, mode_recording
-    from symgen.player.moving import is_film, write_film
-
-    of = (model.mechanism, model.modes(settings, at=at), mode, settings.parameters)
-    if is_film(file):
-        write_film(file, mode_recording(*of))
+        with Bar(f"{model.name}, {settings.method}", settings.until or model.mechanism.defaults.until) as bar:
+            result = model.simulate(settings, progress=bar)
+        if not len(result.t):
+            return complain(f"failed: {result.reason}", FAILURE)
+        shown = recorded(result) if film else result.view(live=live is not False)
+    if isinstance(shown, Page):
+        shown.save(file)
     else:
-        mode_page(*of).save(file)
-    return _told(file, False, as_json, "ok")
-
-
-def _stored(stored: Path, model: Model, beside: str | None, live: bool, file: Path, as_json: bool) -> int:
-    """Write a page or film of a saved result."""
-    from symgen.player.moving import is_film, write_film
-    from symgen.result.viewed import recorded_file, view_file
-
-    if is_film(file):
-        if beside is not None:
-            raise InputError("--beside", "a page, .html", f"'{file}'")
-        write_film(file, recorded_file("view", stored, model.mechanism))
-        return _told(file, False, as_json, "ok")
-    made = view_file("view", stored, model.mechanism, None if beside is None else Path(beside), live)
-    made.save(file)
-    return _told(file, made.live, as_json, "ok")
-
-
-def _told(file: Path, live: bool, as_json: bool, status: str) -> int:
+        write_film(file, shown)
     if as_json:
-        write_json({"file": str(file), "live": live, "status": status, "bytes": file.stat().st_size})
+        facts = {"live": isinstance(shown, Page) and shown.live, "status": "ok" if result is None else result.status}
+        write_json({"file": str(file), **facts, "bytes": file.stat().st_size})
     else:
         click.echo(f"written: {file}")
-    return OK
-
-
-def _code(result: Result) -> int:
-    if result.interrupted:
+    if result is not None and result.interrupted:
         return complain("interrupted; the page shows what was kept", INTERRUPTED)
-    if result.status == "failed":
-        return complain(f"failed: {result.reason}", FAILURE)
-    return OK
+    return complain(f"failed: {result.reason}", FAILURE) if result is not None and result.status == "failed" else OK
+
+
+def _refuse(settings: Settings, allowed: Collection[str], what: str) -> None:
+    """Refuse settings that mean nothing where nothing is run by them."""
+    for name in names():
+        if name not in allowed and is_given(settings, name):
+            raise InputError(flag(name), f"settings of {what}", "one of a run")

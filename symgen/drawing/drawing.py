@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from importlib.util import find_spec
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,41 +17,19 @@ from symgen.describe.start import described_start
 from symgen.drawing.mechanism_scene import build_scene
 from symgen.drawing.paper import Drawn, View, axes, on_paper
 from symgen.drawing.paper import Path as Stroke
+from symgen.drawing.pictures import svg, write_pixels
 from symgen.drawing.scene import COLOURS, Array, Item, Look, Point, Scene
-from symgen.drawing.svg import svg
-from symgen.errors import InputError, nearest
-from symgen.files import check_writable, write_whole
+from symgen.files import check_path, write_whole
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
 
-#: Endings of pictures.
-ENDINGS = (".svg", ".png", ".pdf")
-#: Joints whose two points are one point.
-PINS = frozenset(("revolute", "spherical", "universal", "constant-velocity", "rigid"))
-
+#: Endings of pictures with the libraries that they need.
+PICTURES: Mapping[str, tuple[str, ...]] = {".svg": (), ".png": ("matplotlib",), ".pdf": ("matplotlib",)}
 #: Positions in a picture of a motion, and points of a way.
 POSES, PATH = 4, 300
 #: From where scenes in space are seen.
 ABOVE = View()
-
-
-def check_picture(where: str, path: Path) -> Path:
-    """Refuse a picture that could not be written, before anything is computed for it.
-
-    Raises
-    ------
-    InputError
-        If the ending is not known, matplotlib is missing for pixels, or the file cannot be written.
-    """
-    ending = path.suffix.lower()
-    if ending not in ENDINGS:
-        got = f"'{path.suffix}'" if path.suffix else "no ending"
-        raise InputError(where, f"a file that ends in {', '.join(ENDINGS)}", got, nearest(ending, ENDINGS))
-    if ending != ".svg" and find_spec("matplotlib") is None:
-        raise InputError(where, "the library matplotlib", "none", "pip install 'symgen[plot]' installs it")
-    check_writable(where, path)
-    return path
 
 
 @dataclass(frozen=True, repr=False)
@@ -98,7 +75,7 @@ class Drawing:
         labels: bool | None = None,
         caption: str = "",
     ) -> Drawing:
-        """Return the picture of a mechanism; see `symgen.drawing.sketch`."""
+        """Return the picture of a mechanism; arguments as for `symgen.drawing.sketch`."""
         if q is None:
             q = described_start(mechanism, scalars(parameter_values(mechanism, values)))[0]
         scene = build_scene(mechanism, q, values, open_joints)
@@ -159,11 +136,9 @@ class Drawing:
         InputError
             If the ending is not known, matplotlib is missing for pixels, or the file cannot be written.
         """
-        file = check_picture("draw", argument_path("path", path))
+        file = check_path("draw", argument_path("path", path), PICTURES, "plot")
         if file.suffix.lower() == ".svg":
             return write_whole(file, self.svg)
-        from symgen.drawing.pixels import write_pixels
-
         kind = file.suffix.lower().removeprefix(".")
         drawn, behind = self._drawn(), self._behind()
         return write_whole(file, lambda stream: write_pixels(stream, kind, drawn, behind, self.labels, self.caption))
@@ -179,10 +154,41 @@ class Drawing:
 _COUNTED = (("body", "bodies"), ("joint", "joints"), ("force", "forces"))
 
 
-def gaps(scene: Scene, q: Sequence[float] | Array) -> Iterator[tuple[Item, float]]:
-    """Yield the joints that hold two points together, with how far these are apart [m]."""
-    poses = scene.poses(q)
-    for item in scene.items:
-        if item.role == "joint" and item.kind in PINS and len(item.ends) == 2:
-            a, b = (poses.out(body, [at])[0] for body, at in item.ends)
-            yield item, float(np.linalg.norm(b - a))
+def sketch(
+    mechanism: Mechanism,
+    q: Sequence[float] | Array | None = None,
+    values: Mapping[str, float] | None = None,
+    *,
+    open_joints: Sequence[str] = (),
+    view: View | None = None,
+    labels: bool | None = None,
+    caption: str = "",
+) -> str:
+    """Return a picture of a mechanism as SVG text.
+
+    Bodies are drawn from their points or as their ``shape`` says, joints and forces by their symbols. Each is a group
+    ``<g id="joint-NAME" class="joint" data-name="NAME">``, with ``body``, ``force`` and ``fault`` likewise.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        Any.
+    q : array, shape (nq,), optional
+        Coordinates of all bodies; the described start by default, which may be open.
+    values : mapping of str to float, optional
+        Parameters that differ from the described ones.
+    open_joints : sequence of str
+        Joints that are marked as open.
+    view : View, optional
+        From where a spatial mechanism is seen.
+    labels : bool, optional
+        Whether bodies have their names beside them; where they are few by default.
+    caption : str
+        A sentence below the picture.
+
+    Raises
+    ------
+    InputError
+        If `q` has not as many numbers as the mechanism has coordinates.
+    """
+    return Drawing.of(mechanism, q, values, open_joints=open_joints, view=view, labels=labels, caption=caption).svg

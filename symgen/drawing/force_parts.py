@@ -8,8 +8,7 @@ import numpy as np
 
 from symgen.describe.mechanism import Force
 from symgen.drawing.joint_parts import DRIVE, turned_about
-from symgen.drawing.markers import BodyPoint, parts
-from symgen.drawing.pen import PLAIN, Pen, across
+from symgen.drawing.pen import PLAIN, BodyPoint, Pen, across, parts
 from symgen.drawing.scene import GROUNDED, INK, Array, BodyFrame, Item, Look, Mark, Poses
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import ZERO, Number, names
@@ -130,12 +129,12 @@ def _turns_with(pen: Pen, force: Force) -> tuple[int, Array]:
 
 def _probed(pen: Pen, force: Force, body: int) -> list[tuple[Array, Array]]:
     """Return a force with its body turned in two ways, and how it is turned, all else being the same and nothing 0."""
-    numbers, found = pen.numbers, []
-    known = {**numbers.values, **numbers.state, "s": 0.0, "rate": 0.0}
-    known |= dict.fromkeys(
-        (name for effort in force.efforts for name in names(effort.magnitude) if name not in known), 0.0
+    numbers, probes = pen.numbers, []
+    state = {**numbers.values, **numbers.state, "s": 0.0, "rate": 0.0}
+    state |= dict.fromkeys(
+        (name for effort in force.efforts for name in names(effort.magnitude) if name not in state), 0.0
     )
-    known = {name: x or 0.31 + 0.017 * k for k, (name, x) in enumerate(known.items())}
+    state = {name: x or 0.31 + 0.017 * k for k, (name, x) in enumerate(state.items())}
     frame = numbers.frames[body]
     for angle in (0.4, 1.3):
         if numbers.spatial:
@@ -143,15 +142,15 @@ def _probed(pen: Pen, force: Force, body: int) -> list[tuple[Array, Array]]:
             changed = dict(zip((f"{frame.name}.e{k}" for k in range(4)), turn.tolist(), strict=True))
         else:
             turn, changed = np.array([angle]), {f"{frame.name}.theta": angle}
-        given = np.concatenate([np.zeros(3 if numbers.spatial else 2), turn])
-        turns = Poses([BodyFrame(frame.name, 0, len(given))], given, numbers.spatial).turns[0]
+        q = np.concatenate([np.zeros(3 if numbers.spatial else 2), turn])
+        turns = Poses([BodyFrame(frame.name, 0, len(q))], q, numbers.spatial).turns[0]
         total = np.zeros(3)
         for effort, measure in _components(force):
             own = numbers.vector(measure.along.vector)
             along = turns @ own if numbers.index[measure.along.body] == body else numbers.direction(measure.along)
-            total += numbers.at(effort.magnitude, known | changed) * along
-        found.append((total, turns))
-    return found
+            total += numbers.at(effort.magnitude, state | changed) * along
+        probes.append((total, turns))
+    return probes
 
 
 def _parallel(a: Array, b: Array) -> bool:

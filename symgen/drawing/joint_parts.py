@@ -8,8 +8,7 @@ import numpy as np
 
 from symgen.describe.mechanism import Joint
 from symgen.describe.topology import articulation_of
-from symgen.drawing.markers import BodyPoint, PlacedMechanism, parts
-from symgen.drawing.pen import EARTH, FILLED, PLAIN, Pen, across
+from symgen.drawing.pen import EARTH, FILLED, PLAIN, BodyPoint, Pen, PlacedMechanism, across, parts
 from symgen.drawing.scene import COLOURS, GREY, GROUNDED, Array, Look, Mark
 from symgen.vocabulary.measures import Component, Sum, Turning
 
@@ -26,26 +25,26 @@ def plain(pen: Pen, joint: Joint) -> list[Mark]:
 
 def ends_of(numbers: PlacedMechanism, joint: Joint) -> tuple[BodyPoint, BodyPoint]:
     """Return the points of both bodies of a joint; those of its first rows, in the order of its bodies."""
-    found = articulation_of(joint)
-    if found is not None:
-        return numbers.place(found.a), numbers.place(found.b)
+    articulation = articulation_of(joint)
+    if articulation is not None:
+        return numbers.place(articulation.a), numbers.place(articulation.b)
     places = numbers.markers(joint.rows)
     return places[0], places[1] if len(places) > 1 else places[0]
 
 
 def along_of(numbers: PlacedMechanism, joint: Joint) -> Array:
     """Return the direction that a joint's displacement counts along."""
-    found = [m for _, m in joint.coordinates if isinstance(m, Component)]
-    return numbers.direction(found[0].along) if found else np.array([1.0, 0.0, 0.0])
+    components = [m for _, m in joint.coordinates if isinstance(m, Component)]
+    return numbers.direction(components[0].along) if components else np.array([1.0, 0.0, 0.0])
 
 
 def axis_of(numbers: PlacedMechanism, joint: Joint) -> Array:
     """Return the axis of a joint."""
     if not numbers.spatial:
         return Z
-    found = articulation_of(joint)
-    if found is not None and found.of_a:
-        return numbers.direction(found.of_a[2])
+    articulation = articulation_of(joint)
+    if articulation is not None and articulation.of_a:
+        return numbers.direction(articulation.of_a[2])
     turns = [m for m in parts(joint) if isinstance(m, Turning)]
     if turns:
         return np.cross(numbers.direction(turns[0].zero), numbers.direction(turns[0].quarter))

@@ -10,12 +10,10 @@ import numpy as np
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.describe.start import described_start
+from symgen.drawing.body_parts import outline, shape_marks
 from symgen.drawing.force_parts import force_item
-from symgen.drawing.markers import BodyPoint, PlacedMechanism, parts
-from symgen.drawing.outline import outline
-from symgen.drawing.pen import RIGID, Pen
-from symgen.drawing.scene import COLOURS, Array, Item, Look, Mark, Point, Scene, is_spatial, upwards
-from symgen.drawing.shape_marks import shape_marks
+from symgen.drawing.pen import RIGID, BodyPoint, Pen, PlacedMechanism, parts
+from symgen.drawing.scene import COLOURS, Array, Item, Look, Mark, Point, Scene, upwards
 from symgen.drawing.symbols import gap_item, joint_item
 from symgen.errors import InputError
 from symgen.vocabulary.measures import Marker
@@ -51,17 +49,16 @@ def build_scene(
     InputError
         If `q` has not as many numbers as the mechanism has coordinates.
     """
-    known = parameter_values(mechanism, values)
+    parameters = parameter_values(mechanism, values)
     if q is None:
-        q = described_start(mechanism, scalars(known))[0]
+        q = described_start(mechanism, scalars(parameters))[0]
     rows = np.atleast_2d(np.asarray(q, dtype=np.float64))
     size = mechanism.body_coordinates
     if rows.ndim != 2 or rows.shape[1] != size or not len(rows):
         raise InputError("q", f"{size} coordinates, as {mechanism.name} has", str(rows.shape[-1]))
     rows = rows[:: max(1, len(rows) // 60)]
-    spatial = is_spatial(mechanism)
-    numbers = PlacedMechanism(mechanism, known, rows)
-    up = upwards([numbers.number(g) for g in mechanism.gravity], spatial)
+    numbers = PlacedMechanism(mechanism, parameters, rows)
+    up = upwards([numbers.number(g) for g in mechanism.gravity], numbers.spatial)
     points = _points(numbers)
     unit = _unit(numbers, points)
     pen = Pen(numbers, unit, up)
@@ -74,7 +71,7 @@ def build_scene(
         name=mechanism.name,
         title=mechanism.title,
         items=(*bodies, *forces, *joints, *faults),
-        spatial=spatial,
+        spatial=numbers.spatial,
         up=up,
         unit=unit,
         frames=numbers.frames,
@@ -84,17 +81,17 @@ def build_scene(
 
 def _points(numbers: PlacedMechanism) -> dict[str, list[Point]]:
     """Return the points of each body from its centre of mass: those of joints and forces, and those with names."""
-    found: dict[str, dict[Point, None]] = {frame.name: {} for frame in numbers.frames}
+    by_body: dict[str, dict[Point, None]] = {frame.name: {} for frame in numbers.frames}
     names = [frame.name for frame in numbers.frames]
     for element in (*numbers.mechanism.joints, *numbers.mechanism.forces):
         for marker in parts(element):
-            if isinstance(marker, Marker) and marker.body in found:
+            if isinstance(marker, Marker) and marker.body in by_body:
                 place = numbers.place(marker)
-                found[names[place.body]][_rounded(place.at)] = None
+                by_body[names[place.body]][_rounded(place.at)] = None
     for body in numbers.mechanism.bodies:
         for _, point in body.points:
-            found[body.name][_rounded(numbers.place(Marker(body.name, point)).at)] = None
-    return {name: list(points) for name, points in found.items()}
+            by_body[body.name][_rounded(numbers.place(Marker(body.name, point)).at)] = None
+    return {name: list(points) for name, points in by_body.items()}
 
 
 def _rounded(point: Point) -> Point:

@@ -72,10 +72,10 @@ def on_paper(scene: Scene, q: Array, view: View | None = None, bodies: bool = Fa
     eye = axes(scene, view or View())
     poses = scene.poses(q)
     items = [_plainly(item) for item in scene.items if item.role == "body"] if bodies else scene.items
-    found = [_drawn(item, poses, eye) for item in items]
+    drawn = [_drawn(item, poses, eye) for item in items]
     if scene.spatial:  # faults stay in front
-        found.sort(key=lambda d: (d.item.role == "fault", d.depth))
-    return found
+        drawn.sort(key=lambda d: (d.item.role == "fault", d.depth))
+    return drawn
 
 
 def _plainly(item: Item) -> Item:
@@ -119,29 +119,29 @@ def _drawn(item: Item, poses: Poses, eye: Array) -> Drawn:
 def _parts(mark: Mark, poses: Poses, eye: Array) -> Iterator[tuple[Array, Path | Circle]]:
     """Yield the parts of a mark with its points as the eye has them."""
     if isinstance(mark, Line):
-        seen = poses.out(mark.body, mark.points) @ eye.T
-        yield seen, Path(seen[:, :2], mark.look, mark.closed)
+        projected = poses.out(mark.body, mark.points) @ eye.T
+        yield projected, Path(projected[:, :2], mark.look, mark.closed)
     elif isinstance(mark, Disc):
-        seen = poses.out(mark.body, [mark.at]) @ eye.T
-        x, y = float(seen[0, 0]), float(seen[0, 1])
+        projected = poses.out(mark.body, [mark.at]) @ eye.T
+        x, y = float(projected[0, 0]), float(projected[0, 1])
         if not mark.mass:
-            yield seen, Circle(x, y, mark.radius, mark.look)
+            yield projected, Circle(x, y, mark.radius, mark.look)
             return
-        yield seen, Circle(x, y, mark.radius, replace(mark.look, fill=PAPER))
+        yield projected, Circle(x, y, mark.radius, replace(mark.look, fill=PAPER))
         for start in (0.0, np.pi):
             turn = start + np.linspace(0.0, 0.5 * np.pi, 6)
             rim = np.stack([np.cos(turn), np.sin(turn)], axis=1)
             quarter = np.array([x, y]) + mark.radius * np.vstack([[0.0, 0.0], rim])
-            yield seen, Path(quarter, Look(INK, INK, 0.1), True)
+            yield projected, Path(quarter, Look(INK, INK, 0.1), True)
     elif isinstance(mark, Tube):
         yield from _tube(mark, poses, eye)
     elif isinstance(mark, Solid):
         for face in mark.faces:
-            seen = poses.out(mark.body, face) @ eye.T
-            normal = np.cross(seen[1] - seen[0], seen[2] - seen[1])
+            projected = poses.out(mark.body, face) @ eye.T
+            normal = np.cross(projected[1] - projected[0], projected[2] - projected[1])
             if normal[2] > 0.0:
                 light = 0.75 + 0.25 * float(normal[1]) / (float(np.linalg.norm(normal)) or 1.0)
-                yield seen, Path(seen[:, :2], replace(mark.look, opacity=mark.look.opacity * light), True)
+                yield projected, Path(projected[:, :2], replace(mark.look, opacity=mark.look.opacity * light), True)
     else:
         ends = np.array([poses.out(mark.body, [mark.at])[0], poses.out(mark.other, [mark.to])[0]]) @ eye.T
         for path in _stretched(mark, ends[:, :2]):

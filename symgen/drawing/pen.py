@@ -1,28 +1,134 @@
-"""Marks laid out in the ground frame and fixed to the bodies they belong to, or to frames that bodies carry."""
+"""A mechanism in its positions, and marks laid out there, fixed to bodies or to frames that bodies carry."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+from typing import Any
 
+import msgspec
 import numpy as np
 
-from symgen.drawing.markers import BodyPoint, PlacedMechanism
+from symgen.describe.evaluate import evaluate
+from symgen.describe.mechanism import AnyBody, Mechanism
 from symgen.drawing.scene import (
     GREY,
     GROUNDED,
     INK,
     PAPER,
     Array,
+    BodyFrame,
     CarriedFrame,
     Disc,
     Line,
     Look,
     Mark,
     Point,
+    Poses,
     Solid,
     Stretch,
     Tube,
 )
+from symgen.vocabulary.measures import GROUND, Direction, Marker
+
+
+def parts(value: Any) -> Iterator[Any]:
+    """Yield a value and everything inside it."""
+    yield value
+    if isinstance(value, msgspec.Struct):
+        for field in value.__struct_fields__:
+            yield from parts(getattr(value, field))
+    elif isinstance(value, tuple):
+        for item in value:
+            yield from parts(item)
+
+
+@dataclass(frozen=True)
+class BodyPoint:
+    """A point of a body: its index, and where it is on it."""
+
+    body: int
+    at: Point
+
+
+class PlacedMechanism:
+    """A mechanism with numbers for its parameters, in the positions that symbols are laid out for.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is drawn.
+    values : mapping of str to float
+        Parameters.
+    q : Array, shape (k, nq)
+        Positions; symbols are laid out for the first, guides long enough for all.
+    """
+
+    def __init__(self, mechanism: Mechanism, values: Mapping[str, float], q: Array) -> None:
+        self.mechanism, self.values, self.spatial = mechanism, values, mechanism.space == "spatial"
+        bodies: tuple[AnyBody, ...] = mechanism.bodies
+        firsts = accumulate((len(body.coordinates) for body in bodies), initial=0)
+        self.frames = tuple(BodyFrame(b.name, i, len(b.coordinates)) for b, i in zip(bodies, firsts, strict=False))
+        self.index = {frame.name: i for i, frame in enumerate(self.frames)} | {GROUND: GROUNDED}
+        self.centres = {body.name: self.vector(body.centre_of_mass) for body in mechanism.bodies}
+        self.centres[GROUND] = np.zeros(3)
+        self.all = [Poses(self.frames, row, self.spatial) for row in q]
+        self.now = self.all[0]
+        state = {f"{b.name}.{c}" for b in mechanism.bodies for c in (*b.coordinates, *b.speeds)}
+        names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
+        self.state = {**dict.fromkeys(state, 0.0), **dict(zip(names, map(float, q[0]), strict=True)), "t": 0.0}
+
+    def number(self, expression: Any) -> float:
+        """Return a constant of the mechanism."""
+        return evaluate(expression, self.values)
+
+    def at(self, expression: Any, further: Mapping[str, float]) -> float:
+        """Return what a formula of the state is in the first positions, at rest."""
+        values = {**self.values, **self.state, **further}
+        return evaluate(expression, values, tables={table.name: table for table in self.mechanism.tables})
+
+    def vector(self, expressions: Any) -> Array:
+        """Return a vector of constants with three components."""
+        vector = np.zeros(3)
+        vector[: len(expressions)] = [self.number(e) for e in expressions]
+        return vector
+
+    def place(self, marker: Marker) -> BodyPoint:
+        """Return a marker as a point from the centre of mass of its body."""
+        x, y, z = self.vector(marker.point) - self.centres[marker.body]
+        return BodyPoint(self.index[marker.body], (float(x), float(y), float(z)))
+
+    def out(self, place: BodyPoint) -> Array:
+        """Return where a point is, shape (3,)."""
+        return np.asarray(self.now.out(place.body, [place.at])[0])
+
+    def direction(self, direction: Direction) -> Array:
+        """Return a direction in the ground frame, of length 1."""
+        turned = self.now.turns[self.index[direction.body]] @ self.vector(direction.vector)
+        length = float(np.linalg.norm(turned))
+        return np.asarray(turned / length if length else turned)
+
+    def markers(self, value: Any) -> list[BodyPoint]:
+        """Return the different points that a value names, in order."""
+        return list(dict.fromkeys(self.place(m) for m in parts(value) if isinstance(m, Marker)))
+
+    def directions(self, value: Any) -> list[Direction]:
+        """Return the different directions that a value names, in order."""
+        return list(dict.fromkeys(d for d in parts(value) if isinstance(d, Direction)))
+
+    def span(self, a: BodyPoint, b: BodyPoint, along: Array) -> tuple[float, float]:
+        """Return from where to where b moves along a direction, which a's body carries, as seen from a [m].
+
+        The guide of a body that moves begins at the body's own point; that of the ground is only as long as it is used.
+        """
+        own = self.now.turns[a.body].T @ along
+        places = [] if a.body == GROUNDED else [0.0]
+        for poses in self.all:
+            d = poses.out(b.body, [b.at])[0] - poses.out(a.body, [a.at])[0]
+            places.append(float(d @ (poses.turns[a.body] @ own)))
+        return min(places), max(places)
+
 
 #: How joints and the ground are drawn.
 PLAIN, FILLED, EARTH = Look(INK, "", 1.2), Look(INK, PAPER, 1.2), Look(GREY, "", 1.0)
@@ -66,13 +172,13 @@ class Pen:
 
     def points(self, body: int, points: Sequence[Array] | Array) -> tuple[Point, ...]:
         """Return points of the ground frame as points of a frame."""
-        now, given, frames = self.numbers.now, np.asarray(points, dtype=np.float64), self.numbers.frames
+        now, places, frames = self.numbers.now, np.asarray(points, dtype=np.float64), self.numbers.frames
         if body < len(frames):
-            found = now.inside(body, given)
+            local = now.inside(body, places)
         else:
             own = self.carried[body - len(frames)]
-            found = (given - now.out(own.body, [own.at])) @ now.turns[own.turned]
-        return tuple((float(x), float(y), float(z)) for x, y, z in found)
+            local = (places - now.out(own.body, [own.at])) @ now.turns[own.turned]
+        return tuple((float(x), float(y), float(z)) for x, y, z in local)
 
     def line(self, body: int, points: Sequence[Array] | Array, look: Look = PLAIN, closed: bool = False) -> Line:
         """Return a polyline of a body."""

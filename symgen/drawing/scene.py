@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.mechanism import Mechanism, SpatialBody
 from symgen.vocabulary.rotations import matrix
 
 Array = NDArray[np.float64]
@@ -18,6 +17,8 @@ Point = tuple[float, float, float]
 GROUNDED = -1
 
 INK, GREY, PAPER, RED = "#20262e", "#6b7480", "#ffffff", "#d00000"
+#: Joints whose two points are one point.
+PINS = ("revolute", "spherical", "universal", "constant-velocity", "rigid")
 #: Okabe and Ito's colours that stand out on white, told apart with every kind of colour vision.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
 
@@ -219,6 +220,20 @@ class Scene:
         """Return where all frames are for coordinates, shape (nq,)."""
         return Poses(self.frames, q, self.spatial, self.carried)
 
+    @property
+    def pins(self) -> tuple[Item, ...]:
+        """Joints that hold two points together."""
+        return tuple(i for i in self.items if i.role == "joint" and i.kind in PINS and len(i.ends) == 2)
+
+    def gaps(self, q: Sequence[float] | Array) -> Array:
+        """Return the distances between the points of all `pins` [m]."""
+        poses, pins, places = self.poses(q), self.pins, []
+        for side in (0, 1):
+            bodies, points = [item.ends[side][0] for item in pins], [item.ends[side][1] for item in pins]
+            turned = np.einsum("nij,nj->ni", poses.turns[bodies], np.reshape(points, (-1, 3)))
+            places.append(poses.centres[bodies] + turned)
+        return np.asarray(np.linalg.norm(places[1] - places[0], axis=1))
+
     def __repr__(self) -> str:
         return f"<Scene of {self.name}: {len(self.items)} items>"
 
@@ -270,15 +285,6 @@ class Poses:
         return np.asarray((np.asarray(points) - self.centres[body]) @ self.turns[body])
 
 
-def frames_of(mechanism: Mechanism) -> tuple[BodyFrame, ...]:
-    """Return where the coordinates of each body stand in q."""
-    found, first = [], 0
-    for body in mechanism.bodies:
-        found.append(BodyFrame(body.name, first, len(body.coordinates)))
-        first += len(body.coordinates)
-    return tuple(found)
-
-
 def upwards(gravity: Sequence[float], spatial: bool) -> Point:
     """Return the axis that points most against gravity."""
     if not any(gravity):
@@ -287,8 +293,3 @@ def upwards(gravity: Sequence[float], spatial: bool) -> Point:
     up = [0.0, 0.0, 0.0]
     up[k] = -float(np.sign(gravity[k]))
     return (up[0], up[1], up[2]) if spatial else (0.0, 1.0, 0.0)
-
-
-def is_spatial(mechanism: Mechanism) -> bool:
-    """Whether a mechanism is one in space."""
-    return bool(mechanism.bodies) and isinstance(mechanism.bodies[0], SpatialBody)

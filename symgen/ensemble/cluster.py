@@ -36,7 +36,7 @@ def connect(address: str) -> Client:
     InputError
         If there is none, or the library is missing.
     """
-    from symgen.result.export import need
+    from symgen.files import need
 
     need("--scheduler", "distributed", extra="dask")
     from distributed import Client

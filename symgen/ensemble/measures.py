@@ -20,7 +20,7 @@ from symgen.compiling.side import compile_side
 from symgen.describe.columns import PREFIX
 from symgen.describe.readings import TABLES
 from symgen.ensemble.row_quantities import RowQuantity
-from symgen.result.acting import Acting, Seat
+from symgen.result.reactions import Acting, Seat
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.vocabulary.expressions import readings

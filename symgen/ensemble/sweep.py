@@ -23,8 +23,8 @@ from symgen.ensemble.sweep_plan import Ensemble, make_ensemble
 from symgen.ensemble.sweep_study import SAVED, Sweep
 from symgen.ensemble.table import FolderTable, RowTable, check_folder
 from symgen.errors import InputError
+from symgen.files import check_path
 from symgen.memory import processors, require, require_disk
-from symgen.result.export import check_path
 from symgen.runtime import abi
 from symgen.runtime.ensemble_abi import N_SUMMARY, RUNS_DONE
 from symgen.settings import Settings, changed

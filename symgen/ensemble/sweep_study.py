@@ -21,11 +21,11 @@ from symgen.ensemble.names import Names
 from symgen.ensemble.row_quantities import NUMBERS, event_columns, of_dimension, of_number, of_quantities, of_varied
 from symgen.ensemble.verdicts import NOT_RUN, column, judge_all, warnings_all
 from symgen.errors import InputError, nearest
-from symgen.files import headed, write_csv, write_whole
+from symgen.files import check_path, headed, need, write_csv, write_whole
 from symgen.result.contract import finite
-from symgen.result.export import check_path, need, netcdf
+from symgen.result.export import netcdf
 from symgen.result.labelled import html_table
-from symgen.result.run_data import FAILED, OK, UNVERIFIED
+from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.runtime.ensemble_abi import ASSEMBLED
 from symgen.version import __version__
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from symgen.ir.numerics import WARN
 from symgen.result.judge import JUMP_FAILURE, judge_alone
-from symgen.result.run_data import FAILED, OK
+from symgen.result.result import FAILED, OK
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.events import gathered, undefined

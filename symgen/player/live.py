@@ -1,9 +1,9 @@
-"""What a page needs to work out the motion itself: the emitted code as JavaScript, and numbers to begin with."""
+"""What a page needs to work out the motion itself: the emitted code and the start as JavaScript, and numbers."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,16 +13,108 @@ from symgen.describe.evaluate import derived, independent_values
 from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
 from symgen.drawing.scene import Array
+from symgen.errors import SymgenError
 from symgen.native.javascript import HELPERS, javascript
 from symgen.native.read import Foreign
-from symgen.player.script_formulas import NotInPages, Script, ScriptLines
 from symgen.runtime import abi
 from symgen.runtime.model_arrays import lengths_of
+from symgen.vocabulary.expressions import Expr, Name, Number, Reading
+from symgen.vocabulary.functions import ELEMENTARY
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
+
+
+_FORMS = {
+    **{"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}", "neg": "-{}", "not": "{} ? 0 : 1"},
+    **{"lt": "{} < {} ? 1 : 0", "le": "{} <= {} ? 1 : 0", "gt": "{} > {} ? 1 : 0", "ge": "{} >= {} ? 1 : 0"},
+    **{"and": "{} && {} ? 1 : 0", "or": "{} || {} ? 1 : 0", "where": "{} ? {} : {}"},
+    **{name: f"Math.{name}({{}})" for name in (*ELEMENTARY, "abs", "sign")},
+    **{name: f"Math.{name}({{}}, {{}})" for name in ("atan2", "min", "max", "pow")},
+}
+
+
+class NotInPages(SymgenError):
+    """A formula has something that pages do not."""
+
+
+def _operator(function: str, turned: bool = False) -> Callable[[Script, object], Script]:
+    return lambda self, other: self._with(function, *((other, self) if turned else (self, other)))
+
+
+@dataclass(frozen=True)
+class Script:
+    """A number in a script: what it is called there. Arithmetic with it writes further lines."""
+
+    lines: list[str] = field(repr=False)
+    text: str
+
+    def _with(self, function: str, *operands: object) -> Script:
+        return let(self.lines, _FORMS[function].format(*map(_text, operands)))
+
+    def __add__(self, other: object) -> Script:
+        return self if _text(other) == "0" else self._with("add", self, other)
+
+    def __radd__(self, other: object) -> Script:
+        return self if _text(other) == "0" else self._with("add", other, self)
+
+    __sub__, __rsub__ = _operator("sub"), _operator("sub", turned=True)
+    __mul__, __rmul__ = _operator("mul"), _operator("mul", turned=True)
+    __truediv__, __rtruediv__ = _operator("div"), _operator("div", turned=True)
+
+
+def _text(value: object) -> str:
+    if isinstance(value, Script):
+        return value.text
+    number = repr(float(value)).removesuffix(".0")  # type: ignore[arg-type]  # numbers and scripts only
+    return f"({number})" if number.startswith("-") else number
+
+
+def let(lines: list[str], text: str) -> Script:
+    """Write a line that gives a value a name; return the name."""
+    name = f"a{len(lines)}"
+    lines.append(f"const {name} = {text};")
+    return Script(lines, name)
+
+
+class ScriptLines:
+    """Numbers of `symgen.describe.numbers` that write down how they are worked out.
+
+    Parameters
+    ----------
+    places : dict of str to str
+        What names of parameters are in the script.
+    """
+
+    def __init__(self, places: dict[str, str]) -> None:
+        self.places, self.lines = places, list[str]()
+
+    def value(self, expression: Expr, where: str) -> Any:
+        """Return what a formula stands for."""
+        if isinstance(expression, Number):
+            return expression.value
+        if isinstance(expression, Name):
+            return Script(self.lines, self.places[expression.name])
+        if isinstance(expression, Reading):
+            raise NotInPages(f"{where}: a reading")
+        return self.apply(expression.function, *(self.value(a, where) for a in expression.arguments))
+
+    def apply(self, function: str, *arguments: Any) -> Any:
+        """Return a function of formulas."""
+        if function not in _FORMS:
+            raise NotInPages(f"the function {function}")
+        return let(self.lines, _FORMS[function].format(*map(_text, arguments)))
+
+    def above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
+        """Return `x`; what is not above the limit shows in the page as a start that is not finite."""
+        return let(self.lines, f"{_text(x)} > {_text(limit)} ? {_text(x)} : NaN")
+
+    def result(self, value: Any) -> str:
+        """Return the text of a value."""
+        return _text(value)
+
 
 #: Characters of emitted code that a page holds at most, in the plane and in space, and what these are in operations.
 MOST = {False: 76_000, True: 270_000}
@@ -92,45 +184,36 @@ def live_part(
     if len(code) > MOST[spatial]:
         return None, f"{NONE}: {len(code)} characters are more than the {MOST[spatial]} that a page may have"
     joint = "function bodies(" in code
-    told = None if joint or begun is None or np.array_equal(begun, start.y[: len(begun)]) else begun
+    begin = None if joint or begun is None or np.array_equal(begun, start.y[: len(begun)]) else begun
     try:
-        script = _script(mechanism, joint, told)
+        script = _script(mechanism, joint, begin)
     except NotInPages:
         return None, f"{NONE}: a formula of the start is not one that pages know"
-    if told is not None:
-        start = replace(start, y=np.concatenate([told, start.y[len(told) :]]))
+    if begin is not None:
+        start = replace(start, y=np.concatenate([begin, start.y[len(begin) :]]))
     kept = {*still, *dict(mechanism.given)}
-    return Live(f"{HELPERS}{code}\n{script}", _spec(mechanism, compiled, start, step, joint, told, kept)), ""
+    return Live(f"{HELPERS}{code}\n{script}", _spec(mechanism, compiled, start, step, joint, begin, kept)), ""
 
 
-def rates_parts(compiled: CompiledModel, start: Start) -> tuple[list[Live], str]:
-    """Return the right-hand side alone, for pages that show no motion, or nothing and why there is none.
+def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:
+    """Return the right-hand side alone, for pages that show no motion, or None and why there is none.
 
     Parameters
     ----------
     compiled : CompiledModel
         Code for one method.
     start : Start
-        Parameters, and what a start settles.
-
-    Returns
-    -------
-    list of Live, str
-        Whole; then without the function that decides anew which rows depend on others, half as long, which gives no
-        numbers where that would be needed.
+        Parameters, and scratch as a start leaves it.
     """
     if compiled.shape != "straight":
-        return [], "the code of a run is looped"
+        return None, "the code of a run is looped"
     if not hasattr(compiled.law_module, "rhs"):
-        return [], "the method has none"
-    spec, found = _rates_spec(compiled, start), list[Live]()
+        return None, "the method has none"
     try:
-        for names in (("rhs", "confirm", "masses"), ("rhs", "masses")):
-            code = HELPERS + javascript(checked(compiled, names))
-            found.append(Live(code, {**spec, "partial": "confirm" not in names}))
+        code = HELPERS + javascript(checked(compiled, ("rhs", "confirm", "masses")))
     except Foreign as error:
-        return [], f"its code has {error}"
-    return (found if len(found[1].code) < len(found[0].code) else found[:1]), ""
+        return None, f"its code has {error}"
+    return Live(code, _rates_spec(compiled, start)), ""
 
 
 def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
@@ -149,15 +232,15 @@ def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
     if begun is not None:
         nq = mechanism.body_coordinates
         numbers = [repr(float(x)) for x in begun]
-        told = f"q: [{', '.join(numbers[:nq])}], v: [{', '.join(numbers[nq:])}]"
-        return f"{text}function describe(p) {{ return {{ {told} }}; }}\n"
+        texts = f"q: [{', '.join(numbers[:nq])}], v: [{', '.join(numbers[nq:])}]"
+        return f"{text}function describe(p) {{ return {{ {texts} }}; }}\n"
     lines = ScriptLines(places)
     q, v = described_start(mechanism, lines)
     own = {h.name: h.value for h in holds_of(mechanism)}
     _held_values(mechanism, own, lines, q, v)
-    told = ", ".join("null" if x is None else lines.result(x) for x in v)
+    texts = ", ".join("null" if x is None else lines.result(x) for x in v)
     body, places_of_bodies = "\n".join(lines.lines), ", ".join(map(lines.result, q))
-    return f"{text}function describe(p) {{\n{body}\nreturn {{ q: [{places_of_bodies}], v: [{told}] }};\n}}\n"
+    return f"{text}function describe(p) {{\n{body}\nreturn {{ q: [{places_of_bodies}], v: [{texts}] }};\n}}\n"
 
 
 def _held_values(mechanism: Mechanism, own: Mapping[str, Any], lines: ScriptLines, q: list[Any], v: list[Any]) -> None:
@@ -236,7 +319,7 @@ def _spec(
 
 def _fixed(mechanism: Mechanism, compiled: CompiledModel) -> list[int]:
     """Return the velocities whose coordinates stay where they are described."""
-    info, found = compiled.info, set[int]()
+    info, still = compiled.info, set[int]()
     velocities = [v.name for v in info.velocities]
     speeds = {
         f"{b.name}.{c}": f"{b.name}.{s}"
@@ -246,10 +329,7 @@ def _fixed(mechanism: Mechanism, compiled: CompiledModel) -> list[int]:
     for hold in holds_of(mechanism):
         body, _, what = hold.name.rpartition(".")
         if what == "orientation":
-            found |= {velocities.index(f"{body}.{s}") for s in ("wx", "wy", "wz")}
+            still |= {velocities.index(f"{body}.{s}") for s in ("wx", "wy", "wz")}
         elif hold.name in speeds:
-            found.add(velocities.index(speeds[hold.name]))
-    return sorted(found)
-
-
-__all__ = ["Live", "Script", "live_part", "rates_parts"]
+            still.add(velocities.index(speeds[hold.name]))
+    return sorted(still)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass
 from functools import lru_cache
 from html import escape
@@ -18,20 +18,19 @@ from symgen.arguments import path as argument_path
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import AnyBody
 from symgen.drawing.mechanism_scene import build_scene
-from symgen.drawing.scene import Array, Disc, Item, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
-from symgen.errors import InputError
-from symgen.files import check_writable, write_whole
+from symgen.drawing.scene import Array, Disc, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
+from symgen.files import check_path, write_whole
 from symgen.player.live import Live
 from symgen.player.recording import Recording, fitted, frames_within, packed, shorts
 
+#: The ending of pages, which need no library.
+PAGES: Mapping[str, tuple[str, ...]] = {".html": ()}
 #: Largest page in the plane and in space [characters]; what a page holds beside its data is taken off.
 LARGEST = {False: 145_000, True: 480_000}
 #: Characters for data at most.
 MOST_DATA = {False: 60_000, True: 150_000}
 #: How a page says that it has no forces.
 BARE = "forces are left out, as the page would be too large with them"
-#: Joints that hold two points together.
-PINS = ("revolute", "spherical", "universal", "constant-velocity", "rigid")
 SCRIPTS = {False: ("draw.js", "plots.js", "player.js"), True: ("solid.js", "draw.js", "plots.js", "player.js")}
 
 
@@ -46,7 +45,7 @@ def _web(name: str) -> str:
     return "".join(f"{line}\n" for line in lines if line and not line.startswith("//"))
 
 
-def page(recording: Recording, live: Live | None = None, note: str = "", second: Recording | None = None) -> str:
+def page(recording: Recording, live: Live | None = None, note: str = "", second: Recording | None = None) -> Page:
     """Return the page of a motion.
 
     Parameters
@@ -76,34 +75,27 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
     room = min(MOST_DATA[spatial], LARGEST[spatial] - held)
     motions = [recording] if second is None else [recording, second]
     share = room // len(motions)
-    pins = [item for item in scene.items if item.role == "joint" and item.kind in PINS and len(item.ends) == 2]
+    pins = scene.pins
     data["motions"] = []
     for each in motions:
         kept, coarse = fitted(each, share, len(pins))
         if kept is not each and not data["note"].endswith(BARE):
             data["note"] = f"{data['note']}; {BARE}" if data["note"] else BARE
         keep = frames_within(kept, share, coarse, len(pins))
-        data["motions"].append(packed(kept, keep, coarse) | _gaps(scene, pins, kept.q[keep]))
+        data["motions"].append(packed(kept, keep, coarse) | _gaps(scene, kept.q[keep]))
     text = _web("page.html")
     parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": as_json(data), "SCRIPT": script}
     for name, part in parts.items():
         text = text.replace(f"<!--{name}-->", part, 1) if name != "TITLE" else text.replace("<!--TITLE-->", part)
-    return text
+    return Page(text, recording.mechanism.name, live is not None)
 
 
-def _gaps(scene: Scene, held: list[Item], q: Array) -> dict[str, Any]:
-    """Return how far the points are apart that joints hold together, as powers of ten: 32 bits would not tell."""
-    if not held:
+def _gaps(scene: Scene, q: Array) -> dict[str, Any]:
+    """Return the gaps of pins as powers of ten: positions of 32 bits would hide them."""
+    if not scene.pins:
         return {}
-    places = np.empty((2, len(q), len(held), 3))
-    for row, coordinates in enumerate(q):
-        poses = scene.poses(coordinates)
-        for side in (0, 1):
-            bodies, points = zip(*(item.ends[side] for item in held), strict=True)
-            turns, centres = poses.turns[list(bodies)], poses.centres[list(bodies)]
-            places[side, row] = centres + np.einsum("nij,nj->ni", turns, np.array(points))
-    apart = np.linalg.norm(places[1] - places[0], axis=2)
-    return {"gaps": {"names": [item.name for item in held], **shorts(np.log10(np.maximum(apart, 1e-17)))}}
+    gaps = np.array([scene.gaps(row) for row in q])
+    return {"gaps": {"names": [item.name for item in scene.pins], **shorts(np.log10(np.maximum(gaps, 1e-17)))}}
 
 
 def as_json(data: Any) -> str:
@@ -116,18 +108,19 @@ def _script(live: Live | None, spatial: bool) -> str:
     own = "".join(_web(name) for name in SCRIPTS[spatial])
     if live is None:
         return f"(() => {{\n'use strict';\nconst emitted = null, makeLive = null;\n{own}}})();"
-    wanted = "rhs accept geometry masses prepareModel prepareLaw derive describe".split()
-    optional = [name for name in ("confirm", "move", "bodies") if f"function {name}(" in live.code]
-    code = f"{live.code}const emitted = {{ {', '.join([*wanted, *optional])} }};\n"
-    return f"(() => {{\n'use strict';\n{code}{_web('rates.js')}{_web('live.js')}{own}}})();"
+    functions = "rhs accept geometry masses prepareModel prepareLaw derive describe confirm move bodies"
+    return f"(() => {{\n'use strict';\n{_emitted(live, functions)}{_web('live.js')}{own}}})();"
+
+
+def _emitted(live: Live, functions: str, *further: str) -> str:
+    """Return emitted code, an object of those of its functions that it has, and what evaluates them."""
+    names = [n for n in functions.split() if f"function {n}(" in live.code or f"const {n} =" in live.code]
+    return f"{live.code}const emitted = {{ {', '.join([*names, *further])} }};\n{_web('rates.js')}"
 
 
 def rates_script(live: Live) -> str:
     """Return a script that is a function: the rates of a state, given time, state and parameters."""
-    wanted = [
-        name for name in ("confirm", "rhs", "masses", "prepareModel", "prepareLaw") if f"function {name}(" in live.code
-    ]
-    code = f"{live.code}const emitted = {{ {', '.join([*wanted, 'derive: () => {}'])} }};\n{_web('rates.js')}"
+    code = _emitted(live, "confirm rhs masses prepareModel prepareLaw", "derive: () => {}")
     return f"(() => {{\n'use strict';\n{code}return makeRates({as_json(live.spec)}, emitted).rates;\n}})()"
 
 
@@ -185,16 +178,16 @@ def scene_data(scene: Scene) -> dict[str, Any]:
 
 def _points(recording: Recording, scene: Scene) -> list[list[Any]]:
     """Return the points whose traces a page can draw: those with names, and centres of mass."""
-    found: list[list[Any]] = []
+    points: list[list[Any]] = []
     size = 3 if scene.spatial else 2
     bodies: tuple[AnyBody, ...] = recording.mechanism.bodies
     for i, body in enumerate(bodies):
-        found.append([f"{body.name}.centre", i, [0.0] * size])
+        points.append([f"{body.name}.centre", i, [0.0] * size])
         centre = np.array([evaluate(e, recording.values) for e in body.centre_of_mass])
         for name, p in body.points:
             at = np.array([evaluate(e, recording.values) for e in p]) - centre
-            found.append([f"{body.name}.{name}", i, [float(f"{x:.6g}") for x in at]])
-    return found
+            points.append([f"{body.name}.{name}", i, [float(f"{x:.6g}") for x in at]])
+    return points
 
 
 @dataclass(frozen=True, repr=False)
@@ -223,7 +216,7 @@ class Page:
         InputError
             If the ending is another one or the file cannot be written.
         """
-        return write_whole(check_page("view", argument_path("path", path)), self.html)
+        return write_whole(check_path("view", argument_path("path", path), PAGES, "plot"), self.html)
 
     def _repr_html_(self) -> str:
         return f'<iframe srcdoc="{escape(self.html, quote=True)}" style="width:100%;height:640px;border:0"></iframe>'
@@ -231,17 +224,3 @@ class Page:
     def __repr__(self) -> str:
         part = "with" if self.live else "without"
         return f"<Page of {self.name}: {len(self.html)} characters, {part} live part>"
-
-
-def check_page(where: str, path: Path) -> Path:
-    """Refuse a page that could not be written, before anything is computed for it.
-
-    Raises
-    ------
-    InputError
-        If the ending is another one than ``.html`` or the file cannot be written.
-    """
-    if path.suffix.lower() != ".html":
-        raise InputError(where, "a file that ends in .html", f"'{path.suffix}'" if path.suffix else "no ending")
-    check_writable(where, path)
-    return path

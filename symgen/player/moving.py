@@ -7,9 +7,8 @@ import itertools
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,17 +16,16 @@ import numpy as np
 
 from symgen.drawing.mechanism_scene import build_scene
 from symgen.drawing.paper import Drawn, View, on_paper
-from symgen.drawing.pixels import paint
-from symgen.drawing.svg import fitted
+from symgen.drawing.pictures import fitted, paint
 from symgen.errors import InputError
-from symgen.files import check_writable, write_whole
+from symgen.files import check_path, write_whole
 from symgen.player.recording import Recording
 
 if TYPE_CHECKING:
     from PIL import Image
 
-#: Kinds of films.
-ENDINGS = (".gif", ".mp4")
+#: Endings of films with the libraries that they need.
+FILMS: Mapping[str, tuple[str, ...]] = {".gif": ("matplotlib", "PIL"), ".mp4": ("matplotlib", "PIL")}
 #: Pictures of a GIF and of an MP4 at most, and how many a second.
 MOST, MOST_OF_FILM, RATE = 150, 1500, 25
 #: Seconds that a picture of a GIF can last at most; those that are alike are one.
@@ -36,25 +34,17 @@ LONGEST = 655.0
 DPI = 80.0
 
 
-def is_film(path: Path) -> bool:
-    """Whether the ending of a file is that of a film."""
-    return path.suffix.lower() in ENDINGS
-
-
-def check_film(where: str, path: Path) -> None:
-    """Refuse a film that could not be written, before anything is computed for it.
+def check_film(where: str, path: Path) -> Path:
+    """Refuse a film that cannot be written, as `check_path` does, or without ffmpeg for MP4; return it otherwise.
 
     Raises
     ------
     InputError
-        If a library or, for MP4, ffmpeg is missing, or the file cannot be written.
+        With what was expected.
     """
-    for library in ("matplotlib", "PIL"):
-        if find_spec(library) is None:
-            raise InputError(where, f"the library {library}", "none", "pip install 'symgen[plot]' installs it")
     if path.suffix.lower() == ".mp4" and shutil.which("ffmpeg") is None:
         raise InputError(where, "the program ffmpeg, which makes films of pictures", "none", "a .gif needs none")
-    check_writable(where, path)
+    return check_path(where, path, FILMS, "plot")
 
 
 def write_film(path: Path, recording: Recording) -> Path:
@@ -122,11 +112,11 @@ def _encoded(pictures: Iterator[Image.Image], rate: float) -> bytes:
     even = "crop=trunc(iw/2)*2:trunc(ih/2)*2"
     with tempfile.TemporaryDirectory(prefix="symgen-film-") as folder:
         path = Path(folder) / "film.mp4"
-        given = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", f"{rate:.6g}", "-i", "-"]
+        source = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", f"{rate:.6g}", "-i", "-"]
         kind = ["-vf", even, "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-bitexact", str(path)]
-        command = ["ffmpeg", "-hide_banner", "-loglevel", "error", "-y", *given, *kind]
-        with tempfile.TemporaryFile() as said:
-            process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=said, stderr=said)
+        command = ["ffmpeg", "-hide_banner", "-loglevel", "error", "-y", *source, *kind]
+        with tempfile.TemporaryFile() as messages:
+            process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=messages, stderr=messages)
             assert process.stdin is not None
             with suppress(BrokenPipeError):  # it has said why
                 for picture in itertools.chain([first], pictures):
@@ -134,7 +124,7 @@ def _encoded(pictures: Iterator[Image.Image], rate: float) -> bytes:
             with suppress(BrokenPipeError):
                 process.stdin.close()
             if process.wait() or not path.is_file():
-                said.seek(0)
-                why = " ".join(said.read().decode(errors="replace").split())[:200]
+                messages.seek(0)
+                why = " ".join(messages.read().decode(errors="replace").split())[:200]
                 raise InputError("film", "ffmpeg to make an MP4", f"its error: {why or 'none told'}")
         return path.read_bytes()

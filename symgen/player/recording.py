@@ -77,7 +77,7 @@ class Recording:
         Coordinates of all bodies.
     facts : tuple of (str, str)
         What was run, and how it went.
-    status, reason : str
+    status : str
         Of the run.
     groups : tuple of PlottedGroup
         What can be plotted.
@@ -99,7 +99,6 @@ class Recording:
     q: Array
     facts: tuple[tuple[str, str], ...] = ()
     status: str = "ok"
-    reason: str = ""
     groups: tuple[PlottedGroup, ...] = ()
     reactions: Array | None = None
     pushed: tuple[str, ...] = ()
@@ -110,13 +109,13 @@ class Recording:
 
 def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
     """Return positions and angles of the first bodies over time."""
-    found = []
+    groups = []
     names = [(f"{b.name}.{c}", c) for b in mechanism.bodies for c in b.coordinates]
     for title, unit, wanted in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
         chosen = [i for i, (_, c) in enumerate(names) if c in wanted][:LONGEST_KEY]
         if chosen:
-            found.append(PlottedGroup(title, unit, tuple(names[i][0] for i in chosen), q[:, chosen]))
-    return found
+            groups.append(PlottedGroup(title, unit, tuple(names[i][0] for i in chosen), q[:, chosen]))
+    return groups
 
 
 def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording, bool]:
@@ -134,9 +133,9 @@ def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording
     further : int
         Columns of 16 bits beside those of the recording.
     """
-    for found, coarse in ((recording, False), (recording, True)):
-        if FEWEST * _characters(found, coarse, further) <= room:
-            return found, coarse
+    for candidate, coarse in ((recording, False), (recording, True)):
+        if FEWEST * _characters(candidate, coarse, further) <= room:
+            return candidate, coarse
     return replace(recording, reactions=None, pushed=(), pulls=None, pulling=()), True
 
 
@@ -179,13 +178,12 @@ def _parts(recording: Recording) -> Iterator[tuple[Array, bool]]:
 
 def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str, Any]:
     """Return what a page reads of a recording; arrays are columns behind each other in base 64."""
-    found: dict[str, Any] = {
+    data: dict[str, Any] = {
         "t": floats(recording.t[keep, None]),
         "q": shorts(recording.q[keep]) if coarse else floats(recording.q[keep]),
         "count": len(keep),
         "facts": [list(fact) for fact in recording.facts],
         "status": recording.status,
-        "reason": recording.reason,
         "groups": [
             {
                 "title": group.title,
@@ -205,8 +203,8 @@ def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str,
         ("pulls", recording.pulls, recording.pulling),
     ):
         if values is not None and len(owners):
-            found[name] = {"names": list(owners), **shorts(values[keep].reshape(len(keep), -1))}
-    return found
+            data[name] = {"names": list(owners), **shorts(values[keep].reshape(len(keep), -1))}
+    return data
 
 
 def floats(values: Array) -> str:

@@ -1,13 +1,17 @@
-"""Pieces of a page: what is folded, tables, formulas as MathML."""
+"""Pieces of a page: what is folded, tables, formulas as MathML, patterns of sparse matrices."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
+from typing import TYPE_CHECKING
 
 from symgen.reading.boxes import Box, mathml
 from symgen.reading.sheet import Equation
 from symgen.reading.typeset import broken
+
+if TYPE_CHECKING:
+    from symgen.formulate.equations import Equations
 
 
 def attribute(text: str) -> str:
@@ -70,3 +74,74 @@ def equation(line: Equation, tail: str = "") -> str:
 def equations(lines: Iterable[Equation]) -> str:
     """Return equations one below the other."""
     return "\n".join(map(equation, lines))
+
+
+#: Entries up to which each says in words where it stands.
+NAMED = 2500
+_FILLS = {"x": "#1f5fa8", "1": "#b9c7d8", "f": "#c4622d"}
+
+
+def of_jacobian(equations: Equations) -> dict[tuple[int, int], str]:
+    """Return the entries of D: ``x`` varies, ``1`` is constant, of any value."""
+    g = equations.graph
+    return {(i, j): "x" if g.value(n) is None else "1" for i, r in enumerate(equations.rows) for j, n in r.entries}
+
+
+def of_factor(equations: Equations, order: Sequence[int]) -> dict[tuple[int, int], str]:
+    """Return the entries of the factor L of D G D^T: ``x`` of the matrix, ``f`` filled in.
+
+    Parameters
+    ----------
+    equations : Equations
+        What was derived.
+    order : sequence of int
+        The order in which rows are eliminated: row and column k of L are of row ``order[k]``.
+    """
+    columns = [frozenset(j for j, _ in row.entries) for row in equations.rows]
+    m = len(columns)
+    near = [{j for j in range(m) if j != i and columns[i] & columns[j]} for i in range(m)]
+    first = [set(n) for n in near]
+    place = {row: k for k, row in enumerate(order)}
+    entries: dict[tuple[int, int], str] = {(k, k): "x" for k in range(len(order))}
+    for row in order:
+        later = {n for n in near[row] if place[n] > place[row]}
+        for n in later:
+            entries[place[n], place[row]] = "x" if n in first[row] else "f"
+            near[n] |= later - {n}
+    return entries
+
+
+def picture(
+    entries: Mapping[tuple[int, int], str], rows: Sequence[str], columns: Sequence[str], title: str, links: bool = False
+) -> str:
+    """Return a pattern as SVG, entries of one colour as one path where there are many.
+
+    Parameters
+    ----------
+    entries : mapping
+        Kind of entry by row and column.
+    rows, columns : sequence of str
+        What they are called.
+    title : str
+        For those who do not see it.
+    links : bool
+        Whether rows are linked to where they are written.
+    """
+    m, n = len(rows), len(columns)
+    cell = max(1.0, min(16.0, 640.0 / max(m, n, 1)))
+    parts = [
+        f'<svg class="pattern" viewBox="0 0 {n} {m}" width="{n * cell:.0f}" height="{m * cell:.0f}" role="img">',
+        f"<title>{escape(title)}</title>",
+        f'<rect width="{n}" height="{m}" fill="#fff" stroke="#9aa4b0" stroke-width="{1 / cell:.3f}"/>',
+    ]
+    if len(entries) <= NAMED:
+        for (i, j), kind in entries.items():
+            words = f"<title>{escape(rows[i])}, {escape(columns[j])}</title>"
+            box = f'<rect x="{j}.06" y="{i}.06" width=".88" height=".88" fill="{_FILLS[kind]}">{words}</rect>'
+            parts.append(f'<a href="#row-{escape(rows[i], quote=True)}">{box}</a>' if links else box)
+    else:
+        for kind, fill in _FILLS.items():
+            path = "".join(f"M{j} {i}h1v1h-1z" for (i, j), own in entries.items() if own == kind)
+            if path:
+                parts.append(f'<path d="{path}" fill="{fill}"/>')
+    return "".join([*parts, "</svg>"])

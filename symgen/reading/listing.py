@@ -2,14 +2,111 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Container, Mapping
+from dataclasses import dataclass
 from html import escape
+from os import fspath
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from symgen.reading.html import attribute, fold, small
+from symgen import catalogue
+from symgen.emit.printer import ElementAccess
+from symgen.ir.program import Target
+from symgen.reading.html import attribute, fold
 
 if TYPE_CHECKING:
-    from symgen.reading.function_source import Computed
+    from os import PathLike
+
+    from symgen.formulate.equations import Equations
+    from symgen.ir.program import ModelProgram
+
+
+#: Longer files are not shown [characters].
+LONGEST = 150_000
+
+
+def text_of(model: str | PathLike[str]) -> str:
+    """Return the text that describes a model; empty where no file does, or a very long one."""
+    name = fspath(model)
+    path = catalogue.file_of(name) if name in catalogue.known() else None if ":" in name else Path(name)
+    try:
+        text = "" if path is None else path.read_text(encoding="utf-8")
+    except (OSError, ValueError):
+        return ""
+    return text if len(text) <= LONGEST else ""
+
+
+def sections(text: str) -> dict[str, int]:
+    """Return the first line, from 1, of each table ``[section.name]`` of a file, by that name."""
+    lines: dict[str, int] = {}
+    for number, line in enumerate(text.splitlines(), 1):
+        header = re.match(r"\s*\[\s*([A-Za-z_]+)\s*\.\s*[\"']?([A-Za-z0-9_]+)[\"']?\s*[\].]", line)
+        if header:
+            lines.setdefault(f"{header[1]}.{header[2]}", number)
+    return lines
+
+
+@dataclass(frozen=True)
+class Computed:
+    """An emitted line that computes something of a row.
+
+    Attributes
+    ----------
+    row, what : str
+        The row, and what of it: ``Phi``, ``nu``, ``gamma``, or the velocity whose entry of D it is.
+    line : int
+        Line of the module, from 1.
+    text : str
+        The line itself.
+    """
+
+    row: str
+    what: str
+    line: int
+    text: str
+
+
+def computed(program: ModelProgram, equations: Equations, source: str) -> list[Computed]:
+    """Return the lines of the module ``model`` that compute Phi, nu, entries of D and gamma of each row.
+
+    Parameters
+    ----------
+    program : ModelProgram
+        The program that was printed.
+    equations : Equations
+        What was derived.
+    source : str
+        The module's text.
+    """
+    access = ElementAccess(program.layout, {})
+    names, speeds = [r.name for r in equations.rows], [v.name for v in equations.velocities]
+    wanted = [("geometry", Target("residual", i), n, "Phi") for i, n in enumerate(names)]
+    wanted += [("geometry", Target("nu", i), n, "nu") for i, n in enumerate(names)]
+    wanted += [
+        ("geometry", Target("jacobian", e.slot), names[e.row], speeds[e.column])
+        for e in program.jacobian
+        if e.slot is not None
+    ]
+    wanted += [("observe", Target("out", i), n, "gamma") for i, n in enumerate(names)]
+    entries, lines = list[Computed](), assignments(source)
+    for function, target, row, what in wanted:
+        line = lines.get((function, access.write(target)))
+        if line is not None:
+            entries.append(Computed(row, what, *line))
+    return entries
+
+
+def assignments(source: str) -> dict[tuple[str, str], tuple[int, str]]:
+    """Return number and text, without its comment, of the line that assigns an element in each function, by both."""
+    lines: dict[tuple[str, str], tuple[int, str]] = {}
+    function = ""
+    for number, line in enumerate(source.splitlines(), 1):
+        if header := re.match(r"def (\w+)\(", line):
+            function = header[1]
+        elif assigned := re.match(r"    (\w+\[\d+\]) = ", line):
+            lines[function, assigned[1]] = number, line.partition("  # ")[0].strip()
+    return lines
 
 
 def file_listing(text: str, places: Mapping[str, int], joints: Container[str]) -> list[str]:
@@ -35,9 +132,7 @@ def file_listing(text: str, places: Mapping[str, int], joints: Container[str]) -
     return [fold(f"{len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
 
 
-def code_listing(
-    source: str, parts: Mapping[str, str], listed: Container[str], back: Mapping[int, Computed]
-) -> list[str]:
+def code_listing(source: str, parts: Mapping[str, str], back: Mapping[int, Computed]) -> list[str]:
     """Return emitted modules; lines that compute what belongs to a row lead to it.
 
     Parameters
@@ -46,8 +141,6 @@ def code_listing(
         Of the module ``model``.
     parts : mapping of str to str
         Sources of the method's modules, by name.
-    listed : container of str
-        Which of them are listed.
     back : mapping of int to Computed
         What lines of ``model`` compute.
     """
@@ -62,6 +155,5 @@ def code_listing(
     listings = [fold(f"module model, {len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
     for stem, text in parts.items():
         head = f"module {escape(stem)}, {text.count(chr(10))} lines"
-        shown = f"<pre>{escape(text)}</pre>" if stem in listed else small("Left out, for the size of this page.")
-        listings.append(fold(head, shown))
+        listings.append(fold(head, f"<pre>{escape(text)}</pre>"))
     return listings

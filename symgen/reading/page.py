@@ -16,14 +16,25 @@ from symgen.errors import InputError
 from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
-from symgen.player.live import rates_parts
+from symgen.player.live import rates_part
 from symgen.player.motion_page import as_json, rates_script
 from symgen.reading.boxes import dot, name, row, sign, transposed
-from symgen.reading.function_source import Computed, computed, sections
-from symgen.reading.html import attribute, equation, equations, fold, math, section, short, small, table
+from symgen.reading.html import (
+    attribute,
+    equation,
+    equations,
+    fold,
+    math,
+    of_factor,
+    of_jacobian,
+    picture,
+    section,
+    short,
+    small,
+    table,
+)
 from symgen.reading.law import law
-from symgen.reading.listing import code_listing, file_listing
-from symgen.reading.patterns import of_factor, of_jacobian, picture
+from symgen.reading.listing import Computed, code_listing, computed, file_listing, sections
 from symgen.reading.sheet import Sheet
 
 if TYPE_CHECKING:
@@ -49,43 +60,6 @@ def _web(name: str) -> str:
     return (Path(__file__).parent / "web" / name).read_text(encoding="utf-8")
 
 
-@dataclass(frozen=True)
-class PageSubject:
-    """What a page is about.
-
-    Attributes
-    ----------
-    whole, mechanism : Mechanism
-        As described, and as it was derived: with its tree where coordinates are those of joints.
-    choice : MethodChoice
-        The method.
-    values : mapping
-        Values of the parameters.
-    facts : sequence of str
-        Sentences about the start, and what was chosen.
-    text : str
-        The file, where there is one.
-    run : Prepared, optional
-        The run whose start is drawn, and from whose code the page has its right-hand side; None: it does not close.
-    """
-
-    whole: Mechanism
-    mechanism: Mechanism
-    choice: MethodChoice
-    values: Mapping[str, float]
-    facts: Sequence[str] = ()
-    text: str = ""
-    run: Prepared | None = None
-
-    @property
-    def q(self) -> list[float] | None:
-        """Coordinates of bodies that are drawn; None: as described."""
-        if self.run is None:
-            return None
-        compiled, start = self.run.assembled.of_bodies
-        return [float(x) for x in start.y[: compiled.info.nq]]
-
-
 def check_size(mechanism: Mechanism) -> None:
     """Refuse a mechanism whose page nobody could read, before anything is derived.
 
@@ -101,94 +75,112 @@ def check_size(mechanism: Mechanism) -> None:
         raise InputError("inspect: -o", expected, f"{rows} rows and {speeds} velocities", "--json has no such limit")
 
 
-def page(subject: PageSubject) -> str:
-    """Return the page, without the listing of emitted code where it would be larger than `LARGEST`.
+@dataclass(eq=False)
+class EquationPage:
+    """A page of derived equations.
 
-    What room is left holds the right-hand side as a script calls it.
-
-    Raises
-    ------
-    InputError
-        If it is larger without the code, too.
+    Attributes
+    ----------
+    whole, mechanism : Mechanism
+        As described, and as it was derived: with its tree where coordinates are those of joints.
+    choice : MethodChoice
+        The method.
+    values : mapping
+        Values of the parameters.
+    facts : sequence of str
+        Sentences about the start, and choices.
+    file : str
+        The file, where there is one.
+    run : Prepared or None
+        The run whose start is drawn, and from whose code the page has its right-hand side; None: it does not close.
     """
-    parts, size = _Page(subject), 0
-    scripts, why = parts.rates()
-    listings = parts.listings()
-    for listed, script in (*product(listings, scripts), *product(listings, [""])):
-        if scripts and not script:
-            why = f"its {min(map(len, scripts))} characters are more than this page has room for"
-        text = parts.text(listed, script, why)
-        size = len(text.encode())
-        if size <= LARGEST:
-            return text
-    expected = f"a mechanism whose page has at most {LARGEST} bytes"
-    raise InputError("inspect: -o", expected, f"one with {size} without its code", "--json has no such limit")
 
+    whole: Mechanism
+    mechanism: Mechanism
+    choice: MethodChoice
+    values: Mapping[str, float]
+    facts: Sequence[str]
+    file: str
+    run: Prepared | None
 
-class _Page:
-    def __init__(self, subject: PageSubject) -> None:
-        self.subject, self.e = subject, formulate(subject.mechanism)
-        self.sheet = Sheet(subject.mechanism, self.e)
+    def __post_init__(self) -> None:
+        self.e = formulate(self.mechanism)
+        self.sheet = Sheet(self.mechanism, self.e)
         self.program = lower_model(self.e, digest="")
-        method, options = subject.choice.method, subject.choice.options
+        method, options = self.choice.method, self.choice.options
         self.steps = law(method.name, options, self.e.driving is not None)
         self.law = lower_law(self.e, self.program, method, options)
         self.source = emit_model(self.program, self.e)
         self.parts = emit_law(self.law, self.program, self.e, method.summary, method.reference)
-        self.places = sections(subject.text)
+        self.places = sections(self.file)
+        self.q: list[float] | None = None  # as described
+        if self.run is not None:
+            compiled, start = self.run.assembled.of_bodies
+            self.q = [float(x) for x in start.y[: compiled.info.nq]]
+
+    def html(self) -> str:
+        """Return the page, without some listings of emitted code where it would be larger than `LARGEST`.
+
+        What room is left holds the right-hand side as a script calls it.
+
+        Raises
+        ------
+        InputError
+            If it is larger without the code, too.
+        """
+        whole, why = self._rates()
+        for script, listed in product(dict.fromkeys((whole, "")), (self.parts, {}, None)):
+            if whole and not script:
+                why = f"its {len(whole)} characters are more than this page has room for"
+            text = self._text(listed, script, why)
+            if len(text.encode()) <= LARGEST:
+                return text
+        expected, got = f"a mechanism whose page has at most {LARGEST} bytes", f"one with {len(text.encode())}"
+        raise InputError("inspect: -o", expected, f"{got} without its code", "--json has no such limit")
 
     @cached_property
-    def computed(self) -> dict[str, list[Computed]]:
+    def _computed(self) -> dict[str, list[Computed]]:
         by_row: dict[str, list[Computed]] = {}
         for line in computed(self.program, self.e, self.source):
             by_row.setdefault(line.row, []).append(line)
         return by_row
 
-    def listings(self) -> list[frozenset[str]]:
-        """Return which modules are listed, from all to none: those go first that no link leads to."""
-        rest = sorted((stem for stem in self.parts if not stem.startswith("rhs_")), key=lambda s: len(self.parts[s]))
-        choices = [frozenset(("model", *self.parts))]
-        for stem in reversed(rest):
-            choices.append(choices[-1] - {stem})
-        return [*choices, frozenset(("model",)), frozenset()]
+    def _rates(self) -> tuple[str, str]:
+        """Return the right-hand side as a script, or an empty text and why there is none."""
+        if self.run is None:
+            return "", "the mechanism does not close"
+        part, why = rates_part(self.run.compiled, self.run.start)
+        return "" if part is None else rates_script(part), why
 
-    def rates(self) -> tuple[list[str], str]:
-        """Return the right-hand side as scripts, the best first, or why there is none."""
-        run = self.subject.run
-        if run is None:
-            return [], "the mechanism does not close"
-        parts, why = rates_parts(run.compiled, run.start)
-        return [rates_script(part) for part in parts], why
-
-    def text(self, listed: frozenset[str], script: str, why: str) -> str:
-        """Return the page, with these modules listed, and a script that evaluates the rates or why there is none."""
-        s, e, is_listed = self.subject, self.e, "model" in listed
-        title = s.whole.title or s.whole.name
-        kind = "bodies" if s.mechanism.topology is None else "the joints of a tree"
+    def _text(self, listed: Mapping[str, str] | None, script: str, why: str) -> str:
+        """Return the page with the module ``model`` and others, or without code, and a script of the rates if any."""
+        e, method, joints = self.e, self.choice.method.name, self.mechanism.joints
+        title = self.whole.title or self.whole.name
+        kind = "bodies" if self.mechanism.topology is None else "the joints of a tree"
         sizes = f"{e.nq} coordinates, {e.nv} velocities, {e.m} constraint rows, {len(e.parameters)} parameters"
         rates = _OFFERED if script else f"This page offers no right-hand side to scripts: {why}."
         body = [
             f"<h1>{escape(title)}</h1>",
-            f"<p>{escape(s.whole.name)}, in coordinates of {kind}: {sizes}. Method {escape(s.choice.method.name)}.</p>",
-            *(f'<p class="small">{escape(fact)}</p>' for fact in s.facts),
+            f"<p>{escape(self.whole.name)}, in coordinates of {kind}: {sizes}. Method {escape(method)}.</p>",
+            *(f'<p class="small">{escape(fact)}</p>' for fact in self.facts),
             self._navigation(),
             section("sketch", "Sketch", [f'<div class="scene">{self._sketch()}</div>', small(_SKETCH)]),
             section("topology", "Topology", self._topology()),
             section("coordinates", "Coordinates", self._coordinates()),
-            section("rows", "Joints and their rows", [self._joint(j, is_listed) for j in s.mechanism.joints]),
+            section("rows", "Joints and their rows", [self._joint(j, listed is not None) for j in joints]),
             section("patterns", "Patterns", self._patterns()),
             section("motion", "Equations of motion", self._motion()),
-            section("law", f"The law of {s.choice.method.name}, as solved", self._law()),
+            section("law", f"The law of {method}, as solved", self._law()),
             section("operations", "Operations", self._operations()),
             section("left-out", "Left out", self._left_out()),
-            section("file", "File", file_listing(s.text, self.places, {joint.name for joint in s.mechanism.joints})),
+            section("file", "File", file_listing(self.file, self.places, {joint.name for joint in joints})),
             section("code", "Emitted code", [small(rates), *self._code(listed)]),
         ]
         data: dict[str, Any] = {
             "t": 0.0,
-            "q": s.q,
-            "names": [f"{b.name}.{c}" for b in s.whole.bodies for c in b.coordinates],
-            "y0": None if s.run is None else [float(x) for x in s.run.start.y],
+            "q": self.q,
+            "names": [f"{b.name}.{c}" for b in self.whole.bodies for c in b.coordinates],
+            "y0": None if self.run is None else [float(x) for x in self.run.start.y],
             "state": [x.name for x in (*e.coordinates, *e.velocities)],
             "rows": [r.name for r in e.rows],
         }
@@ -209,23 +201,22 @@ class _Page:
         return "<nav>" + " ".join(f'<a href="#{k}">{k.replace("-", " ")}</a>' for k in names) + "</nav>"
 
     def _sketch(self) -> str:
-        return sketch(self.subject.whole, self.subject.q, self.subject.values)
+        return sketch(self.whole, self.q, self.values)
 
     def _topology(self) -> list[str]:
-        s = self.subject
         lines = [["joint", "kind", "between", "rows"]]
-        for joint in s.mechanism.joints:
+        for joint in self.mechanism.joints:
             between = " and ".join(dict.fromkeys(joint.bodies))
             link = f'<a href="#rows-{attribute(joint.name)}">{escape(joint.name)}</a>'
             lines.append([link, escape(joint.kind), escape(between), str(len(self.sheet.of(joint.name)))])
-        parts = [fold(f"{len(s.mechanism.joints)} joints", table(lines), len(lines) <= 13)]
-        if s.mechanism.topology is not None:
+        parts = [fold(f"{len(self.mechanism.joints)} joints", table(lines), len(lines) <= 13)]
+        if self.mechanism.topology is not None:
             tree = [["body", "carried by", "on"]]
             tree += [
                 [escape(x.body), escape(x.joint or "nothing: free"), escape(x.parent)]
-                for x in s.mechanism.topology.links
+                for x in self.mechanism.topology.links
             ]
-            cut = ", ".join(s.mechanism.topology.cut) or "no joint"
+            cut = ", ".join(self.mechanism.topology.cut) or "no joint"
             parts.append(fold(f"the tree; loops are closed by {cut}", table(tree)))
         return parts
 
@@ -237,7 +228,7 @@ class _Page:
                 lines = [["symbol", "name", "unit", *(["value"] if numbers else [])]]
                 for quantity in quantities:
                     letter = math(self.sheet.writer.symbol(quantity.name))
-                    value = [f"{self.subject.values[quantity.name]:.6g}"] if numbers else []
+                    value = [f"{self.values[quantity.name]:.6g}"] if numbers else []
                     lines.append([letter, escape(quantity.name), escape(quantity.unit), *value])
                 parts.append(fold(f"{len(quantities)} {title.lower()}", table(lines)))
         return parts
@@ -273,7 +264,7 @@ class _Page:
     def _lines_of(self, name: str) -> str:
         links = [
             f'<a class="code" href="#line-{c.line}">{escape(c.what)}: <code>{escape(short(c.text))}</code></a>'
-            for c in self.computed.get(name, ())
+            for c in self._computed.get(name, ())
         ]
         return f'<p class="small">computed by {" · ".join(links)}</p>' if links else ""
 
@@ -339,10 +330,11 @@ class _Page:
             fold("by emitted function", table(blocks, numbers=2), True),
         ]
 
-    def _code(self, listed: frozenset[str]) -> list[str]:
-        if "model" in listed:
-            back = {c.line: c for lines in self.computed.values() for c in lines}
-            return code_listing(self.source, self.parts, listed, back)
+    def _code(self, listed: Mapping[str, str] | None) -> list[str]:
+        if listed is not None:
+            back = {c.line: c for lines in self._computed.values() for c in lines}
+            left_out = [] if listed else [small("Modules of the method are left out, for the size of this page.")]
+            return [*code_listing(self.source, listed, back), *left_out]
         size = len(self.source) + sum(map(len, self.parts.values()))
         return [f"<p>It has {size} characters and is left out, as the page would be larger than {LARGEST} bytes.</p>"]
 

@@ -16,8 +16,7 @@ from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, nearest
 from symgen.formulate.formulate import formulate
 from symgen.reading import boxes
-from symgen.reading.interpolated import functions
-from symgen.reading.quantity_names import OF_DRIVERS, QUANTITIES, Entries, nodes_of
+from symgen.reading.quantity_names import OF_DRIVERS, QUANTITIES, Entries, functions, nodes_of
 from symgen.reading.structure import shared_terms, structure
 from symgen.reading.symbolic import Boxed, Symbolic
 
@@ -28,6 +27,14 @@ if TYPE_CHECKING:
 
 #: Quantities with more operations, written out without sharing, are written with shared terms.
 LARGEST = 30_000
+
+
+class _Lazy(cached_property[Any]):
+    """Something that is made when it is first asked for, with its docstring."""
+
+    def __init__(self, doc: str, make: Callable[[Any], Any]) -> None:
+        super().__init__(make)
+        self.__doc__ = doc
 
 
 @dataclass(frozen=True)
@@ -80,87 +87,40 @@ class SymbolicEquations:
         """The symbol of time."""
         return self._plain.symbols["t", 0]
 
-    @cached_property
-    def q(self) -> Mapping[str, Any]:
-        """Symbols of the coordinates, by name."""
-        return self._symbols("q")
-
-    @cached_property
-    def v(self) -> Mapping[str, Any]:
-        """Symbols of the velocities, by name."""
-        return self._symbols("v")
-
-    @cached_property
-    def parameters(self) -> Mapping[str, Any]:
-        """Symbols of the parameters and inputs, by name."""
-        return self._symbols("p")
-
-    @cached_property
-    def turned(self) -> Mapping[str, Any]:
-        """Symbols of angles as they were last, for measures that count turns: these are on the nearest branch."""
-        return self._symbols("winding")
-
+    q = _Lazy("Symbols of the coordinates, by name.", lambda e: e._symbols("q"))
+    v = _Lazy("Symbols of the velocities, by name.", lambda e: e._symbols("v"))
+    parameters = _Lazy("Symbols of the parameters and inputs, by name.", lambda e: e._symbols("p"))
+    turned = _Lazy(
+        "Symbols of angles as they were last, for measures that count turns: these are on the nearest branch.",
+        lambda e: e._symbols("winding"),
+    )
     # -- quantities ------------------------------------------------------------------------------------------------
 
-    @cached_property
-    def Phi(self) -> Any:
-        """Constraints, a matrix of shape (m, 1); 0 in nonholonomic rows, which have none."""
-        return self._matrix("Phi")
-
-    @cached_property
-    def D(self) -> Any:
-        """Jacobian of the constraints, shape (m, nv)."""
-        return self._matrix("D")
-
-    @cached_property
-    def nu(self) -> Any:
-        """Right-hand side of the velocity constraints D v = nu, shape (m, 1)."""
-        return self._matrix("nu")
-
-    @cached_property
-    def gamma(self) -> Any:
-        """Right-hand side of the acceleration constraints D v' = gamma, shape (m, 1)."""
-        return self._matrix("gamma")
-
-    @cached_property
-    def N(self) -> Any:
-        """Kinematic map of q' = N v, shape (nq, nv)."""
-        return self._matrix("N")
-
-    @cached_property
-    def M(self) -> Any:
-        """Mass matrix, shape (nv, nv)."""
-        return self._matrix("M")
-
-    @cached_property
-    def f(self) -> Any:
-        """Forces, shape (nv, 1)."""
-        return self._matrix("f")
-
-    @cached_property
-    def T(self) -> Any:
-        """Kinetic energy [J]."""
-        return self._matrix("T")[0, 0]
-
-    @cached_property
-    def V(self) -> Any:
-        """Potential energy [J]."""
-        return self._matrix("V")[0, 0]
-
-    @cached_property
-    def power(self) -> Any:
-        """Power of the forces without potential [W]; that of drivers of prescribed coordinates is no part of it."""
-        return self._matrix("power")[0, 0]
-
-    @cached_property
-    def b(self) -> Any:
-        """What v' is multiplied by in the power of the drivers that prescribe coordinates, b v' + c; shape (1, nv)."""
-        return self._matrix("b")
-
-    @cached_property
-    def c(self) -> Any:
-        """The power of the drivers that prescribe coordinates where v' is 0 [W]; 0 without such drivers."""
-        return self._matrix("c")[0, 0]
+    Phi = _Lazy(
+        "Constraints, a matrix of shape (m, 1); 0 in nonholonomic rows, which have none.", lambda e: e._matrix("Phi")
+    )
+    D = _Lazy("Jacobian of the constraints, shape (m, nv).", lambda e: e._matrix("D"))
+    nu = _Lazy("Right-hand side of the velocity constraints D v = nu, shape (m, 1).", lambda e: e._matrix("nu"))
+    gamma = _Lazy(
+        "Right-hand side of the acceleration constraints D v' = gamma, shape (m, 1).", lambda e: e._matrix("gamma")
+    )
+    N = _Lazy("Kinematic map of q' = N v, shape (nq, nv).", lambda e: e._matrix("N"))
+    M = _Lazy("Mass matrix, shape (nv, nv).", lambda e: e._matrix("M"))
+    f = _Lazy("Forces, shape (nv, 1).", lambda e: e._matrix("f"))
+    T = _Lazy("Kinetic energy [J].", lambda e: e._matrix("T")[0, 0])
+    V = _Lazy("Potential energy [J].", lambda e: e._matrix("V")[0, 0])
+    power = _Lazy(
+        "Power of the forces without potential [W]; that of drivers of prescribed coordinates is no part of it.",
+        lambda e: e._matrix("power")[0, 0],
+    )
+    b = _Lazy(
+        "What v' is multiplied by in the power of the drivers that prescribe coordinates, b v' + c; shape (1, nv).",
+        lambda e: e._matrix("b"),
+    )
+    c = _Lazy(
+        "The power of the drivers that prescribe coordinates where v' is 0 [W]; 0 without such drivers.",
+        lambda e: e._matrix("c")[0, 0],
+    )
 
     @cached_property
     def _quantities(self) -> tuple[str, ...]:

@@ -29,8 +29,7 @@ from symgen.reading.boxes import (
     row,
     sign,
 )
-from symgen.reading.interpolated import python_name
-from symgen.reading.quantity_names import input_names
+from symgen.reading.quantity_names import input_names, python_name
 from symgen.reading.structure import free_names, uses
 
 #: Widest term, in units of the type's size; a line of a document has 44 of them.

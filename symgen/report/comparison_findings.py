@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from statistics import median
 
 from symgen.report import words
-from symgen.result.run_data import FAILED, OK, UNVERIFIED
+from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study, Trace
 
 #: The integrator and the step of the source, by which methods are compared where they have it.

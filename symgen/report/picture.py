@@ -7,8 +7,8 @@ import re
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, cast
 
+from symgen.files import need
 from symgen.report.document import Picture, Section
-from symgen.result.export import need
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

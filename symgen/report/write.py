@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from symgen.errors import InputError
-from symgen.files import Content, templates_folder, why, write_all, write_whole
+from symgen.files import Content, check_path, templates_folder, why, write_all, write_whole
 from symgen.report.document import Document, DocumentTable, Picture, Section, TableCell
-from symgen.result.export import check_path
 
 if TYPE_CHECKING:
     import jinja2

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.describe.evaluate import parameter_values
-from symgen.result.agreement import Agreement, Verification, agreement
-from symgen.result.points import Points
+from symgen.result.points import Agreement, Points, Verification, agreement
 from symgen.runtime import abi
 
 if TYPE_CHECKING:

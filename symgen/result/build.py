@@ -13,11 +13,9 @@ from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
-from symgen.result.measured import Measured
 from symgen.result.reactions import Forces, seats
-from symgen.result.result import Result
-from symgen.result.run_data import FAILED
-from symgen.result.run_parts import Rank, Seconds
+from symgen.result.result import FAILED, Rank, Result, Seconds
+from symgen.result.tables import Measured
 from symgen.running.continuation import made_of
 from symgen.running.tree import CarriedOutcome
 from symgen.runtime import abi
@@ -26,7 +24,7 @@ from symgen.runtime.last_state import LastState
 from symgen.runtime.simulation import SHOWN
 
 if TYPE_CHECKING:
-    from symgen.result.agreement import Verification
+    from symgen.result.points import Verification
     from symgen.running.prepare import Prepared
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.outcome import Outcome

@@ -8,7 +8,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from symgen.result.run_data import RunData
+    from symgen.result.result import Result
 
 
 #: Attributes of a result that stand in its JSON under their own names, before and behind the times.
@@ -20,7 +20,7 @@ _FIRST = (
 _SECOND = ("position_violation_max", "velocity_violation_max", "energy_drift_max", "error_estimate")
 
 
-def contract(result: RunData) -> dict[str, Any]:
+def contract(result: Result) -> dict[str, Any]:
     """Return a result as JSON has it; numbers that are not finite become None."""
     seconds, rank = asdict(result.seconds), asdict(result.rank)
     del seconds["run_spread"], rank["redundant_rows"]
@@ -31,7 +31,7 @@ def contract(result: RunData) -> dict[str, Any]:
         "lam": result._final_multipliers,
         **({"outputs": result.outputs.row()} if result.columns("outputs") else {}),
     }
-    found: dict[str, Any] = finite(
+    facts: dict[str, Any] = finite(
         {
             **{name: getattr(result, name) for name in _FIRST},
             "seconds": seconds,
@@ -47,7 +47,7 @@ def contract(result: RunData) -> dict[str, Any]:
             "final": final,
         }
     )
-    return found
+    return facts
 
 
 def finite(value: Any) -> Any:

@@ -5,17 +5,14 @@ from __future__ import annotations
 import io
 import json
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, nullcontext
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.errors import InputError, nearest
-from symgen.files import check_writable, headed, write_whole
-from symgen.memory import require
+from symgen.files import headed, need, write_whole
 from symgen.result.contract import contract
 
 if TYPE_CHECKING:
@@ -23,7 +20,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from symgen.result.labelled import Array, Labelled
-    from symgen.result.run_data import RunData
+    from symgen.result.result import Result
 
 #: Endings of data files -> the libraries needed; those of files of columns alone.
 SAVED: Mapping[str, tuple[str, ...]] = {
@@ -56,47 +53,6 @@ DIMENSIONS = {
 }
 
 
-def need(where: str, *libraries: str, extra: str = "data") -> None:
-    """Refuse to go on without a library, saying how to get it.
-
-    Raises
-    ------
-    InputError
-        If one of `libraries` is not installed.
-    """
-    for library in libraries:
-        if find_spec(library) is None:
-            raise InputError(where, f"the library {library}", "none", f"pip install 'symgen[{extra}]' installs it")
-
-
-def check_path(where: str, path: Path, endings: Mapping[str, tuple[str, ...]], extra: str) -> None:
-    """Refuse a file that cannot be written: unknown ending, missing library, or a folder that is not there.
-
-    Parameters
-    ----------
-    where : str
-        Who asks, for the message.
-    path : Path
-        The file.
-    endings : mapping
-        `SAVED` or `PLOTTED`.
-    extra : str
-        What to install for the libraries.
-
-    Raises
-    ------
-    InputError
-        With what was expected.
-    """
-    ending = path.suffix.lower()
-    if ending not in endings:
-        hint = nearest(ending, endings) if ending else ""
-        known = ", ".join(endings)
-        raise InputError(where, f"a file ending in {known}", f"'{path}'", "" if hint.startswith("known") else hint)
-    need(where, *endings[ending], extra=extra)
-    check_writable(where, path)
-
-
 def netcdf(dataset: xr.Dataset) -> Callable[[io.BytesIO], object]:
     """Return what writes a dataset to an open file as NetCDF, with a checksum for every block of numbers."""
     summed = {
@@ -116,7 +72,7 @@ def _in_this_process() -> AbstractContextManager[object]:
     return nullcontext() if dask is None else dask.config.set(scheduler="synchronous")
 
 
-def with_last_state(dataset: xr.Dataset, result: RunData) -> xr.Dataset:
+def with_last_state(dataset: xr.Dataset, result: Result) -> xr.Dataset:
     """Return the dataset of a result with all that the run kept: variables ``last_...``, one dimension each."""
     last = result.last_state
     arrays = {
@@ -124,9 +80,9 @@ def with_last_state(dataset: xr.Dataset, result: RunData) -> xr.Dataset:
         for name, array in (last.arrays or {}).items()
         if len(array)
     }
-    found = dataset.assign(arrays)
-    found.attrs[LAST_HEADER] = json.dumps(last.header())
-    return found
+    extended = dataset.assign(arrays)
+    extended.attrs[LAST_HEADER] = json.dumps(last.header())
+    return extended
 
 
 def data_frame(t: Array, columns: Labelled, units: bool = False) -> pd.DataFrame:
@@ -148,7 +104,7 @@ def write_frame(frame: pd.DataFrame, path: Path) -> Path:
     return write_whole(path, lambda file: frame.to_csv(file, mode="wb"))
 
 
-def to_xarray(result: RunData) -> xr.Dataset:
+def to_xarray(result: Result) -> xr.Dataset:
     """Return all tables as variables over time, their columns and units as coordinates."""
     need("to_xarray", "xarray")
     import xarray as xr
@@ -175,23 +131,3 @@ def to_xarray(result: RunData) -> xr.Dataset:
 
 def _texts(names: tuple[str, ...]) -> np.ndarray[tuple[int], np.dtype[np.object_]]:
     return np.array(names, dtype=object)
-
-
-def save(result: RunData, path: Path, quantities: Sequence[str] = (), units: bool = False) -> Path:
-    """Write all tables, or some columns, in the format that the ending of `path` names.
-
-    Columns of CSV files that were chosen carry their units, all of them where `units` ask for it:
-    ``spring.force [N]``.
-    """
-    check_path("save", path, SAVED, "data")
-    ending = path.suffix.lower()
-    if units and ending != ".csv":
-        raise InputError("save: units", "a file ending in .csv, whose headings carry them", f"'{path}'")
-    if quantities and ending != ".nc":
-        return write_frame(data_frame(result.t, result.select(quantities), ending == ".csv"), path)
-    size = 40.0 * len(result.t) * sum(len(result.columns(table)) for table in result.names)
-    require("save", f"{len(result.t)} outputs of {result.mechanism}", size)
-    if ending == ".nc":
-        return write_whole(path, netcdf(with_last_state(to_xarray(result), result)))
-    frame = data_frame(result.t, result.select(result.names), True) if units else result.to_dataframe()
-    return write_frame(frame, path)

@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from symgen.ir.numerics import WARN
-from symgen.result.run_data import FAILED, INTERRUPTED, OK, UNVERIFIED
+from symgen.result.result import FAILED, INTERRUPTED, OK, UNVERIFIED
 from symgen.runtime import abi
 
 if TYPE_CHECKING:
-    from symgen.result.agreement import Verification
+    from symgen.result.points import Verification
     from symgen.running.prepare import Prepared
     from symgen.runtime.outcome import Ended, Outcome
 
@@ -44,15 +44,15 @@ def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -
         What a run with finer steps says of it. It settles doubts where the settings ask for it; doubts of its own count
         in any case.
     """
-    asked = run.plan.settings.verify
+    verify = run.plan.settings.verify
     verdict = judge_alone(outcome, run.compiled.law.position_correction)
     verdict = replace(verdict, warnings=(*verdict.warnings, *_velocity_warning(run, outcome)))
     if second is None or verdict.status == FAILED:
         return verdict
     verdict = replace(verdict, notes=() if second.note is None else (second.note,))
-    if second.doubt is not None and (asked or verdict.status == OK):
+    if second.doubt is not None and (verify or verdict.status == OK):
         return replace(verdict, status=UNVERIFIED, reason=second.doubt)
-    return replace(verdict, status=OK, reason=None) if asked else verdict
+    return replace(verdict, status=OK, reason=None) if verify else verdict
 
 
 def judge_alone(outcome: Ended, position_correction: bool) -> Verdict:
@@ -73,18 +73,14 @@ def judge_alone(outcome: Ended, position_correction: bool) -> Verdict:
         return Verdict(FAILED, outcome.reason, warnings)
     jump = relative_jump(outcome)
     if jump > JUMP_FAILURE:
-        reason = (
-            f"energy jumped by {outcome.energy_jump:.3g} J, {jump:.2g} of the energy in motion, over a singular passage"
-        )
-        return Verdict(FAILED, reason, warnings)
-    verdict = Verdict(OK, None, warnings)
-    if passed and not position_correction:
-        reason = (
-            f"passed near a singular position{_when(outcome)} and positions are not corrected: "
-            "nothing tells whether the right branch was taken"
-        )
-        verdict = Verdict(UNVERIFIED, reason, warnings)
-    return verdict
+        return Verdict(FAILED, _jumped(outcome), warnings)
+    if not passed or position_correction:
+        return Verdict(OK, None, warnings)
+    reason = (
+        f"passed near a singular position{_when(outcome)} and positions are not corrected: "
+        "nothing tells whether the right branch was taken"
+    )
+    return Verdict(UNVERIFIED, reason, warnings)
 
 
 def _passed(outcome: Ended) -> bool:
@@ -116,12 +112,12 @@ def _warnings(outcome: Ended, passed: bool) -> list[str]:
 
 def _velocity_warning(run: Prepared, outcome: Outcome) -> list[str]:
     """Say by how much velocities are off that only follow from positions, where it is more than other methods may."""
-    speed, found = float(outcome.w[abi.SPEED]), outcome.velocity_violation_max
+    speed, violation = float(outcome.w[abi.SPEED]), outcome.velocity_violation_max
     method = run.plan.choice.method
-    if not method.velocities_follow or found <= run.spec.max_violation * speed:
+    if not method.velocities_follow or violation <= run.spec.max_violation * speed:
         return []
     return [
-        f"velocities are off their constraints by up to {found:.3g}, {found / speed:.2g} of the largest speed: "
+        f"velocities are off their constraints by up to {violation:.3g}, {violation / speed:.2g} of the largest speed: "
         f"{method.name} holds positions only, and this is an error of order {run.plan.integrator.order}"
     ]
 

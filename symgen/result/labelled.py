@@ -126,5 +126,5 @@ class Quantity(Protocol):
 
 def labelled(values: Array, quantities: Iterable[Quantity]) -> Labelled:
     """Return `values` with the names and units of `quantities`."""
-    found = tuple(quantities)
-    return Labelled(values, tuple(q.name for q in found), tuple(q.unit for q in found))
+    columns = tuple(quantities)
+    return Labelled(values, tuple(q.name for q in columns), tuple(q.unit for q in columns))

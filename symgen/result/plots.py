@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.errors import InputError, nearest
-from symgen.files import write_whole
-from symgen.result.export import PLOTTED, check_path
+from symgen.files import check_path, write_whole
+from symgen.result.export import PLOTTED
 from symgen.result.labelled import Labelled
 
 if TYPE_CHECKING:
-    from symgen.result.run_data import RunData
+    from symgen.result.result import Result
 
 #: Okabe and Ito's colours, told apart with every kind of colour vision; dashes tell repeats apart.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#F0E442")
@@ -28,12 +28,12 @@ Panel = tuple[str, Labelled, bool]
 FLOOR = 1e-17
 
 
-def plot(result: RunData, path: Path, what: tuple[str, ...] = ("positions", "energy", "violations")) -> Path:
+def plot(result: Result, path: Path, what: tuple[str, ...] = ("positions", "energy", "violations")) -> Path:
     """Draw panels over time into a file.
 
     Parameters
     ----------
-    result : RunData
+    result : Result
         What to draw.
     path : Path
         A ``.png``, ``.svg`` or ``.pdf`` file.
@@ -59,7 +59,7 @@ def write_figure(figure: Any, path: Path) -> Path:
     return write_whole(path, lambda file: figure.savefig(file, format=kind, dpi=150, metadata=metadata))
 
 
-def draw(result: RunData, what: tuple[str, ...]) -> Any:
+def draw(result: Result, what: tuple[str, ...]) -> Any:
     """Return a matplotlib figure with one panel, or several, for each word of `what`."""
     panels = [panel for name in what for panel in PANELS[name](result)]
     status = result.status if result.status == "ok" else f"{result.status}: {result.reason}"
@@ -137,7 +137,7 @@ def by_unit(table: Labelled, what: str) -> list[Panel]:
     return panels
 
 
-def _positions(result: RunData) -> list[Panel]:
+def _positions(result: Result) -> list[Panel]:
     return [(f"{_quantity(p[0])}", p[1], p[2]) for p in by_unit(result.q, "position")]
 
 
@@ -145,19 +145,19 @@ def _quantity(label: str) -> str:
     return label.replace("position [rad]", "angle [rad]").replace("position [1]", "Euler parameter [1]")
 
 
-def _energy(result: RunData) -> list[Panel]:
+def _energy(result: Result) -> list[Panel]:
     energy = result.energy
     balance = Labelled(energy.values[:, :3], energy.names[:3], energy.units[:3])
     error = Labelled(energy.values[:, 3:], ("error",), ("J",))
     return [("energy [J]", balance, False), ("|energy error| [J]", error, True)]
 
 
-def _violations(result: RunData) -> list[Panel]:
+def _violations(result: Result) -> list[Panel]:
     return [("violation [m, m/s, m/s$^2$]", result.violations, True)]
 
 
 #: Panels by name.
-PANELS: dict[str, Callable[[RunData], list[Panel]]] = {
+PANELS: dict[str, Callable[[Result], list[Panel]]] = {
     "positions": _positions,
     "velocities": lambda result: by_unit(result.v, "velocity"),
     "accelerations": lambda result: by_unit(result.a, "acceleration"),

@@ -1,7 +1,8 @@
-"""How far two motions are apart: the largest distance between corresponding points of the bodies.
+"""How far two motions are apart, and whether they agree: one measure for ``--verify``, automatic choices and studies.
 
 The points of a body are its centre of mass and the tips of its axes at the body's own length, so that an error of an
-angle counts as the distance it moves the body's far end.
+angle counts as the distance it moves the body's far end. The limit of agreement is a share of the mechanism's size: no
+unit of length matters. Nothing inside one run sees its global error; a second run estimates it (`symgen.reruns`).
 """
 
 from __future__ import annotations
@@ -111,3 +112,76 @@ def rotation_matrices(orientation: Array) -> Array:
         return np.stack([np.stack([c, -s], 1), np.stack([s, c], 1)], 1)
     e0, e1, e2, e3 = (orientation / np.linalg.norm(orientation, axis=1, keepdims=True)).T
     return np.stack([np.stack(row, 1) for row in matrix((e0, e1, e2, e3))], 1)
+
+
+#: Two motions agree when no point of a body is farther from its counterpart than this share of the mechanism's size:
+#: of the longest body's own length, or of the extent of the motion where all bodies are point masses.
+AGREEMENT = 1e-4
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """How far two motions are apart.
+
+    Attributes
+    ----------
+    distances : Array, shape (k,)
+        Largest distance between corresponding points at each output [m].
+    limit : float
+        Up to which they agree [m].
+    """
+
+    distances: Array
+    limit: float
+
+    @property
+    def apart(self) -> float:
+        """Largest distance of all [m]; nan if a motion is not finite."""
+        return float(self.distances.max(initial=0.0))
+
+    @property
+    def holds(self) -> bool:
+        """Whether they agree."""
+        return self.apart <= self.limit
+
+    @property
+    def parts(self) -> int | None:
+        """First output at which they do not agree, None if they do."""
+        away = np.flatnonzero(~(self.distances <= self.limit))
+        return int(away[0]) if len(away) else None
+
+
+def agreement(points: Points, a: Array, b: Array) -> Agreement:
+    """Compare two motions.
+
+    Parameters
+    ----------
+    points : Points
+        What distances are measured between.
+    a, b : Array, shape (k, nq)
+        Coordinates at the same times.
+    """
+    with np.errstate(all="ignore"):
+        return Agreement(points.distances(a, b), AGREEMENT * points.size(a))
+
+
+@dataclass(frozen=True)
+class Verification:
+    """What a run with finer steps says of another one.
+
+    Attributes
+    ----------
+    doubt : str or None
+        Why the motion is not known well enough; None where two runs agree.
+    note : str or None
+        What was done, one sentence.
+    error : float or None
+        Estimated error of the run that is reported [m].
+    evaluations : int
+        Of all runs together.
+    """
+
+    doubt: str | None
+    note: str | None
+    error: float | None
+    evaluations: int

@@ -1,26 +1,82 @@
-"""The result of one run: its data, and the ways out of Python."""
+"""The result of one run: tables and facts, frozen and labelled, and the ways out of Python."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from symgen.arguments import of_kind, switch, words
+import numpy as np
+
+from symgen.arguments import of_kind, shown, switch, words
 from symgen.arguments import path as argument_path
-from symgen.result.run_data import RunData
+from symgen.describe.mechanism import ACCELERATIONS
+from symgen.errors import InputError, nearest
+from symgen.files import check_path, write_whole
+from symgen.memory import require
+from symgen.result.contract import contract
+from symgen.result.export import SAVED, data_frame, netcdf, to_xarray, with_last_state, write_frame
+from symgen.result.labelled import Array, Labelled
+from symgen.result.plots import plot
+from symgen.result.tables import MotionTables
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
     from symgen.player.motion_page import Page
+    from symgen.result.reactions import Forces
+    from symgen.result.tables import Measured
+    from symgen.runtime.events import EventRecord
+    from symgen.runtime.last_state import LastState
+    from symgen.runtime.outcome import Outcome, RankEvent
+
+#: What a run can end as.
+OK, UNVERIFIED, FAILED = "ok", "unverified", "failed"
+#: Tables of a result: of the state and of what follows from it, of forces, and of the file's own quantities.
+TABLES = (
+    *("q", "v", "a", "lam", "reactions", "body_reactions", "magnitudes", "joint_coordinates"),
+    *("points", "elements", "outputs", "energy", "violations"),
+)
+#: Columns of two of them.
+ENERGIES, VIOLATIONS = ("kinetic", "potential", "work", "error"), ("position", "velocity", "acceleration")
+#: Reason of a run that was stopped from outside.
+INTERRUPTED = "interrupted"
+
+
+def accelerations_of(velocities: Iterable[str]) -> tuple[str, ...]:
+    """Return the names of accelerations by those of the velocities."""
+    parts = (name.rpartition(".") for name in velocities)
+    return tuple(f"{body}.{ACCELERATIONS[component]}" for body, _, component in parts)
+
+
+@dataclass(frozen=True)
+class Rank:
+    """Rank of D at the start, and rows that were left out because they repeat another row for all q."""
+
+    rows: int
+    rank: int
+    identical_rows_dropped: int
+    redundant_rows: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Seconds:
+    """Wall-clock times [s]; `run` is the integration loop alone, the best of several where repeated."""
+
+    derive: float
+    emit: float
+    compile: float
+    run: float
+    run_spread: float = 0.0
 
 
 @dataclass(frozen=True, repr=False)
-class Result(RunData):
+class Result(MotionTables):
     """What a run gave; arrays have one row an output.
 
     Attributes
@@ -74,12 +130,137 @@ class Result(RunData):
     that ran nor `outcome`, `forces` and `ended`, which belong to the process of the run.
     """
 
+    of_process: ClassVar[tuple[str, ...]] = ("outcome", "forces", "measured", "ended")
+    kept: ClassVar[tuple[str, ...]] = (
+        *("non_unique_reactions", "shape", "start", "last_state"),
+        "_final_multipliers",
+    )
+
+    mechanism: str
+    method: str
+    integrator: str
+    step: float | None
+    rtol: float | None
+    atol: float | None
+    until: float
+    status: str
+    reason: str | None
+    warnings: tuple[str, ...]
+    notes: tuple[str, ...]
+    parameters: Mapping[str, float]
+    t: Array
+    q: Labelled
+    v: Labelled
+    kinetic: Array
+    potential: Array
+    work: Array
+    energy_error: Array
+    smallest_pivot: Array
+    rank: Rank
+    rank_events: tuple[RankEvent, ...]
+    rank_event_count: int
+    steps: int
+    rejected: int
+    evaluations: int
+    iterations: int
+    seconds: Seconds
+    position_violation_max: float
+    velocity_violation_max: float
+    energy_drift_max: float
+    error_estimate: float | None
+    outcome: Outcome
+    forces: Forces
+    measured: Measured
+    ended: Callable[[], LastState]
+    inputs: Mapping[str, str | float] = field(default_factory=dict)
+    end: float = math.nan
+    events: tuple[EventRecord, ...] = ()
+    accumulation: float | None = None
+    coordinates: str = "absolute"
+    state: tuple[str, ...] = ()
+    watched: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the tables."""
+        return TABLES
+
+    @property
+    def searched(self) -> tuple[str, ...]:
+        """Tables in which a column is looked for by its name alone, cheap ones first."""
+        return ("q", "v", "joint_coordinates", "a", "lam", "reactions", "outputs", "elements", "points")
+
+    # -- derived, when first asked for ---------------------------------------------------------------------------------
+
+    @cached_property
+    def a(self) -> Labelled:
+        """Accelerations v', named after the velocities: ``crank.ax``, ``crank.alpha``."""
+        units = tuple(f"{unit}^2" for unit in self.v.units)
+        return Labelled(self.outcome.accelerations, accelerations_of(self.v.names), units)
+
+    @cached_property
+    def violations(self) -> Labelled:
+        """Norms of Phi, ``D v - nu`` and ``D v' - gamma``: ``position``, ``velocity``, ``acceleration``."""
+        status = self.outcome.status_columns
+        values = np.column_stack([status[:, 0], status[:, 1], self.outcome.acceleration_violations])
+        return Labelled(values, VIOLATIONS, ("m", "m/s", "m/s^2"))
+
+    @cached_property
+    def body_reactions(self) -> Labelled:
+        """The reactions in the axes of the bodies that they act on, under the same names."""
+        return self.forces.in_body_axes(self.reactions)
+
+    def reaction(self, joint: str) -> Array:
+        """Return the reaction of one joint, shape (k, 3), in space (k, 6): force [N] and moment [N m]."""
+        known = list(dict.fromkeys(name.rpartition(".")[0] for name in self.reactions.names))
+        if joint not in known:
+            raise InputError("joint", "the name of a joint", shown(joint), nearest(str(joint), known))
+        return self.reactions[joint]
+
+    @cached_property
+    def _final_multipliers(self) -> dict[str, float]:
+        return self.forces.final()
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether the run was stopped from outside."""
+        return self.reason == INTERRUPTED
+
+    @property
+    def ok(self) -> bool:
+        """Whether the status is ``"ok"``."""
+        return self.status == OK
+
+    @property
+    def energy(self) -> Labelled:
+        """Energies as one table: ``kinetic``, ``potential``, ``work``, ``error`` [J]."""
+        values = np.column_stack([self.kinetic, self.potential, self.work, self.energy_error])
+        return Labelled(values, ENERGIES, ("J",) * len(ENERGIES))
+
+    @cached_property
+    def last_state(self) -> LastState:
+        """Where the run ended, with all that it kept: what another one goes on from."""
+        return self.ended()
+
+    @cached_property
+    def start(self) -> dict[str, Any]:
+        """State that the run began with: ``t``, and by name ``q`` and ``v``."""
+        y, nq = self.outcome.start.y, len(self.q.names)
+        return {
+            "t": self.outcome.start.t,
+            "q": dict(zip(self.q.names, y[:nq].tolist(), strict=True)),
+            "v": dict(zip(self.v.names, y[nq : nq + len(self.v.names)].tolist(), strict=True)),
+        }
+
+    @cached_property
+    def shape(self) -> str:
+        """Return the shape of the code that ran: ``straight`` or ``looped``."""
+        return self.outcome.compiled.shape
+
     # -- leaving Python ------------------------------------------------------------------------------------------------
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen run --json``; numbers that are not finite become None."""
-        from symgen.result.contract import contract
-
         return contract(self)
 
     def to_dataframe(self) -> pd.DataFrame:
@@ -96,8 +277,6 @@ class Result(RunData):
 
     def to_xarray(self) -> xr.Dataset:
         """Return all tables as a dataset over time, with units and what was run; raises as `to_dataframe` does."""
-        from symgen.result.export import to_xarray
-
         return to_xarray(self)
 
     def view(self, beside: Result | None = None, *, live: bool = True) -> Page:
@@ -142,9 +321,18 @@ class Result(RunData):
         InputError
             If the ending is not known, the library for it is missing, or the file cannot be written.
         """
-        from symgen.result.export import save
-
-        return save(self, argument_path("save", path), words("quantities", quantities), switch("units", units))
+        file = check_path("save", argument_path("save", path), SAVED, "data")
+        chosen, ending, headed = words("quantities", quantities), file.suffix.lower(), switch("units", units)
+        if headed and ending != ".csv":
+            raise InputError("save: units", "a file ending in .csv, whose headings carry them", f"'{file}'")
+        if chosen and ending != ".nc":
+            return write_frame(data_frame(self.t, self.select(chosen), ending == ".csv"), file)
+        size = 40.0 * len(self.t) * sum(len(self.columns(table)) for table in self.names)
+        require("save", f"{len(self.t)} outputs of {self.mechanism}", size)
+        if ending == ".nc":
+            return write_whole(file, netcdf(with_last_state(to_xarray(self), self)))
+        frame = data_frame(self.t, self.select(self.names), True) if headed else self.to_dataframe()
+        return write_frame(frame, file)
 
     def plot(self, path: str | PathLike[str], what: Sequence[str] = ("positions", "energy", "violations")) -> Path:
         """Draw panels over time into a PNG, SVG or PDF file.
@@ -156,8 +344,6 @@ class Result(RunData):
         what : sequence of str
             Any of ``positions``, ``velocities``, ``energy``, ``violations``, ``reactions``.
         """
-        from symgen.result.plots import plot
-
         return plot(self, argument_path("plot", path), words("plot", what))
 
     def __repr__(self) -> str:

@@ -1,10 +1,10 @@
-"""Files that results were saved to, read back as columns."""
+"""Files that results were saved to, read back: as columns, as a recorded motion, as a last state to go on from."""
 
 from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -12,10 +12,12 @@ from typing import Any, TypeVar
 import numpy as np
 
 from symgen.describe.columns import PREFIX
-from symgen.errors import InputError
-from symgen.files import check_name, unheaded
-from symgen.result.export import DIMENSIONS, LAST_HEADER, LAST_PREFIX, SAVED, need
+from symgen.describe.mechanism import ACCELERATIONS
+from symgen.errors import InputError, quoted
+from symgen.files import check_name, need, unheaded
+from symgen.result.export import DIMENSIONS, LAST_HEADER, LAST_PREFIX, SAVED
 from symgen.result.labelled import Array
+from symgen.runtime.last_state import LastState
 
 _Value = TypeVar("_Value")
 #: Tables of a NetCDF file that are read.
@@ -23,52 +25,69 @@ _TABLES = ("q", "v", "a", "joint_coordinates")
 
 
 @dataclass(frozen=True)
-class Saved:
-    """The content of a file of a result.
+class Recorded:
+    """A recorded motion, of a run or of a file that its result was saved to.
 
     Attributes
     ----------
+    whence : str
+        Where it is from, for messages.
     t : Array, shape (k,)
         Times [s].
     columns : mapping of str to Array
-        By the names of data frames, each of shape (k,); of a NetCDF file those of the motion.
+        By the names of data frames, each of shape (k,): coordinates, velocities, accelerations, and coordinates of
+        joints behind ``joint.``, where angles count turns; of files of columns all others too.
     mechanism : str
         Its name, empty in files of columns.
     run : mapping
-        Facts of the run, empty in files of columns.
+        Facts of the run by the names of JSON, empty in files of columns.
     last : tuple of (mapping, mapping), or None
         Facts and arrays of the last state, in NetCDF files that hold it.
     """
 
+    whence: str
     t: Array
     columns: Mapping[str, Array]
     mechanism: str = ""
     run: Mapping[str, Any] = field(default_factory=dict)
     last: tuple[dict[str, Any], dict[str, Any]] | None = None
 
+    @property
+    def parameters(self) -> Mapping[str, float]:
+        """Values of parameters in the run, as far as they are recorded."""
+        return dict(self.run.get("parameters", {}))
 
-def read_saved(option: str, path: Path, use: Callable[[Saved], _Value]) -> _Value:
-    """Return what `use` makes of a file of a result.
+    @property
+    def inputs(self) -> Mapping[str, float | str]:
+        """Values of inputs in the run, in words where they were no numbers."""
+        return dict(self.run.get("inputs", {}))
 
-    Parameters
-    ----------
-    option : str
-        Option or argument, for messages.
-    path : Path
-        A ``.nc``, ``.parquet`` or ``.csv`` file.
-    use : callable
-        Called with the content; a `KeyError` means that something is missing in it.
+    def table(self, names: Sequence[str]) -> Array:
+        """Return columns in an order, shape (k, n).
 
-    Raises
-    ------
-    InputError
-        If there is no such file, or it is none of a result.
-    """
+        Raises
+        ------
+        InputError
+            If one is missing, or holds numbers that are not finite.
+        """
+        for name in names:
+            if name not in self.columns:
+                raise InputError(self.whence, "the motion of this mechanism", f"no column {quoted(name)}")
+        values = np.zeros((len(self.t), len(names)))
+        for i, name in enumerate(names):
+            values[:, i] = self.columns[name]
+        if not np.all(np.isfinite(values)):
+            raise InputError(self.whence, "finite numbers", "others")
+        return values
+
+
+def _read(option: str, path: Path, use: Callable[[Recorded], _Value]) -> _Value:
+    """Return what `use` makes of a file of a result; a `KeyError` means that something is missing in it."""
     ending = path.suffix.lower()
     if ending not in SAVED:
         raise InputError(option, f"a file ending in {', '.join(SAVED)}", f"'{path}'")
     read = {".nc": _of_dataset, ".csv": _of_csv, ".parquet": _of_parquet}[ending]
-    return checked(option, path, lambda path: use(read(path)), SAVED[ending])
+    return checked(option, path, lambda path: use(read(path, f"{option} '{path.name}'")), SAVED[ending])
 
 
 def checked(option: str, path: Path, read: Callable[[Path], _Value], libraries: Sequence[str]) -> _Value:
@@ -86,7 +105,7 @@ def checked(option: str, path: Path, read: Callable[[Path], _Value], libraries: 
         raise InputError(option, "a file of a result", f"'{path}', which cannot be read as one ({why})") from None
 
 
-def _of_dataset(path: Path) -> Saved:
+def _of_dataset(path: Path, whence: str) -> Recorded:
     import xarray as xr
 
     dataset, columns = xr.load_dataset(path, engine="h5netcdf"), dict[str, Array]()
@@ -99,10 +118,10 @@ def _of_dataset(path: Path) -> Saved:
         arrays = {name.removeprefix(LAST_PREFIX): array for name, array in kept.items()}
         last = json.loads(dataset.attrs[LAST_HEADER]), arrays
     t, facts = np.asarray(dataset["time"].values, dtype=np.float64), dataset.attrs
-    return Saved(t, columns, str(facts["mechanism"]), json.loads(facts["run"]), last)
+    return Recorded(whence, t, columns, str(facts["mechanism"]), json.loads(facts["run"]), last)
 
 
-def _of_csv(path: Path) -> Saved:
+def _of_csv(path: Path, whence: str) -> Recorded:
     with path.open(encoding="utf-8", newline="") as file:
         rows = csv.reader(file)
         names = [unheaded(name) for name in next(rows)]
@@ -110,12 +129,86 @@ def _of_csv(path: Path) -> Saved:
     if not len(values):
         raise ValueError("it has no rows")
     columns = {name: values[:, i] for i, name in enumerate(names)}
-    return Saved(columns.pop("t"), columns)
+    return Recorded(whence, columns.pop("t"), columns)
 
 
-def _of_parquet(path: Path) -> Saved:
+def _of_parquet(path: Path, whence: str) -> Recorded:
     import pandas as pd
 
     frame = pd.read_parquet(path, engine="pyarrow")
     columns = {str(name): np.asarray(frame[name], dtype=np.float64) for name in frame.columns}
-    return Saved(np.asarray(frame.index, dtype=np.float64), columns)
+    return Recorded(whence, np.asarray(frame.index, dtype=np.float64), columns)
+
+
+def recorded(motion: Any) -> Recorded:
+    """Return the motion of a result, or of whatever has the tables ``q``, ``v`` and ``a`` over ``t``.
+
+    Raises
+    ------
+    InputError
+        If it has not.
+    """
+    if isinstance(motion, Recorded):
+        return motion
+    if not all(hasattr(motion, name) for name in ("t", "q", "v", "a")):
+        raise InputError("motion", "a result of a run, or a motion of kinematics", f"a {type(motion).__name__}")
+    tables = motion.q, motion.v, motion.a
+    columns = {name: table.values[:, i] for table in tables for i, name in enumerate(table.names)}
+    if hasattr(motion, "joint_coordinates"):
+        joints, prefix = motion.joint_coordinates, PREFIX["joint_coordinates"]
+        columns |= {f"{prefix}{name}": joints[name] for name in joints.names}
+    run = {name: dict(getattr(motion, name, {})) for name in ("parameters", "inputs")}
+    return Recorded("motion", np.asarray(motion.t, dtype=np.float64), columns, run=run)
+
+
+def read_recorded(option: str, path: Path) -> Recorded:
+    """Return the motion that a file of a result holds.
+
+    Parameters
+    ----------
+    option : str
+        Option or argument, for messages.
+    path : Path
+        A ``.nc``, ``.parquet`` or ``.csv`` file with all columns of coordinates, velocities and accelerations.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, or it is none of a result.
+    """
+    return _read(option, path, lambda motion: motion)
+
+
+_PLACES = ("x", "y", "z", "theta", "e0", "e1", "e2", "e3")
+
+
+def read_last_state(option: str, path: Path) -> LastState:
+    """Return the last state of a run from a file that its result was saved to.
+
+    A NetCDF file holds all that the run kept; of other files, and of those that hold it no more, the last outputs are
+    taken.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, or it is none of a result.
+    """
+
+    def state(saved: Recorded) -> LastState:
+        if saved.last is None:
+            return _of_columns(saved)
+        found = LastState.of_header(*saved.last)
+        if found is None:
+            raise InputError(option, "the last state as it was written", f"'{path}', in which it was changed")
+        return found
+
+    return _read(option, path, state)
+
+
+def _of_columns(saved: Recorded) -> LastState:
+    def row(labels: Iterable[str]) -> dict[str, float]:
+        own = (name for name in saved.columns if name.count(".") == 1 and name.partition(".")[2] in labels)
+        return {name: float(saved.columns[name][-1]) for name in own}
+
+    work = 0.0 if saved.mechanism else float(saved.columns["energy.work"][-1])
+    return LastState(saved.mechanism, "", float(saved.t[-1]), row(_PLACES), row(ACCELERATIONS), work)

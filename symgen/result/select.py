@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from symgen.describe.columns import PREFIX
 from symgen.describe.readings import TABLES as MEASURED
-from symgen.result.acting import reaction_names
 from symgen.result.contract import finite
 from symgen.result.labelled import Labelled
-from symgen.result.run_data import ENERGIES, TABLES, VIOLATIONS, accelerations_of
+from symgen.result.reactions import reaction_names
+from symgen.result.result import ENERGIES, TABLES, VIOLATIONS, accelerations_of
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -45,9 +45,9 @@ def columns_of(mechanism: Mechanism, info: ModelInfo) -> dict[str, str]:
 
 def extremes(table: Labelled) -> dict[str, dict[str, Any]]:
     """Return unit, last, smallest and largest value of each column, None where there is none."""
-    found: dict[str, dict[str, Any]] = {}
+    entries: dict[str, dict[str, Any]] = {}
     for i, (name, unit) in enumerate(zip(table.names, table.units, strict=True)):
         values = table.values[:, i]
         numbers = (values[-1], values.min(), values.max()) if len(values) else (math.nan,) * 3
-        found[name] = {"unit": unit, **dict(zip(("final", "min", "max"), map(float, numbers), strict=True))}
-    return {name: finite(entry) for name, entry in found.items()}
+        entries[name] = {"unit": unit, **dict(zip(("final", "min", "max"), map(float, numbers), strict=True))}
+    return {name: finite(entry) for name, entry in entries.items()}

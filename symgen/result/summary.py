@@ -6,13 +6,13 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from symgen.result.labelled import html_table
-from symgen.result.run_data import FAILED
+from symgen.result.result import FAILED
 
 if TYPE_CHECKING:
-    from symgen.result.run_data import RunData
+    from symgen.result.result import Result
 
 
-def lines(result: RunData) -> list[tuple[str, str]]:
+def lines(result: Result) -> list[tuple[str, str]]:
     """Return (label, text) pairs that say what was run and how it went."""
     steps = f"step {result.step:g} s" if result.rtol is None else f"rtol {result.rtol:g}, atol {result.atol:g}"
     rejected = f", {result.rejected} rejected" if result.rejected else ""
@@ -20,7 +20,7 @@ def lines(result: RunData) -> list[tuple[str, str]]:
     spread = f" (spread {s.run_spread:.2g} s)" if s.run_spread else ""
     made = f"; derived in {s.derive:.3g} s, emitted in {s.emit:.3g} s" if s.derive else ""
     dropped = f", {rank.identical_rows_dropped} identical dropped" if rank.identical_rows_dropped else ""
-    found = [
+    pairs = [
         ("mechanism", result.mechanism),
         ("method", f"{result.method}, {result.integrator}, {steps}, until {result.until:g} s"),
         *([("coordinates", _coordinates(result))] if result.coordinates != "absolute" else []),
@@ -32,39 +32,39 @@ def lines(result: RunData) -> list[tuple[str, str]]:
         ("rank", f"{rank.rank} of {rank.rows} rows{dropped}"),
     ]
     if result.rank_event_count:
-        found.append(("passages", f"{result.rank_event_count} near singular positions"))
+        pairs.append(("passages", f"{result.rank_event_count} near singular positions"))
     if result.events:
         counts = Counter(event.name for event in result.events)
-        said = [name if n == 1 else f"{name} {n} times" for name, n in counts.items()]
-        found.append(("events", f"{', '.join(said)}; the last at t = {result.events[-1].t:g} s"))
+        names = [name if n == 1 else f"{name} {n} times" for name, n in counts.items()]
+        pairs.append(("events", f"{', '.join(names)}; the last at t = {result.events[-1].t:g} s"))
     if len(result.t):
-        found.append(("outputs", f"{len(result.t)}, the last at t = {result.t[-1]:g} s"))
-    return found
+        pairs.append(("outputs", f"{len(result.t)}, the last at t = {result.t[-1]:g} s"))
+    return pairs
 
 
-def _coordinates(result: RunData) -> str:
+def _coordinates(result: Result) -> str:
     """Return what the state was made of, in words."""
     count = len(result.state)
     return f"{result.coordinates}, {count} numbers of the state; the rank is that over all rows of the mechanism"
 
 
-def status_in_words(result: RunData) -> str:
+def status_in_words(result: Result) -> str:
     """Return status, reason, and how the error was estimated: ``ok (error about 3.2e-07 m, from ...)``."""
-    said = result.status + (f": {result.reason}" if result.reason else "")
+    text = result.status + (f": {result.reason}" if result.reason else "")
     if result.status == FAILED:
-        return said
+        return text
     if result.rtol is None:
         local, other = "", "half the step"
     else:
         local, other = f"local errors within rtol {result.rtol:g}; ", "other tolerances"
     if result.error_estimate is not None:
-        return f"{said} ({local}error about {result.error_estimate:.2g} m, from a run with {other})"
+        return f"{text} ({local}error about {result.error_estimate:.2g} m, from a run with {other})"
     if not local:
-        return f"{said} (error not estimated: --verify runs again with half the step)"
-    return f"{said} ({local}global error not estimated: --verify runs again with a tenth of it)"
+        return f"{text} (error not estimated: --verify runs again with half the step)"
+    return f"{text} ({local}global error not estimated: --verify runs again with a tenth of it)"
 
 
-def html(result: RunData) -> str:
+def html(result: Result) -> str:
     """Return the summary as an HTML table."""
     rows = [*lines(result), *(("warning", w) for w in result.warnings), *(("note", n) for n in result.notes)]
     return html_table((), rows)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -13,16 +14,58 @@ import numpy as np
 
 from symgen.arguments import one_of, shown, words
 from symgen.arguments import path as argument_path
+from symgen.compiling.side import compile_side
 from symgen.describe.columns import PREFIX
+from symgen.describe.readings import TABLES, Column
 from symgen.errors import InputError, nearest, quoted
-from symgen.result.export import COLUMNS, PLOTTED, check_path, data_frame, write_frame
-from symgen.result.labelled import Array, Labelled
+from symgen.files import check_path
+from symgen.result.export import COLUMNS, PLOTTED, data_frame, write_frame
+from symgen.result.labelled import Array, Labelled, labelled
+from symgen.result.plots import by_unit, over_time, write_figure
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from symgen.result.measured import Measured
+    from symgen.describe.mechanism import Mechanism
     from symgen.result.reactions import Forces
+    from symgen.runtime.outcome import Motion
+
+
+@dataclass(frozen=True, repr=False)
+class Measured:
+    """What quantities beside the state are evaluated from.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        What was run.
+    outcome : Motion
+        States and accelerations at the outputs.
+    multipliers : callable
+        Returns lambda at the outputs, shape (k, m), of minimum norm where the rows of D are dependent.
+    """
+
+    mechanism: Mechanism
+    outcome: Motion
+    multipliers: Callable[[], Array]
+
+    def __repr__(self) -> str:
+        return f"<Measured of {self.mechanism.name} at {len(self.outcome.times)} outputs>"
+
+    def columns(self, table: str) -> tuple[Column, ...]:
+        """Return the columns of a table of `symgen.describe.outputs`: names, units and formulas."""
+        return TABLES[table](self.mechanism)
+
+    def table(self, table: str) -> Labelled:
+        """Return the values of a table at the outputs."""
+        columns = self.columns(table)
+        if not columns or not len(self.outcome.times):
+            return labelled(np.zeros((len(self.outcome.times), len(columns))), columns)
+        formulas = [(column.name, column.formula) for column in columns]
+        compiled = self.outcome.compiled
+        side = compile_side(self.mechanism, compiled, table, f"the table {table} of results", formulas)
+        return labelled(self.outcome.observed(side.function, len(columns), self.multipliers()), columns)
+
 
 #: Tables that need code of their own, and tables of forces: names of their columns are there without their values.
 SIDE = ("points", "elements", "outputs")
@@ -112,8 +155,8 @@ class Tables(ABC):
         one_of("table", table, self.names)
         if table not in self.__dict__ and table in _OF_FORCES:
             return self.forces.columns(table)
-        found: Labelled = getattr(self, table)
-        return found.names
+        labelled: Labelled = getattr(self, table)
+        return labelled.names
 
     def select(self, names: Sequence[str]) -> Labelled:
         """Return columns of any tables, in this order.
@@ -153,18 +196,18 @@ class Tables(ABC):
             raise InputError("result", "the name of a column", shown(name), hint)
         if name == "t":
             return self.t
-        known = list[str]()
+        every = list[str]()
         for table in self.searched:
             names = self.columns(table)
             if name in names:
-                found: Labelled = getattr(self, table)
-                return found[name]
-            known += names
+                labelled: Labelled = getattr(self, table)
+                return labelled[name]
+            every += names
         for table in self.names:
             if name.startswith(PREFIX[table]) and (own := name.removeprefix(PREFIX[table])) in self.columns(table):
-                found = getattr(self, table)
-                return found[own]
-        raise InputError("result", "the name of a column", quoted(name), nearest(name, known))
+                labelled = getattr(self, table)
+                return labelled[own]
+        raise InputError("result", "the name of a column", quoted(name), nearest(name, every))
 
     # -- leaving Python ------------------------------------------------------------------------------------------------
 
@@ -208,8 +251,6 @@ class Tables(ABC):
         what : sequence of str, optional
             As `select` takes them; the first table by default.
         """
-        from symgen.result.plots import by_unit, over_time, write_figure
-
         where = argument_path("plot", path)
         check_path("plot", where, PLOTTED, "plot")
         chosen = words("plot", what) or self.names[:1]
@@ -218,10 +259,10 @@ class Tables(ABC):
 
     def series(self, table: str) -> dict[str, list[Any]]:
         """Return a table as JSON has it: lists by name; numbers that are not finite are None."""
-        found: Labelled = getattr(self, one_of("table", table, self.names))
-        if np.all(np.isfinite(found.values)):
-            return {name: found.values[:, i].tolist() for i, name in enumerate(found.names)}
-        columns = ((name, found.values[:, i].tolist()) for i, name in enumerate(found.names))
+        labelled: Labelled = getattr(self, one_of("table", table, self.names))
+        if np.all(np.isfinite(labelled.values)):
+            return {name: labelled.values[:, i].tolist() for i, name in enumerate(labelled.names)}
+        columns = ((name, labelled.values[:, i].tolist()) for i, name in enumerate(labelled.names))
         return {name: [x if np.isfinite(x) else None for x in column] for name, column in columns}
 
 
@@ -285,15 +326,15 @@ def choose(
     chosen, groups = dict[str, str](), dict.fromkeys((*columns.values(), *tables))
     for name in words("quantities", names):
         if name in columns:
-            found = {name: columns[name]}
+            matches = {name: columns[name]}
         elif name in groups:
-            found = {column: table for column, table in columns.items() if table == name}
+            matches = {column: table for column, table in columns.items() if table == name}
         else:
-            found = {column: table for column, table in columns.items() if column.startswith(f"{name}.")}
-        if not found and name not in tables:
+            matches = {column: table for column, table in columns.items() if column.startswith(f"{name}.")}
+        if not matches and name not in tables:
             groups |= dict.fromkeys(column.partition(".")[0] for column in columns)
-            known = [*columns, *groups] if len(columns) <= 60 or "." in name else [*groups]
+            candidates = [*columns, *groups] if len(columns) <= 60 or "." in name else [*groups]
             expected = f"a quantity of {mechanism}"
-            raise InputError(f"quantity '{name}'", expected, "none of that name", nearest(name, known))
-        chosen |= found
+            raise InputError(f"quantity '{name}'", expected, "none of that name", nearest(name, candidates))
+        chosen |= matches
     return chosen

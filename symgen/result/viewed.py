@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,19 +25,19 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.result.run_data import RunData
+    from symgen.result.result import Result
     from symgen.running.prepare import Prepared
     from symgen.running.tree import TreeRun
 
 
-def view(result: RunData, beside: RunData | None = None, live: bool = True) -> Page:
+def view(result: Result, beside: Result | None = None, live: bool = True) -> Page:
     """Return the page of a result.
 
     Parameters
     ----------
-    result : RunData
+    result : Result
         Of this process.
-    beside : RunData, optional
+    beside : Result, optional
         Another motion of the same mechanism, drawn faintly behind.
     live : bool
         Whether the page shall be able to work out other motions.
@@ -47,15 +47,14 @@ def view(result: RunData, beside: RunData | None = None, live: bool = True) -> P
     InputError
         If the results are of different mechanisms, or have no outputs.
     """
-    first = recorded(result)
-    second = None if beside is None else recorded(beside)
+    first, second = recorded(result), None if beside is None else recorded(beside)
     if beside is not None and second is not None and beside.q.names != result.q.names:
         raise InputError("view", f"another motion of {first.mechanism.name}", f"one of {second.mechanism.name}")
-    part, note = _live(result, first) if live else (None, "")
-    return Page(page(first, part, note, second), first.mechanism.name, part is not None)
+    run = {name: getattr(result, name) for name in ("parameters", "inputs", "coordinates", "step", "start", "watched")}
+    return page(first, *(_live(first.mechanism, run) if live else (None, "")), second)
 
 
-def recorded(result: RunData) -> Recording:
+def recorded(result: Result) -> Recording:
     """Return a result as a page plays it.
 
     Raises
@@ -123,70 +122,50 @@ def _reactions(mechanism: Mechanism, table: Labelled) -> tuple[Array | None, tup
 
 def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> list[PlottedGroup]:
     """Return what can be plotted: outputs of the file first, then energy, violations and positions of few bodies."""
-    found: list[PlottedGroup] = []
+    groups: list[PlottedGroup] = []
     outputs = tables["outputs"]
     for unit in dict.fromkeys(outputs.units):
         chosen = [i for i, u in enumerate(outputs.units) if u == unit][:LONGEST_KEY]
-        found.append(PlottedGroup("outputs", unit, tuple(outputs.names[i] for i in chosen), outputs.values[:, chosen]))
-    found += position_groups(mechanism, q)
+        groups.append(PlottedGroup("outputs", unit, tuple(outputs.names[i] for i in chosen), outputs.values[:, chosen]))
+    groups += position_groups(mechanism, q)
     energy, violations = tables["energy"], tables["violations"]
-    found.append(PlottedGroup("energy", "J", energy.names[:3], energy.values[:, :3]))
-    found.append(PlottedGroup("energy error", "J", ("error",), energy.values[:, 3:4], logarithmic=True))
-    found.append(PlottedGroup("violation", "", violations.names, violations.values, logarithmic=True))
-    return found
+    groups.append(PlottedGroup("energy", "J", energy.names[:3], energy.values[:, :3]))
+    groups.append(PlottedGroup("energy error", "J", ("error",), energy.values[:, 3:4], logarithmic=True))
+    groups.append(PlottedGroup("violation", "", violations.names, violations.values, logarithmic=True))
+    return groups
 
 
-#: Why a page has no live part where inputs are of several pieces, of which the code knows one.
-JUMPS = "what the run gave its inputs jumps, and pages do not look for times"
+def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, str]:
+    """Return the live part of a page with coordinates, start, parameters and inputs of a run, by their names in JSON.
 
-
-def _live(result: RunData, recording: Recording) -> tuple[Live | None, str]:
-    """Return the live part of a page of a result: with its coordinates, its start, its parameters and its inputs."""
-    mechanism = recording.mechanism
-    if _jump(mechanism, result.inputs):
-        return None, f"{NONE}: {JUMPS}"
-    numbers = {name: x for name, x in result.inputs.items() if not isinstance(x, str)}
-    values = {**result.parameters, **numbers}
-    return _live_of(mechanism, values, result.coordinates, result.step, result.start, result.watched)
-
-
-def _jump(mechanism: Mechanism, inputs: Mapping[str, str | float]) -> bool:
-    """Whether inputs of a run jump: one is neither a number nor part of the formulas, or has switches beside it."""
-    given = dict(mechanism.given)
-    held = any(isinstance(x, str) and name not in given for name, x in inputs.items())
-    return held or not set(mechanism.inputs) <= set(inputs)
-
-
-def _live_of(
-    mechanism: Mechanism,
-    parameters: dict[str, float],
-    coordinates: str,
-    step: float | None,
-    begun: Mapping[str, Any],
-    watched: Sequence[tuple[str, str]],
-) -> tuple[Live | None, str]:
+    Formulas of inputs are part of the mechanism. Inputs jump where one has other words, or is held by switches.
+    """
     from symgen.running.plan import Purpose
     from symgen.running.prepare import prepare
     from symgen.settings import Settings
 
+    inputs, formulas, begun = run["inputs"], dict(mechanism.given), run["start"]
+    if any(isinstance(x, str) and name not in formulas for name, x in inputs.items()) or (
+        not set(mechanism.inputs) <= set(inputs)
+    ):
+        return None, f"{NONE}: what the run gave its inputs jumps, and pages do not look for times"
     if begun["t"]:
         return None, f"{NONE}: the run went on from another one at t = {begun['t']:.6g} s"
-    for name, action in (*((event.name, event.action) for event in mechanism.events), *watched):
+    for name, action in (*((event.name, event.action) for event in mechanism.events), *run["watched"]):
         if action in DOES:
             return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages do not look for events"
-    parameters, step = (
-        independent_values(mechanism, parameter_values(mechanism, parameters)),
-        step or mechanism.defaults.step,
-    )
-    settings = Settings(shape="straight", coordinates=coordinates, parameters=parameters, step=step)
-    run = prepare(mechanism, settings, Purpose.STATE)
-    told = {**begun["q"], **begun["v"]}
+    numbers = {name: x for name, x in inputs.items() if not isinstance(x, str)}
+    parameters = independent_values(mechanism, parameter_values(mechanism, {**run["parameters"], **numbers}))
+    step = run["step"] or mechanism.defaults.step
+    settings = Settings(shape="straight", coordinates=run["coordinates"], parameters=parameters, step=step)
+    prepared = prepare(mechanism, settings, Purpose.STATE)
+    state = {**begun["q"], **begun["v"]}
     names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
     names += [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
-    known = np.array([told[n] for n in names]) if set(names) <= set(told) else None
-    if run.tree is not None:
-        return _live_on_tree(run, run.tree, step, known)
-    return live_part(mechanism, run.compiled, run.start, step, known)
+    begin = np.array([state[n] for n in names]) if set(names) <= set(state) else None
+    if prepared.tree is not None:
+        return _live_on_tree(prepared, prepared.tree, step, begin)
+    return live_part(mechanism, prepared.compiled, prepared.start, step, begin)
 
 
 def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None) -> tuple[Live | None, str]:
@@ -240,44 +219,30 @@ def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None
     """
     first = recorded_file(option, path, mechanism)
     second = None if beside is None else recorded_file(option, beside, mechanism)
-    part, note = _live_of_file(option, path, mechanism) if live else (None, "")
-    return Page(page(first, part, note, second), mechanism.name, part is not None)
+    return page(first, *(_live_of_file(option, path, mechanism) if live else (None, "")), second)
 
 
 def _live_of_file(option: str, path: Path, mechanism: Mechanism) -> tuple[Live | None, str]:
-    """Return the live part of a page of a file: of the mechanism by its name, with what the file says of the run."""
-    run: dict[str, Any] = json.loads(_dataset(option, path).attrs["run"])
-    known = {p.name for p in mechanism.parameters}
-    values = {k: float(v) for k, v in run.get("parameters", {}).items() if k in known and k not in mechanism.inputs}
-    inputs = {k: v for k, v in run.get("inputs", {}).items() if k in mechanism.inputs}
-    begun = run.get("start", {"t": 0.0, "q": {}, "v": {}})
-    # older files tell of events that happened alone
-    watched = [(e["name"], e["action"]) for e in (*run.get("watched", []), *run.get("events", []))]
-    try:
-        mechanism, numbers, why = _as_given(mechanism, values, inputs, run.get("until"))
-        if why:
-            return None, f"{NONE}: {why}"
-        values |= numbers
-        return _live_of(mechanism, values, run.get("coordinates", "absolute"), run.get("step"), begun, watched)
-    except (AssemblyError, InputError) as error:
-        return None, f"{NONE}: {' '.join(str(error).split())}"
-
-
-def _as_given(
-    mechanism: Mechanism, values: Mapping[str, float], inputs: Mapping[str, str | float], until: float | None
-) -> tuple[Mechanism, dict[str, float], str]:
-    """Return a mechanism with formulas in the places of inputs, the numbers of others, and why pages have not these."""
+    """Return the live part of a page of a file: of the mechanism by its name, with the facts of the run in the file."""
     from symgen.running.inputs import put_inputs
     from symgen.settings import Settings
 
-    numbers = {name: float(x) for name, x in inputs.items() if not isinstance(x, str)}
-    formulas = {name: x for name, x in inputs.items() if isinstance(x, str)}
-    if any(are_words_of_data(x) for x in formulas.values()):
-        return mechanism, numbers, "what the run gave its inputs over time is not in the file"
-    if not formulas:
-        return mechanism, numbers, ""
-    found = put_inputs(mechanism, Settings(parameters={**values, **numbers}, inputs=formulas, until=until))
-    return found.mechanism, numbers, JUMPS if _jump(found.mechanism, inputs) else ""
+    run: dict[str, Any] = json.loads(_dataset(option, path).attrs["run"])
+    own = {p.name for p in mechanism.parameters} - set(mechanism.inputs)
+    run["parameters"] = {k: float(v) for k, v in run["parameters"].items() if k in own}
+    run["inputs"] = {k: v for k, v in run["inputs"].items() if k in mechanism.inputs}
+    run["watched"] = [(event["name"], event["action"]) for event in run["watched"]]
+    formulas = {name: x for name, x in run["inputs"].items() if isinstance(x, str)}
+    if any(map(are_words_of_data, formulas.values())):
+        return None, f"{NONE}: what the run gave its inputs over time is not in the file"
+    try:
+        if formulas:
+            numbers = {name: float(x) for name, x in run["inputs"].items() if name not in formulas}
+            settings = Settings(parameters=run["parameters"] | numbers, inputs=formulas, until=run["until"])
+            mechanism = put_inputs(mechanism, settings).mechanism
+        return _live(mechanism, run)
+    except (AssemblyError, InputError) as error:
+        return None, f"{NONE}: {' '.join(str(error).split())}"
 
 
 def mechanism_name(option: str, path: Path) -> str:
@@ -289,10 +254,12 @@ def _dataset(option: str, path: Path) -> xr.Dataset:
     def read(path: Path) -> xr.Dataset:
         import xarray as xr
 
-        found = xr.load_dataset(path, engine="h5netcdf")
-        if not {"q", "energy", "violations", "reactions"} <= set(found.data_vars) or "mechanism" not in found.attrs:
+        dataset = xr.load_dataset(path, engine="h5netcdf")
+        if not {"q", "energy", "violations", "reactions"} <= set(dataset.data_vars) or "mechanism" not in dataset.attrs:
             raise ValueError("it has not the tables of a result")
-        return found
+        if not {"parameters", "inputs", "start", "watched", "until"} <= set(json.loads(dataset.attrs["run"])):
+            raise ValueError("it is of an older version")
+        return dataset
 
     return checked(option, path, read, SAVED[".nc"])
 
@@ -314,12 +281,12 @@ def recorded_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
     tables = {}
     for name in _TABLES:
         of = DIMENSIONS[name]
-        known = [str(n) for n in data[of].values] if of in data.coords else []
-        units = tuple(str(u) for u in data[f"{of}_unit"].values) if known else ()
-        values = np.asarray(data[name].values, dtype=np.float64) if known else np.zeros((data.sizes["time"], 0))
-        tables[name] = Labelled(values, tuple(known), units)
+        columns, units = (
+            tuple(map(str, data[label].values)) if of in data.coords else () for label in (of, f"{of}_unit")
+        )
+        values = np.asarray(data[name].values, dtype=np.float64) if columns else np.zeros((data.sizes["time"], 0))
+        tables[name] = Labelled(values, columns, units)
     run: dict[str, Any] = json.loads(data.attrs["run"])
-    known_values = {p.name for p in mechanism.parameters}
-    given = {k: float(v) for k, v in run.get("parameters", {}).items() if k in known_values}
-    numbers, t, q = parameter_values(mechanism, given), data["time"].values, data["q"].values
-    return _recording(mechanism, numbers, t, q, tables, run)
+    own = {p.name for p in mechanism.parameters}
+    numbers = parameter_values(mechanism, {k: float(v) for k, v in run["parameters"].items() if k in own})
+    return _recording(mechanism, numbers, data["time"].values, data["q"].values, tables, run)

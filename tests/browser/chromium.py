@@ -33,6 +33,14 @@ SWITCHES = (
 #: A page that does not answer within that has failed [s].
 PATIENCE = 60.0
 
+#: A script that takes WebGL from a page.
+WITHOUT_WEBGL = """(() => {
+  const given = HTMLCanvasElement.prototype.getContext;
+  HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+    return kind.startsWith('webgl') ? null : given.call(this, kind, ...rest);
+  };
+})();"""
+
 
 def executable() -> str:
     """Return where the browser is."""
@@ -116,17 +124,22 @@ class Chromium:
                 self.said.append(f"the page asks for {address}")
         return found
 
-    def open(self, path: Path, width: int = 1280, height: int = 800, scale: float = 1.0) -> None:
-        """Open a page from its file and wait until it is there; `said` begins anew."""
+    def open(
+        self, path: Path, width: int = 1280, height: int = 800, scale: float = 1.0, scripts: tuple[str, ...] = ()
+    ) -> None:
+        """Open a page, which finds scripts there, and wait until it is loaded; `said` begins anew."""
         phone = width < 600
         self.call(
             *("Emulation.setDeviceMetricsOverride",), width=width, height=height, deviceScaleFactor=scale, mobile=phone
         )
         self.said = []
+        added = [self.call("Page.addScriptToEvaluateOnNewDocument", source=s)["identifier"] for s in scripts]
         self.call("Page.navigate", url=path.resolve().as_uri())
         ends = time.monotonic() + PATIENCE
         while self.run("document.readyState") != "complete":
             assert time.monotonic() < ends, f"{path.name} does not load"
+        for identifier in added:
+            self.call("Page.removeScriptToEvaluateOnNewDocument", identifier=identifier)
 
     def run(self, text: str) -> Any:
         """Return what an expression of the page is; promises are waited for."""

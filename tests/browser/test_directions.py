@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +11,7 @@ import pytest
 from symgen.describe.builder import MechanismBuilder
 from symgen.player.motion_page import page
 from symgen.player.recording import Recording
-from tests.browser.chromium import Chromium
+from tests.browser.chromium import WITHOUT_WEBGL, Chromium
 
 pytestmark = pytest.mark.browser
 
@@ -31,26 +30,6 @@ HEARD = """(() => {
     return stroke.call(this);
   };
 })();"""
-WITHOUT = """(() => {
-  const given = HTMLCanvasElement.prototype.getContext;
-  HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
-    return kind.startsWith('webgl') ? null : given.call(this, kind, ...rest);
-  };
-})();"""
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Chromium]:
-    with Chromium() as browser:
-        yield browser
-
-
-def opened(chromium: Chromium, path: Path, *scripts: str) -> None:
-    """Open a page that finds scripts of the test already there."""
-    made = [chromium.call("Page.addScriptToEvaluateOnNewDocument", source=s)["identifier"] for s in scripts]
-    chromium.open(path)
-    for each in made:
-        chromium.call("Page.removeScriptToEvaluateOnNewDocument", identifier=each)
 
 
 def heard(chromium: Chromium, k: int) -> np.ndarray:
@@ -71,8 +50,8 @@ def test_forces_in_the_plane(frame: str, chromium: Chromium, tmp_path: Path) -> 
     builder.force("f", "force", body="a", at="tip", force=(3.0, -4.0), frame=frame)
     q = np.array([[0.0, 0.0, angle] for angle in ANGLES])
     path = tmp_path / "arm.html"
-    path.write_text(page(Recording(builder.build(), {}, np.arange(4.0), q)))
-    opened(chromium, path, HEARD)
+    page(Recording(builder.build(), {}, np.arange(4.0), q)).save(path)
+    chromium.open(path, scripts=(HEARD,))
     for k, angle in enumerate(ANGLES):
         c, s = (1.0, 0.0) if frame == "ground" else (math.cos(angle), math.sin(angle))
         # points of the body stand on the page's grid of a two-hundredth of a symbol
@@ -87,13 +66,15 @@ def space(tmp_path: Path, kind: str, **keys: object) -> Path:
     builder.force("f", kind, body="a", **keys)
     q = np.array([[0.0, 0.0, 0.0, math.cos(angle / 2), math.sin(angle / 2), 0.0, 0.0] for angle in ANGLES])
     path = tmp_path / "space.html"
-    path.write_text(page(Recording(builder.build(), {}, np.arange(4.0), q)))
+    page(Recording(builder.build(), {}, np.arange(4.0), q)).save(path)
     return path
 
 
 @pytest.mark.parametrize("frame", ["ground", "body"])
 def test_forces_in_space_without_webgl(frame: str, chromium: Chromium, tmp_path: Path) -> None:
-    opened(chromium, space(tmp_path, "force", at="tip", force=(0.0, 3.0, 4.0), frame=frame), HEARD, WITHOUT)
+    chromium.open(
+        space(tmp_path, "force", at="tip", force=(0.0, 3.0, 4.0), frame=frame), scripts=(HEARD, WITHOUT_WEBGL)
+    )
     chromium.run("window.symgen.look(0, 0, [0, 0, 0])")  # to the right is y, upwards z
     for k, angle in enumerate(ANGLES):
         c, s = (1.0, 0.0) if frame == "ground" else (math.cos(angle), math.sin(angle))
@@ -141,7 +122,7 @@ def test_forces_in_space_by_webgl(frame: str, chromium: Chromium, tmp_path: Path
 
 def test_a_torque_about_an_axis_of_the_ground(chromium: Chromium, tmp_path: Path) -> None:
     """About z, seen from aside, while the body turns about x: a flat line in every position."""
-    opened(chromium, space(tmp_path, "torque", torque=(0.0, 0.0, 2.0)), HEARD, WITHOUT)
+    chromium.open(space(tmp_path, "torque", torque=(0.0, 0.0, 2.0)), scripts=(HEARD, WITHOUT_WEBGL))
     chromium.run("window.symgen.look(0, 0, [0, 0, 0])")
     for k in range(len(ANGLES)):
         wide, tall = np.ptp(heard(chromium, k), axis=0)

@@ -10,12 +10,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.emitted import mechanism_of
+from support.random_closed import make
 
 from symgen import catalogue
 from symgen.api import Model, load
 from symgen.describe.builder import MechanismBuilder
 from symgen.native.javascript import HELPERS
-from tests.browser.chromium import Chromium
+from symgen.player.live import live_part
+from symgen.player.motion_page import page
+from symgen.player.recording import Recording
+from tests.browser.chromium import WITHOUT_WEBGL, Chromium
 from tests.browser.uncontracted import Uncontracted, prepared
 
 pytestmark = pytest.mark.browser
@@ -23,12 +28,6 @@ pytestmark = pytest.mark.browser
 NAMES = [e.name for e in (*catalogue.entries(), *catalogue.entries(catalogue.MACHINES))]
 #: Where pictures and figures of a run of these tests are kept; nowhere unless it is set.
 KEPT = os.environ.get("SYMGEN_BROWSER_PICTURES")
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Chromium]:
-    with Chromium() as browser:
-        yield browser
 
 
 @pytest.fixture(scope="module")
@@ -97,13 +96,7 @@ def test_without_webgl_a_canvas_draws_what_is_in_space(
     chromium: Chromium, pages: dict[str, Path], tmp_path: Path
 ) -> None:
     path = page_of("flyball-governor", pages, tmp_path)
-    without = """const given = HTMLCanvasElement.prototype.getContext;
-      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
-        return kind.startsWith('webgl') ? null : given.call(this, kind, ...rest);
-      };"""
-    script = chromium.call("Page.addScriptToEvaluateOnNewDocument", source=without)["identifier"]
-    chromium.open(path)
-    chromium.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
+    chromium.open(path, scripts=(WITHOUT_WEBGL,))
     chromium.frame()
     assert chromium.run("document.getElementById('solid').hidden")
     assert colours(chromium) > 5
@@ -127,9 +120,6 @@ def test_near_bars_hide_far_ones_from_either_side(
     tmp_path: Path,
 ) -> None:
     """Two bars that cross, seen from either side: the colour in the middle is that of the nearer one."""
-    from symgen.player.motion_page import page
-    from symgen.player.recording import Recording
-
     crossed = MechanismBuilder("crossed", space="spatial", gravity=(0.0, 0.0, 0.0))
     for name, reach in (("a", (1.0, 0.0, 0.0)), ("b", along)):
         ends = {"p": tuple(-x for x in reach), "q": reach}
@@ -138,7 +128,7 @@ def test_near_bars_hide_far_ones_from_either_side(
     aside, upright = np.array([0.3, 0.0, 0.0]), [1.0, 0.0, 0.0, 0.0]
     q = np.array([[*(aside + apart), *upright, *(0.4 * np.array(along) - apart), *upright]])
     path = tmp_path / "crossed.html"
-    path.write_text(page(Recording(crossed.build(), {}, np.zeros(1), q)))
+    page(Recording(crossed.build(), {}, np.zeros(1), q)).save(path)
     chromium.open(path)
     middle = """(() => {
       window.symgen.look(%r, %r, [0, 0, 0]);
@@ -188,10 +178,6 @@ def test_rates_are_those_of_the_compiled_code(
     may change rates by as much as the last bit of every coordinate does. Machine code for this processor fuses
     multiplication and addition: four times of what that alone changes is allowed beside it.
     """
-    from symgen.player.live import live_part
-    from symgen.player.motion_page import page
-    from symgen.player.recording import Recording
-
     mechanism = load(name).mechanism
     compiled, start, q = prepared(name, coordinates)
     live, why = live_part(mechanism, compiled, start, 1e-3)
@@ -200,7 +186,7 @@ def test_rates_are_those_of_the_compiled_code(
         return
     recording = Recording(mechanism, load(name).parameters(), np.zeros(1), q[None, :])
     path = tmp_path / "page.html"
-    path.write_text(page(recording, live, why))
+    page(recording, live, why).save(path)
     random, info = np.random.default_rng(7), compiled.info
     states, fused, w = [], [], start.w.copy()
     pivots = range(info.sections["pivot"][0], info.sections["pivot"][0] + info.m)
@@ -350,9 +336,6 @@ def test_frames_with_200_bodies(chromium: Chromium, tmp_path: Path) -> None:
         before = ("ground", f"b{i}") if i == 0 else (f"b{i - 1}", f"b{i}")
         chain.joint(f"j{i}", "revolute", between=before, at=((0.0, 0.0), "a") if i == 0 else ("b", "a"))
     mechanism = chain.build()
-    from symgen.player.motion_page import page
-    from symgen.player.recording import Recording
-
     t = np.linspace(0.0, 10.0, 200)
     q = np.zeros((200, 600))
     for k, time in enumerate(t):
@@ -362,7 +345,7 @@ def test_frames_with_200_bodies(chromium: Chromium, tmp_path: Path) -> None:
             q[k, 3 * i : 3 * i + 3] = x + 0.5 * math.cos(angle), y + 0.5 * math.sin(angle), angle
             x, y = x + math.cos(angle), y + math.sin(angle)
     path = tmp_path / "long.html"
-    path.write_text(page(Recording(mechanism, {}, t, q)))
+    page(Recording(mechanism, {}, t, q)).save(path)
     chromium.open(path)
     chromium.call("Performance.enable", timeDomain="threadTicks")
     found = []
@@ -393,50 +376,9 @@ def test_names_of_a_file_stay_text(chromium: Chromium, tmp_path: Path) -> None:
     assert chromium.said == []
 
 
-def random_mechanism(seed: int) -> Model:
-    """Return an open chain in space of random joints and bodies, with springs between some of them."""
-    random = np.random.default_rng(seed)
-    builder = MechanismBuilder(f"random-{seed}", space="spatial", gravity=(0.0, 0.0, -9.81)).run(until=1.0, step=1e-3)
-    count = int(random.integers(2, 6))
-    for i in range(count):
-        length = float(random.uniform(0.3, 1.2))
-        at = tuple(random.uniform(-1.0, 1.0, 3).tolist())
-        builder.body(
-            f"b{i}",
-            mass=1.0,
-            inertia=(0.02, 0.1, 0.1),
-            points={"a": (-length / 2, 0.0, 0.0), "b": (length / 2, 0.0, 0.0)},
-            position=at,
-            orientation={"rotation_vector": tuple(random.uniform(-1.0, 1.0, 3).tolist())},
-        )
-        kind = ["spherical", "revolute", "universal", "cylindrical"][int(random.integers(4))]
-        keys: dict[str, object] = {}
-        axis = tuple(random.standard_normal(3).tolist())
-        if kind in ("revolute", "cylindrical"):
-            keys["axis"] = axis
-        elif kind == "universal":
-            keys["axes"] = (axis, tuple(np.cross(axis, random.standard_normal(3)).tolist()))
-        before = "ground" if i == 0 else f"b{i - 1}"
-        try:
-            builder.joint(
-                f"j{i}", kind, between=(before, f"b{i}"), at=((0.0, 0.0, 0.0) if i == 0 else "b", "a"), **keys
-            )
-            builder.build()
-        except Exception:
-            builder._raw["joints"][f"j{i}"] = {
-                "type": "spherical",
-                "between": [before, f"b{i}"],
-                "at": [[0.0, 0.0, 0.0] if i == 0 else "b", "a"],
-            }
-    builder.force(
-        "pull", "spring-damper", between=("ground", f"b{count - 1}"), at=((0.0, 0.0, 1.0), "b"), stiffness=5.0
-    )
-    return Model(builder.build())
-
-
 @pytest.mark.parametrize("seed", range(6))
 def test_random_mechanisms_in_space(seed: int, chromium: Chromium, tmp_path: Path) -> None:
-    result = random_mechanism(seed).simulate(until=0.5)
+    result = Model(mechanism_of(make(seed, "spatial"))).simulate(until=0.5, step=1e-3)
     path = result.view().save(tmp_path / "page.html")
     assert len(path.read_bytes()) <= 500_000
     for width in (1280, 390):

@@ -8,19 +8,7 @@ import pytest
 
 import symgen
 from symgen.analyses.kinds import ANALYSES
-from symgen.cli import COMMANDS, main
-
-
-@pytest.fixture
-def cli(capsys):
-    """Run the command line; return exit code, standard output and standard error."""
-
-    def run(*arguments):
-        code = main([str(a) for a in arguments])
-        captured = capsys.readouterr()
-        return code, captured.out, captured.err
-
-    return run
+from symgen.cli import COMMANDS
 
 
 def test_help_names_every_command(cli):
@@ -252,62 +240,6 @@ def test_a_study_in_which_everything_failed_exits_1(cli):
 
 
 # -- what is wrong -----------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("words", "sentence"),
-    [
-        ("rnu four-bar", "there is no command 'rnu'; did you mean 'run'?"),
-        ("run", "missing argument 'MODEL'"),
-        ("run four-bra", "model: expected a catalogue name or the path of a file, got 'four-bra'; did you mean"),
-        ("run nowhere/four-bar.toml", "which is no file"),
-        ("run four-bar --stpe 1e-3", "there is no option '--stpe'; did you mean '--step'?"),
-        ("run four-bar --step abc", "'abc' is not a valid float"),
-        ("run four-bar --step nan", "--step: expected a finite number above 0, got nan"),
-        ("run four-bar --step=-1e-3", "--step: expected a finite number above 0, got -0.001"),
-        ("run four-bar --until inf", "--until: expected a finite number above 0, got inf"),
-        ("run four-bar --rtol 0", "--rtol: expected a finite number above 0, got 0"),
-        ("run four-bar --output-step nan", "--output-step: expected a finite number above 0, got nan"),
-        ("run four-bar --until 1e12", "at most 2e9 steps"),
-        ("run four-bar --method direct-correctoin", "did you mean 'direct-correction'?"),
-        ("run four-bar --integrator rk5", "did you mean 'rk4'?"),
-        ("run four-bar --set crank_mass", "--set: expected NAME=VALUE, got 'crank_mass'"),
-        ("run four-bar --set crank_mass=x", "--set crank_mass: expected a finite number, got 'x'"),
-        ("run four-bar --set crank_mass=nan", "--set crank_mass: expected a finite number, got 'nan'"),
-        ("run four-bar --set crankmass=1", "did you mean 'crank_mass'?"),
-        ("run four-bar --set crank_mass=0", "mass or inertia of crank: expected a value above 0, got 0"),
-        ("run four-bar --option method.wieght=mass", "did you mean 'weight'?"),
-        ("run four-bar --option method.weight=length", "expected one of identity, mass, body, got 'length'"),
-        ("run four-bar --option lagrange.alpha=1", "expected method.NAME or integrator.NAME"),
-        ("run four-bar --save run.xls", "--save: expected a file ending in .nc, .parquet, .csv, got 'run.xls'"),
-        ("run four-bar --plot run.jpg", "--plot: expected a file ending in .png, .svg, .pdf, got 'run.jpg'"),
-        ("run four-bar --save nowhere/run.csv", "--save: expected a file in a folder that exists"),
-        ("kinematics driven-four-bar --save k.nc", "--save: expected a file ending in .csv, .parquet, got 'k.nc'"),
-        ("inverse driven-four-bar --save k.nc", "--save: expected a file ending in .csv, .parquet, got 'k.nc'"),
-        ("compare pendulum --csv rows.txt", "--csv: expected a file ending in .csv, got 'rows.txt'"),
-        ("inspect pendulum --option mass.weight=mass", "expected direct-correction.NAME, method.NAME or NAME"),
-        ("inspect pendulum --method baumgarte --option alpha=2", "got 'alpha', a number that runs are given; known:"),
-        ("run four-bar --repeat 0", "repeat: expected a whole number from 1 to 1000, got 0"),
-        ("run four-bar --verify=1", "does not take a value"),
-        ("compare four-bar --steps 1e-3,x", "--steps: expected finite numbers above 0, separated by commas, got 'x'"),
-        ("compare four-bar --methods lagrange,,", "--methods: expected words separated by commas"),
-        ("compare four-bar --methods lagrang", "did you mean 'lagrange'?"),
-        ("compare four-bar --reference scipy-rado", "did you mean 'scipy-radau'?"),
-        ("compare four-bar --csv nowhere/rows.csv", "--csv: expected a file in a folder that exists"),
-        ("inspect four-bar --format pdf", "'pdf' is not one of"),
-        ("cache inof", "no such command 'inof'"),
-        ("new Crane", "expected lower-case words joined by dashes"),
-        ("completion csh", "'csh' is not one of"),
-    ],
-)
-def test_bad_input_gets_one_sentence_exit_code_2_and_no_file(cli, tmp_path, monkeypatch, words, sentence):
-    monkeypatch.chdir(tmp_path)
-    code, out, err = cli(*words.split())
-    assert code == 2
-    assert out == ""
-    assert sentence in err
-    assert err.startswith("symgen: ") and err.count("\n") == 1
-    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("name", ['x"]; import os', "__import__('os')", "lambda: 0", "a.__class__", "../../etc/passwd"])

@@ -11,24 +11,11 @@ from pathlib import Path
 import pytest
 
 from symgen.api import load
-from symgen.cli import main
 from symgen.errors import SimulationError
 from symgen.study.comparison import compare as module
 from symgen.study.journal import Journal
 
 SMALL = ("--methods", "lagrange,direct-correction", "--integrators", "rk4", "--steps", "0.02,0.01", "--until", "0.5")
-
-
-@pytest.fixture
-def cli(capsys):
-    """Run the command line; return exit code, standard output and standard error."""
-
-    def run(*arguments):
-        code = main([str(a) for a in arguments])
-        captured = capsys.readouterr()
-        return code, captured.out, captured.err
-
-    return run
 
 
 @pytest.mark.parametrize("ending", ["html", pytest.param("md", marks=pytest.mark.slow)])
@@ -53,28 +40,6 @@ def test_json_stays_alone_on_standard_output(cli, tmp_path):
     found = json.loads(out)
     assert code == 0 and len(found["rows"]) == 2
     assert all(row["cost_ratio"] is not None and row["acceleration_violation_rms"] >= 0.0 for row in found["rows"])
-
-
-@pytest.mark.parametrize(
-    ("words", "sentence"),
-    [
-        ("-o report.pdf", "--output: expected a file ending in .html, .md, got 'report.pdf'"),
-        ("-o nowhere/report.html", "--output: expected a file in a folder that exists"),
-        ("--resume nowhere/rows.journal", "expected a file in a folder that exists"),
-        ("--jobs 0", "--jobs: expected a whole number from 1 to 4096, got 0"),
-        ("--reference scipy-bfd", "did you mean 'scipy-bdf'?"),
-        ("--output", "requires an argument"),
-        ("--integrators nope", "expected an integrator, got 'nope'"),
-        ("--methods ggl --integrators rk4", "one that solves a form of ggl"),
-        ("--rtols 1e-6,-1", "--rtols: expected finite numbers above 0, separated by commas, got '-1'"),
-    ],
-)
-def test_bad_input_gets_one_sentence_and_no_file(cli, tmp_path, monkeypatch, words, sentence):
-    monkeypatch.chdir(tmp_path)
-    code, out, err = cli("compare", "pendulum", *words.split())
-    assert (code, out) == (2, "")
-    assert sentence in err and err.startswith("symgen: ") and err.count("\n") == 1
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_file_that_is_no_journal_is_refused_and_left_alone(cli, tmp_path):

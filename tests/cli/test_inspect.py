@@ -15,8 +15,7 @@ from symgen.cli import main
 from symgen.describe.validate import validate
 from symgen.formulate.formulate import formulate
 from symgen.reading.boxes import latex, name
-from symgen.reading.interpolated import functions
-from symgen.reading.quantity_names import input_names
+from symgen.reading.quantity_names import functions, input_names
 from symgen.reading.symbolic import number
 from symgen.reading.typeset import texts
 

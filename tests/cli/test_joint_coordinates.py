@@ -4,21 +4,7 @@ import json
 
 import pytest
 
-from symgen.cli import main
-
 QUICK = ("--methods", "lagrange", "--integrators", "rk4", "--steps", "0.01", "--until", "0.1", "--repeat", "1")
-
-
-@pytest.fixture
-def cli(capsys):
-    """Run the command line; return exit code, standard output and standard error."""
-
-    def run(*arguments):
-        code = main([str(a) for a in arguments])
-        captured = capsys.readouterr()
-        return code, captured.out, captured.err
-
-    return run
 
 
 def facts(cli, *words):
@@ -76,20 +62,3 @@ def test_code_for_a_tree(cli, tmp_path):
     assert "3 coordinates, 3 velocities, 2 constraint rows" in model and "def bodies(" in model
     about = json.loads((tmp_path / "model.json").read_text(encoding="utf-8"))
     assert about["methods"]["direct_correction"]["options"]["weight"] == "mass"
-
-
-REFUSED = {
-    "run four-bar --coordinates joint --shape looped": "absolute ones for code that is not straight",
-    "run four-bar --coordinates joints": "expected one of absolute, joint, auto, got 'joints'; did you mean 'joint'?",
-    "generate four-bar --coordinates joint --target cuda": "loops, lanes and CUDA have no joint coordinates",
-    "compare four-bar --coordinates absolute,relative": "expected one of absolute, joint, auto, got 'relative'",
-}
-
-
-@pytest.mark.parametrize("words", REFUSED)
-def test_refusals(cli, tmp_path, monkeypatch, words):
-    monkeypatch.chdir(tmp_path)
-    code, out, err = cli(*words.split())
-    assert (code, out) == (2, "") and err.count("\n") == 1
-    assert REFUSED[words] in err, err
-    assert list(tmp_path.iterdir()) == []

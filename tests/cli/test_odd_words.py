@@ -5,79 +5,16 @@ import math
 import pytest
 
 import symgen
-from symgen.cli import main
 from symgen.errors import InputError
-
-ROD = """[mechanism]
-name = "rod"
-[run]
-until = 0.02
-step = 1e-2
-[bodies.bar]
-mass = 2.0
-inertia = 0.1
-position = [1.0, 0.0]
-[joints.pin]
-type = "revolute"
-between = ["ground", "bar"]
-at = [[0.0, 0.0], [-1.0, 0.0]]
-"""
+from tests.cli.test_refusals import ROD
 
 
 @pytest.fixture
-def said(capsys, tmp_path, monkeypatch):
-    """Return a function: words -> exit code, standard output, standard error; in a folder with a mechanism."""
+def said(cli, tmp_path, monkeypatch):
+    """The command line, in a folder with a mechanism."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "rod.toml").write_text(ROD, encoding="utf-8")
-
-    def run(*words):
-        code = main(list(words))
-        captured = capsys.readouterr()
-        return code, captured.out, captured.err
-
-    return run
-
-
-@pytest.mark.parametrize(
-    ("words", "sentence"),
-    [
-        # one option by two names
-        (
-            "run rod.toml --method baumgarte --option method.alpha=5 --option baumgarte.alpha=6",
-            "option baumgarte.alpha: expected each option once",
-        ),
-        ("inspect rod.toml --option weight=mass --option method.weight=body", "expected each option once"),
-        (
-            "generate rod.toml --method ggl --option method.solver=dense --option ggl.solver=augmented",
-            "--option ggl.solver: expected each option once",
-        ),
-        ("inspect rod.toml --json --format latex", "--json: expected the same as --format json, got --format latex"),
-        # pictures and pages
-        ("draw rod.toml --at described --start bar.theta=1", "start: expected a picture of the start"),
-        ("view rod.toml --live -o rod.gif", "--live: expected a page of a run, which alone has equations in it"),
-        ("view rod.toml --live --mode 1", "--live: expected a page of a run"),
-        ("view RUN.NC", "view: expected a file of a result, got 'RUN.NC', which is none"),
-        # one file for two things
-        ("compare rod.toml --csv a.csv --resume ./a.csv", "--csv: expected another file than --resume has"),
-        ("stress rod.toml -o a.html --journal a.html", "--output: expected another file than --resume has"),
-        ("kinematics rod.toml --plot a.svg --curves a.svg", "--curves: expected another file than --plot has"),
-        # recorded motions
-        ("inverse rod.toml --from a.nc --start bar.theta=1", "--start: expected settings of a recorded motion"),
-        ("inverse rod.toml --from a.nc --strict", "--strict: expected settings of a recorded motion"),
-        (
-            "inverse rod.toml --quantity power",
-            "--quantity: expected --save or --plot, where quantities go, got neither",
-        ),
-        ("schema --json", "there is no option '--json' (symgen schema --help)"),
-        ("stress rod.toml --input u=sin(t)", "there is no option '--input'; 'symgen run' has it (symgen stress"),
-        ("compare rod.toml --input u=sin(t)", "here an input is a number, which --set NAME=VALUE gives (symgen comp"),
-        ("compare rod.toml --stop-when t>1", "there is no option '--stop-when'; 'symgen run' has it (symgen comp"),
-    ],
-)
-def test_what_contradicts_or_counts_for_nothing_is_refused(said, tmp_path, words, sentence):
-    code, out, err = said(*words.split())
-    assert code == 2 and out == "" and err.count("\n") == 1 and sentence in err
-    assert [p.name for p in tmp_path.iterdir()] == ["rod.toml"]
+    return cli
 
 
 @pytest.mark.parametrize(

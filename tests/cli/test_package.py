@@ -138,20 +138,36 @@ def test_a_package_says_what_runs_do_besides(tmp_path):
     assert "`symgen run` also" in page and page.endswith("Events of the mechanism: `floor` changes velocities.\n")
 
 
-@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-def test_motions_that_jump_have_no_package_that_runs(coordinates, tmp_path):
-    """On a tree what is prescribed is set, and corrections follow it: both went on behind the jump without a word."""
-    path = tmp_path / "flip.toml"
-    path.write_text(
-        '[mechanism]\nname = "flip"\n[run]\nuntil = 1.0\n[bodies.a]\nmass = 1.0\ninertia = 0.1\n'
-        '[joints.j]\ntype = "revolute"\nbetween = ["ground", "a"]\nat = [[0, 0], [0, 0]]\n'
-        '[joints.motor]\ntype = "driver"\njoint = "j"\nvalue = "0.3 if t > 0.5 else 0"\n'
-    )
-    arguments = ["--method", "direct-correction", "--coordinates", coordinates]
-    assert main(["generate", str(path), "-o", str(tmp_path / "emitted"), *arguments]) == 0
-    assert not (tmp_path / "emitted" / "simulate.py").exists()
-    said = (tmp_path / "emitted" / "README.md").read_text()
-    assert "There is no `simulate.py`: " in said and "jumps by 0.3 rad at t = 0.5 s" in said
+PIN = 'type = "revolute"\nbetween = ["ground", "a"]\nat = [{}, {}]\n'
+FLIP = (
+    '[mechanism]\nname = "flip"\n[run]\nuntil = 1.0\n[bodies.a]\nmass = 1.0\ninertia = 0.1\n'
+    f"[joints.j]\n{PIN.format('[0, 0]', '[0, 0]')}"
+    '[joints.motor]\ntype = "driver"\njoint = "j"\nvalue = "0.3 if t > 0.5 else 0"\n'
+)
+OPEN = (
+    '[mechanism]\nname = "open"\ntitle = "a \\"\\"\\" title"\ngravity = [0, -9.81]\n'
+    "[bodies.a]\nmass = 1.0\ninertia = 1.0\npoints = { P = [0.5, 0.0], Q = [-0.5, 0.0] }\n"
+    f"""[joints.j]\n{PIN.format("[0, 0]", '"P"')}[joints.k]\n{PIN.format("[9, 0]", '"Q"')}"""
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "arguments", "why"),
+    [
+        # on a tree what is prescribed is set, and corrections follow it: both would go on behind the jump
+        (FLIP, ["--coordinates", "absolute"], "jumps by 0.3 rad at t = 0.5 s"),
+        (FLIP, ["--coordinates", "joint"], "jumps by 0.3 rad at t = 0.5 s"),
+        (OPEN, ["--method", "lagrange"], "cannot be assembled"),
+        ("", ["--method", "ggl"], "no method here is for explicit integrators"),
+    ],
+)
+def test_what_cannot_be_run_has_code_and_a_reason(text, arguments, why, tmp_path):
+    (tmp_path / "model.toml").write_text(text)
+    folder, model = tmp_path / "emitted", str(tmp_path / "model.toml") if text else "pendulum"
+    assert main(["generate", model, "-o", str(folder), *arguments]) == 0
+    assert not (folder / "simulate.py").exists()
+    assert re.search(rf"There is no `simulate\.py`: [^\n]*{re.escape(why)}", (folder / "README.md").read_text())
+    assert "run" not in json.loads((folder / "model.json").read_text())
 
 
 def test_a_package_on_a_tree_has_the_state_of_its_start(alone, tmp_path):
@@ -167,21 +183,6 @@ def test_a_package_on_a_tree_has_the_state_of_its_start(alone, tmp_path):
         '[outputs]\ngiven = "integral(motor.power)"\n'
     )
     assert list(agrees(str(path), alone, tmp_path, "joint")) == ["t", "b.theta", "b.omega", "work"]
-
-
-def test_what_does_not_close_is_generated_without_a_start(tmp_path):
-    path = tmp_path / "open.toml"
-    path.write_text(
-        '[mechanism]\nname = "open"\ntitle = "a \\"\\"\\" title"\ngravity = [0, -9.81]\n'
-        "[bodies.a]\nmass = 1.0\ninertia = 1.0\npoints = { P = [0.5, 0.0], Q = [-0.5, 0.0] }\n"
-        '[joints.j]\ntype = "revolute"\nbetween = ["ground", "a"]\nat = [[0, 0], "P"]\n'
-        '[joints.k]\ntype = "revolute"\nbetween = ["ground", "a"]\nat = [[9, 0], "Q"]\n'
-    )
-    folder = tmp_path / "emitted"
-    assert main(["generate", str(path), "--method", "lagrange", "-o", str(folder)]) == 0
-    assert not (folder / "simulate.py").exists()
-    assert "There is no `simulate.py`" in (folder / "README.md").read_text()
-    assert "run" not in json.loads((folder / "model.json").read_text())
 
 
 def three_rods(path, link):
@@ -257,12 +258,6 @@ def test_files_of_other_people_stay_as_they_are(tmp_path):
     assert (folder / "simulate.py").exists()
     assert main(["generate", "pendulum", "--target", "cuda", "-o", str(folder)]) == 0
     assert not (folder / "simulate.py").exists(), "it reads what is no longer in model.json"
-
-
-def test_methods_for_implicit_integrators_alone_have_nothing_to_simulate(tmp_path):
-    folder = tmp_path / "emitted"
-    assert main(["generate", "pendulum", "--method", "ggl", "-o", str(folder)]) == 0
-    assert "no method here is for explicit integrators" in (folder / "README.md").read_text()
 
 
 @pytest.mark.slow

@@ -49,21 +49,6 @@ def test_running_a_generated_model_imports_no_heavy_library():
     assert modules == {"numpy", "llvmlite", "msgspec"}
 
 
-def test_check_of_a_generated_model_derives_nothing():
-    assert symgen(["check", "four-bar"]).returncode == 0
-    assert not imported("check", "four-bar")[2] & {"sympy", "jinja2", "rich", "pandas", "matplotlib"}
-
-
-def test_list_needs_neither_numpy_nor_sympy():
-    assert not imported("list", "--json")[2] & {"numpy", "sympy", "numba", "rich"}
-
-
-def test_importing_symgen_imports_nothing_heavy():
-    script = f"import symgen, sys, json; dir(symgen); print(json.dumps([m for m in {HEAVY!r} if m in sys.modules]))"
-    found = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=600)
-    assert json.loads(found.stdout) == []
-
-
 # -- interruption ------------------------------------------------------------------------------------------------------
 
 

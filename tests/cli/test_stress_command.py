@@ -5,21 +5,10 @@ import json
 
 import pytest
 
-from symgen.cli import main
 from symgen.study.stress import study as module
 from symgen.study.stress.stress_rows import Stress, StressRow
 
 FEW = ("stress", "pendulum", "--cases", "gravity", "--methods", "lagrange,auto", "--quick", "--jobs", "1")
-
-
-@pytest.fixture
-def cli(capsys):
-    def run(*arguments):
-        code = main([str(a) for a in arguments])
-        captured = capsys.readouterr()
-        return code, captured.out, captured.err
-
-    return run
 
 
 def test_tables_json_csv_and_reports(cli, tmp_path):
@@ -75,30 +64,6 @@ def test_an_interrupted_study_shows_what_is_done(cli, monkeypatch, tmp_path, fur
     assert code == 130 and json.loads(out)["interrupted"]
     assert f"interrupted; the cells that were done are shown; {says}" in err
     assert "This study was interrupted" in (tmp_path / "stress.html").read_text()
-
-
-@pytest.mark.parametrize(
-    ("words", "sentence"),
-    [
-        ("stress five-bar", "model: expected a catalogue name or the path of a file, got 'five-bar'"),
-        ("stress --cases stifness", "got 'stifness'; did you mean 'stiffness'?"),
-        ("stress --cases stiffness,,", "--cases: expected words separated by commas"),
-        ("stress --methods lagrang", "did you mean 'lagrange'?"),
-        ("stress --jobs 0", "--jobs: expected a whole number from 1 to 4096, got 0"),
-        ("stress --csv nowhere/cells.csv", "--csv: expected a file in a folder that exists"),
-        ("stress --csv cells.txt", "--csv: expected a file ending in .csv, got 'cells.txt'"),
-        ("stress -o stress.pdf", "--output: expected"),
-        ("stress --resume nowhere/journal", "expected a file in a folder that exists"),
-        ("stress --resume README.md", "expected a journal of symgen, got something else in line 1"),
-    ],
-)
-def test_bad_input(cli, monkeypatch, tmp_path, words, sentence):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "README.md").write_text("# words\n")
-    code, out, err = cli(*words.split())
-    assert code == 2 and out == "" and sentence in err
-    assert err.startswith("symgen: ") and err.count("\n") == 1
-    assert [path.name for path in tmp_path.iterdir()] == ["README.md"]
 
 
 def test_the_whole_catalogue_and_a_time_of_compilation(cli, monkeypatch):

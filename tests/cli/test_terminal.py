@@ -14,7 +14,7 @@ import pytest
 from rich.console import Console
 
 from symgen.api import load
-from symgen.cli import COMMANDS, _columns, _tables, group, main
+from symgen.cli import COMMANDS, _tables, group, main
 from symgen.cli import list as list_command
 from symgen.study.comparison.comparison_rows import Row, Study
 
@@ -78,14 +78,16 @@ def test_names_of_the_list_are_whole(narrow: None, capsys: pytest.CaptureFixture
     assert list_command.WIDE > 80
 
 
-def test_columns_go_by_importance_or_into_parts() -> None:
-    columns = [_columns.TableColumn(f"c{k}", ("x" * 20,), weight=k) for k in range(5)]
-    assert [c.heading for c in _columns.fitting(columns, 70)] == ["c0", "c3", "c4"]
-    assert [[c.heading for c in part] for part in _columns.in_parts(columns, 70)] == [
-        ["c0", "c1", "c2"],
-        ["c0", "c3", "c4"],
-    ]
-    assert _columns.room(columns) == 108
+@pytest.mark.parametrize("in_parts", [True, False])
+def test_a_wide_table_comes_in_parts_or_names_what_is_left_out(
+    in_parts: bool, narrow: None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    headings, cells = [f"c{k}" for k in range(5)], ["x" * 20] * 5
+    _tables.show_rows(_tables.console(), headings, [cells], in_parts=in_parts)
+    text = capsys.readouterr().out
+    shown = [line.split() for line in text.splitlines() if line.lstrip().startswith("c")]
+    assert shown == ([["c0", "c1", "c2"], ["c0", "c3", "c4"]] if in_parts else [["c0", "c1", "c2"]])
+    assert ("left out for want of room: c3, c4" in text) != in_parts
 
 
 def commands(command: click.Command, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], click.Command]]:

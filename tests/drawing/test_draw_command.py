@@ -102,21 +102,6 @@ def test_check_draws_on_request(tmp_path: Path, capsys: pytest.CaptureFixture[st
     capsys.readouterr()
 
 
-@pytest.mark.parametrize(
-    ("words", "told"),
-    [
-        (["-o", "x.gif"], "ends in .svg"),
-        (["-o", "no/x.svg"], "folder that exists"),
-        (["--at", "yesterday"], "start, described or a time"),
-        (["--at", "-1"], "start, described or a time"),
-        (["--view", "1"], "two angles"),
-    ],
-)
-def test_wrong_words_are_refused(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["draw", "pendulum", *words]) == 2
-    assert told in capsys.readouterr().err
-
-
 def test_at_a_time_it_is_where_the_run_is(tmp_path: Path) -> None:
     model = load("pendulum")
     result = model.simulate(until=0.3, times=(0.0, 0.3), step=1e-3)

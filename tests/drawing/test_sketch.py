@@ -13,7 +13,7 @@ from symgen import catalogue
 from symgen.api import load
 from symgen.describe.validate import validate
 from symgen.drawing import build_scene, sketch
-from symgen.drawing.outline import hull
+from symgen.drawing.body_parts import hull
 from symgen.drawing.paper import Circle, on_paper
 from symgen.drawing.scene import Disc
 from symgen.errors import InputError
@@ -79,9 +79,9 @@ def test_a_turned_body_in_space_is_where_its_rotation_says() -> None:
     mechanism = load("heavy-top").mechanism
     turn = 2.0
     q = np.array([0.1, -0.2, 0.3, math.cos(turn / 2), math.sin(turn / 2), 0.0, 0.0])
-    from symgen.drawing.scene import Poses, frames_of
+    from symgen.drawing.scene import Poses
 
-    found = Poses(frames_of(mechanism), 3.0 * np.array([*q[:3] / 3.0, *q[3:]]), True).out(0, [(0.0, 0.0, 1.0)])
+    found = Poses(build_scene(mechanism).frames, 3.0 * np.array([*q[:3] / 3.0, *q[3:]]), True).out(0, [(0.0, 0.0, 1.0)])
     assert found[0] == pytest.approx([0.1, -0.2 - math.sin(turn), 0.3 + math.cos(turn)], abs=1e-15)
 
 

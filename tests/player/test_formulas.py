@@ -8,7 +8,7 @@ import pytest
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.parser import FormulaNames, parse
-from symgen.player.script_formulas import NotInPages, ScriptLines
+from symgen.player.live import NotInPages, ScriptLines
 
 
 @pytest.mark.parametrize(

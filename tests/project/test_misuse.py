@@ -51,7 +51,6 @@ NO_TEXT = {
     "1.5": np.float64(1.5),
 }
 NO_MAPPING = {"3": 3, "'a=1'": "a=1", "a list of 1": [("a", 1)], "the function len": len, "a set of 1": {"a"}}
-NO_NUMBERS = ("1e-3", [0.0], [-1.0], [NAN], ["x"], [None], [True], {"a": 1}, np.zeros((2, 2)), len)
 NO_SWITCH = {"1": 1, "'yes'": "yes", "None": None, "a list of 0": [], "0.0": 0.0}
 
 
@@ -135,91 +134,108 @@ def test_settings(model, name, value, sentence):
 
 
 def each(label, values, call, sentence):
-    """Rows of one call with several values; the sentence may name what is shown of each."""
-    shown = values if isinstance(values, dict) else {f"{value!r:.20}": value for value in values}
-    for text, value in shown.items():
-        yield f"{label} {text}", partial(call, v=value), sentence.format(shown=text)
+    """Rows of one call with several values; ``{}`` in the sentence is how it calls each of them."""
+    named = values.items() if isinstance(values, dict) else [(f"{value!r:.20}", value) for value in values]
+    for shown, value in named:
+        yield f"{label} {shown}", lambda x, v=value: call(x, v), sentence.replace("{}", shown)
 
 
-def built(**sections):
-    """Build a mechanism of one body from calls of a builder: method -> arguments, keys of the body among them."""
-    builder = symgen.MechanismBuilder("a").body("b", **sections.pop("body", {"mass": 1, "inertia": 1}))
-    for method, (arguments, keys) in sections.items():
-        getattr(builder, method)(*arguments, **keys)
-    return builder.build()
+def comparing(name):
+    """Comparisons with one argument."""
+    return lambda x, v: symgen.compare(x.model, **{name: v})
 
 
-VARIED = {"bob.vy": [1.0]}
-ABOVE = "expected a finite number above 0, got "
+def sweeping(name):
+    """Sweeps with one argument."""
+    return lambda x, v: symgen.sweep(x.model, **{name: v})
+
+
+def building(part, further):
+    """Parts of a mechanism with a name and further arguments."""
+    return lambda x, v: getattr(symgen.MechanismBuilder("a"), part)(v, *further)
+
+
+def built(name="a", **keys):
+    """A mechanism of one body with these keys."""
+    return symgen.MechanismBuilder(name).body("b", **{"mass": 1, "inertia": 1, **keys})
 
 
 def rows():
     """Rows of everything else: label, call on the fixtures, sentence."""
-    no_path = {"3": 3, "None": None, "a list of 1": ["a"], "b'a'": b"a", "a Thing": Thing()}
-    model = "model: expected a path, got {shown}"
-    yield from each("load", no_path, lambda x, v: symgen.load(v), model)
-    yield from each("simulate", no_path, lambda x, v: symgen.simulate(v), model)
-    yield from each("compare", no_path, lambda x, v: symgen.compare(v), model)
-    yield from each("sweep", no_path, lambda x, v: symgen.sweep(v, {"a": [1.0]}), model)
-    sentence = "mechanism: expected a Mechanism; symgen.load takes"
-    yield from each("Model", no_path, lambda x, v: symgen.Model(v), sentence)
+    vy = {"bob.vy": [1.0]}
+    paths = {"3": 3, "None": None, "a list of 1": ["a"], "b'a'": b"a", "a Thing": Thing()}
+    for name, call in {
+        "load": lambda x, v: symgen.load(v),
+        "simulate": lambda x, v: symgen.simulate(v),
+        "compare": lambda x, v: symgen.compare(v),
+        "sweep": lambda x, v: symgen.sweep(v, {"a": [1.0]}),
+    }.items():
+        yield from each(name, paths, call, "model: expected a path, got {}")
+    yield from each("Model", paths, lambda x, v: symgen.Model(v), "mechanism: expected a Mechanism; symgen.load takes")
     yield "load empty", lambda x: symgen.load(""), "got ''"
     yield "load null", lambda x: symgen.load("a\0b"), "got 'a\\x00b'"
-    values, sentence = ("lagrange", 3, {}, Settings), "settings: expected Settings, got "
-    yield from each("settings", values, lambda x, v: x.model.simulate(v), sentence)
-    yield from each("sweep settings", values, lambda x, v: symgen.sweep(x.model, VARIED, settings=v), sentence)
-    values, sentence = (3, "yes", []), "progress: expected a function"
-    yield from each("progress of simulate", values, lambda x, v: x.model.simulate(progress=v), sentence)
-    yield from each("progress of sweep", values, lambda x, v: symgen.sweep(x.model, VARIED, progress=v), sentence)
-    yield from each("progress of compare", values, lambda x, v: symgen.compare(x.model, progress=v), sentence)
+    records, wrong = ("lagrange", 3, {}, Settings), "settings: expected Settings, got "
+    yield from each("settings", records, lambda x, v: x.model.simulate(v), wrong)
+    yield from each("sweep settings", records, lambda x, v: symgen.sweep(x.model, vy, settings=v), wrong)
+    for name, call in {
+        "simulate": lambda x, v: x.model.simulate(progress=v),
+        "sweep": lambda x, v: symgen.sweep(x.model, vy, progress=v),
+        "compare": lambda x, v: symgen.compare(x.model, progress=v),
+    }.items():
+        yield from each(f"progress of {name}", (3, "yes", []), call, "progress: expected a function")
     # analyses: the pendulum is not driven, but what is wrong with an argument is said first
-    values = {"'x'": "x", "True": True, "a dict of 1": {"a": 1}, "a Thing": Thing(), "1j": 1j}
-    yield from each("kinematics", values, lambda x, v: x.model.kinematics(v), "kinematics: times: expected a")
-    yield from each("inverse times", values, lambda x, v: x.model.inverse(times=v), "inverse: times: expected a")
-    values = (np.zeros((2, 2)), np.array(["a"]), np.array([1j]), np.array([NAN]), np.zeros(0), [1.0, 0.0])
-    yield from each("kinematics", values, lambda x, v: x.model.kinematics(v), "kinematics: times: expected")
-    values, names = {"3": 3, "a list of 1": [3], "a dict of 0": {}}, "a list of names, got"
-    yield from each("pins", values, lambda x, v: x.model.kinematics([0.0], transmission=v), names)
-    yield from each("actuators", values, lambda x, v: x.model.inverse(x.result, actuators=v), names)
-    sentence = "a result of a run, or a motion of kinematics"
-    yield from each("motion", values, lambda x, v: x.model.inverse(v), sentence)
+    times = ["x", True, {"a": 1}, Thing(), 1j]
+    yield from each("kinematics", times, lambda x, v: x.model.kinematics(v), "kinematics: times: expected a")
+    yield from each("inverse times", times, lambda x, v: x.model.inverse(times=v), "inverse: times: expected a")
+    arrays = (np.zeros((2, 2)), np.array(["a"]), np.array([1j]), np.array([NAN]), np.zeros(0), [1.0, 0.0])
+    yield from each("kinematics", arrays, lambda x, v: x.model.kinematics(v), "kinematics: times: expected")
+    names = (3, [3], {})
+    for label, call, sentence in (
+        ("pins", lambda x, v: x.model.kinematics([0.0], transmission=v), "a list of names, got"),
+        ("actuators", lambda x, v: x.model.inverse(x.result, actuators=v), "a list of names"),
+        ("motion", lambda x, v: x.model.inverse(v), "a result of a run, or a motion of kinematics"),
+    ):
+        yield from each(label, names, call, sentence)
     yield "kinematics setting", lambda x: x.model.kinematics([0.0], speed=1.0), "the name of a setting, got 'speed'"
     yield "inverse file", lambda x: x.model.inverse("nothing.nc"), "expected a file of a result, got 'nothing.nc'"
     yield "inverse of nothing", lambda x: x.model.inverse(x.result), "names of what exerts the motion, got none"
-    values, pair = {"3": 3, "'x'": "x", "a list": [1.0]}, ": expected a pair of a name and its values"
-    yield from each("scan", values, lambda x, v: x.model.equilibria(v), "scan" + pair)
-    yield from each("locus", values, lambda x, v: x.model.locus(v), "over" + pair)
+    ranges = (3, "x", [1.0])
+    yield from each(
+        "scan", ranges, lambda x, v: x.model.equilibria(v), "scan: expected a pair of a name and its values"
+    )
+    yield from each("locus", ranges, lambda x, v: x.model.locus(v), "over: expected a pair of a name and its values")
     yield "scan text", lambda x: x.model.equilibria(("bob.x", "x")), "scan bob.x: expected"
     yield "scan of nothing", lambda x: x.model.equilibria(("nope", [0.0])), "a coordinate of pendulum, got none"
     yield "equilibrium setting", lambda x: x.model.equilibrium(nope=1), "the name of a setting, got 'nope'"
-    values = ("never", None, [1.0], NAN, -1.0)
-    yield from each("modes at", values, lambda x, v: x.model.modes(at=v), "at: expected")
-    yield from each("linearise at", values, lambda x, v: x.model.linearise(at=v), "at: expected")
-    values = (4, {"x": 1})
-    yield from each("states", values, lambda x, v: x.model.modes(states=v), "states: expected a list of names")
-    yield from each("cyclic", values, lambda x, v: x.model.steady(cyclic=v), "cyclic: expected a list of names")
-    sentence = "state 'nope': expected a coordinate, velocity"
-    yield "states by name", lambda x: x.model.linearise(states=("nope",)), sentence
-    values = (0, -1, "x", 1.5, True)
-    yield from each("count", values, lambda x, v: x.model.modes(count=v), "count: expected a whole number")
-    values = (0, -1, 1.5, "1", None, True)
-    yield from each("mode", values, lambda x, v: x.model.view_mode(v), "number: expected a whole number")
+    moments = ("never", None, [1.0], NAN, -1.0)
+    yield from each("modes at", moments, lambda x, v: x.model.modes(at=v), "at: expected")
+    yield from each("linearise at", moments, lambda x, v: x.model.linearise(at=v), "at: expected")
+    yield from each("states", (4, {"x": 1}), lambda x, v: x.model.modes(states=v), "states: expected a list of names")
+    yield from each("cyclic", (4, {"x": 1}), lambda x, v: x.model.steady(cyclic=v), "cyclic: expected a list of names")
+    wrong = "state 'nope': expected a coordinate, velocity"
+    yield "states by name", lambda x: x.model.linearise(states=("nope",)), wrong
+    counts = (0, -1, "x", 1.5, True)
+    yield from each("count", counts, lambda x, v: x.model.modes(count=v), "count: expected a whole number")
+    numbers = (0, -1, 1.5, "1", None, True)
+    yield from each("mode", numbers, lambda x, v: x.model.view_mode(v), "number: expected a whole number")
     yield "mode 99", lambda x: x.model.view_mode(99), "mode: expected a number from 1 to"
     yield "mode at", lambda x: x.model.view_mode(1, at="nowhere"), "at: expected"
     yield "instantaneous", lambda x: x.model.linearise(instantaneous="x"), "instantaneous: expected True or False"
     # models
-    got = "got {shown}"
-    yield from each("parameters", NO_MAPPING, lambda x, v: x.model.parameters(v), got)
-    yield from each("compile options", NO_MAPPING, lambda x, v: x.model.compile("lagrange", v), got)
-    yield from each("assemble", NO_MAPPING, lambda x, v: x.model.assemble(x.compiled, v), got)
-    yield from each("assemble method", NO_MAPPING, lambda x, v: x.model.assemble(x.compiled, {}, v), got)
+    for label, call in {
+        "parameters": lambda x, v: x.model.parameters(v),
+        "compile options": lambda x, v: x.model.compile("lagrange", v),
+        "assemble": lambda x, v: x.model.assemble(x.compiled, v),
+        "assemble method": lambda x, v: x.model.assemble(x.compiled, {}, v),
+    }.items():
+        yield from each(label, NO_MAPPING, call, "got {}")
     yield "parameter text", lambda x: x.model.parameters({"x": "1"}), "expected a parameter of pendulum"
-    yield from each("compile", NO_TEXT, lambda x, v: x.model.compile(v), "expected a method, got {shown}")
-    sentence = "shape: expected one of straight"
-    yield from each("shape", NO_TEXT, lambda x, v: x.model.compile("lagrange", shape=v), sentence)
+    yield from each("compile", NO_TEXT, lambda x, v: x.model.compile(v), "expected a method, got {}")
+    wrong = "shape: expected one of straight"
+    yield from each("shape", NO_TEXT, lambda x, v: x.model.compile("lagrange", shape=v), wrong)
     yield "compile auto", lambda x: x.model.compile("lagrange", shape="auto"), "one of straight, looped, got 'auto'"
-    sentence = "option 'weight': expected a text, got 1"
-    yield "compile option", lambda x: x.model.compile("lagrange", {"weight": 1}), sentence
+    wrong = "option 'weight': expected a text, got 1"
+    yield "compile option", lambda x: x.model.compile("lagrange", {"weight": 1}), wrong
     for changes, sentence in (
         ({"path": 3}, "path: expected a path, got 3"),
         ({"methods": 3}, "methods: expected a list of names, got 3"),
@@ -232,63 +248,61 @@ def rows():
     ):
         yield f"generate {changes}", lambda x, c=changes: x.model.generate(**c), sentence
     yield "assemble what", lambda x: x.model.assemble(3), "compiled: expected what Model.compile returned, got 3"
-    sentence = "compiled code of four-bar, got that"
-    yield "assemble other", lambda x: symgen.load("four-bar").assemble(x.compiled), sentence
+    wrong = "compiled code of four-bar, got that"
+    yield "assemble other", lambda x: symgen.load("four-bar").assemble(x.compiled), wrong
     yield "assemble strict", lambda x: x.model.assemble(x.compiled, strict="no"), "strict: expected True or False"
     yield "assemble alpha", lambda x: x.model.assemble(x.compiled, {}, {"alpha": 1.0}), "a parameter of lagrange, got"
     yield "body", lambda x: x.model.mechanism.body("bo"), "body: expected a body of pendulum, got 'bo'; did you mean"
-    sentence = "joint: expected a joint of pendulum, got 'hinge'"
-    yield "joint", lambda x: x.model.mechanism.joint_named("hinge"), sentence
+    wrong = "joint: expected a joint of pendulum, got 'hinge'"
+    yield "joint", lambda x: x.model.mechanism.joint_named("hinge"), wrong
     yield "body 3", lambda x: x.model.mechanism.body(3), "body: expected a body of pendulum, got 3"
     # results
-    values = {"-1": -1, "None": None, "a tuple of 2": (0, 1), "1.5": 1.5, "a slice": slice(3)}
-    yield from each("q", values, lambda x, v: x.result.q[v], got + "; outputs are rows: table.values[-1]")
-    yield from each("column", values, lambda x, v: x.result[v], got + "; outputs are rows: result.q.values[-1]")
-    yield from each("unit", values, lambda x, v: x.result.q.unit(v), got)
-    sentence = "joint: expected the name of a joint, got {shown}"
-    yield from each("reaction", values, lambda x, v: x.result.reaction(v), sentence)
+    keys = {"-1": -1, "None": None, "a tuple of 2": (0, 1), "1.5": 1.5, "a slice": slice(3)}
+    for label, call, sentence in (
+        ("q", lambda x, v: x.result.q[v], "got {}; outputs are rows: table.values[-1]"),
+        ("column", lambda x, v: x.result[v], "got {}; outputs are rows: result.q.values[-1]"),
+        ("unit", lambda x, v: x.result.q.unit(v), "got {}"),
+        ("reaction", lambda x, v: x.result.reaction(v), "joint: expected the name of a joint, got {}"),
+    ):
+        yield from each(label, keys, call, sentence)
     yield "column", lambda x: x.result["bob.z"], "result: expected the name of a column, got 'bob.z'; did you mean"
     yield "column long", lambda x: x.result["x" * 9999], "got 'xxxxxxxxxxxx"
     yield "labelled", lambda x: x.result.q["bob.z"], "did you mean"
     yield "reaction", lambda x: x.result.reaction("lin"), "joint: expected the name of a joint, got 'lin'"
-    values, sentence = (99, -99, "last", None, 1.5, [0]), "row: expected a whole number from -"
-    yield from each("row", values, lambda x, v: x.result.q.row(v), sentence)
-    values, save = (
-        {"3": 3, "None": None, "b'a.csv'": b"a.csv", "a list of 1": ["a.csv"]},
-        "save: expected a path, got {shown}",
-    )
-    yield from each("save", values, lambda x, v: x.result.save(v), save)
-    yield from each("plot", values, lambda x, v: x.result.plot(v), "plot: expected a path, got {shown}")
-    yield from each("study", values, lambda x, v: x.study.save(v), save)
-    yield from each("sweep save", values, lambda x, v: x.sweep.save(v), save)
+    indices = (99, -99, "last", None, 1.5, [0])
+    yield from each("row", indices, lambda x, v: x.result.q.row(v), "row: expected a whole number from -")
+    for label, call, where in (
+        ("save", lambda x, v: x.result.save(v), "save"),
+        ("plot", lambda x, v: x.result.plot(v), "plot"),
+        ("study", lambda x, v: x.study.save(v), "save"),
+        ("sweep save", lambda x, v: x.sweep.save(v), "save"),
+    ):
+        names = {"3": 3, "None": None, "b'a.csv'": b"a.csv", "a list of 1": ["a.csv"]}
+        yield from each(label, names, call, f"{where}: expected a path, got {{}}")
     yield "save ending", lambda x: x.result.save("a.xls"), "save: expected a file ending in .nc"
     yield "save folder", lambda x: x.result.save("no/where/a.csv"), "save: expected a file in a folder that exists"
     yield "save null", lambda x: x.result.save("a\0.csv"), "save: expected a name that a file can have"
-    tables = "table: expected one of q, v, a, lam, reactions"
-    yield from each("columns", ("pints", 3), lambda x, v: x.result.columns(v), tables)
-    yield "series of columns", lambda x: x.result.series("pints"), tables
+    yield "columns", lambda x: x.result.columns("pints"), "table: expected one of q, v, a, lam, reactions"
+    yield "series of columns", lambda x: x.result.series("pints"), "table: expected one of q, v, a, lam, reactions"
+    yield "columns 3", lambda x: x.result.columns(3), "table: expected one of q, v, a, lam, reactions"
     yield "select", lambda x: x.result.select(3), "quantities: expected a list of names, got 3"
     yield "select name", lambda x: x.result.select(["bob.z"]), "quantity 'bob.z': expected a quantity of"
     yield "plot what", lambda x: x.result.plot("a.png", 3), "plot: expected a list of names, got 3"
     yield "plot panel", lambda x: x.result.plot("a.png", "energi"), "plot: expected the name of a panel, got 'energi'"
     # studies
-    for name, values, sentence in (
-        *(
-            (n, {"3": 3, "a dict of 0": {}, "the function len": len}, f"{n}: expected a list of names, got {{shown}}")
-            for n in ("methods", "integrators")
-        ),
-        *((n, (["x", 3],), f"{n}: expected a list") for n in ("methods", "integrators")),
-        *((n, NO_NUMBERS, f"{n[:-1]}: expected a ") for n in ("steps", "rtols")),
-        *((n, (0, -1.0, NAN, "1", True, [1.0]), f"{n}: {ABOVE}") for n in NUMBERS if n not in ("step", "rtol", "atol")),
-        ("repeat", (0, 1.5, "3", None), "repeat: expected a whole"),
-        ("jobs", (0, 1.5, "3", None), "jobs: expected a whole number"),
-        ("journal", ("file",), "journal: expected a symgen.study.journal"),
-        ("reference_by", (3,), "--reference: expected one of auto"),
-        ("shape", ("round",), "shape: expected one of auto"),
-        ("options", (3,), "options: expected values by the names"),
-        ("parameters", ({"g": "x"},), "expected a finite number"),
-    ):
-        yield from each(f"compare {name}", values, lambda x, v, n=name: symgen.compare(x.model, **{n: v}), sentence)
+    lists = {"3": 3, "a dict of 0": {}, "the function len": len}
+    for name in ("methods", "integrators"):
+        call = comparing(name)
+        yield from each(f"compare {name}", lists, call, f"{name}: expected a list of names, got {{}}")
+        yield from each(f"compare {name}", [["x", 3]], call, f"{name}: expected a list")
+    for name in ("steps", "rtols"):
+        values = ("1e-3", [0.0], [-1.0], [NAN], ["x"], [None], [True], {"a": 1}, np.zeros((2, 2)), len)
+        call = comparing(name)
+        yield from each(f"compare {name}", values, call, f"{name[:-1]}: expected a ")
+    for name in ("until", "output_step", "max_violation", "max_energy_error"):
+        call = comparing(name)
+        wrong = f"{name}: expected a finite number above 0, got "
+        yield from each(f"compare {name}", (0, -1.0, NAN, "1", True, [1.0]), call, wrong)
     yield "view beside", lambda x: x.result.view("a.nc"), "beside: expected a Result, got"
     yield "view live", lambda x: x.result.view(live="no"), "live: expected "
     yield "draw at", lambda x: x.model.draw(at="end"), "at: expected one of"
@@ -296,80 +310,100 @@ def rows():
     yield "draw start", lambda x: x.model.draw(start={"nothing": 1.0}), "start 'nothing'"
     yield from each("draw q", ("q", [1.0], np.zeros((2, 2)), [None], 3), lambda x, v: x.model.draw(q=v), "q: expected")
     yield "draw view", lambda x: x.model.draw(view=(1, 2)), "view: expected a symgen.drawing.View, got"
-    for name, value, sentence in (
-        ("cases", 3, "cases: expected a list of names"),
-        ("methods", len, "methods: expected a list of names"),
-        ("models", [3], "model: expected a path, got 3"),
-        ("jobs", 0, "jobs: expected a whole number"),
-        ("quick", "no", "quick: expected True or False"),
-        ("compilation", "long", "compilation: expected"),
+    counts = (0, 1.5, "3", None)
+    yield from each(
+        "compare repeat", counts, lambda x, v: symgen.compare(x.model, repeat=v), "repeat: expected a whole"
+    )
+    yield from each(
+        "compare jobs", counts, lambda x, v: symgen.compare(x.model, jobs=v), "jobs: expected a whole number"
+    )
+    for changes, sentence in (
+        ({"journal": "file"}, "journal: expected a symgen.study.journal"),
+        ({"reference_by": 3}, "--reference: expected one of auto"),
+        ({"shape": "round"}, "shape: expected one of auto"),
+        ({"options": 3}, "options: expected values by the names"),
+        ({"parameters": {"g": "x"}}, "expected a finite number"),
     ):
-        yield f"stress {name}", lambda x, n=name, v=value: stress(**{n: v}), sentence
+        yield f"compare {changes}", lambda x, c=changes: symgen.compare(x.model, **c), sentence
+    for changes, sentence in (
+        ({"cases": 3}, "cases: expected a list of names"),
+        ({"methods": len}, "methods: expected a list of names"),
+        ({"models": [3]}, "model: expected a path, got 3"),
+        ({"jobs": 0}, "jobs: expected a whole number"),
+        ({"quick": "no"}, "quick: expected True or False"),
+        ({"compilation": "long"}, "compilation: expected"),
+    ):
+        yield f"stress {changes}", lambda x, c=changes: stress(**c), sentence
     # sweeps
     for name in ("vary", "runs"):
-        yield from each(
-            name, NO_MAPPING, lambda x, v, n=name: symgen.sweep(x.model, **{n: v}), f"{name}: expected values"
-        )
-        yield f"{name} 3", lambda x, n=name: symgen.sweep(x.model, **{n: {3: [1.0]}}), "named by texts, got 3"
-        values = (3.0, None, [], [[1.0]], ["x"], [NAN], [None], len, {"a": 1}, "lin(0,1)", "cube(1,2,3)", [1j])
-        call = lambda x, v, n=name: symgen.sweep(x.model, **{n: {"bob.vy": v}})  # noqa: E731
-        yield from each(f"{name} bob.vy", values, call, "bob.vy: expected ")
+        call = sweeping(name)
+        yield from each(name, NO_MAPPING, call, f"{name}: expected values")
+        yield from each(name, [{3: [1.0]}], call, "named by texts, got 3")
+        of_axis = (3.0, None, [], [[1.0]], ["x"], [NAN], [None], len, {"a": 1}, "lin(0,1)", "cube(1,2,3)", [1j])
+        yield from each(f"{name} bob.vy", [{"bob.vy": v} for v in of_axis], call, "bob.vy: expected ")
     yield "vary nothing", lambda x: symgen.sweep(x.model, {}), "sweep: expected something that varies, got nothing"
     yield "vary name", lambda x: symgen.sweep(x.model, {"bob.vz": [1.0]}), "did you mean 'bob.v"
-    for name, values, sentence in (
-        ("jobs", (0, 5000, 1.5, "3", True), "jobs: expected"),
-        ("quantities", (3, [3]), "quantities: expected a list of names, got 3"),
-        ("quantities", (["bob.z"],), "quantity 'bob.z': expected a quantity of pendulum"),
-        ("output", (3,), "output: expected a path, got 3"),
-        ("output", ("a.xls",), "output: expected a file ending in .nc"),
-        ("resume", ("yes",), "resume: expected True or False"),
-        ("resume", (True,), "resume: expected an output that was begun"),
-        ("scheduler", (3,), "scheduler: expected the address of a Dask scheduler, or a client, got 3"),
-        ("target", (3, "gpu"), "target: expected one of cpu, lanes, cuda, got {shown}"),
-        ("verify", (True,), "verify: expected single runs"),
-        ("repeat", (2,), "repeat: expected single runs"),
-        ("method", (3,), "method: expected a name, got 3"),
+    for changes, sentence in (
+        *(({"jobs": v}, "jobs: expected") for v in (0, 5000, 1.5, "3", True)),
+        ({"quantities": 3}, "quantities: expected a list of names"),
+        ({"quantities": ["bob.z"]}, "quantity 'bob.z': expected a quantity of pendulum"),
+        ({"quantities": [3]}, "quantities: expected a list of names, got 3"),
+        ({"output": 3}, "output: expected a path, got 3"),
+        ({"output": "a.xls"}, "output: expected a file ending in .nc"),
+        ({"resume": "yes"}, "resume: expected True or False"),
+        ({"resume": True}, "resume: expected an output that was begun"),
+        ({"scheduler": 3}, "scheduler: expected the address of a Dask scheduler, or a client, got 3"),
+        ({"target": 3}, "target: expected one of cpu"),
+        ({"target": "gpu"}, "target: expected one of cpu, lanes, cuda, got 'gpu'"),
+        ({"verify": True}, "verify: expected single runs"),
+        ({"repeat": 2}, "repeat: expected single runs"),
+        ({"method": 3}, "method: expected a name, got 3"),
     ):
-        yield from each(f"sweep {name}", values, lambda x, v, n=name: symgen.sweep(x.model, VARIED, **{n: v}), sentence)
-    values, sentence = (3, None, "bob.z"), "sweep: expected a quantity that was kept, or a number"
-    yield from each("sweep column", values, lambda x, v: x.sweep[v], sentence)
+        yield f"sweep {changes}", lambda x, c=changes: symgen.sweep(x.model, vy, **c), sentence
+    wrong = "sweep: expected a quantity that was kept, or a number"
+    yield from each("sweep column", (3, None, "bob.z"), lambda x, v: x.sweep[v], wrong)
     yield "sweep reasons", lambda x: x.sweep.reasons("all"), "most: expected a whole number"
     # builders
-    values = {"3": 3, "None": None, "a list of 0": []}
-    call = lambda x, v: symgen.MechanismBuilder(v).body("a", mass=1).build()  # noqa: E731
-    yield from each("builder", values, call, "mechanism.name")
-    for part in ("parameter", "input", "table", "body", "joint", "force", "output", "event"):
-        numbers = {"parameter": (1.0,), "input": (1.0,), "table": ([0, 1], [0, 1]), "output": ("t",)}
-        extra = {**numbers, "joint": ("rigid",), "force": ("torque",)}.get(part, ())
-        call = lambda x, v, p=part, e=extra: getattr(symgen.MechanismBuilder("a"), p)(v, *e)  # noqa: E731
-        yield from each(part, values, call, "expected a text, got {shown}")
-    for key, values in (
-        ("mass", (None, "", [], NAN, INF, -1.0, True, Thing(), len, 1j, 10**400, {"a": 1})),
-        ("inertia", (np.eye(3), object, float("-inf"))),
-        ("position", (1.0, [1.0], [1.0, 2.0, 3.0], ["x", "y"], np.zeros((2, 2)), [NAN, 0.0], len)),
-        ("points", ([1.0], {"a": 1.0}, {3: [0.0, 0.0]})),
-        ("nonsense", (1.0,)),
+    names = {"3": 3, "None": None, "a list of 0": []}
+    yield from each(
+        "builder", names, lambda x, v: symgen.MechanismBuilder(v).body("a", mass=1).build(), "mechanism.name"
+    )
+    further = {
+        **dict.fromkeys(("body", "event"), ()),
+        **{"parameter": (1.0,), "input": (1.0,), "table": ([0, 1], [0, 1]), "output": ("t",)},
+        **{"joint": ("rigid",), "force": ("torque",)},
+    }
+    for part, more in further.items():
+        yield from each(part, names, building(part, more), "expected a text, got {}")
+    for key, value in (
+        *(("mass", v) for v in (None, "", [], NAN, INF, -1.0, True, Thing(), len, 1j, 10**400, {"a": 1})),
+        *(("inertia", v) for v in (np.eye(3), object, float("-inf"))),
+        *(("position", v) for v in (1.0, [1.0], [1.0, 2.0, 3.0], ["x", "y"], np.zeros((2, 2)), [NAN, 0.0], len)),
+        ("points", [1.0]),
+        ("points", {"a": 1.0}),
+        ("points", {3: [0.0, 0.0]}),
+        ("nonsense", 1.0),
     ):
-        call = lambda x, v, k=key: built(body={"mass": 1.0, "inertia": 1.0, k: v})  # noqa: E731
-        yield from each(f"body {key}", values, call, "builder 'a': bodies.b")
-    sentence = "tables.f.x: expected a list of numbers, got 3"
-    yield "table", lambda x: built(table=(("f", 3, 4), {})), sentence
-    yield "joint type", lambda x: built(joint=(("j", 3), {})), "joints.j.type: expected a joint type, got 3"
-    yield "run", lambda x: built(run=((), {"until": "long"})), "run.until"
+        yield f"body {key} {value!r:.15}", lambda x, k=key, v=value: built(**{k: v}).build(), "builder 'a': bodies.b"
+    yield "table", lambda x: built().table("f", 3, 4).build(), "tables.f.x: expected a list of numbers, got 3"
+    yield "joint type", lambda x: built().joint("j", 3).build(), "joints.j.type: expected a joint type, got 3"
+    yield "run", lambda x: built().run(until="long").build(), "run.until"
     yield "start output", lambda x: x.model.start(output_step=0.1), "start: output_step: expected settings of a run"
     yield "start name", lambda x: x.model.start(stepp=0.1), "did you mean 'step'?"
-    above = ABOVE + "{shown}"
+    above = "expected a finite number above 0, got {}"
     yield from each("step", NO_NUMBER, lambda x, v: x.sim.step(v), f"dt: {above}")
     yield from each("every", NO_NUMBER, lambda x, v: x.sim.every(v, print), f"interval: {above}")
     yield from each("run", NO_NUMBER, lambda x, v: x.sim.run(v), "until: expected ")
-    sentence = "set: expected numbers by the names of parameters, got {shown}"
-    yield from each("set", NO_MAPPING, lambda x, v: x.sim.set(v), sentence)
-    yield from each("step u", NO_MAPPING, lambda x, v: x.sim.step(0.01, v), "parameters, got {shown}")
-    yield from each("restore", NO_MAPPING, lambda x, v: x.sim.restore(v), "expected what `save` returned, got {shown}")
-    values, sentence = (3, None, "f"), "controller: expected a function, got {shown}"
-    yield from each("controller", values, lambda x, v: x.sim.every(0.1, v), sentence)
-    sentence = "coordinates: expected one of absolute, joint, got {shown}"
-    yield from each("equations_in", ("joints", 3), lambda x, v: x.model.equations_in(v), sentence)
+    numbers = "set: expected numbers by the names of parameters, got {}"
+    yield from each("set", NO_MAPPING, lambda x, v: x.sim.set(v), numbers)
+    yield from each("step u", NO_MAPPING, lambda x, v: x.sim.step(0.01, v), "parameters, got {}")
+    yield from each("restore", NO_MAPPING, lambda x, v: x.sim.restore(v), "expected what `save` returned, got {}")
+    functions = {"3": 3, "None": None, "'f'": "f"}
+    yield from each(
+        "controller", functions, lambda x, v: x.sim.every(0.1, v), "controller: expected a function, got {}"
+    )
+    wrong = "coordinates: expected one of absolute, joint, got {}"
+    yield from each("equations_in", {"'joints'": "joints", "3": 3}, lambda x, v: x.model.equations_in(v), wrong)
     yield "equations 3", lambda x: x.model.equations.quantity(3), "quantity: expected one of Phi, D, nu"
     yield "toml", lambda x: symgen.MechanismBuilder("a").body("b", mass=Thing()).to_toml(), "a Thing"
 
@@ -421,22 +455,17 @@ def test_every_analysis_takes_settings_and_refuses_others(model, method):
 
 def test_no_function_with_arguments_is_left_out():
     """Every public name that can be called, and every method of a public class that takes something, has rows."""
-    methods = {
-        "Model": "parameters compile equations_in generate draw assemble simulate start",
-        "Mechanism": "body joint_named",
-        "Result": "save plot reaction columns select series view",
-        "Labelled": "row unit",
-        "Study": "save",
-        "Sweep": "save reasons",
-        "SteppedRun": "step run every set restore",
-        "MechanismBuilder": "run parameter input table body joint force output event",
+    tested = {
+        *"load simulate compare sweep Model Settings MechanismBuilder Mechanism.body Mechanism.joint_named".split(),
+        *(f"Model.{n}" for n in "parameters compile equations_in generate draw assemble simulate start".split()),
+        *(f"Result.{n}" for n in "save plot reaction columns select series view".split()),
+        *"Labelled.row Labelled.unit Study.save Sweep.save Sweep.reasons".split(),
+        *(f"SteppedRun.{n}" for n in "step run every set restore".split()),
+        *(f"MechanismBuilder.{n}" for n in "run parameter input table body joint force output event".split()),
     }
-    tested = {*"load simulate compare sweep Model Settings MechanismBuilder".split()}
-    tested |= {f"{kind}.{name}" for kind, names in methods.items() for name in names.split()}
     tested |= {f"Model.{method.__name__}" for method in ANALYSIS_METHODS}
     # what only the package makes or calls
-    inner = {*"Result Labelled Study Sweep SteppedRun Mechanism".split()}
-    inner |= {f"Model.{name}" for name in ("compiled", "ready", "initial_state")}
+    inner = {*"Result Labelled Study Sweep SteppedRun Mechanism Model.compiled Model.ready Model.initial_state".split()}
     found = set()
     for name in symgen.__all__:
         thing = getattr(symgen, name)

@@ -143,21 +143,6 @@ def test_inputs_are_no_parameters(capsys):
     assert "force, beside" not in parameters and "force, beside" in inputs
 
 
-@pytest.mark.parametrize(
-    ("arguments", "word"),
-    [
-        (["--symbols"], "--document"),
-        (["--select", "Phi"], "--document"),
-        (["--document"], "--format latex"),
-        (["--format", "latex", "--document", "--select", "Psi"], "nomenclature"),
-        (["--format", "latex", "--document", "--shape", "looped"], "looped"),
-    ],
-)
-def test_options_that_mean_nothing_are_refused(arguments, word, capsys):
-    assert main(["inspect", "pendulum", *arguments]) == 2
-    assert word in capsys.readouterr().err
-
-
 def test_a_title_with_markup_is_text(tmp_path, capsys):
     path = tmp_path / "evil.toml"
     path.write_text(

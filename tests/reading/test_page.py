@@ -11,7 +11,7 @@ from symgen.formulate.formulate import formulate
 from symgen.lower.model import lower_model
 from symgen.native.compiler import interpreted
 from symgen.reading import page as pages
-from symgen.reading.patterns import of_factor
+from symgen.reading.html import of_factor
 
 #: Elements without an end.
 VOID = {"meta", "link"}
@@ -117,18 +117,18 @@ def test_a_page_that_would_be_too_large_leaves_out_the_code(tmp_path, monkeypatc
     assert {link[1:] for link in found.links} <= set(found.ids)
 
 
-def test_listings_make_room_for_the_right_hand_side(four_bar, tmp_path, monkeypatch):
+def test_the_listing_makes_room_for_the_right_hand_side(four_bar, tmp_path, monkeypatch):
     text, _ = four_bar
     if interpreted():  # there is no machine code to list, and the page says so
         assert "Python, by NUMBA_DISABLE_JIT." in text and "const rates = null;" in text
         return
     script = re.search(r"const rates = (\(\(\) => \{.*?\}\)\(\));", text, re.DOTALL)[1]
-    assert "function rhs(" in script and "function confirm(" in script and "Left out, for the size" not in text
-    whole = len(text.encode())
-    monkeypatch.setattr(pages, "LARGEST", whole - 1)
+    assert "function rhs(" in script and "function confirm(" in script and "module model, " in text
+    monkeypatch.setattr(pages, "LARGEST", len(text.encode()) - 1)
     smaller, found = page_of("four-bar", tmp_path)
-    assert "Left out, for the size" in smaller or "function confirm(" not in smaller
-    assert "function rhs(" in smaller and len(smaller.encode()) < whole
+    assert (
+        "function rhs(" in smaller and "module model, " in smaller and "Modules of the method are left out" in smaller
+    )
     assert {link[1:] for link in found.links} <= set(found.ids)
 
 
@@ -150,22 +150,6 @@ def test_a_mechanism_that_nobody_could_read_is_refused_before_it_is_derived(tmp_
     assert main(["inspect", "n-four-bar:400", "-o", str(path)]) == 2
     assert "at most 1500 constraint rows and velocities for a page" in capsys.readouterr().err
     assert not path.exists()
-
-
-@pytest.mark.parametrize(
-    ("arguments", "word"),
-    [
-        (["-o", "x.pdf"], "ends in .html"),
-        (["-o", "x.html", "--json"], "beside it"),
-        (["-o", "x.html", "--format", "latex"], "beside it"),
-        (["-o", "no/such/folder/x.html"], "a folder that exists"),
-    ],
-)
-def test_what_means_nothing_is_refused(arguments, word, capsys, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    assert main(["inspect", "pendulum", *arguments]) == 2
-    assert word in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_mechanism_that_does_not_close_is_drawn_as_described(tmp_path):

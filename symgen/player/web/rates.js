@@ -35,7 +35,7 @@ function makeRates(spec, code) {
       iw[0] = 1;
       code.confirm(t, y, p, w, iw, ydot);
       iw[0] = 0;
-    } else if (spec.partial) ydot.fill(NaN); // other rows depend on others here, and the page has no room to find them
+    }
   }
 
   // The state's rates; parameters that are given replace those of the page for this one call.

@@ -15,7 +15,7 @@ from symgen.errors import InputError
 from symgen.files import check_writable, headed, write_csv
 from symgen.result.contract import finite
 from symgen.result.labelled import html_table
-from symgen.result.run_data import FAILED
+from symgen.result.result import FAILED
 
 #: Ratios of run time are to this method, with the same integrator and the same step or tolerance.
 YARDSTICK = "lagrange"
@@ -299,7 +299,7 @@ class Study:
 
     def to_dataframe(self) -> Any:
         """Return the rows as a pandas data frame."""
-        from symgen.result.export import need
+        from symgen.files import need
 
         need("to_dataframe", "pandas")
         import pandas as pd

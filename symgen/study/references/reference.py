@@ -20,8 +20,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import SimulationError
-from symgen.result.agreement import AGREEMENT, Agreement, agreement
-from symgen.result.points import Points
+from symgen.result.points import AGREEMENT, Agreement, Points, agreement
 from symgen.study.references.closed_forms import closed_form
 from symgen.study.references.solvers import (
     AUTO,

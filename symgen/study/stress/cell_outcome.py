@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.result.run_data import OK
+from symgen.result.result import OK
 
 Array = NDArray[np.float64]
 

@@ -24,7 +24,7 @@ from symgen.reruns.verification import verified
 from symgen.result.contract import finite
 from symgen.result.judge import judge
 from symgen.result.points import Points
-from symgen.result.run_data import INTERRUPTED
+from symgen.result.result import INTERRUPTED
 from symgen.running.automatic import AUTO
 from symgen.running.options import split_options
 from symgen.running.plan import Purpose
