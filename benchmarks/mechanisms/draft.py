@@ -16,7 +16,7 @@ from benchmarks.plain.turning import euler_parameters, turned
 GROUND = "ground"
 #: Names that emitted code or other programs use for things of their own.
 AWKWARD = (
-    "f F g g_slope G q v p w D M S lam phi nu gamma x0 out ydot rhs accept numba math np njit status iw value table_f "
+    "f F g g_slope G q v p w D M S phi nu gamma x0 out ydot rhs accept numba math np njit status iw value table_f "
     "e0 e1 vx angle_ N E s0 s1 p0 p16 i j k n h dt Q P T L I O l o table work energy model self index"
 ).split()
 #: Sections whose names must differ from each other's, besides bodies, joints and forces.

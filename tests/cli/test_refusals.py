@@ -60,7 +60,7 @@ REFUSED = {
     "compare pendulum --integrators nope": "expected an integrator, got 'nope'",
     "compare pendulum --methods ggl --integrators rk4": "one that solves a form of ggl",
     "stress five-bar": "model: expected a catalogue name or the path of a file, got 'five-bar'",
-    "stress --cases stifness": "--cases: expected a family of cases, got 'stifness'; did you mean 'stiffness'?",
+    "stress --cases stifness": "got 'stifness'; did you mean 'stiffness'?",
     "stress -o stress.pdf": "--output: expected",
     "stress --resume README.md": "expected a journal of symgen, got something else in line 1",
     "run rod.toml --method baumgarte --option method.alpha=5 --option baumgarte.alpha=6": "each option once",

@@ -273,8 +273,8 @@ def test_files_that_cannot_be_written_are_refused(tmp_path):
 
 
 def test_without_matplotlib_the_sentence_says_what_to_install(tmp_path, monkeypatch):
-    from symgen.result import export
+    from symgen import files
 
-    monkeypatch.setattr(export, "find_spec", lambda name: None)
+    monkeypatch.setattr(files, "find_spec", lambda name: None)
     with pytest.raises(InputError, match=r"pip install 'symgen\[plot\]'"):
         check_report("--output", tmp_path / "report.html")
