@@ -68,3 +68,16 @@ def pytest_unconfigure() -> None:
     """Remove the cache that this process made."""
     for path in _made:
         shutil.rmtree(path, ignore_errors=True)
+
+
+@pytest.fixture
+def cli(capsys):
+    """Run the command line; return exit code, standard output and standard error."""
+    from symgen.cli import main  # behind the choice of the cache
+
+    def run(*arguments):
+        code = main([str(a) for a in arguments])
+        captured = capsys.readouterr()
+        return code, captured.out, captured.err
+
+    return run

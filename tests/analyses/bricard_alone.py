@@ -1,7 +1,5 @@
 """Bricard's six-bar by the angles of its joints alone: closed by Newton's method, differentiated by a complex step."""
 
-from __future__ import annotations
-
 import numpy as np
 
 POINTS = [(0, 0, 0), (1, 0, 0), (1, -1, 0), (1, -1, 1), (0, -1, 1), (0, 0, 1)]

@@ -1,7 +1,5 @@
 """Four-bar linkages with a driven crank, as raw descriptions, and what elementary geometry says of them."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Mechanisms whose equilibria and frequencies are known in closed form, as raw descriptions."""
 
-from __future__ import annotations
-
 import math
 import tomllib
 

@@ -1,7 +1,5 @@
 """What is soft, light or balanced is judged by itself, however stiff, heavy or quick what stands beside it is."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,26 +1,10 @@
 """Commands of analyses: keys of their JSON, tables, words of refusals and exit codes."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys
 
 import pytest
-
-from symgen.cli import main
-
-
-@pytest.fixture
-def cli(capsys):
-    """Run the command line; return exit code, standard output and standard error."""
-
-    def run(*arguments):
-        code = main([str(a) for a in arguments])
-        captured = capsys.readouterr()
-        return code, captured.out, captured.err
-
-    return run
 
 
 def facts(cli, *words):

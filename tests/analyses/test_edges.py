@@ -1,7 +1,5 @@
 """A formula without a derivative at a state is named in one sentence; smooth ones are not, however stiff."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

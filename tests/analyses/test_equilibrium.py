@@ -1,7 +1,5 @@
 """Equilibria: closed forms and minimal coordinates, stability, redundant rows, what is refused."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

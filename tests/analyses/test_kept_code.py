@@ -1,7 +1,5 @@
 """Linear systems by code that is kept: what is asked for is what is answered, whatever was asked for before."""
 
-from __future__ import annotations
-
 import pytest
 from numpy.testing import assert_allclose
 

@@ -1,7 +1,5 @@
 """Equilibria and lowest modes by sparse matrices: zeros of Laguerre polynomials with 40 digits, and a catenary."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 import pytest

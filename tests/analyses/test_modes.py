@@ -1,7 +1,5 @@
 """Modes and linear systems at rest, by closed forms, SymPy's Linearizer, complex steps and minimal coordinates."""
 
-from __future__ import annotations
-
 import math
 import sys
 import types

@@ -1,7 +1,5 @@
 """Linear systems by parameters: against complex steps through closed forms, and differences of whole answers."""
 
-from __future__ import annotations
-
 import cmath
 
 import pytest

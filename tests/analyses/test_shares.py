@@ -1,7 +1,5 @@
 """Tables of who takes part in modes: sums, numbers by hand from matrices of minimal coordinates, both coordinates."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose

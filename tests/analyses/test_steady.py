@@ -1,7 +1,5 @@
 """Steady motions: bicycle, disc, conical pendulum, governor; values of the literature and by minimal coordinates."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Analyses of angles that count turns: both shapes of code remember the same angle, in orders of their own."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Chromium without a window, driven through a pipe in its own protocol: no library is needed for that."""
 
-from __future__ import annotations
-
 import base64
 import json
 import os

@@ -1,7 +1,5 @@
 """Directions of arrows in pages: what the script draws in turned positions, against what was worked out by hand."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

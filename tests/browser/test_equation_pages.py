@@ -1,7 +1,5 @@
 """Pages of derived equations in a real browser: offline, without errors, and the way from a joint to a line of code."""
 
-from __future__ import annotations
-
 import json
 import types
 from pathlib import Path

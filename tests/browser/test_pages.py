@@ -1,7 +1,5 @@
 """Pages in a real browser, from their files and without a network; ``make browser`` runs these."""
 
-from __future__ import annotations
-
 import json
 import math
 import os

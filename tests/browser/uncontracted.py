@@ -8,8 +8,6 @@ reads a line of JSON for each mechanism, its name, coordinates and a file of sta
 files stand beside it: rates at the states, and at the same with every coordinate off by its last bit.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """A process of the command line leaves garbage collection alone while it imports and when it ends."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

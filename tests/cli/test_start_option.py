@@ -1,7 +1,5 @@
 """Starts on the command line: ``--start`` of runs, checks and comparisons."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

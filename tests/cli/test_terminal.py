@@ -1,7 +1,5 @@
 """What a terminal of 80 characters shows: whole numbers and names; and examples in every help."""
 
-from __future__ import annotations
-
 import re
 import shlex
 import subprocess

@@ -1,7 +1,5 @@
 """What is worked out of a mechanism once: for each mechanism its own, and nothing is kept of one that is gone."""
 
-from __future__ import annotations
-
 import gc
 import weakref
 

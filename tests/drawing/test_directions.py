@@ -1,7 +1,5 @@
 """Arrows of forces and torques in turned positions: directions worked out by hand, on paper."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

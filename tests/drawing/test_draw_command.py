@@ -1,7 +1,5 @@
 """``symgen draw``, ``model.draw`` and shapes of a file."""
 
-from __future__ import annotations
-
 import json
 import pickle
 import tomllib

@@ -1,7 +1,5 @@
 """Sketches: every mechanism has one, where things stand in it, and that names of a file stay text."""
 
-from __future__ import annotations
-
 import math
 import re
 import xml.etree.ElementTree as ET

@@ -1,7 +1,5 @@
 """Methods of a mechanism that are generated one after the other share what has nothing to do with the method."""
 
-from __future__ import annotations
-
 import gc
 
 import pytest

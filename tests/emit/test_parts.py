@@ -1,7 +1,5 @@
 """Parts of laws as modules of their own: named by what they hold, shared by methods, found again, never half there."""
 
-from __future__ import annotations
-
 import itertools
 import re
 

@@ -1,7 +1,5 @@
 """Emitted tables of straight lines: value and slope of the piece that an argument lies in, found by halving."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 

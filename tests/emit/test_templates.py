@@ -1,7 +1,5 @@
 """Templates are given what they ask for, in all of their branches, and nothing that they do not use."""
 
-from __future__ import annotations
-
 import jinja2
 import pytest
 from jinja2 import meta

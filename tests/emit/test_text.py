@@ -1,7 +1,5 @@
 """Text of a file or a method cannot leave the comments and docstrings of emitted code, and names cannot collide."""
 
-from __future__ import annotations
-
 import ast
 import builtins
 import copy

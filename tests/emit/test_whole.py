@@ -1,7 +1,5 @@
 """Modules for people: the functions that run, each once, with names for places in arrays."""
 
-from __future__ import annotations
-
 import ast
 
 import pytest

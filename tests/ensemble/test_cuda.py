@@ -1,7 +1,5 @@
 """Sweeps on a CUDA device against the same on a processor, by Numba's simulator; what is refused; what is emitted."""
 
-from __future__ import annotations
-
 import ast
 import os
 import re

@@ -1,7 +1,5 @@
 """Runs in lanes against runs by themselves: equal to rounding, and done alone where they do not go well."""
 
-from __future__ import annotations
-
 import math
 from functools import cache
 

@@ -1,7 +1,5 @@
 """What rows say that are ok, and on devices no rows that steps go across without a word."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

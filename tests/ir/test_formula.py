@@ -1,7 +1,5 @@
 """What is undefined in a formula stays undefined, whatever is done with it, in compiled code of every shape."""
 
-from __future__ import annotations
-
 import math
 import operator
 from functools import cache

@@ -4,8 +4,6 @@ The two routes share the derivation of a measure and nothing behind it: instance
 on panels and the formulas of laws are written twice. A process in which nothing is compiled evaluates all cases.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

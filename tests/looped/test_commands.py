@@ -1,28 +1,13 @@
 """Shapes on the command line: asked for, chosen, shown, written out, refused."""
 
-from __future__ import annotations
-
 import ast
 import json
 
 import pytest
 
 from symgen.api import load
-from symgen.cli import main
 from symgen.ensemble.sweep import sweep
 from symgen.errors import InputError
-
-
-@pytest.fixture
-def cli(capsys):
-    """Run the command line; return exit code, standard output and standard error."""
-
-    def run(*arguments):
-        code = main([str(a) for a in arguments])
-        captured = capsys.readouterr()
-        return code, captured.out, captured.err
-
-    return run
 
 
 def test_a_run_says_its_shape(cli):

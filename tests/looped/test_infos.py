@@ -1,7 +1,5 @@
 """Both shapes name the same things: rows, multipliers, dropped rows, massless velocities, angles that count turns."""
 
-from __future__ import annotations
-
 import copy
 import re
 from typing import Any

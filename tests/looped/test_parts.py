@@ -1,7 +1,5 @@
 """Parts of the looped shape: instances, elimination, sharing, choice of the shape, starts of large mechanisms."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

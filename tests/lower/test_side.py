@@ -1,7 +1,5 @@
 """Formulas of a run in a module of their own: values, rates along the motion, angles that count turns, the cache."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Methods from outside the package: the cache must not take one version of them for another."""
 
-from __future__ import annotations
-
 import importlib.util
 import sys
 from pathlib import Path

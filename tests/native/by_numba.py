@@ -3,8 +3,6 @@
 python -m native.by_numba straight pendulum lagrange rk4 four-bar ggl radau5
 """
 
-from __future__ import annotations
-
 import builtins
 import functools
 import sys

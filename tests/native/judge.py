@@ -4,8 +4,6 @@ python -m native.judge four-bar direct-correction
 python -m native.judge four-bar direct-correction --lanes
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 from pathlib import Path

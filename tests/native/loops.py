@@ -3,8 +3,6 @@
 python -m native.loops straight pendulum lagrange rk4 four-bar ggl radau5
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from typing import Any

@@ -1,7 +1,5 @@
 """Long straight functions in blocks: what they compute, what moves, and what stays where it is."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 

@@ -1,7 +1,5 @@
 """Arguments of compiled functions from Python: taken apart, and laid out in memory for a trampoline."""
 
-from __future__ import annotations
-
 import ctypes
 from collections import namedtuple
 

@@ -5,8 +5,6 @@ sum takes in, and chooses by what stands around it: two right translations of on
 and behind a cancellation in any.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from symgen.methods import METHODS

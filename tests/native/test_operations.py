@@ -1,7 +1,5 @@
 """Every operation that a printer of blocks can print, in random combinations, compiled both ways."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from contextlib import suppress

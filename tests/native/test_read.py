@@ -1,7 +1,5 @@
 """What is in the language of emitted functions, with which types, and what is outside."""
 
-from __future__ import annotations
-
 import ast
 import math
 

@@ -1,7 +1,5 @@
 """Sines of several angles together: against mpmath, against those of the C library, and where they are taken."""
 
-from __future__ import annotations
-
 import ctypes
 import math
 

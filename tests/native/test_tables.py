@@ -1,7 +1,5 @@
 """Looped code compiled from its source: all of it is in the language, and it does what Numba's does."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.golden import LOOPED, emitted_looped, written

@@ -1,7 +1,5 @@
 """Emitted modules loaded twice: with functions compiled by symgen's own route, and with functions of Numba."""
 
-from __future__ import annotations
-
 import builtins
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """Formulas of a file as JavaScript: lines that say the same as the formula."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """Names in pages: a page may hold each once, whatever the tables of a file are called."""
 
-from __future__ import annotations
-
 import re
 
 from support.emitted import mechanism_of

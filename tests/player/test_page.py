@@ -1,7 +1,5 @@
 """Pages as files: what they hold, how large they are, that they ask nobody; what they do is seen in a browser."""
 
-from __future__ import annotations
-
 import base64
 import json
 import os

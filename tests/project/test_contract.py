@@ -4,8 +4,6 @@
 are free; ``SYMGEN_UPDATE_CONTRACT=1`` puts them into the file.
 """
 
-from __future__ import annotations
-
 import csv
 import inspect
 import json

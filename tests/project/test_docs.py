@@ -1,8 +1,6 @@
 """What the pages say: every command fenced as ``console`` runs, every Python snippet runs, links lead somewhere,
 every page can be reached, and every kind with every key stands in the tables."""
 
-from __future__ import annotations
-
 import ast
 import os
 import re

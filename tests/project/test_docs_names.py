@@ -1,7 +1,5 @@
 """What pages name exists: paths of the repository, modules and what stands in them, as text and for the site."""
 
-from __future__ import annotations
-
 import importlib
 import re
 from pathlib import Path

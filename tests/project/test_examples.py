@@ -1,7 +1,5 @@
 """Every example runs, and every kind of joint, force, method and integrator is tried by some test."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The text of emitted modules: some checked in under ``generated/``, digests of all."""
 
-from __future__ import annotations
-
 import ast
 import builtins
 import difflib

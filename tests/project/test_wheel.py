@@ -1,7 +1,5 @@
 """The wheel holds what the package needs, and works in an environment that knows nothing of this checkout."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """What public objects show of themselves: one screen in a terminal, a table or a picture in a notebook."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

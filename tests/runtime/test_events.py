@@ -1,7 +1,5 @@
 """Events of runs: where they are found, what resets do, when they accumulate. References share no code with symgen."""
 
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
 

@@ -1,7 +1,5 @@
 """Runs that go on from results and files: bit for bit the run in one piece, or from its last coordinates alone."""
 
-from __future__ import annotations
-
 import copy
 import json
 import pickle

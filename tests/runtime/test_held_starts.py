@@ -1,7 +1,5 @@
 """Starts in which coordinates, velocities and joint coordinates are held, against closed forms and geometry."""
 
-from __future__ import annotations
-
 import copy
 import math
 import tomllib

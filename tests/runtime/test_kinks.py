@@ -1,7 +1,5 @@
 """Kinks that are known beforehand: adaptive runs end a step at each of them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

@@ -4,8 +4,6 @@ A change that is meant to move one of them records all anew: ``SYMGEN_UPDATE_OUT
 tests/runtime/test_outcomes.py`` writes ``tests/data/outcomes.json``, whose difference says what has changed.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -1,7 +1,5 @@
 """Rows that depend on others for ever: which of them stand for all follows the position."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """Arithmetic on whole states, by long double sums in NumPy; between guards of nan: nothing beyond is touched."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any

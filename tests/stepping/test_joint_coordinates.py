@@ -1,7 +1,5 @@
 """Runs step by step whose state is that of the joints of a tree: the same as runs in one piece."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.checks import assert_same_motion

@@ -1,7 +1,5 @@
 """Functions of emitted modules: compiled from their text, kept in the cache, and called."""
 
-from __future__ import annotations
-
 import threading
 from pathlib import Path
 

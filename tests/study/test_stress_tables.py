@@ -1,7 +1,5 @@
 """The tables of the page on stiff and extreme cases, from studies in JSON."""
 
-from __future__ import annotations
-
 import json
 
 from report.made import stress_row

@@ -3,8 +3,6 @@
 ``python -m support.both_forms`` writes JSON: case -> quantity -> largest difference over its scale.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -3,8 +3,6 @@
 ``python -m support.both_shapes`` writes JSON: case -> quantity -> largest difference over its scale.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Iterator

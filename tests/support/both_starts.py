@@ -1,7 +1,5 @@
 """Starts of random mechanisms in both shapes and by sparse algebra, in a process in which nothing is compiled."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from support.emitted import mechanism_of

@@ -1,7 +1,5 @@
 """Text planted in every place of a mechanism file that may hold text, found by walking the file's JSON schema."""
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Iterator
 from typing import Any

@@ -1,7 +1,5 @@
 """Emitted modules whose text is held: which mechanisms, methods, shapes and targets, and what is shown of them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import cache, partial
 from pathlib import Path

@@ -6,8 +6,6 @@ standard streams, signals and exit code, and nothing of what another one did. Wh
 starts, such as which modules are imported or how much memory is taken, wants `subprocess`.
 """
 
-from __future__ import annotations
-
 import atexit
 import functools
 import importlib

@@ -1,7 +1,5 @@
 """Masses that are pushed, on a guide or free: the equations of tests that are judged by closed forms."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -4,8 +4,6 @@ The parameter ``shake`` says how far off they are described, ``turning`` scales 
 from start to start without another mechanism.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -3,8 +3,6 @@
 The alphabet of ``st.text()`` is the same, but found by trying a million code points, for seconds in every process.
 """
 
-from __future__ import annotations
-
 from hypothesis import strategies as st
 
 CHARACTERS = st.characters(exclude_categories=("Cs",))

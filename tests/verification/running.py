@@ -1,7 +1,5 @@
 """Commands in fresh processes, files of the defects, and motions of the reference to compare with."""
 
-from __future__ import annotations
-
 import functools
 import json
 import os

@@ -1,7 +1,5 @@
 """Random mechanisms: the same in every process, valid, closed, and shrunk to what is needed."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import tomllib

@@ -1,7 +1,5 @@
 """The judge itself: runs that are right pass, runs that are not do not, whatever they say."""
 
-from __future__ import annotations
-
 import dataclasses
 import tomllib
 from pathlib import Path

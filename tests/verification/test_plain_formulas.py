@@ -1,7 +1,5 @@
 """The reference's reader of formulas against Python's own, and its derivatives against differences."""
 
-from __future__ import annotations
-
 import math
 import random
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The reference against closed forms and published motions, before it judges anything."""
 
-from __future__ import annotations
-
 import csv
 import json
 import tomllib

@@ -1,7 +1,5 @@
 """The reference's own derivatives against differences along a motion, for every kind of joint and force."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation

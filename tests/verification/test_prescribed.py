@@ -3,8 +3,6 @@
 The judge is the mechanism in coordinates of bodies, whose rows, multipliers and work know nothing of trees.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Small samples of what `benchmarks` verifies at length, and the pages that describe it."""
 
-from __future__ import annotations
-
 import json
 import re
 import subprocess

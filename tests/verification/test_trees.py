@@ -3,8 +3,6 @@
 `benchmarks.plain` has every joint and force once more, in coordinates of bodies, and shares no code with symgen.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Rough edges for programs and terminals: defects D19 and D20."""
 
-from __future__ import annotations
-
 import os
 import re
 import signal

@@ -1,7 +1,5 @@
 """Text of a file is never executed, and never takes the process down: defects A1 to A3; see `emit/test_text.py`."""
 
-from __future__ import annotations
-
 import ast
 from pathlib import Path
 

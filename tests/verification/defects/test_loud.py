@@ -1,7 +1,5 @@
 """What ended in an error or without an end, and should not have: defects C11 to C17."""
 
-from __future__ import annotations
-
 import tomllib
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Files that fuzzing found: numbers that overflow, starts without a derivative, chains of joints, long files."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

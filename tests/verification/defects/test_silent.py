@@ -1,7 +1,5 @@
 """Runs that ended `ok` with a motion that is not the mechanism's: defects B4 to B10."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from pathlib import Path
