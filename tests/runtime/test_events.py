@@ -358,11 +358,8 @@ def test_an_excursion_inside_one_step_is_found():
     model = symgen.load(mechanism_of({**thrown, "events": {"high": event}}))
     half = math.sqrt(2e-3 / G)
     for direction, expected in (("any", [1 - half, 1 + half]), ("rising", [1 - half]), ("falling", [1 + half])):
-        result = model.simulate(
-            *(),
-            **{"method": "lagrange", "step": 0.8, "until": 1.6},
-            **{"events": {direction: event | {"direction": direction}}},
-        )
+        events = {direction: event | {"direction": direction}}
+        result = model.simulate(method="lagrange", step=0.8, until=1.6, events=events)
         np.testing.assert_allclose(times_of(result, direction), expected, rtol=0.0, atol=1e-12)
 
 
