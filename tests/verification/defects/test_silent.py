@@ -163,29 +163,23 @@ def test_what_is_no_number_does_not_become_one(formula: str, shape: str, tmp_pat
 
 # -- B10: starts that were moved ---------------------------------------------------------------------------------------
 
-GUESSED = FOUR_BAR.replace("angle = 0.30823360485921275", "angle = -1.1").replace(
-    "angle = 1.5966280632474863", "angle = 0.6"
+COUPLER, ROCKER = "angle = 0.30823360485921275", "angle = 1.5966280632474863"
+
+
+@pytest.mark.parametrize(
+    ("changes", "table"),
+    [({COUPLER: "angle = -1.1", ROCKER: "angle = 0.6"}, "warnings"), ({ROCKER: "angle = 1.5967"}, "notes")],
 )
-
-
-def test_a_start_that_was_moved_far_is_told_with_names_and_numbers(tmp_path: Path) -> None:
+def test_a_moved_start_has_names_and_numbers(changes: dict[str, str], table: str, tmp_path: Path) -> None:
     """Which coordinate moved from where to where; a warning where that is more than a tenth of the size or 0.3 rad."""
+    content = FOUR_BAR
+    for old, new in changes.items():
+        content = content.replace(old, new)
     file = tmp_path / "guessed.toml"
-    file.write_text(GUESSED, encoding="utf-8")
+    file.write_text(content, encoding="utf-8")
     result = symgen.load(file).simulate(until=0.01, step=1e-3)
-    before = {"coupler.theta": -1.1, "rocker.theta": 0.6}
-    moved = max(before, key=lambda name: abs(result.q[name][0] - before[name]))
-    assert abs(result.q[moved][0] - before[moved]) > 0.3
-    warned = " ".join(result.warnings)
-    assert re.search(r"\b(coupler|rocker|crank)\.(x|y|theta)\b", warned), result.warnings
-    assert re.search(r"from\s+-?[0-9.]+.*to\s+-?[0-9.]+", warned), result.warnings
-
-
-def test_a_start_that_is_closed_a_little_is_a_note_and_no_warning(tmp_path: Path) -> None:
-    file = tmp_path / "near.toml"
-    file.write_text(FOUR_BAR.replace("angle = 1.5966280632474863", "angle = 1.5967"), encoding="utf-8")
-    result = symgen.load(file).simulate(until=0.01, step=1e-3)
-    assert not result.warnings
-    noted = " ".join(result.notes)
-    assert re.search(r"\b(coupler|rocker|crank)\.(x|y|theta)\b", noted), result.notes
-    assert re.search(r"from\s+-?[0-9.]+.*to\s+-?[0-9.]+", noted), result.notes
+    far = max(abs(result.q["coupler.theta"][0] + 1.1), abs(result.q["rocker.theta"][0] - 0.6))
+    assert far > 0.3 if table == "warnings" else not result.warnings
+    sentences = " ".join(getattr(result, table))
+    assert re.search(r"\b(coupler|rocker|crank)\.(x|y|theta)\b", sentences), sentences
+    assert re.search(r"from\s+-?[0-9.]+.*to\s+-?[0-9.]+", sentences), sentences
