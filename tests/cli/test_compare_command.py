@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+from support.runs import interrupt
 
 from symgen.api import load
 from symgen.errors import SimulationError
@@ -52,15 +53,7 @@ def test_a_file_that_is_no_journal_is_refused_and_left_alone(cli, tmp_path):
 
 @pytest.mark.slow
 def test_an_interrupted_study_writes_the_report_of_what_is_done(cli, tmp_path, monkeypatch):
-    real, calls = module.timed, []
-
-    def sometimes(*arguments):
-        calls.append(1)
-        if len(calls) == 3:
-            raise KeyboardInterrupt
-        return real(*arguments)
-
-    monkeypatch.setattr(module, "timed", sometimes)
+    calls = interrupt(monkeypatch, module, "timed", 3)
     report, journal = tmp_path / "report.html", tmp_path / "rows.journal"
     arguments = ("compare", "pendulum", *SMALL, "--repeat", "1", "-o", report, "--json", "--journal", journal)
     code, out, err = cli(*arguments)
@@ -74,18 +67,11 @@ def test_an_interrupted_study_writes_the_report_of_what_is_done(cli, tmp_path, m
 
 def test_rows_of_an_earlier_study_are_shown_where_preparing_is_interrupted(cli, tmp_path, monkeypatch):
     arguments = ("compare", "pendulum", *SMALL, "--repeat", "1", "--json", "--resume", tmp_path / "rows.journal")
-    calls, real = [], module.timed
-
-    def sometimes(*arguments):
-        calls.append(1)
-        if len(calls) == 3:
-            raise KeyboardInterrupt
-        return real(*arguments)
 
     def never(*_):
         return {}, True
 
-    monkeypatch.setattr(module, "timed", sometimes)
+    interrupt(monkeypatch, module, "timed", 3)
     first = json.loads(cli(*arguments, "--jobs", "1")[1])
     monkeypatch.setattr(module, "run_cells", never)
     code, out, err = cli(*arguments, "--jobs", "2")

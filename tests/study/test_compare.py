@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from report import made
 from support.emitted import mechanism_of
+from support.runs import interrupt
 
 import symgen
 import symgen.methods
@@ -140,15 +141,7 @@ def test_what_the_start_warns_of_is_in_every_row_and_said_once(capsys):
 
 
 def test_an_interrupted_study_keeps_its_rows(monkeypatch):
-    real, calls = module.timed, []
-
-    def sometimes(*arguments):
-        calls.append(1)
-        if len(calls) == 3:
-            raise KeyboardInterrupt
-        return real(*arguments)
-
-    monkeypatch.setattr(module, "timed", sometimes)
+    interrupt(monkeypatch, module, "timed", 3)
     study = symgen.compare("pendulum", ["lagrange"], ["rk4"], [4e-2, 2e-2, 1e-2, 5e-3], until=0.5, repeat=1)
     assert study.interrupted and len(study.rows) == 2
     assert study.to_json()["reference"]["how"] == "Jacobi's elliptic functions"
@@ -255,9 +248,9 @@ def test_curves_go_with_their_rows(study):
 def test_a_journal_gives_rows_back_and_computes_only_what_is_missing(tmp_path, monkeypatch):
     arguments = {"methods": ["lagrange", "direct-correction"], "integrators": ["rk4"], "steps": [2e-2, 1e-2]}
     path = tmp_path / "rows.journal"
+    real, calls = module.timed, []
     with Journal(path) as journal:
         first = symgen.compare("pendulum", **arguments, until=0.5, repeat=1, journal=journal)
-    calls, real = [], module.timed
     monkeypatch.setattr(module, "timed", lambda *a: calls.append(1) or real(*a))
     monkeypatch.setattr(module, "reference", None)  # it is in the journal as well
     arguments["steps"] = [2e-2, 1e-2, 5e-3]

@@ -28,3 +28,17 @@ def fixed(integrator: str) -> dict:
     return {"integrator": integrator} | (
         {} if integrator == "rk4" else {"options": {f"{integrator}.adaptive": "false"}}
     )
+
+
+def interrupt(monkeypatch, module, name, call):
+    """Let a function of a module end as Ctrl-C does at one of its calls, counted from 1; its calls, in a list."""
+    function, calls = getattr(module, name), []
+
+    def counted(*arguments):
+        calls.append(1)
+        if len(calls) == call:
+            raise KeyboardInterrupt
+        return function(*arguments)
+
+    monkeypatch.setattr(module, name, counted)
+    return calls
