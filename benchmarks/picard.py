@@ -174,7 +174,7 @@ def hard(arguments: list[str]) -> None:
         "case", "rtol", "integrator", "status", "error", "time [us]", "steps", "refused", "evaluations in a row"
     )
     for title, (mechanism, until) in cases.items():
-        more = {"method": "lagrange", "coordinates": "joint"}
+        more = {"method": "direct-correction", "coordinates": "joint"}
         ends = made_ready(mechanism, "dop853", until, rtol=3e-14, atol=1e-15, **more).integrate()
         for tolerance in (1e-6, 1e-9):
             for integrator in INTEGRATORS:
