@@ -136,11 +136,11 @@ def versions(digest: str) -> str:
     return f"digest {digest}, format {FORMAT}, templates {templates_digest()}"
 
 
-def law_header(info: LawInfo, summary: str, reference: str, made: str, place: str = "p[{}]") -> list[str]:
-    """Return the lines of a law's docstring; `made` says what of, `place` is where parameters of the method stand."""
+def law_header(info: LawInfo, summary: str, reference: str, source: str, place: str = "p[{}]") -> list[str]:
+    """Return the lines of a law's docstring; `source` says what of, `place` is where parameters of the method stand."""
     parameters = enumerate(info.parameters, info.parameter_offset)
     return [
-        *(f"{sentence(summary)}.", reference, made),
+        *(f"{sentence(summary)}.", reference, source),
         *(f"option {option} = {value}" for option, value in sorted(info.options.items())),
         *(f"{place.format(i)} {name} (default {default})" for i, (name, default) in parameters),
     ]

@@ -101,9 +101,9 @@ def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:
     """Return where the nodes of a value go."""
     e, value = scalars.equations, scalars.values[index]
     if scalars.operations[index].kind.startswith("keep"):
-        return scalars.kept[place]
+        return scalars.stored[place]
     if isinstance(value, FactorNodes):
-        return scalars.kept[f"{place}lower"] + scalars.kept[f"{place}reciprocal"]
+        return scalars.stored[f"{place}lower"] + scalars.stored[f"{place}reciprocal"]
     if place == "geometry":
         return list(value)
     if place == "dense":

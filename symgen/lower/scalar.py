@@ -59,7 +59,7 @@ class ScalarNodes(OfMass):
         """Return the factor of D G D^T that decides rank: dependent rows get a reciprocal pivot of 0."""
 
         def reciprocal(row: int, pivot: int, diagonal: int) -> int:
-            return self._kept(self._decided(row, pivot, diagonal), pivot)
+            return self._masked_reciprocal(self._decided(row, pivot, diagonal), pivot)
 
         return factorise(self.graph, self.gram(self.rows, self.gauge), self.order, reciprocal)
 
@@ -87,7 +87,7 @@ class ScalarNodes(OfMass):
         gauge = g.mul(g.constant(1.0 / max(1, len(turns))), g.total(turns))
         return g.call("max", diagonal, g.mul(constraint.size, gauge))
 
-    def _kept(self, keep: int, pivot: int) -> int:
+    def _masked_reciprocal(self, keep: int, pivot: int) -> int:
         """Return 1 / pivot where `keep` is 1, else 0."""
         g = self.graph
         return g.div(g.one, pivot) if keep == g.one else g.div(keep, g.call("max", pivot, g.constant(TINY)))
@@ -96,7 +96,7 @@ class ScalarNodes(OfMass):
         """Return the factor of D W D^T, of the rows for which `keep` gives 1."""
 
         def reciprocal(row: int, pivot: int, _: int) -> int:
-            return self._kept(keep(row), pivot)
+            return self._masked_reciprocal(keep(row), pivot)
 
         return factorise(self.graph, matrix, self.order, reciprocal)
 

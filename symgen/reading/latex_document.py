@@ -81,9 +81,9 @@ def document(
     if not e.m:
         for part in ("Phi", "D", "nu", "gamma"):
             del sections[part]
-    kept = [part for part in sections if part in wanted]
-    parts = [text for part in kept for text in sections[part]]
-    parts += _section("Shared terms", _lines(sheet.shared(sheet.nodes(kept))))
+    chosen = [part for part in sections if part in wanted]
+    parts = [text for part in chosen for text in sections[part]]
+    parts += _section("Shared terms", _lines(sheet.shared(sheet.nodes(chosen))))
     if "law" in wanted:
         parts += _law(law)
     if "left-out" in wanted and e.omissions:

@@ -144,7 +144,7 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, st
     from symgen.running.prepare import prepare
     from symgen.settings import Settings
 
-    inputs, formulas, begun = run["inputs"], dict(mechanism.given), run["start"]
+    inputs, formulas, begun = run["inputs"], dict(mechanism.input_formulas), run["start"]
     if any(isinstance(x, str) and name not in formulas for name, x in inputs.items()) or (
         not set(mechanism.inputs) <= set(inputs)
     ):

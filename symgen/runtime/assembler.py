@@ -99,7 +99,7 @@ class Assembly:
         return layout._replace(
             t=self.t,
             ask_light=int(self.ask_light and hasattr(self.compiled.law_module, "confirm")),
-            kept=_marked(tuple(held.velocities), info.nv),
+            unchanged=_marked(tuple(held.velocities), info.nv),
             fixed=_marked(held.fixed, info.nv),
             held=np.array([(i, velocity_of(i, info)) for i in held.coordinates], dtype=np.int64).ravel(),
             branches=np.array(self.branches, dtype=np.float64) if len(self.branches) else layout.branches,

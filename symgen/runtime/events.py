@@ -367,7 +367,7 @@ def record_of(info: ModelInfo, event: Happening) -> EventRecord:
     if impact is None:
         return EventRecord(event.t, event.name, event.action, q, v)
     after = {c.name: float(x) for c, x in zip(info.velocities, impact.v, strict=True)}
-    signs = [-1.0] * info.m + [1.0] * len(impact.given)  # D^T lambda stands on the left of the equations of motion
-    names = [*(row.name for row in info.rows), *impact.given]
+    signs = [-1.0] * info.m + [1.0] * len(impact.imposed)  # D^T lambda stands on the left of the equations of motion
+    names = [*(row.name for row in info.rows), *impact.imposed]
     impulses = {name: float(s * x) for name, s, x in zip(names, signs, impact.impulses, strict=True)}
     return EventRecord(event.t, event.name, event.action, q, v, after, impulses, event.energy)

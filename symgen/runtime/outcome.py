@@ -150,25 +150,24 @@ class Motion:
 
 @dataclass(frozen=True, kw_only=True)
 class PrescribedMotion(Motion):
-    """A motion that is known with its accelerations; multipliers are worked out from it, or known as well.
+    """A motion with its accelerations; multipliers follow from it where they are not prescribed.
 
     Attributes
     ----------
-    given : Array, shape (k, nv)
-        Accelerations.
-    found : Array, shape (k, m), optional
-        Multipliers.
+    prescribed_accelerations : Array, shape (k, nv)
+    prescribed_multipliers : Array, shape (k, m), optional
     """
 
-    given: Array = field(repr=False)
-    found: Array | None = field(default=None, repr=False)
+    prescribed_accelerations: Array = field(repr=False)
+    prescribed_multipliers: Array | None = field(default=None, repr=False)
 
     @cached_property
     def _rates(self) -> Observed:
-        accelerations = np.ascontiguousarray(self.given)
-        if self.found is not None:
-            return self._seen[2]._replace(accelerations=accelerations, multipliers=np.ascontiguousarray(self.found))
-        return super()._rates._replace(accelerations=accelerations)
+        accelerations = np.ascontiguousarray(self.prescribed_accelerations)
+        if self.prescribed_multipliers is None:
+            return super()._rates._replace(accelerations=accelerations)
+        multipliers = np.ascontiguousarray(self.prescribed_multipliers)
+        return self._seen[2]._replace(accelerations=accelerations, multipliers=multipliers)
 
     @cached_property
     def responses(self) -> Observed:

@@ -62,7 +62,7 @@ class Impact:
         Velocities afterwards.
     impulses : Array
         Of each row of D, then of each velocity that was given a value.
-    given : tuple of str
+    imposed : tuple of str
         These velocities.
     energy : float
         What is added to the energy [J].
@@ -70,7 +70,7 @@ class Impact:
 
     v: Array
     impulses: Array
-    given: tuple[str, ...]
+    imposed: tuple[str, ...]
     energy: float
 
 

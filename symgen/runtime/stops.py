@@ -16,7 +16,7 @@ from typing import Any
 
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import DrivenMechanism, Jump
-from symgen.describe.kinks import known_in_time
+from symgen.describe.kinks import jumps_in_time
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.remembered import remembered
 from symgen.errors import InputError
@@ -119,7 +119,7 @@ class Foreseen:
     mechanism : Mechanism
         Whose tables they may read.
     kinks, sides : tuple of Jump
-        From `symgen.describe.kinks.known_in_time`.
+        From `symgen.describe.kinks.jumps_in_time`.
     latest : dict
         The latest result, by what it depends on.
     """
@@ -207,13 +207,13 @@ def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
         for jump in (Jump(event.when) for event in events)
         if "t" in (read := {*names(jump.argument)}) and read <= timely and line_of(jump, values) is None
     )
-    kinks, sides = known_in_time(mechanism, events)
+    kinks, sides = jumps_in_time(mechanism, events)
     return Foreseen(mechanism, kinks, (*sides, *happening))
 
 
 @remembered
 def _passed(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], dict[Any, Any]]:
-    return *known_in_time(mechanism), {}
+    return *jumps_in_time(mechanism), {}
 
 
 def times_between(
