@@ -32,7 +32,7 @@ def build_scene(
     values: Mapping[str, float] | None = None,
     open_joints: Sequence[str] = (),
 ) -> Scene:
-    """Return what is drawn of a mechanism.
+    """Return the scene of a mechanism.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ def _gyration(numbers: PlacedMechanism, body: AnyBody) -> Array:
 
 
 def _shape_marks(pen: Pen, body: AnyBody, shape: Shape, colour: str) -> list[Mark]:
-    """Return what is drawn of a shape.
+    """Return the marks of a shape.
 
     Parameters
     ----------

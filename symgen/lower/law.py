@@ -88,7 +88,7 @@ def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part) -> Block:
 
 
 def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
-    """Return what a function of a law writes; where M changes with the position, those without the state read it."""
+    """Return the outputs of a function of a law; where M changes with the position, those without the state read it."""
     if scalars.mass_entries and "y" not in ARGUMENTS[part.name]:
         scalars = scalars.with_stored_mass
     outputs = [output for place, index in part.outputs for output in _outputs(scalars, place, index)]

@@ -77,7 +77,7 @@ class ScalarNodes(OfMass):
         return pivot == diagonal and self.equations.rows[row].size is None
 
     def _usual(self, row: int, diagonal: int) -> int:
-        """Return what the pivot of a row in D G D^T is compared with: its square, or what it was before."""
+        """Return the scale of the pivot of a row in D G D^T: the row's square, or the pivot before."""
         g, constraint = self.graph, self.equations.rows[row]
         if constraint.size is None:
             return diagonal

@@ -258,7 +258,7 @@ def _index(place: str) -> str:
 
 
 def _rates_spec(compiled: CompiledModel, start: Start) -> dict[str, Any]:
-    """Return what a page has to know to evaluate the right-hand side."""
+    """Return a page's data for the right-hand side."""
     info = compiled.info
     values = [float(start.p[i]) for i in range(len(info.parameters))]
     places = [i for name in _SECTIONS for i in range(info.sections[name][0], sum(info.sections[name]))]

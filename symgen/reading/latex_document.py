@@ -118,7 +118,7 @@ def _head(mechanism: Mechanism, sheet: Sheet) -> list[str]:
 
 
 def selected(equations: Equations, select: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the sections and the joints that are asked for; ``joints.D`` is a joint, ``D`` the Jacobian."""
+    """Return the selected sections and joints; ``joints.D`` is a joint, ``D`` the Jacobian."""
     with_rows = tuple(dict.fromkeys(row.joint for row in equations.rows))
     sections, joints = list[str](), list[str]()
     for item in select:

@@ -43,7 +43,7 @@ def lines(result: Result) -> list[tuple[str, str]]:
 
 
 def _coordinates(result: Result) -> str:
-    """Return what the state was made of, in words."""
+    """Return the coordinates of the state, in words."""
     count = len(result.state)
     return f"{result.coordinates}, {count} numbers of the state; the rank is that over all rows of the mechanism"
 

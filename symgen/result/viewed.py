@@ -121,7 +121,7 @@ def _reactions(mechanism: Mechanism, table: Labelled) -> tuple[Array | None, tup
 
 
 def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> list[PlottedGroup]:
-    """Return what can be plotted: outputs of the file first, then energy, violations and positions of few bodies."""
+    """Return the groups of a plot: outputs of the file first, then energy, violations and positions of few bodies."""
     groups: list[PlottedGroup] = []
     outputs = tables["outputs"]
     for unit in dict.fromkeys(outputs.units):

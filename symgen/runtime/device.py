@@ -37,7 +37,7 @@ _N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
 
 
 class Starts(NamedTuple):
-    """What runs begin with, shapes (ny, runs), (np, runs), (nw, runs); and what they are judged and asked by."""
+    """What runs begin with, shapes (ny, runs), (np, runs), (nw, runs); and the inputs of their observers."""
 
     ys: Any
     ps: Any
@@ -164,7 +164,7 @@ def _compiled(copy: python.FunctionType, original: Any) -> Any:
 
 @dataclass(frozen=True)
 class Need:
-    """What shapes a kernel beside its law: sizes in numbers, and what is asked of it.
+    """What shapes a kernel beside its law: sizes in numbers, and its outputs.
 
     Attributes
     ----------
@@ -175,7 +175,7 @@ class Need:
     rows : int
         What ``observe`` writes at an output.
     adaptive, rates, joints : bool
-        Whether steps are adaptive, accelerations or multipliers asked for, and joint coordinates.
+        Whether steps are adaptive, accelerations or multipliers are outputs, and joint coordinates.
     """
 
     width: int
@@ -219,7 +219,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     -------
     function
         ``kernel(scheme, sizes, span, starts, results)``, of the types in `SIGNATURE`; every array of runs has the run
-        as its last index, and none is empty: what is not asked for has one element.
+        as its last index, and none is empty: an unused one has one element.
     """
     parts: dict[str, Any] = explicit.ADAPTIVE_PARTS if need.adaptive else explicit.CONSTANT_PARTS
     one_event = on_device(watch.watch, _N_EVENT=0)

@@ -105,7 +105,7 @@ class Instances:
         return result
 
     def meaning(self, name: str, function: Any) -> Any:
-        """Return what a global name of a function means in its copy, None where that is no matter."""
+        """Return the value of a global name of a function in its copy, None where it does not matter."""
         replaced = name in self.meanings
         value = self.meanings[name] if replaced else function.__globals__.get(name)
         plain = getattr(value, "py_func", None)

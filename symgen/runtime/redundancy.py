@@ -162,7 +162,7 @@ def room_of_choice(m: int, n: int) -> int:
 
 
 def row_chooser(compiled: CompiledModel) -> Callable[[Array], bool]:
-    """Return what chooses the rows that stand for all at the position of w and says whether they are others.
+    """Return the function that chooses independent rows at the position of w; it returns whether they changed.
 
     Rows of mechanisms that are too large for it stay what they are.
     """

@@ -64,7 +64,7 @@ INSTANT = record_type("Instant", __name__, ("y p w", _A))
 Instant: Any = INSTANT.constructor
 
 
-#: What is asked of the start of a run, and what is said of it.
+#: Conditions on the start of a run, and its summary.
 #: - velocities (shape (nv,)): Velocities; nan where they are to be completed.
 #: - targets (shape (h,)): Values of the held coordinates.
 #: - summary (shape (N_SUMMARY,)): The columns of the start are set; see `symgen.runtime.ensemble_abi`.

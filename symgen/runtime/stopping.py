@@ -146,7 +146,7 @@ def with_stops(loop: Any) -> Any:
 def with_table(
     compiled: CompiledModel, system: tuple[Any, ...], loop: Any, adaptive: bool, rows: Sequence[Sequence[Stop]]
 ) -> tuple[Any, ...]:
-    """Return what the loop takes first that goes from stop to stop.
+    """Return the first arguments of the loop that goes from stop to stop.
 
     Parameters
     ----------

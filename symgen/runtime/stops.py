@@ -170,7 +170,7 @@ class Foreseen:
         return result
 
     def missed(self, values: Mapping[str, float], until: float, step: float | None) -> list[str]:
-        """Return what steps of a run may not see, in words: constant ones what is shorter than one.
+        """Return the sentence about what steps of a run may miss: constant ones what is shorter than one.
 
         Parameters
         ----------
@@ -194,7 +194,7 @@ class Foreseen:
 
 
 def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
-    """Return what is known beforehand of the formulas of joints, forces and integrals of a mechanism, and of events.
+    """Return the foreseen discontinuities of formulas of joints, forces and integrals of a mechanism, and of events.
 
     An event that is a straight line in t is found wherever steps end; another one may come and go within a step.
     """
@@ -224,7 +224,7 @@ def times_between(
     Parameters
     ----------
     jumps : sequence of Jump
-        From `symgen.describe.kinks`. What passes levels more often than can be told apart is left out.
+        From `symgen.describe.kinks`. What passes levels more often than can be separated is left out.
     mechanism : Mechanism
         Whose tables they may read.
     values : mapping of str to float

@@ -319,7 +319,7 @@ class SteppedRun:
         }
 
     def _divided(self, values: Mapping[str, float]) -> RunSpec:
-        """Return what the run is to do with values of parameters: inputs jump, and formulas have kinks, elsewhere."""
+        """Return the run's specification for values of parameters: inputs jump, and formulas have kinks, elsewhere."""
         spec, driven = self._loop.spec, self._driven
         if driven is not None and driven.jumps:
             self._jumps = stops_of(driven, values, spec.until)
