@@ -20,12 +20,12 @@ from rich.table import Table
 from benchmarks.show import show
 from symgen.api import load
 from symgen.compiling.pipeline import choose_method, compile_model
-from symgen.ensemble.loop_runs import aligned
 from symgen.ir.program import LANES, lane_bases
 from symgen.native import types
 from symgen.runtime import abi
 from symgen.runtime.bare import bare
 from symgen.runtime.lanes import LANE_FUNCTION
+from symgen.runtime.padding import aligned
 from symgen.store.jit import jit
 
 METHOD = "direct-correction"

@@ -139,6 +139,7 @@ def basic(shapes: list[str]) -> list[Asked]:
             found.append(Asked("auto", "auto", "auto"))
             continue
         found.append(Asked("lagrange", "dop853", shape, 1e-10))
+        found.append(Asked("lagrange", "picard", shape, 1e-10))
         found.append(Asked("direct-correction", "rk4", shape))
     return found
 

@@ -13,10 +13,11 @@ from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.hunting import with_events
 from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
+from symgen.runtime.padding import aligned
 from symgen.runtime.probe import rates_of
 from symgen.runtime.records import Kept, Observed, RowChunk
 from symgen.runtime.redundancy import room_of_choice
-from symgen.runtime.rows import observe_nothing, variant
+from symgen.runtime.rows import observe_nothing, over_rows
 from symgen.runtime.searching import decide
 from symgen.runtime.start_records import Instant
 from symgen.runtime.stopping import with_table
@@ -113,7 +114,7 @@ class LoopRuns:
             if out.events.shape[1]:
                 out.events[selected] = np.nan
                 out.events[selected, e.HEAD_OF_EVENTS :: e.OF_EVENT] = 0.0
-        loop = variant(self.integrator.rows(adaptive), self.watched is not None, recipe.stops)
+        loop = over_rows(self.integrator.loop(adaptive), self.watched is not None, recipe.stops)
         if recipe.stops:
             system = with_table(compiled, system, inner, adaptive, rows.stops or ((),))
         done = loop((system, observers), setup.scheme, span, chunk, state, kept)
@@ -195,10 +196,3 @@ class TreeRuns:
         for (first, _), products in zip(self.carried.bodies.info.spins, alike.T, strict=True):
             columns = [at[k] for k in range(first, first + 4) if k in at]
             values[np.ix_(selected[products[selected] < 0.0], columns)] *= -1.0
-
-
-def aligned(size: int) -> NDArray[np.float64]:
-    """Return zeros that begin where a line of the cache does: vectors that cross lines take twice the time."""
-    array = np.zeros(size + 8)
-    first = -(array.ctypes.data // 8) % 8
-    return array[first : first + size]

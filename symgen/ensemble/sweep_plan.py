@@ -32,6 +32,7 @@ from symgen.ensemble.row_quantities import choose_quantities
 from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import LANES
+from symgen.running.automatic import AUTO, EXPLICIT
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import make_plan
 from symgen.running.tree import tree_code
@@ -208,7 +209,8 @@ def make_ensemble(
         end = model.mechanism.defaults.until if settings.until is None else settings.until
         settings = replace(settings, times=(end,))
     if target != "cpu":
-        settings = replace(settings, coordinates="absolute")
+        explicit = EXPLICIT if settings.integrator == AUTO else settings.integrator
+        settings = replace(settings, coordinates="absolute", integrator=explicit)
         refuse_events(f"target '{target}'", model.mechanism, settings)
     plan = make_plan(model.mechanism, settings, Purpose.ROWS)
     mechanism, spec = plan.mechanism, plan.spec
@@ -230,9 +232,9 @@ def make_ensemble(
         inputs, passed = replace(driving, foreseen=None).jumps, looks or driving.jumps
         _check_target(target, inputs, passed, bool(events))
     name = plan.integrator.name
-    if plan.integrator.rows(spec.adaptive) is None:
-        others = ", ".join(other for other, kind in INTEGRATORS.items() if kind.rows(False) is not None)
-        expected = "one with a loop over many runs"
+    if target not in plan.integrator.row_targets:
+        others = ", ".join(other for other, kind in INTEGRATORS.items() if target in kind.row_targets)
+        expected = "one with a loop over many runs" + f" on target '{target}'" * (target != "cpu")
         raise InputError(f"integrator '{name}'", expected, "one without", f"{others} have one")
     if target == "lanes" and spec.adaptive:  # runs side by side take the same steps
         got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with --step, or rk4"

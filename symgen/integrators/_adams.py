@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -31,6 +31,8 @@ class Adams:
         Where the region of stability ends on the negative real axis, for the highest order.
     """
 
+    row_targets: ClassVar[tuple[str, ...]] = ()
+
     name: str
     order: int
     reference: str
@@ -49,10 +51,6 @@ class Adams:
         from symgen.runtime.schemes import adams
 
         return adams.adaptive if adaptive else adams.constant
-
-    def rows(self, adaptive: bool) -> Any:
-        """Return None: there is no loop over many runs."""
-        return None
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return what the loop is entered with."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -34,6 +34,8 @@ class AlphaFamily:
         Gives (alpha_m, alpha_f, gamma, beta) for values of the parameters.
     """
 
+    row_targets: ClassVar[tuple[str, ...]] = ()
+
     name: str
     order: int
     reference: str
@@ -53,10 +55,6 @@ class AlphaFamily:
         from symgen.runtime.schemes import alpha
 
         return alpha.constant
-
-    def rows(self, adaptive: bool) -> Any:
-        """Return None: there is no loop over many runs."""
-        return None
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return what the loop is entered with."""

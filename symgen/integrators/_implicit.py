@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -38,6 +38,8 @@ class ImplicitTableau:
     index2_order : int
         Order on stabilised index 2, 0 where that is not solved.
     """
+
+    row_targets: ClassVar[tuple[str, ...]] = ()
 
     name: str
     order: int
@@ -82,10 +84,6 @@ class ImplicitTableau:
         from symgen.runtime.schemes import implicit
 
         return implicit.adaptive if adaptive else implicit.constant
-
-    def rows(self, adaptive: bool) -> Any:
-        """Return None: there is no loop over many runs."""
-        return None
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return what the loop is entered with."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +45,8 @@ class Tableau:
     safety : float
         Part of the step that the error estimate would allow that is taken.
     """
+
+    row_targets: ClassVar[tuple[str, ...]] = ("cpu", "lanes", "cuda")
 
     name: str
     order: int
@@ -124,12 +126,6 @@ class Tableau:
         from symgen.runtime.schemes import explicit
 
         return explicit.adaptive if adaptive else explicit.constant
-
-    def rows(self, adaptive: bool) -> Any:
-        """Return the loop over many runs."""
-        from symgen.runtime import rows
-
-        return rows.adaptive if adaptive else rows.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return what the loop is entered with."""

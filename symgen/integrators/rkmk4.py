@@ -6,7 +6,7 @@ In the plane it is `rk4`. In space Euler parameters keep their length by constru
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 class LieTableau(Tableau):
     """An explicit scheme without an error estimate, applied to rotation vectors within a step."""
 
+    row_targets: ClassVar[tuple[str, ...]] = ()
+
     forms: tuple[str, ...] = ("ode",)
 
     def loop(self, adaptive: bool) -> Any:
@@ -31,10 +33,6 @@ class LieTableau(Tableau):
         from symgen.runtime.schemes import lie
 
         return lie.constant
-
-    def rows(self, adaptive: bool) -> Any:
-        """Return None: there is no loop over many runs."""
-        return None
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return what the loop is entered with."""

@@ -36,7 +36,7 @@ def module(
     together : bool
         Whether sines and cosines of several angles are taken together (`symgen.native.sines`).
     """
-    functions, declared = _reached(function, inlined)
+    functions, declared = reached(function, inlined)
     texts = []
     for f in functions:
         linkage = "" if f is function else "internal " if is_copied(f) else "available_externally "
@@ -76,7 +76,7 @@ def loop_module(function: lang.Function, symbol: str) -> str:
     return "\n".join([*texts, *declared, *declarations(texts), ""])
 
 
-def _reached(
+def reached(
     function: lang.Function, inlined: Callable[[lang.Function], bool]
 ) -> tuple[list[lang.Function], list[lang.Function]]:
     """Return functions whose bodies belong into a module, and those of which it has to know the symbol alone."""

@@ -9,9 +9,9 @@ from symgen.native import language as lang
 from symgen.native import sines
 
 TYPES = {"float": "double", "int": "i64", "bool": "i1", "unsigned": "i32"}
-_FLOATS = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
-_INTS = {"add": "add nsw", "sub": "sub nsw", "mul": "mul nsw", "and": "and", "or": "or"}
-_COMPARED = {
+FLOATS = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
+INTS = {"add": "add nsw", "sub": "sub nsw", "mul": "mul nsw", "and": "and", "or": "or"}
+COMPARED = {
     "float": {"lt": "olt", "le": "ole", "gt": "ogt", "ge": "oge", "eq": "oeq", "ne": "une"},
     "int": {"lt": "slt", "le": "sle", "gt": "sgt", "ge": "sge", "eq": "eq", "ne": "ne"},
     "bool": {"lt": "ult", "le": "ule", "gt": "ugt", "ge": "uge", "eq": "eq", "ne": "ne"},
@@ -128,16 +128,16 @@ class ValuePrinter:
             assert isinstance(exponent, lang.Constant), "a power with a literal exponent"
             return self.product(self.value(arguments[0]), int(exponent.value))
         values = [self.value(a) for a in arguments]
-        if name in _COMPARED["float"]:
+        if name in COMPARED["float"]:
             flag = self.flag if first == "float" else ""
             compare = "fcmp" if first == "float" else "icmp"
-            return self.put(f"{compare}{flag} {_COMPARED[first][name]} {TYPES[first]} {', '.join(values)}")
+            return self.put(f"{compare}{flag} {COMPARED[first][name]} {TYPES[first]} {', '.join(values)}")
         if name in ("min", "max"):
             return self.least(kind, name, values)
-        if kind == "float" and name in _FLOATS:
-            return self.put(f"{_FLOATS[name]}{self.flag} double {values[0]}, {values[1]}")
-        if name in _INTS:
-            return self.put(f"{_INTS[name]} {TYPES[kind]} {values[0]}, {values[1]}")
+        if kind == "float" and name in FLOATS:
+            return self.put(f"{FLOATS[name]}{self.flag} double {values[0]}, {values[1]}")
+        if name in INTS:
+            return self.put(f"{INTS[name]} {TYPES[kind]} {values[0]}, {values[1]}")
         if name in ("float", "int", "bool", "unsigned"):
             return self.converted(first, name, values[0])
         if name == "low":
@@ -161,7 +161,7 @@ class ValuePrinter:
 
     def least(self, kind: lang.Scalar, name: str, values: list[str]) -> str:
         """Print the least or greatest of two values: as in Python, the first where they do not compare."""
-        sign = _COMPARED[kind]["lt" if name == "min" else "gt"]
+        sign = COMPARED[kind]["lt" if name == "min" else "gt"]
         compare = f"fcmp{self.flag}" if kind == "float" else "icmp"
         test = self.put(f"{compare} {sign} {TYPES[kind]} {values[1]}, {values[0]}")
         return self.put(f"select i1 {test}, {TYPES[kind]} {values[1]}, {TYPES[kind]} {values[0]}")

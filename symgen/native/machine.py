@@ -31,6 +31,15 @@ def _host() -> tuple[str, str, str]:
 
 
 @functools.cache
+def vector_width() -> int:
+    """Return how many floating-point numbers a vector of this processor holds."""
+    _, name, features = _host()
+    wide = {"+avx512f": 8, "+avx": 4}
+    named = {"haswell": 4, "broadwell": 4, "znver1": 4, "znver2": 4, "znver3": 4}  # without their features
+    return next((n for feature, n in wide.items() if feature in features.split(",")), named.get(name, 2))
+
+
+@functools.cache
 def processor() -> str:
     """Return what machine code depends on of this processor."""
     return repr(_host())

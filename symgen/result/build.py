@@ -59,7 +59,7 @@ def build_result(
     forces = Forces(outcome, seats(mechanism, values))
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(run, outcome, verification)
-    notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
+    notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome), *_slow(outcome))
     verdict = replace(verdict, notes=(*notes, *verdict.notes, *stopped(outcome)))
     derived = (compiled,) if run.tree is None else (compiled, run.compiled)
     states, status = outcome.states, outcome.status_columns
@@ -94,6 +94,7 @@ def build_result(
         rejected=outcome.rejected,
         evaluations=outcome.evaluations,
         iterations=outcome.counters.get("iterations", 0),
+        vector_width=outcome.counters.get("vector_width") or None,
         seconds=Seconds(
             sum(code.derive_seconds for code in derived),
             sum(code.emit_seconds for code in derived),
@@ -117,6 +118,15 @@ def build_result(
         state=tuple(x.name for x in (*own.coordinates, *own.velocities)),
         ended=partial(_last_state, run, outcome),
     )
+
+
+def _slow(outcome: Outcome) -> tuple[str, ...]:
+    """Return a note on a run whose steps were bounded by the convergence of an iteration, not by the motion."""
+    slow, steps = outcome.counters.get("slow_steps", 0), outcome.steps
+    if slow < 50 or slow < 0.5 * steps:
+        return ()
+    text = f"the iteration of picard converged slowly in {slow} of {steps} steps: the motion is stiff"
+    return (f"{text}, radau5 takes longer steps",)
 
 
 def _last_state(run: Prepared, outcome: Outcome) -> LastState:

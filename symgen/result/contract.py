@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 _FIRST = (
     *("mechanism", "method", "integrator", "shape", "coordinates", "state", "step", "rtol", "atol", "until"),
     *("status", "reason", "warnings", "notes", "parameters", "inputs"),
-    *("steps", "rejected", "evaluations", "iterations"),
+    *("steps", "rejected", "evaluations", "iterations", "vector_width"),
 )
 _SECOND = ("position_violation_max", "velocity_violation_max", "energy_drift_max", "error_estimate")
 

@@ -113,6 +113,8 @@ class Result(MotionTables):
         Counters: accepted and rejected steps, right-hand sides, iterations of corrections.
     seconds : Seconds
         Where the time went.
+    vector_width : int or None
+        Numbers of a vector of the processor, where the right-hand side was evaluated in vectors.
     coordinates : {"absolute", "joint"}
         What the state was made of: coordinates of bodies, or of the joints of a tree.
     state : tuple of str
@@ -176,6 +178,7 @@ class Result(MotionTables):
     end: float = math.nan
     events: tuple[EventRecord, ...] = ()
     accumulation: float | None = None
+    vector_width: int | None = None
     coordinates: str = "absolute"
     state: tuple[str, ...] = ()
     watched: tuple[tuple[str, str], ...] = ()

@@ -20,12 +20,14 @@ def lines(result: Result) -> list[tuple[str, str]]:
     spread = f" (spread {s.run_spread:.2g} s)" if s.run_spread else ""
     derivation = f"; derived in {s.derive:.3g} s, emitted in {s.emit:.3g} s" if s.derive else ""
     dropped = f", {rank.identical_rows_dropped} identical dropped" if rank.identical_rows_dropped else ""
+    width = result.vector_width
+    together = f" at eight nodes together, in vectors of {width}" if width else ""
     pairs = [
         ("mechanism", result.mechanism),
         ("method", f"{result.method}, {result.integrator}, {steps}, until {result.until:g} s"),
         *([("coordinates", _coordinates(result))] if result.coordinates != "absolute" else []),
         ("status", status_in_words(result)),
-        ("steps", f"{result.steps}{rejected}, {result.evaluations} evaluations of the right-hand side"),
+        ("steps", f"{result.steps}{rejected}, {result.evaluations} evaluations of the right-hand side{together}"),
         ("time", f"run {s.run:.4g} s{spread}; compiled code ready in {s.compile:.3g} s{derivation}"),
         ("violations", f"position {result.position_violation_max:.3g}, velocity {result.velocity_violation_max:.3g}"),
         ("energy error", f"{result.energy_drift_max:.3g} J"),

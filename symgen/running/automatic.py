@@ -9,14 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.linearised import GROWTH, compile_growth
+from symgen.describe.kinks import discontinuities_of
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import COUNTERS
 from symgen.methods import METHODS
 from symgen.runtime import abi
 from symgen.runtime.probe import rate_function
+from symgen.runtime.right_hand_side import at_nodes
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
+    from symgen.running.prepare import Prepared
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
     from symgen.settings import Settings
@@ -25,8 +28,10 @@ Array = NDArray[np.float64]
 
 #: Setting of an automatic choice.
 AUTO = "auto"
-#: Integrator of motions that are not stiff.
-EXPLICIT = "dop853"
+#: Integrator of motions that are not stiff, and that of smooth ones whose right-hand side is evaluated in vectors.
+EXPLICIT, TOGETHER = "dop853", "picard"
+#: Steps of a trial, and the part of them whose iteration converges slowly where the motion is stiff.
+TRIAL, SLOW = 100, 0.5
 #: A mechanism counts as stiff where stability asks for this many times the steps that following its motion does.
 STIFF_RATIO = 20.0
 #: Steps of an adaptive run of high order over the time in which its state changes by its own size.
@@ -52,6 +57,10 @@ class Facts:
         depends on velocities and no joint is a condition on them.
     slowest_change : float
         Rate at which the state changes by its own size [1/s].
+    together : bool
+        Whether the right-hand side can be evaluated at all nodes of a step at once, and no formula compares the state.
+    slow : float
+        Part of the steps of a trial whose iteration converges slowly.
     """
 
     rows: int
@@ -60,6 +69,8 @@ class Facts:
     massless: bool
     fastest_decay: float
     slowest_change: float
+    together: bool
+    slow: float = 0.0
 
     @property
     def stiffness(self) -> float:
@@ -165,7 +176,16 @@ def facts_of(mechanism: Mechanism, compiled: CompiledModel, start: Start, until:
         massless=bool(info.massless),
         fastest_decay=float(max(0.0, -eigenvalues.real.min(initial=0.0))),
         slowest_change=float(change),
+        together=bool(at_nodes(compiled)[1]) and not discontinuities_of(mechanism),
     )
+
+
+def slow_steps(run: Prepared) -> float:
+    """Return the part of the first steps of a run by `TOGETHER` whose iteration converges slowly."""
+    simulation = run.simulation()
+    simulation.enter(simulation.outputs(np.zeros(0)), pause=TRIAL)
+    steps, slow = simulation.state.control[[abi.STEPS, abi.POINTS]]
+    return float(slow) / max(float(steps), 0.5 * TRIAL)
 
 
 def decide(facts: Facts, method: str, integrator: str | None) -> tuple[str, str | None, tuple[str, ...]]:
@@ -211,11 +231,13 @@ def _integrator(facts: Facts, method: str) -> tuple[str, str]:
             f"integrator dop853: with {unknowns} unknowns a stage nobody looked whether the motion is stiff; "
             "if it is, ask for radau5"
         )
-    if facts.stiffness <= STIFF_RATIO:
-        asks = f"the fastest decay, {facts.fastest_decay:.3g} 1/s, asks for no implicit scheme"
-        return EXPLICIT, f"integrator dop853: {asks}"
+    if facts.stiffness <= STIFF_RATIO and facts.slow <= SLOW:
+        name = TOGETHER if facts.together and forms & set(INTEGRATORS.get(TOGETHER).forms) else EXPLICIT
+        return name, f"integrator {name}: the fastest decay, {facts.fastest_decay:.3g} 1/s, asks for no implicit scheme"
     if not forms & set(INTEGRATORS.get("radau5").forms):
         return EXPLICIT, f"integrator dop853: stiff, but {method} has no form for implicit integrators"
+    if facts.slow > SLOW:
+        return "radau5", f"integrator radau5: the iteration of {TOGETHER} converges slowly, as of stiff motions"
     return "radau5", (
         f"integrator radau5: the fastest decay, {facts.fastest_decay:.3g} 1/s, would ask explicit schemes for "
         f"{facts.stiffness:.3g} times the steps that the motion needs"

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from symgen.describe.evaluate import parameter_values
-from symgen.running.automatic import AUTO, decide, facts_of, trial_of
+from symgen.running.automatic import AUTO, SLOW, TOGETHER, decide, facts_of, slow_steps, trial_of
 from symgen.running.continuation import continued
 from symgen.running.inputs import put_inputs
 from symgen.running.plan import Plan, Purpose, resolved
@@ -181,8 +181,15 @@ def decided(
     assembled = assemble(plan, near)
     facts = facts_of(mechanism, *assembled.of_bodies, plan.spec.until)
     _, integrator, notes = decide(facts, settings.method, settings.integrator)
-    plan = resolved(inputs, replace(trial, integrator=integrator), purpose, notes)
-    return plan, assembled if integrator == trial.integrator else None
+    chosen = resolved(inputs, replace(trial, integrator=integrator), purpose, notes)
+    same = assembled if chosen.choice == plan.choice else None
+    if purpose is Purpose.MOTION and settings.integrator == AUTO and integrator == TOGETHER and same is not None:
+        facts = replace(facts, slow=slow_steps(begin(chosen, same)))
+        if facts.slow > SLOW:
+            _, integrator, notes = decide(facts, settings.method, settings.integrator)
+            chosen = resolved(inputs, replace(trial, integrator=integrator), purpose, notes)
+            same = assembled if chosen.choice == plan.choice else None
+    return chosen, same
 
 
 def assemble(plan: Plan, near: Array | None = None) -> Assembled:

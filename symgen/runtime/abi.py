@@ -14,6 +14,8 @@ _I = types.int64[::1]
 
 #: rhs(t, y, p, w, iw, ydot) -> status, 0 when done.
 RHS = types.FunctionType(types.int64(_F8, _A, _A, _A, _I, _A))
+#: derive(t, y, p, w, ydot) at eight nodes: element i of a state at ``8 i + node``; see `symgen.native.nodes`.
+NODES = types.FunctionType(types.int64(_A, _A, _A, _A, _A))
 #: accept(t, y, p, w, iw) -> bits: 1 the correction failed, 2 the state was changed.
 ACCEPT = types.FunctionType(types.int64(_F8, _A, _A, _A, _I))
 #: residual(t, y, k, p, w, r) and tangent(t, y, k, p, w, j); j holds the structural nonzeros alone.
@@ -66,7 +68,7 @@ N_COUNTERS = len(COUNTERS)
     REFUSED,  # 1 where the last attempt was
     BARRED,  # 1 where a zone is not to be crossed in one step: an attempt to do so has failed
     KNOWN,  # 1 where what the scheme keeps of the beginning of the step is that of the state
-    POINTS,  # past points of a multistep scheme
+    POINTS,  # past points of a multistep scheme; slow steps of an iterated one
     ORDER,  # of the error estimate, plus one
     MARKED,  # attempts at `MARK`
     MASKED,  # rows that are left out because they depend on others for ever

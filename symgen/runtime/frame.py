@@ -8,6 +8,7 @@ below, and so does what runs it: a processor, vector lanes, a CUDA device.
 | `prepare` | system, scheme, span, run | what the scheme needs once, at the start |
 | `attempt` | system, scheme, span, run, t, following, h, between | sets ``run.trial``, at `following`, from ``run.y`` |
 | `renew` | system, scheme, span, run, t, changed | what the scheme keeps, after the state at `t` was accepted |
+| `shrunk`, `grown` | span, run, [h,] error | the next step over a refused or an accepted one |
 | `interpolate` | system, scheme, span, run, outputs, t, following, h | outputs inside a step, from its ends |
 | `happened` | system, run, t, following, h, hunting | whether an event lies inside a step that is good enough |
 | `attend` | system, run, doing | what events need beside (`symgen.runtime.hunting`): `LOOK`, `REMEMBER`, `RECALL` |
@@ -29,9 +30,10 @@ from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
 from symgen.runtime.loop_instances import loop as compiled_loop
 from symgen.runtime.loop_instances import viewing
-from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, ModelSystem, Run, Span
+from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, ModelSystem, Run
 from symgen.runtime.redundancy import rows_fell
 from symgen.runtime.scales import settle
+from symgen.runtime.step_control import grown, shrunk, with_step
 from symgen.runtime.vectors import copied, received
 from symgen.runtime.watch import approach, begin, keep_maxima, meets, remember_rank, stuck, watch
 
@@ -46,9 +48,6 @@ ADAPTIVE = False
 DENSE = False
 #: Whether events are looked for; without, nothing of that is compiled.
 EVENTS = False
-#: Smallest change of a step after a refused attempt; smallest and largest one after an accepted one; error estimate
-#: that counts as none.
-SHRINK, SHRINK_ACCEPTED, GROW, FLOOR = 0.2, 0.2, 10.0, 1e-10
 
 #: Constant steps at the beginning of a run in which its energy is not judged: from rest, n steps of a scheme of first
 #: order are off by an n-th of an energy that is only building up.
@@ -178,14 +177,6 @@ def refused(run: Any, times: Any, out: int, t: float, phi: float, drift: float, 
     return taken_back(run, times, out, t)
 
 
-def with_step(span: Any, step: float) -> Any:
-    """Return a span whose first step is given."""
-    return Span(
-        *(step, span.largest, span.until, span.end, span.duration, span.rtol, span.atol, span.relative),
-        *(span.safety, span.most, span.pause),
-    )
-
-
 # -- the frame ---------------------------------------------------------------------------------------------------------
 
 
@@ -307,7 +298,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             hunting = NOTHING
             if crossing:
                 control[abi.BARRED] = 1
-            change = max(SHRINK, span.safety * error ** (-1.0 / control[abi.ORDER])) if math.isfinite(error) else 0.1
+            change = shrunk(span, run, error)
             if EVENTS and doubtful:  # its end is near a switch, and some of its stages are behind it
                 change = _SHORT_OF
             clock[abi.NEXT] = h * change
@@ -367,13 +358,8 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         elif crossing:
             clock[abi.ALLOWED] = 0.0
         else:
-            allowed = max(error, FLOOR) ** (-1.0 / control[abi.ORDER])
-            grow = span.safety * allowed
-            if clock[abi.ALLOWED] > 0.0:  # errors change from step to step as they just did (Gustafsson 1994)
-                grow *= min(1.0, h / clock[abi.STEP] * allowed / clock[abi.ALLOWED])
-            grow = min(GROW, max(SHRINK_ACCEPTED, grow))
+            grow = grown(span, run, h, error)
             clock[abi.NEXT] = h * (min(1.0, grow) if control[abi.REFUSED] == 1 else grow)
-            clock[abi.ALLOWED] = allowed
             if EVENTS and h < wanted and control[abi.REFUSED] == 0:  # something else ended it than its error
                 clock[abi.NEXT] = max(clock[abi.NEXT], wanted)
         control[abi.REFUSED] = control[abi.BARRED] = 0

@@ -101,8 +101,9 @@ class Integrator(Protocol):
     def loop(self, adaptive: bool) -> Any:
         """Return the compiled loop that runs with constant or adaptive steps enter; None: it depends on the model."""
 
-    def rows(self, adaptive: bool) -> Any:
-        """Return the compiled loop over many such runs (`symgen.runtime.rows`), None where there is none."""
+    @property
+    def row_targets(self) -> tuple[str, ...]:
+        """Targets of sweeps with a loop over many runs: ``cpu``, ``lanes``, ``cuda``; none where there is no loop."""
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return what the loop is entered with.

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from symgen.runtime import abi
 from symgen.runtime.model_arrays import lengths_of
-from symgen.runtime.padding import padded
+from symgen.runtime.padding import aligned, padded
 from symgen.runtime.records import KEPT, Outputs, Sizes, Span, State
 
 if TYPE_CHECKING:
@@ -125,7 +125,7 @@ class Snapshot:
         arrays = state._asdict()
         names = [*(name for name in arrays if name not in _BEHIND), *_BEHIND]
         ends = np.cumsum([padded(len(arrays[name])) for name in names])
-        block, views = np.zeros(ends[-1]), dict[str, Any]()
+        block, views = aligned(int(ends[-1])), dict[str, Any]()
         for name, end in zip(names, ends, strict=True):
             first = end - padded(len(arrays[name]))
             views[name] = block[first : first + len(arrays[name])].view(arrays[name].dtype)

@@ -10,6 +10,7 @@ from collections import namedtuple
 from typing import Any, NamedTuple
 
 from symgen.native import types
+from symgen.runtime import abi
 from symgen.runtime.start_records import LAYOUT
 
 _F, _I = types.float64, types.int64
@@ -365,6 +366,50 @@ class Projection(NamedTuple):
     masses: Any
 
 
+class Nodes(NamedTuple):
+    """A collocation scheme whose rates are unknown at all nodes of a step at once.
+
+    Attributes
+    ----------
+    derive : function
+        ``derive(t, y, p, w, ydot)``, the right-hand side at all nodes (`symgen.native.nodes`).
+    vector : int
+        1 where there is such a function, 0 where the right-hand side is evaluated at one node after another.
+    rows : Array of int64
+        As for `symgen.runtime.nodes`.
+    table, middle : Array
+        Coefficients of states at the nodes, and at points between them.
+    share : Array
+        Weights of the nodes in an integral over the step.
+    legendre : Array, shape (9, 16), flat
+        Coefficients of Legendre polynomials from rates.
+    dense : Array, shape (26, 24), flat
+        Legendre coefficients of the polynomial through the rates at the nodes, and of that through those between them
+        as well.
+    recurrence : Array, shape (3, 24), flat
+        See `symgen.runtime.schemes.picard.integrate_legendre`.
+    count : Array of int64
+        0, 1, 2, ...
+    degree : int
+        Of the polynomial by which rates of a step are predicted from those of the step before.
+    tableau : TableauRecord
+        The scheme of steps across singular positions.
+    """
+
+    derive: Any
+    vector: int
+    rows: Any
+    table: Any
+    middle: Any
+    share: Any
+    legendre: Any
+    dense: Any
+    recurrence: Any
+    count: Any
+    degree: int
+    tableau: Any
+
+
 #: Fields of schemes' records that belong to what a run keeps.
 KEPT = ("numbers", "plan", "filter_numbers", "filter_plan")
 
@@ -381,4 +426,5 @@ ROTATIONS = types.RecordType((TABLEAU, _K, _I), Rotations)
 MULTISTEP = types.RecordType((_A, _A, _K, _I), Multistep)
 STAGES = types.RecordType((_A, _A, _A, _A, _F, _I, _I, _I, _K, _A, _A, _K, _A, _K), Stages)
 ALPHA = types.RecordType((_F, _F, _F, _F, _A, _A, _K), Alpha)
+NODES = types.RecordType((abi.NODES, _I, _K, _A, _A, _A, _A, _A, _A, _K, _I, TABLEAU), Nodes)
 PROJECTION = types.RecordType((_I, _A, _A, _K, _K, _K), Projection)

@@ -21,7 +21,6 @@ from symgen.runtime.loop_instances import loop as compiled_loop
 from symgen.runtime.observe import observe_rates, observe_rows
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, Observed, Outputs
 from symgen.runtime.redundancy import choose_rows
-from symgen.runtime.schemes import explicit
 from symgen.runtime.stopping import ROW, change, due, same, with_stops
 from symgen.store.jit import jit
 
@@ -344,31 +343,30 @@ def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> in
     return 0
 
 
-def rows_loop(name: str, loop: Any, **meanings: Any) -> Any:
-    """Return the loop over many runs around one over a single run."""
-    args = signature_of(loop).arguments
-    observers = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
-    signature = types.int64(types.RecordType((*args[:1], observers)), *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
-    return compiled_loop(__name__, name, run_rows, signature, integrate=loop, **meanings)
-
-
-constant = rows_loop("constant", explicit.constant)
-adaptive = rows_loop("adaptive", explicit.adaptive)
 _EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
 _STOPS = {"take_row": take_stops, "hold": hold_between_stops}
-constant_with_events = rows_loop("constant_with_events", with_events(explicit.constant), **_EVENTS)
-adaptive_with_events = rows_loop("adaptive_with_events", with_events(explicit.adaptive), **_EVENTS)
-constant_with_stops = rows_loop("constant_with_stops", with_stops(explicit.constant), **_STOPS)
-adaptive_with_stops = rows_loop("adaptive_with_stops", with_stops(explicit.adaptive), **_STOPS)
-constant_with_both = rows_loop("constant_with_both", with_stops(with_events(explicit.constant)), **_EVENTS, **_STOPS)
-adaptive_with_both = rows_loop("adaptive_with_both", with_stops(with_events(explicit.adaptive)), **_EVENTS, **_STOPS)
-#: By the loop over plain rows: loops whose rows have switching functions, stops, and both.
-_VARIANTS = {
-    constant: (constant_with_events, constant_with_stops, constant_with_both),
-    adaptive: (adaptive_with_events, adaptive_with_stops, adaptive_with_both),
-}
+_loops: dict[Any, Any] = {}
 
 
-def variant(loop: Any, events: bool, stops: bool) -> Any:
-    """Return the loop over rows that have switching functions or stops, and is otherwise the same."""
-    return _VARIANTS[loop][events + 2 * stops - 1] if events or stops else loop
+def over_rows(loop: Any, events: bool = False, stops: bool = False) -> Any:
+    """Return the loop over many runs around one over a single run; made when it is first needed.
+
+    Parameters
+    ----------
+    loop : compiled loop
+        From `symgen.runtime.frame.loop`.
+    events, stops : bool
+        Whether rows have switching functions, and stops.
+    """
+    if (loop, events, stops) not in _loops:
+        name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}" + "_with_events" * events + "_with_stops" * stops
+        inner = with_events(loop) if events else loop
+        inner = with_stops(inner) if stops else inner
+        args = signature_of(inner).arguments
+        observers = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
+        model = types.RecordType((*args[:1], observers))
+        signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
+        meanings: dict[str, Any] = {**(_EVENTS if events else {}), **(_STOPS if stops else {})}
+        compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)
+        _loops[loop, events, stops] = globals()[name] = compiled  # it is found by its name, as all loops are
+    return _loops[loop, events, stops]

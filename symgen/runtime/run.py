@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.ir.program import COUNTERS
+from symgen.native.machine import vector_width
 from symgen.runtime import abi
 from symgen.runtime.assembly import Start
 from symgen.runtime.model_arrays import triplets_of
@@ -158,6 +159,9 @@ def outcome_of(
     before_it = simulation.before
     counters = {name: int(state.iw[i]) for i, name in enumerate(COUNTERS)}
     counters["iterations"] -= simulation.iterations_before
+    together = hasattr(simulation.scheme, "vector")  # nodes of a step
+    counters["vector_width"] = vector_width() if together and simulation.scheme.vector else 0
+    counters["slow_steps"] = int(control[abi.POINTS]) if together else 0
     times, states, status = (array[:k] for array in outputs)
     if code in (abi.MET, abi.GATHERED) and not (k and times[-1] >= end):
         here = np.concatenate([w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + compiled.info.windings]])

@@ -14,24 +14,26 @@ from llvmlite import ir
 
 from symgen.runtime.padding import BLOCK
 
-_F64, _I32, _I64 = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
-_VECTOR, _INDICES, _PAIR = ir.VectorType(_F64, BLOCK), ir.VectorType(_I64, BLOCK), ir.VectorType(_F64, 2)
-_ZERO = ir.Constant(_VECTOR, [0.0] * BLOCK)
+F64, I32, I64 = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
+VECTOR, _INDICES, _PAIR = ir.VectorType(F64, BLOCK), ir.VectorType(I64, BLOCK), ir.VectorType(F64, 2)
+ZERO = ir.Constant(VECTOR, [0.0] * BLOCK)
 #: Up to this width numbers that were just written one by one are read one by one.
 _SMALL = 4 * BLOCK
 #: Multiplication and addition may be contracted, as everywhere in compiled code; nothing else is allowed.
 _FLAGS = ("contract",)
 
 
-def _load(builder: Any, data: Any, at: Any) -> Any:
-    return builder.load(builder.bitcast(builder.gep(data, [at]), _VECTOR.as_pointer()), align=8)
+def load(builder: Any, data: Any, at: Any) -> Any:
+    """Return eight numbers of an array."""
+    return builder.load(builder.bitcast(builder.gep(data, [at]), VECTOR.as_pointer()), align=8)
 
 
-def _store(builder: Any, vector: Any, data: Any, at: Any) -> None:
-    builder.store(vector, builder.bitcast(builder.gep(data, [at]), _VECTOR.as_pointer()), align=8)
+def store(builder: Any, vector: Any, data: Any, at: Any) -> None:
+    """Write eight numbers of an array."""
+    builder.store(vector, builder.bitcast(builder.gep(data, [at]), VECTOR.as_pointer()), align=8)
 
 
-def _spread(builder: Any, number: Any, kind: Any = _VECTOR) -> Any:
+def spread(builder: Any, number: Any, kind: Any = VECTOR) -> Any:
     """Return a vector of equal numbers."""
     undefined = ir.Constant(kind, ir.Undefined)
     one = builder.insert_element(undefined, number, ir.Constant(ir.IntType(32), 0))
@@ -39,11 +41,11 @@ def _spread(builder: Any, number: Any, kind: Any = _VECTOR) -> Any:
 
 
 def _magnitude(builder: Any, vector: Any) -> Any:
-    kind, name = ir.FunctionType(_VECTOR, [_VECTOR]), f"llvm.fabs.v{BLOCK}f64"
+    kind, name = ir.FunctionType(VECTOR, [VECTOR]), f"llvm.fabs.v{BLOCK}f64"
     return builder.call(_declared(builder, kind, name), [vector])
 
 
-def _added(builder: Any, a: Any, b: Any, c: Any) -> Any:
+def added(builder: Any, a: Any, b: Any, c: Any) -> Any:
     """Return a b + c, contracted wherever the processor can: which is left to no optimisation, and so is every bit."""
     kind = ir.FunctionType(a.type, [a.type] * 3)
     name = f"llvm.fmuladd.v{a.type.count}f64"
@@ -55,7 +57,7 @@ def _greater(builder: Any, a: Any, b: Any) -> Any:
     return builder.select(builder.fcmp_ordered(">", a, b), a, b)
 
 
-def _folded(builder: Any, vector: Any, join: Callable[[Any, Any], Any]) -> Any:
+def folded(builder: Any, vector: Any, join: Callable[[Any, Any], Any]) -> Any:
     """Return one number from the elements of a vector, joined in halves."""
     numbers = [builder.extract_element(vector, ir.Constant(ir.IntType(32), i)) for i in range(BLOCK)]
     while len(numbers) > 1:
@@ -69,7 +71,7 @@ def _declared(builder: Any, kind: Any, name: str) -> Any:
     return builder.module.globals.get(name) or ir.Function(builder.module, kind, name)
 
 
-def _variable(builder: Any, begin: Any) -> Any:
+def variable(builder: Any, begin: Any) -> Any:
     """Return memory for a value, which is set to a first one."""
     with builder.goto_entry_block():
         place = builder.alloca(begin.type)
@@ -78,9 +80,9 @@ def _variable(builder: Any, begin: Any) -> Any:
 
 
 @contextmanager
-def _range(builder: Any, start: Any, stop: Any, step: int) -> Iterator[Any]:
+def each_of(builder: Any, start: Any, stop: Any, step: int) -> Iterator[Any]:
     """Repeat the instructions written inside for each index of a range."""
-    counter = _variable(builder, start)
+    counter = variable(builder, start)
     test, body, end = (builder.append_basic_block(name) for name in ("test", "body", "end"))
     builder.branch(test)
     builder.position_at_end(test)
@@ -88,19 +90,19 @@ def _range(builder: Any, start: Any, stop: Any, step: int) -> Iterator[Any]:
     builder.cbranch(builder.icmp_signed("<", index, stop), body, end)
     builder.position_at_end(body)
     yield index
-    builder.store(builder.add(index, _I64(step)), counter)
+    builder.store(builder.add(index, I64(step)), counter)
     builder.branch(test)
     builder.position_at_end(end)
 
 
 def _each_block(builder: Any, width: Any) -> Any:
     """Return a loop over blocks, whose variable is the index of a block."""
-    return _range(builder, _I64(0), width, BLOCK)
+    return each_of(builder, I64(0), width, BLOCK)
 
 
 def _blocks(builder: Any, width: Any, begin: Any, block: Callable[[Any, Any], Any]) -> Any:
     """Return a vector that is carried from block to block: ``carried = block(index, carried)``, from `begin` on."""
-    carried = _variable(builder, begin)
+    carried = variable(builder, begin)
     with _each_block(builder, width) as i:
         builder.store(block(i, builder.load(carried)), carried)
     return builder.load(carried)
@@ -125,31 +127,31 @@ def _combined(builder: Any, table: tuple[Any, ...], base: Any, out: Any, last_ro
     width, h, first, last, column, value, rows = table
     with builder.if_else(builder.icmp_signed("<", first, last)) as (some, none):
         with some:
-            end = builder.sub(last, _I64(1))
+            end = builder.sub(last, I64(1))
             row = builder.mul(builder.load(builder.gep(column, [end])), width)
-            factor = _spread(builder, builder.fmul(h, builder.load(builder.gep(value, [end])), flags=_FLAGS))
+            factor = spread(builder, builder.fmul(h, builder.load(builder.gep(value, [end])), flags=_FLAGS))
             for i, sum_of_rows in _sums(builder, (width, h, first, end, column, value, rows)):
-                before = _added(builder, _spread(builder, h), sum_of_rows, _load(builder, base, i))
+                before = added(builder, spread(builder, h), sum_of_rows, load(builder, base, i))
                 rate, to = builder.gep(rows, [builder.add(row, i)]), builder.gep(out, [i])
                 last_row(builder, width, before, factor, rate, to)
         with none, _each_block(builder, width) as i:
-            _store(builder, _load(builder, base, i), out, i)
+            store(builder, load(builder, base, i), out, i)
 
 
 def _last_whole(builder: Any, width: Any, before: Any, factor: Any, rate: Any, out: Any) -> None:
     """Write a block of a state, from it without the last row and the block of that row."""
-    _store(builder, _added(builder, factor, _load(builder, rate, _I64(0)), before), out, _I64(0))
+    store(builder, added(builder, factor, load(builder, rate, I64(0)), before), out, I64(0))
 
 
 def _last_as_written(builder: Any, width: Any, before: Any, factor: Any, rate: Any, out: Any) -> None:
     """Do the same where an emitted function has just written the row."""
 
     def small() -> None:
-        undefined = ir.Constant(_VECTOR, ir.Undefined)
+        undefined = ir.Constant(VECTOR, ir.Undefined)
         for k, pair in _pairs(builder, rate):
-            places = ir.Constant(ir.VectorType(_I32, 2), [k, k + 1])
+            places = ir.Constant(ir.VectorType(I32, 2), [k, k + 1])
             mine, weight = (builder.shuffle_vector(vector, undefined, places) for vector in (before, factor))
-            builder.store(_added(builder, weight, pair, mine), _pair_at(builder, out, _I64(k)), align=8)
+            builder.store(added(builder, weight, pair, mine), _pair_at(builder, out, I64(k)), align=8)
 
     _as_written(builder, width, small, partial(_last_whole, builder, width, before, factor, rate, out))
 
@@ -162,7 +164,7 @@ def _last_as_written(builder: Any, width: Any, before: Any, factor: Any, rate: A
 
 def _as_written(builder: Any, width: Any, small: Callable[[], None], large: Callable[[], None]) -> None:
     """Write one of two ways to do a block, by the width of the state."""
-    with builder.if_else(builder.icmp_signed("<=", width, _I64(_SMALL))) as (then, otherwise):
+    with builder.if_else(builder.icmp_signed("<=", width, I64(_SMALL))) as (then, otherwise):
         with then:
             small()
         with otherwise:
@@ -174,9 +176,9 @@ def _pairs(builder: Any, data: Any) -> Iterator[tuple[int, Any]]:
     for k in range(0, BLOCK, 2):
         pair: Any = ir.Constant(_PAIR, ir.Undefined)
         for i in range(2):
-            where = builder.bitcast(builder.gep(data, [_I64(k + i)]), _I64.as_pointer())
-            number = builder.bitcast(builder.load_atomic(where, "unordered", 8), _F64)
-            pair = builder.insert_element(pair, number, _I32(i))
+            where = builder.bitcast(builder.gep(data, [I64(k + i)]), I64.as_pointer())
+            number = builder.bitcast(builder.load_atomic(where, "unordered", 8), F64)
+            pair = builder.insert_element(pair, number, I32(i))
         yield k, pair
 
 
@@ -188,28 +190,28 @@ def total(
     builder: Any, width: Any, h: Any, first: Any, last: Any, column: Any, value: Any, rows: Any, out: Any
 ) -> None:
     """Write `symgen.runtime.vectors.total`."""
-    factor = _spread(builder, h)
+    factor = spread(builder, h)
     for i, sum_of_rows in _sums(builder, (width, h, first, last, column, value, rows)):
-        _store(builder, builder.fmul(factor, sum_of_rows), out, i)
+        store(builder, builder.fmul(factor, sum_of_rows), out, i)
 
 
 def _sums(builder: Any, table: tuple[Any, ...]) -> Iterator[tuple[Any, Any]]:
     """Give each block's index and its sum of values times rows, inside the loop over blocks."""
     width, _, first, last, column, value, rows = table
     with _each_block(builder, width) as i:
-        total = _variable(builder, _ZERO)
-        with _range(builder, first, last, 1) as k:
+        total = variable(builder, ZERO)
+        with each_of(builder, first, last, 1) as k:
             row = builder.mul(builder.load(builder.gep(column, [k])), width)
-            weight = _spread(builder, builder.load(builder.gep(value, [k])))
-            rate = _load(builder, rows, builder.add(row, i))
-            builder.store(_added(builder, weight, rate, builder.load(total)), total)
+            weight = spread(builder, builder.load(builder.gep(value, [k])))
+            rate = load(builder, rows, builder.add(row, i))
+            builder.store(added(builder, weight, rate, builder.load(total)), total)
         yield i, builder.load(total)
 
 
 def copied(builder: Any, width: Any, array: Any, out: Any) -> None:
     """Write `symgen.runtime.vectors.copied`."""
     with _each_block(builder, width) as i:
-        _store(builder, _load(builder, array, i), out, i)
+        store(builder, load(builder, array, i), out, i)
 
 
 def received(builder: Any, width: Any, array: Any, out: Any) -> None:
@@ -217,10 +219,10 @@ def received(builder: Any, width: Any, array: Any, out: Any) -> None:
 
     def small(i: Any) -> None:
         for k, pair in _pairs(builder, builder.gep(array, [i])):
-            builder.store(pair, _pair_at(builder, out, builder.add(i, _I64(k))), align=8)
+            builder.store(pair, _pair_at(builder, out, builder.add(i, I64(k))), align=8)
 
     def large(i: Any) -> None:
-        _store(builder, _load(builder, array, i), out, i)
+        store(builder, load(builder, array, i), out, i)
 
     with _each_block(builder, width) as i:
         _as_written(builder, width, partial(small, i), partial(large, i))
@@ -228,43 +230,41 @@ def received(builder: Any, width: Any, array: Any, out: Any) -> None:
 
 def weigh(builder: Any, width: Any, error: Any, share: Any, y: Any, new: Any, rtol: Any, atol: Any) -> Any:
     """Write `symgen.runtime.vectors.weigh`."""
-    relative, absolute = _spread(builder, rtol), _spread(builder, atol)
+    relative, absolute = spread(builder, rtol), spread(builder, atol)
 
     def block(i: Any, total: Any) -> Any:
-        larger = _greater(
-            builder, _magnitude(builder, _load(builder, y, i)), _magnitude(builder, _load(builder, new, i))
-        )
-        weight = _load(builder, share, i)
+        larger = _greater(builder, _magnitude(builder, load(builder, y, i)), _magnitude(builder, load(builder, new, i)))
+        weight = load(builder, share, i)
         larger = builder.fmul(weight, larger)
         scale = builder.fadd(absolute, builder.fmul(relative, larger, flags=_FLAGS), flags=_FLAGS)
-        error_here = builder.fmul(weight, _load(builder, error, i))
-        none = builder.fcmp_ordered("==", error_here, _ZERO)
-        part = builder.select(none, _ZERO, builder.fdiv(error_here, scale))
+        error_here = builder.fmul(weight, load(builder, error, i))
+        none = builder.fcmp_ordered("==", error_here, ZERO)
+        part = builder.select(none, ZERO, builder.fdiv(error_here, scale))
         return builder.fadd(total, builder.fmul(part, part, flags=_FLAGS), flags=_FLAGS)
 
-    return _folded(builder, _blocks(builder, width, _ZERO, block), builder.fadd)
+    return folded(builder, _blocks(builder, width, ZERO, block), builder.fadd)
 
 
 def largest(builder: Any, width: Any, array: Any, weights: Any, first: Any, last: Any) -> Any:
     """Write `symgen.runtime.vectors.largest`."""
-    low, high = _spread(builder, first, _INDICES), _spread(builder, last, _INDICES)
+    low, high = spread(builder, first, _INDICES), spread(builder, last, _INDICES)
 
     def block(i: Any, largest: Any) -> Any:
-        index = builder.add(_spread(builder, i, _INDICES), ir.Constant(_INDICES, list(range(BLOCK))))
+        index = builder.add(spread(builder, i, _INDICES), ir.Constant(_INDICES, list(range(BLOCK))))
         inside = builder.and_(builder.icmp_signed(">=", index, low), builder.icmp_signed("<", index, high))
-        size = builder.fmul(_magnitude(builder, _load(builder, array, i)), _load(builder, weights, i))
-        size = builder.select(inside, size, _ZERO)
+        size = builder.fmul(_magnitude(builder, load(builder, array, i)), load(builder, weights, i))
+        size = builder.select(inside, size, ZERO)
         return _greater(builder, size, largest)
 
-    return _folded(builder, _blocks(builder, width, _ZERO, block), partial(_greater, builder))
+    return folded(builder, _blocks(builder, width, ZERO, block), partial(_greater, builder))
 
 
 def finite(builder: Any, width: Any, array: Any) -> Any:
     """Write `symgen.runtime.vectors.finite`."""
 
     def block(i: Any, total: Any) -> Any:
-        vector = _load(builder, array, i)
+        vector = load(builder, array, i)
         return builder.fadd(total, builder.fsub(vector, vector))
 
-    total = _blocks(builder, width, _ZERO, block)
-    return builder.fcmp_ordered("==", _folded(builder, total, builder.fadd), ir.Constant(_F64, 0.0))
+    total = _blocks(builder, width, ZERO, block)
+    return builder.fcmp_ordered("==", folded(builder, total, builder.fadd), ir.Constant(F64, 0.0))

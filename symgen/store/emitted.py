@@ -66,15 +66,39 @@ class EmittedFunction(MachineFunction):
 
     def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
-        from symgen.native.llvm import is_copied, module
-        from symgen.native.machine import compiled
+        from symgen.native.llvm import module
 
         function = self.read(arguments)
-        apart = [f for f in function.called if not is_copied(f)]
-        names = {id(value): name for name, value in self.py_func.__globals__.items()}
-        called = tuple((names[id(f.source)], _kinds(f)) for f in apart)
-        code = compiled(module(function, _symbol, _is_short, _together()), symbol)
-        return CacheEntry(function.returned, called, code)
+        return _compiled(self, function, module(function, _symbol, _is_short, _together()), symbol)
+
+
+class NodesFunction(EmittedFunction):
+    """A right-hand side at the nodes of a step: `symgen.native.nodes` of one at a single node.
+
+    Parameters
+    ----------
+    function : EmittedFunction
+        ``rhs(t, y, p, w, iw, ydot)``.
+    """
+
+    def __init__(self, function: EmittedFunction) -> None:
+        super().__init__(function.py_func)
+        self.origin = function.origin
+
+    def identity(self) -> str:
+        """Return the sources and options that machine code depends on."""
+        return f"nodes {super().identity()}"
+
+    def __reduce__(self) -> Any:
+        raise TypeError("machine code does not travel")
+
+    def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
+        """Return machine code, made from the source."""
+        from symgen.native.nodes import module
+
+        number, array, whole = types.float64, types.float64[::1], types.int64[::1]
+        function = self.read((number, array, array, array, whole, array))
+        return _compiled(self, function, module(function, symbol, _symbol, _is_short), symbol)
 
 
 def plain(function: _Function) -> _Function:
@@ -125,6 +149,17 @@ _INSTEAD = SimpleNamespace(
 def _together() -> bool:
     """Whether sines and cosines of several angles are taken together."""
     return compiler() != "libm"
+
+
+def _compiled(own: EmittedFunction, function: Function, text: str, symbol: str) -> CacheEntry:
+    """Return the machine code of a module, and what its function calls."""
+    from symgen.native.llvm import is_copied
+    from symgen.native.machine import compiled
+
+    apart = [f for f in function.called if not is_copied(f)]
+    names = {id(value): name for name, value in own.py_func.__globals__.items()}
+    called = tuple((names[id(f.source)], _kinds(f)) for f in apart)
+    return CacheEntry(function.returned, called, compiled(text, symbol))
 
 
 def _source(function: Function) -> EmittedFunction:

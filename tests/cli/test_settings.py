@@ -150,7 +150,7 @@ def test_adaptive_steps_are_no_longer_than_max_step(tmp_path):
     (tmp_path / "free.toml").write_text(text, encoding="utf-8")
     free, asked = symgen.load(tmp_path / "free.toml"), {"method": "lagrange", "times": [2.0]}
     assert symgen.load("pendulum").mechanism.defaults.max_step is None
-    for scheme in ("dop853", "dopri5", "abm", "radau5", "sdirk"):
+    for scheme in ("dop853", "dopri5", "picard", "abm", "radau5", "sdirk"):
         steps = [free.simulate(integrator=scheme, **asked, **more).steps for more in ({}, {"max_step": 0.01})]
         assert 40 <= steps[0] < 60 and 200 <= steps[1] < 260, scheme
     run = free.start(method="lagrange", integrator="dop853", max_step=0.01)

@@ -67,7 +67,7 @@ def test_dense_output_does_not_change_the_steps(four_bar, integrator):
     assert (few.steps, few.rejected) == (many.steps, many.rejected)
 
 
-@pytest.mark.parametrize("integrator", [*ADAPTIVE, "abm", "radau5", "sdirk"])
+@pytest.mark.parametrize("integrator", [*ADAPTIVE, "picard", "abm", "radau5", "sdirk"])
 def test_outputs_do_not_change_steps_that_are_chosen_for_the_work(integrator):
     """The work's error is judged by the energies of the state that a step began with, not by those of an output."""
     model, keys = load("cart-pole"), {"method": "lagrange", "integrator": integrator, "rtol": 1e-7, "until": 1.0}

@@ -36,7 +36,7 @@ def test_integrals_behind_an_implicit_law(shape):
 
 
 @pytest.mark.parametrize("settings", [{}, {"atol": 1e-8}], ids=["relative", "absolute"])
-@pytest.mark.parametrize("integrator", ["dop853", "dopri5", "abm", "radau5", "sdirk"])
+@pytest.mark.parametrize("integrator", ["dop853", "dopri5", "picard", "abm", "radau5", "sdirk"])
 def test_adaptive_steps_are_short_enough_for_integrals(integrator, settings):
     """A point flies straight on, which asks for no step at all: `sin` was off by 0.05 to 4e5, `ok`."""
     mechanism = (

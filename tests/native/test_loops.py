@@ -11,8 +11,8 @@ import pytest
 from symgen.errors import InputError
 from symgen.native.loops import read_loop
 from symgen.native.types import float64
-from symgen.runtime import rows
 from symgen.runtime.hunting import with_events
+from symgen.runtime.rows import over_rows
 from symgen.runtime.stopping import with_stops
 from symgen.store import jit as store
 from symgen.store.paths import ENVIRONMENT_VARIABLE
@@ -20,6 +20,7 @@ from symgen.store.paths import ENVIRONMENT_VARIABLE
 from .twofold import process
 
 SCHEMES = {
+    "picard": ("constant", "adaptive"),
     **dict.fromkeys(("explicit", "adams", "implicit"), ("constant", "adaptive")),
     **dict.fromkeys(("alpha", "lie", "projected"), ("constant",)),
 }
@@ -35,10 +36,13 @@ def test_every_loop_is_in_the_language(scheme, name, events):
     read(with_stops(loop))
 
 
-@pytest.mark.parametrize("kind", ["", "_with_events", "_with_stops", "_with_both"])
+@pytest.mark.parametrize("events", [False, True])
+@pytest.mark.parametrize("stops", [False, True])
 @pytest.mark.parametrize("steps", ["constant", "adaptive"])
-def test_every_loop_over_rows_is_in_the_language(steps, kind):
-    read(getattr(rows, steps + kind))
+@pytest.mark.parametrize("scheme", ["explicit", "picard"])
+def test_every_loop_over_rows_is_in_the_language(scheme, steps, events, stops):
+    loop = getattr(importlib.import_module(f"symgen.runtime.schemes.{scheme}"), steps)
+    read(over_rows(loop, events, stops))
 
 
 def read(loop):
@@ -94,7 +98,7 @@ CASES = {
     "lie": ("heavy-top", "lagrange", "rkmk4"),
 }
 #: Integrators whose steps depend on rounding, as errors are estimated.
-ADAPTIVE = {"dop853", "abm", "radau5"}
+ADAPTIVE = {"dop853", "picard", "abm", "radau5"}
 
 
 def compared(shape, *words):

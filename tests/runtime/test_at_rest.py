@@ -41,7 +41,7 @@ def sled(force: str, mass: float = MASS):
     return load(validate(parse_toml(SLED.format(force=force, mass=mass), "sled.toml"), "sled.toml"))
 
 
-@pytest.mark.parametrize("integrator", ["dop853", "dopri5", "radau5", "sdirk", "abm"])
+@pytest.mark.parametrize("integrator", ["dop853", "dopri5", "picard", "radau5", "sdirk", "abm"])
 @pytest.mark.parametrize("power", [1, 2, 3])
 def test_a_force_that_sets_in_later(integrator, power):
     force = f"{PUSH} * max(t - 0.5, 0) ** {power}"

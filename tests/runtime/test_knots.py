@@ -270,7 +270,7 @@ def test_methods_with_momenta_run_rows_without_integrals_nobody_asks_for(tmp_pat
     assert list(found.status) == ["ok", "ok"]
 
 
-@pytest.mark.parametrize("integrator", ["dop853", "dopri5", "abm", "sdirk", "radau5"])
+@pytest.mark.parametrize("integrator", ["dop853", "dopri5", "abm", "picard", "sdirk", "radau5"])
 @pytest.mark.parametrize(("points", "how"), [(101, "linear"), (1001, "pchip"), (6001, "linear")])
 def test_a_spike_of_a_table_is_not_stepped_over(tmp_path: Path, points: int, how: str, integrator: str) -> None:
     """A bump of one point among many that are flat, as on a road: a step over all of it would see nothing."""

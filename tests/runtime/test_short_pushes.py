@@ -20,7 +20,7 @@ from symgen.runtime.in_time import InTime, crossings
 from symgen.runtime.stops import foreseen
 from symgen.vocabulary.expressions import Expr
 
-SCHEMES = ["dop853", "dopri5", "abm", "sdirk", "radau5"]
+SCHEMES = ["dop853", "dopri5", "picard", "abm", "sdirk", "radau5"]
 #: Two points without weight, each direction pushed once: force over t, impulse [N s], and the middle of the push [s].
 AT, SHORT = 3.337, 1e-4
 PUSHES: list[tuple[str, float]] = [

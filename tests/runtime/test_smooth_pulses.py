@@ -17,7 +17,7 @@ from symgen.catalogue import names as names_of_catalogue
 from symgen.describe.kinks import longest_step
 from symgen.ensemble.sweep import sweep
 
-SCHEMES = ["dop853", "dopri5", "abm", "sdirk", "radau5"]
+SCHEMES = ["dop853", "dopri5", "picard", "abm", "sdirk", "radau5"]
 END = 10.0
 #: A force of impulse 1 N s or a step of 1 N about the time `at`, as wide as `w`; each acts on a point of its own.
 FORCES = {
@@ -93,7 +93,7 @@ def test_runs_miss_none(tmp_path: Path, name: str, integrator: str) -> None:
         assert result["a.vx"][-1] - 0.1 == pytest.approx(speeds(at, w)[name], abs=1e-6), (w, at)
 
 
-@pytest.mark.parametrize("integrator", ["dop853", "abm", "radau5"])
+@pytest.mark.parametrize("integrator", ["dop853", "picard", "abm", "radau5"])
 def test_runs_step_by_step_miss_none(pushed: symgen.Model, integrator: str) -> None:
     run = pushed.start(method="lagrange", integrator=integrator, rtol=1e-8, until=0.7, max_step=2e-4)
     for end in (2.0, 3.337, END):

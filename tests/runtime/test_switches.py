@@ -45,7 +45,7 @@ interpolation = "linear"
 """
 OVER_TIME = "3 + 5*(1 if low < t and t < high else 0)"
 TIMES = np.linspace(0.05, 0.8, 16)
-ADAPTIVE = ("abm", "dop853", "dopri5", "radau5", "sdirk")
+ADAPTIVE = ("abm", "dop853", "dopri5", "picard", "radau5", "sdirk")
 
 
 def speeds(low: float, high: float, where: str) -> np.ndarray:
@@ -265,7 +265,7 @@ def fallen(law: Callable[[float], float]) -> list[float]:
     return [float(x) for x in found.y[:2, -1]]
 
 
-@pytest.mark.parametrize("integrator", ["dop853", "dopri5", "radau5", "abm", "auto"])
+@pytest.mark.parametrize("integrator", ["dop853", "dopri5", "picard", "radau5", "abm", "auto"])
 @pytest.mark.parametrize("law", AT_THE_START)
 def test_a_kink_at_the_start_is_no_obstacle(tmp_path: Path, law: str, integrator: str) -> None:
     """The length stays within rounding of the switch for a while: each passage was taken again, and the run failed."""

@@ -160,7 +160,7 @@ def test_refusals():
         model.simulate(coordinates="relative")
 
 
-@pytest.mark.parametrize("integrator", ["dop853", "abm", "radau5"])
+@pytest.mark.parametrize("integrator", ["dop853", "picard", "abm", "radau5"])
 def test_what_is_welded_to_the_ground_stays_there(integrator):
     """No coordinate is left that an error could be estimated of, but for the work."""
     welded = {
@@ -193,7 +193,7 @@ E = { type = "revolute", between = ["ground", "c2"], at = [[2.0, 0.0], "a"] }
 
 
 @pytest.mark.parametrize("coordinates", ["joint", "absolute"])
-@pytest.mark.parametrize("integrator", ["dop853", "radau5", "abm"])
+@pytest.mark.parametrize("integrator", ["dop853", "picard", "radau5", "abm"])
 def test_parallel_cranks_stay_parallel_through_flat_positions_at_all_tolerances(integrator, coordinates, tmp_path):
     """Six flat positions in 2 s, against one equation in one angle: both cranks and the rod turn as one.
 

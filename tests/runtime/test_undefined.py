@@ -89,6 +89,7 @@ SETTINGS = (
     {"integrator": "dop853"},
     {"integrator": "radau5"},
     {"integrator": "abm"},
+    {"integrator": "picard"},
     {"integrator": "rk4", "step": 0.01, "coordinates": "joint"},
     {"integrator": "dop853", "coordinates": "joint"},
 )

@@ -59,7 +59,7 @@ def test_values_that_are_held_are_data_that_are_held(model, integrator):
     assert sim.parameters == {"stiffness": STIFFNESS, "push": PUSHES[-1], "side": 0.0}
 
 
-@pytest.mark.parametrize("integrator", ["dop853", "abm", "radau5"])
+@pytest.mark.parametrize("integrator", ["dop853", "picard", "abm", "radau5"])
 def test_adaptive_steps_meet_the_closed_form(model, integrator):
     sim, x = model.start(integrator=integrator, rtol=1e-11, atol=1e-12), (0.0, 0.0)
     for k in range(20):

@@ -119,12 +119,11 @@ def test_pairs_are_left_out_when_the_time_of_compilation_is_used_up():
 
 def test_what_is_left_out_is_listed_and_not_run():
     study = stress(["pendulum"], ["gravity"], ["lagrange", "null-space"], quick=False, compilation=0.3)
-    run = {("lagrange", "rk4"), ("lagrange", "dop853"), ("lagrange", "radau5")}
+    run = {("lagrange", name) for name in ("rk4", "dop853", "picard", "radau5")}
     assert {(row.method, row.integrator) for row in study.rows} == run
     listed = study.to_json()["left_out"]
     assert [(x["mechanism"], x["method"], x["integrator"]) for x in listed] == [
-        ("pendulum-stressed", "null-space", "rk4"),
-        ("pendulum-stressed", "null-space", "dop853"),
+        ("pendulum-stressed", "null-space", name) for name in ("rk4", "dop853", "picard")
     ]
 
 

@@ -249,7 +249,7 @@ def test_a_run_that_stops_itself_is_judged_by_what_it_was_doing():
 
 def test_rows_come_in_order_and_fit_the_contract(tmp_path):
     study = stress(["pendulum"], ["duration", "gravity"], ["lagrange", "ggl", "auto"])
-    assert [row.family for row in study.rows] == ["duration"] * 15 + ["gravity"] * 25
+    assert [row.family for row in study.rows] == ["duration"] * 18 + ["gravity"] * 30
     found = study.to_json()
     assert json.loads(json.dumps(found, allow_nan=False))
     keys = {
@@ -296,7 +296,7 @@ def test_several_processes_find_the_same():
 
 
 def test_pairs_of_methods_and_integrators():
-    assert pairs("lagrange") == (("lagrange", "rk4"), ("lagrange", "dop853"), ("lagrange", "radau5"))
+    assert pairs("lagrange") == tuple(("lagrange", name) for name in ("rk4", "dop853", "picard", "radau5"))
     assert pairs("lagrange", constant_steps=True) == (("lagrange", "rk4"),)
     assert pairs("ggl") == (("ggl", "radau5"),)
     assert pairs("auto") == (("auto", "auto"),) and pairs("auto", constant_steps=True) == ()

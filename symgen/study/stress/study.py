@@ -28,7 +28,7 @@ from symgen.study.stress.families import FAMILIES, levels_of
 from symgen.study.stress.stress_rows import Limit, Stress, StressRow
 
 #: Integrators that a method is run with, beside its own default: an explicit adaptive one and an implicit one.
-FURTHER = ("dop853", "radau5")
+FURTHER = ("dop853", "picard", "radau5")
 #: What is stressed unless a model is named.
 DEFAULT_MODEL = "four-bar"
 #: Families in which the largest step of each method is looked for, by the case that comes nearest to a value.

@@ -1,0 +1,155 @@
+"""Collocation at nine Lobatto points, iterated after Picard with all nodes at once in vectors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+
+from symgen.integrators.dop853 import KIND as DOP853
+from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
+from symgen.runtime.padding import padded
+
+if TYPE_CHECKING:
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.run import RunSpec
+
+#: Points of a step that are computed in each: all but its start.
+_NODES = 8
+
+
+def lobatto(n: int) -> tuple[Array, Array]:
+    """Return the n + 1 points and weights of Lobatto's quadrature on (-1, 1).
+
+    Points are the ends and the zeros of P_n', weights 2 / (n (n + 1) P_n(x)^2).
+    """
+    inner = np.sort(legendre.Legendre.basis(n).deriv().roots())
+    slope, bend = legendre.Legendre.basis(n).deriv(), legendre.Legendre.basis(n).deriv(2)
+    for _ in range(2):
+        inner = inner - slope(inner) / bend(inner)
+    x = np.concatenate([[-1.0], inner, [1.0]])
+    x = 0.5 * (x - x[::-1])
+    return x, 2.0 / (n * (n + 1) * legendre.Legendre.basis(n)(x) ** 2)
+
+
+def integrals(terms: int, x: Array) -> tuple[Array, Array]:
+    """Return integrals and second integrals from 0 to (1 + x) / 2 of shifted Legendre polynomials, one a row."""
+    values = legendre.legvander(x, terms + 1).T
+    k = np.arange(1, terms + 1)[:, np.newaxis]
+    once = np.vstack([0.5 * (values[:1] + values[1:2]), (values[2:] - values[:-2]) / (4 * k + 2)])
+    twice = np.vstack([0.5 * once[:1] ** 2, (once[2:] - once[:-2]) / (4 * k[:-1] + 2)])
+    return once[:terms], twice[:terms]
+
+
+@dataclass(frozen=True)
+class Coefficients:
+    """Coefficients of the scheme, as `symgen.runtime.records.Nodes` names them."""
+
+    table: Array
+    middle: Array
+    share: Array
+    legendre: Array
+    dense: Array
+    recurrence: Array
+
+
+@lru_cache(maxsize=1)
+def coefficients() -> Coefficients:
+    """Return the coefficients of the scheme."""
+    points, weights = lobatto(_NODES)
+    count = len(points)
+    # Legendre coefficients of the polynomial through the rates: sums by the quadrature, which is exact but for the last
+    norms = 2.0 / (2.0 * np.arange(count) + 1.0)
+    norms[-1] = 2.0 / _NODES
+    through = legendre.legvander(points, _NODES).T * weights / norms[:, np.newaxis]
+    between = np.cos(np.pi * (np.arange(_NODES, 0, -1) - 0.5) / _NODES)
+    every = np.concatenate([points[1:], between, points[:1]])
+    through_all = np.linalg.inv(legendre.legvander(every, len(every) - 1))
+    dense = np.zeros((count + len(every), 3 * _NODES))
+    dense[:count, :_NODES], dense[:count, 2 * _NODES] = through[:, 1:], through[:, 0]
+    dense[count:, : len(every)] = through_all
+
+    def collocation(x: Array) -> Array:
+        once, twice = integrals(count, x)
+        return np.concatenate([(through.T @ once).ravel(), (through.T @ twice).ravel(), 0.5 * (1.0 + x)])
+
+    table = np.zeros((count, 2 * _NODES))
+    table[:, :count] = through.T
+    k = np.arange(3 * _NODES)
+    recurrence = np.concatenate([1 / (4 * k + 2), (2 * k + 1) / (k + 1), k / (k + 1)])
+    tables = collocation(points[1:]), collocation(between), 0.5 * weights[1:], table.ravel(), dense.ravel(), recurrence
+    return Coefficients(*tables)
+
+
+def rates_of(info: ModelInfo) -> NDArray[np.int64]:
+    """Return which rates are unknown, and which coordinates have one of them for a rate (`symgen.runtime.nodes`)."""
+    turning = {q + k for q, _ in info.spins for k in range(4)}
+    spins = {v + k for _, v in info.spins for k in range(3)}
+    coordinates = [i for i in range(info.nq) if i not in turning]
+    velocities = [info.nq + j for j in range(info.nv) if j not in spins]
+    of_velocity = dict(zip(velocities, coordinates, strict=True))
+    rows = [i for i in range(info.ny) if i not in set(coordinates)]
+    return np.array([len(rows), *rows, *(of_velocity.get(i, -1) for i in rows)], dtype=np.int64)
+
+
+@dataclass(frozen=True)
+class Picard:
+    """The scheme.
+
+    Parameters
+    ----------
+    name, reference : str
+        Name as typed, and the source.
+    order : int
+        Of the state at the end of a step; rates inside a step have order 9.
+    real_boundary : float
+        Where steps end on the negative real axis: Picard's iteration converges in as many evaluations as a step has.
+    """
+
+    row_targets: ClassVar[tuple[str, ...]] = ("cpu",)
+
+    name: str
+    order: int
+    reference: str
+    real_boundary: float
+    forms: tuple[str, ...] = ("ode",)
+    parameters: tuple[IntegratorParameter, ...] = ()
+    adaptive: bool = True
+
+    @property
+    def stages(self) -> int:
+        """Evaluations of a step: five at a time at all nodes."""
+        return 5
+
+    def loop(self, adaptive: bool) -> Any:
+        """Return the loop of runs with constant or with adaptive steps."""
+        from symgen.runtime.schemes import picard
+
+        return picard.adaptive if adaptive else picard.constant
+
+    def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
+        """Return what the loop is entered with."""
+        from symgen.runtime.records import Nodes
+        from symgen.runtime.right_hand_side import at_nodes
+        from symgen.runtime.schemes import picard
+
+        info, c = compiled.info, coefficients()
+        derive, vector = at_nodes(compiled)
+        degree = int(min(max(1.0 - np.log10(spec.rtol), 4.0), _NODES)) if spec.adaptive else _NODES
+        arrays = c.table, c.middle, c.share, c.legendre, c.dense, c.recurrence, np.arange(3 * _NODES, dtype=np.int64)
+        scheme = Nodes(derive, vector, rates_of(info), *arrays, degree, DOP853.record(True))
+        width = padded(info.ny)
+        memory, room = picard.memory(width), picard.room(width, info.windings)
+        return Setup(self.loop(spec.adaptive), law_functions(compiled), scheme, spec.step or 0.0, memory, room)
+
+
+KIND = Picard(
+    name="picard",
+    order=16,
+    reference="van der Houwen, Sommeijer, J. Comput. Appl. Math. 29 (1990) 111-127, doi 10.1016/0377-0427(90)90200-J",
+    real_boundary=1.1,
+)
