@@ -176,12 +176,12 @@ def unheaded(heading: str) -> str:
 
 
 def why(error: Exception) -> str:
-    """Return what the system says about a file, in its own words."""
+    """Return the system's message about a file."""
     return getattr(error, "strerror", None) or str(error) or "an error"
 
 
 def _real(path: Path) -> Path:
-    """Return what a link points to, not the link."""
+    """Return the target of a link."""
     try:
         return Path(os.path.realpath(path))
     except ValueError as error:

@@ -205,7 +205,7 @@ class Settings:
 
 
 def about(name: str) -> About:
-    """Return what is known of the setting called `name`."""
+    """Return the description of the setting called `name`."""
     return _ABOUT[name]
 
 
@@ -215,12 +215,12 @@ def names() -> tuple[str, ...]:
 
 
 def default(name: str) -> Any:
-    """Return what a setting is where it is not given."""
+    """Return the default of a setting."""
     return getattr(Settings(), name)
 
 
 def is_given(settings: Settings, name: str) -> bool:
-    """Whether a setting is another than where it is not given."""
+    """Whether a setting differs from its default."""
     value, usual = getattr(settings, name), default(name)
     return bool(value is not None if usual is None else value != usual)  # an array of times has no one truth
 
@@ -249,5 +249,5 @@ _ABOUT: dict[str, About] = {f.name: f.metadata["about"] for f in fields(Settings
 
 
 def told_constant(options: Mapping[str, str | float], integrator: str) -> bool:
-    """Whether options tell an integrator with an error estimate to take constant steps: ``adaptive=false``."""
+    """Whether options set constant steps for an integrator with an error estimate: ``adaptive=false``."""
     return any(str(options.get(f"{name}.adaptive", "")).lower() == "false" for name in ("integrator", integrator))

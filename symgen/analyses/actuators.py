@@ -236,7 +236,7 @@ def balance(
     efforts, missing, ranks = _solved(still, others, np.array(weighed))
     base = still.responses.multipliers
     lam = base + sum((o.responses.multipliers - base) * efforts[:, [j]] for j, o in enumerate(others))
-    motion = replace(still, found=lam)
+    motion = replace(still, prescribed_multipliers=lam)
     formulas = [(f"{a.name}.rate", a.rate) for a in actuators if a.rate is not None]
     rates = np.zeros((len(motion.times), 0))
     if formulas:
@@ -293,7 +293,7 @@ def _motions(
         start=start,
         p=start.p,
         w=start.w,
-        given=a,
+        prescribed_accelerations=a,
     )
     still = replace(still, status_columns=still.measured())
     places = {parameter.name: i for i, parameter in enumerate(info.parameters)}
@@ -325,19 +325,19 @@ def _solved(
     base = still.responses.accelerations
     effects = np.stack([other.responses.accelerations - base for other in others], axis=-1)
     effects = effects * scale[:, np.newaxis]
-    wanted = (still.given - base) * scale
+    wanted = (still.prescribed_accelerations - base) * scale
     # a motor of a crane and one of a watch: whether efforts are told apart does not depend on what they move
     sizes = np.linalg.norm(effects, axis=1)
     silent = sizes <= SILENT * np.maximum(sizes.max(axis=1), np.linalg.norm(base * scale, axis=1))[:, np.newaxis]
     effects, sizes = np.where(silent[:, np.newaxis], 0.0, effects), np.where(silent, 1.0, sizes)
     left, singular, right = np.linalg.svd(effects / sizes[:, np.newaxis], full_matrices=False)
-    kept = singular > CUTOFF * singular.max(axis=1, initial=0.0)[:, np.newaxis]
-    inverses = np.where(kept, 1.0 / np.where(kept, singular, 1.0), 0.0)
+    regular = singular > CUTOFF * singular.max(axis=1, initial=0.0)[:, np.newaxis]
+    inverses = np.where(regular, 1.0 / np.where(regular, singular, 1.0), 0.0)
     parts = np.einsum("kij,ki->kj", left, wanted) * inverses
     efforts = np.einsum("kji,kj->ki", right, parts) / sizes
-    ranks = kept.sum(axis=1)
+    ranks = regular.sum(axis=1)
     for k in np.flatnonzero(ranks < len(weighed)):
-        efforts[k] -= _unfelt(right[k][kept[k]], sizes[k], weighed, efforts[k])
+        efforts[k] -= _unfelt(right[k][regular[k]], sizes[k], weighed, efforts[k])
     rest = wanted - np.einsum("kij,kj->ki", effects, efforts)
     return efforts, np.abs(rest).max(axis=1), ranks
 

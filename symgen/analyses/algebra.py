@@ -141,8 +141,7 @@ def _graded(mass: Any, stiffness: Any, directions: Array) -> tuple[Array, Array]
 
 def summed(matrix: Any, shapes: Array) -> Array:
     """Return the sum of the sizes of all parts of x^T A x for each column x."""
-    found: Array = np.sum(np.abs(shapes) * (abs(matrix) @ np.abs(shapes)), axis=0)
-    return found
+    return np.asarray(np.sum(np.abs(shapes) * (abs(matrix) @ np.abs(shapes)), axis=0))
 
 
 def eigenvalues_of(a: Array, sizes: Array | None = None) -> tuple[Complex, Complex]:
@@ -180,9 +179,9 @@ def eigenvalues_of(a: Array, sizes: Array | None = None) -> tuple[Complex, Compl
 
 def ranking(values: Array | Complex) -> NDArray[np.int64]:
     """Return the order by decreasing real part, then by decreasing imaginary part; what rounding parts is one."""
-    found = np.asarray(values, dtype=np.complex128)
-    grain = 1e-12 * np.abs(found).max(initial=0.0) or 1.0
-    return np.asarray(np.lexsort((-found.imag, -np.round(found.real / grain))), dtype=np.int64)
+    numbers = np.asarray(values, dtype=np.complex128)
+    grain = 1e-12 * np.abs(numbers).max(initial=0.0) or 1.0
+    return np.asarray(np.lexsort((-numbers.imag, -np.round(numbers.real / grain))), dtype=np.int64)
 
 
 def in_order(values: Array | Complex) -> Complex:
@@ -232,11 +231,11 @@ def solver(stiffness: Any, rows: Any) -> Solver | None:
 
     def solve(force: Array, gaps: Array) -> tuple[Array, Array]:
         right = np.concatenate([force / scale, gaps])
-        found = inverse(right)
-        found += inverse(right - matrix @ found)
-        if not sparse and not np.linalg.norm(right - matrix @ found) <= UNSOLVED * np.linalg.norm(right):
-            found[:] = np.inf
-        return found[:n], found[n:] * scale
+        solution = inverse(right)
+        solution += inverse(right - matrix @ solution)
+        if not sparse and not np.linalg.norm(right - matrix @ solution) <= UNSOLVED * np.linalg.norm(right):
+            solution[:] = np.inf
+        return solution[:n], solution[n:] * scale
 
     return solve
 

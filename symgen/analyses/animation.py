@@ -25,7 +25,7 @@ PERIOD, FRAMES = 2.0, 100
 
 
 def mode_recording(
-    mechanism: Mechanism, modes: Modes, number: int, given: Mapping[str, float] | None = None
+    mechanism: Mechanism, modes: Modes, number: int, parameters: Mapping[str, float] | None = None
 ) -> Recording:
     """Return a mode as a motion: to a tenth of the picture and back, in two seconds whatever its frequency.
 
@@ -37,7 +37,7 @@ def mode_recording(
         About a state of rest.
     number : int
         Which of its shapes, from 1 on.
-    given : mapping of str to float, optional
+    parameters : mapping of str to float, optional
         Parameters that differ from the described ones.
 
     Raises
@@ -53,7 +53,7 @@ def mode_recording(
         raise InputError("mode", f"a number from 1 to {len(modes.shapes)}", str(number))
     columns = [modes.names.index(name) for name in names]
     about = np.array([modes.about[name] for name in names])
-    shape, values = modes.shapes[number - 1][columns], parameter_values(mechanism, given)
+    shape, values = modes.shapes[number - 1][columns], parameter_values(mechanism, parameters)
     # the phase at which most of a damped shape, whose parts are not in step, is to be seen
     shape = shape * np.exp(-0.5j * np.angle(np.sum(shape**2)))
     scene = build_scene(mechanism, about, values)
@@ -72,13 +72,13 @@ def mode_recording(
     return Recording(mechanism, values, t, q, facts=tuple(facts), groups=tuple(groups))
 
 
-def mode_page(mechanism: Mechanism, modes: Modes, number: int, given: Mapping[str, float] | None = None) -> Page:
+def mode_page(mechanism: Mechanism, modes: Modes, number: int, parameters: Mapping[str, float] | None = None) -> Page:
     """Return the page of a mode, with the state that it is about drawn faintly behind; see `mode_recording`."""
-    found = mode_recording(mechanism, modes, number, given)
+    recording = mode_recording(mechanism, modes, number, parameters)
     still = replace(
-        found, q=np.tile([modes.about[n] for n in _names(mechanism)], (2, 1)), t=found.t[[0, -1]], groups=()
+        recording, q=np.tile([modes.about[n] for n in _names(mechanism)], (2, 1)), t=recording.t[[0, -1]], groups=()
     )
-    return page(found, second=still)
+    return page(recording, second=still)
 
 
 def _names(mechanism: Mechanism) -> list[str]:

@@ -57,15 +57,15 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> Settled:
     motion, y, info = subject.evaluated(subject.y).by("motion", "v"), subject.y.copy(), subject.compiled.info
     v = y[subject.nq : subject.nq + subject.nv]
     along = np.array([with_time, *(ways[i] for i in turning)])
-    kept = np.any((along != 0.0) @ (motion != 0.0), axis=0)
+    moving = np.any((along != 0.0) @ (motion != 0.0), axis=0)
     fast = np.abs(v / subject.spans)
     for first in (first + k for _, first in info.spins for k in range(3)):
-        if fast[first] > NO_PART * fast.max() and not kept[first]:
+        if fast[first] > NO_PART * fast.max() and not moving[first]:
             expected = "joints whose angles or displacements turn on"
             got = f"'{info.velocities[first].name}', the turning of a body about any axis, which no coordinate counts"
             raise InputError("steady", expected, got, "give it joints with axes, such as three hinges")
     rates = with_time + (motion @ v - with_time)[turning] @ along[1:]
-    v[:] = np.where(kept, np.linalg.lstsq(motion, rates, rcond=None)[0], 0.0)
+    v[:] = np.where(moving, np.linalg.lstsq(motion, rates, rcond=None)[0], 0.0)
     return settle(subject, y)
 
 

@@ -208,7 +208,7 @@ def scanned_rests(subject: Subject, name: str, values: Array) -> tuple[Equilibri
         reached, subject, y, now = True, held.subject, held.y, (float(value), held)
         if before is not None and _changes_sign(before, now) and (rest := _between(name, before, now)) is not None:
             places = rest.subject.lengths, rest.subject.compiled.info
-            if all(np.abs(apart(places[1], known.y, rest.y) / places[0]).max(initial=0.0) >= SAME for known in rests):
+            if all(np.abs(apart(places[1], other.y, rest.y) / places[0]).max(initial=0.0) >= SAME for other in rests):
                 rests.append(judged(rest))
         before = now
     if not reached:

@@ -226,7 +226,7 @@ def kinematics(
         p=run.p,
         w=start.w,
         held=run.held,
-        given=traced.accelerations,
+        prescribed_accelerations=traced.accelerations,
     )
     forces = Forces(motion, seats(run.mechanism, numbers))
     parameters = {name: x for name, x in numbers.items() if name not in run.mechanism.inputs}
@@ -263,7 +263,7 @@ def default_times(mechanism: Mechanism) -> Array:
     return multiples(step, until, output_size(mechanism))
 
 
-def checked_times(where: str, given: Any) -> Array:
+def checked_times(where: str, value: Any) -> Array:
     """Return increasing finite times.
 
     Raises
@@ -271,12 +271,12 @@ def checked_times(where: str, given: Any) -> Array:
     InputError
         If they are anything else.
     """
-    kind = getattr(getattr(given, "dtype", None), "kind", "")
+    kind = getattr(getattr(value, "dtype", None), "kind", "")
     if kind and kind not in "iuf":
-        raise InputError(where, "a list of finite times", arguments.shown(given))
-    times = np.atleast_1d(np.asarray(given if kind else arguments.numbers(where, given), dtype=np.float64))
+        raise InputError(where, "a list of finite times", arguments.shown(value))
+    times = np.atleast_1d(np.asarray(value if kind else arguments.numbers(where, value), dtype=np.float64))
     if times.ndim != 1 or not 1 <= len(times) <= MOST_TIMES or not np.all(np.isfinite(times)):
-        raise InputError(where, "a list of finite times", arguments.shown(given))
+        raise InputError(where, "a list of finite times", arguments.shown(value))
     if not np.all(np.diff(times) > 0.0):
         k = int(np.argmin(np.diff(times) > 0.0))
         raise InputError(where, "times that increase", f"{times[k + 1]:g} behind {times[k]:g}")

@@ -34,7 +34,7 @@ Array = NDArray[np.float64]
 #: it is looked for.
 UNEVEN, SEEN = 1e-8, 3
 #: Squares of frequencies that are said of a large mechanism at rest: those nearest to 0.
-SAID = 10
+FREQUENCIES = 10
 #: Up to this many velocities stiffness and masses are reduced as dense matrices.
 DENSE = 120
 #: Steps of an iteration that looks for what falls.
@@ -55,7 +55,7 @@ class Sparse(Yardsticks):
         The start without velocities, parameters and scratch.
     pattern : Pattern
         Where the numbers of ``tangent`` belong.
-    kept : Array of int
+    active : Array of int
         Rows that are not redundant.
     """
 
@@ -65,7 +65,7 @@ class Sparse(Yardsticks):
     p: Array
     w: Array
     pattern: Pattern
-    kept: NDArray[np.int64]
+    active: NDArray[np.int64]
     t = 0.0
     inputs = ()
 
@@ -97,7 +97,7 @@ class Sparse(Yardsticks):
         balance = (nq, nv)
         mass, rows = spans @ block(balance, (nq, nv)) @ spans, (spans @ block(balance, (nq + nv, m)) @ loads).T
         stiffness, damping = spans @ block(balance, (n, nq)) @ motion, spans @ block(balance, (n + nq, nv)) @ spans
-        return motion, mass, rows.tocsr()[self.kept].tocsc(), stiffness, damping
+        return motion, mass, rows.tocsr()[self.active].tocsc(), stiffness, damping
 
     def forces(self, y: Array, lam: Array) -> tuple[Array, Array]:
         """Return the work of D^T lambda - f along lengths of the mechanism and radians, and Phi in these."""
@@ -107,7 +107,7 @@ class Sparse(Yardsticks):
         Ready(self.compiled.law_module.residual, abi.STAGE)(0.0, y, k, self.p, self.w, r)
         Ready(self.compiled.model.geometry, abi.MEASURE)(0.0, y, self.p, self.w)
         gaps = self.compiled.section(self.w, "residual") / self.gaps
-        return r[nq : nq + nv] * self.spans, gaps[self.kept]
+        return r[nq : nq + nv] * self.spans, gaps[self.active]
 
     def derivatives(self, y: Array, lam: Array) -> tuple[Any, Any, Any]:
         """Return N, D of rows that are not redundant, and the stiffness K."""
@@ -117,7 +117,7 @@ class Sparse(Yardsticks):
     def whole(self, work: Array | None) -> Array:
         """Return multipliers of all rows from the work of those that are kept; 0 without."""
         loads = np.zeros(self.pattern.m)
-        loads[self.kept] = 0.0 if work is None else work
+        loads[self.active] = 0.0 if work is None else work
         return loads / self.gaps
 
     def wound(self, y: Array) -> Sparse:
@@ -147,8 +147,8 @@ def settled(mechanism: Mechanism, settings: Settings) -> tuple[Sparse, Array, Ar
     mechanism, compiled, start, _ = at_start(placed.mechanism, settings)
     pattern, y = Pattern.of(compiled, start.w), start.y.copy()
     y[pattern.nq :] = 0.0
-    kept = np.setdiff1d(np.arange(pattern.m), pattern.masked)
-    return search(Sparse(mechanism, compiled, y, start.p, start.w, pattern, kept), y)
+    active = np.setdiff1d(np.arange(pattern.m), pattern.masked)
+    return search(Sparse(mechanism, compiled, y, start.p, start.w, pattern, active), y)
 
 
 def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
@@ -170,7 +170,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     """
     sparse, y, lam, _ = settled(mechanism, settings)
     motion, mass, rows, stiffness, damping = sparse.matrices(y, lam)
-    free = sparse.pattern.nv - len(sparse.kept)
+    free = sparse.pattern.nv - len(sparse.active)
     if not 0 < count < free:
         raise InputError("count", f"fewer than the mechanism's {free} modes", str(count), "ask for all modes")
     if damping.nnz and abs(damping).max() > 0.0:  # at rest nothing turns, and what is there is a damper
@@ -205,23 +205,23 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     """
     sparse, y, lam, steps = settled(mechanism, settings)
     _, mass, rows, stiffness, _ = sparse.matrices(y, lam)
-    free = sparse.pattern.nv - len(sparse.kept)
-    if sparse.pattern.nv <= DENSE or free <= SAID or _follows(stiffness, rows):
-        small = sparse.pattern.nv <= DENSE or free > SAID
+    free = sparse.pattern.nv - len(sparse.active)
+    if sparse.pattern.nv <= DENSE or free <= FREQUENCIES or _follows(stiffness, rows):
+        small = sparse.pattern.nv <= DENSE or free > FREQUENCIES
         basis = split(rows.toarray())[0] if small else _along(rows, free)
         squares = reduced_squares(mass, stiffness, basis)
         stability = stability_of(squares)
     else:
-        squares = _nearest(stiffness, mass, rows, SAID)[0]
+        squares = _nearest(stiffness, mass, rows, FREQUENCIES)[0]
         stability = stability_of(np.append(squares, _far_below(stiffness, mass, rows, squares)))
-    info, found = sparse.compiled.info, sparse.compiled.info.joint_coordinates
-    out = np.zeros(info.m + 2 * len(found))
+    info, columns = sparse.compiled.info, sparse.compiled.info.joint_coordinates
+    out = np.zeros(info.m + 2 * len(columns))
     observe = Ready(sparse.compiled.model.observe, abi.OBSERVE)
     observe(0.0, y.copy(), sparse.p, sparse.w.copy(), np.zeros(info.ny), out)
     lam, share = _smallest(sparse, y, lam)
     places = {c.name: float(x) for c, x in zip(info.coordinates, y, strict=False)}
     return Equilibrium(
-        q=places | {c.name: float(x) for c, x in zip(found, out[info.m :: 2], strict=True)},
+        q=places | {c.name: float(x) for c, x in zip(columns, out[info.m :: 2], strict=True)},
         stability=stability,
         omega_squared=tuple(float(x) for x in squares.real),
         residual=float(np.abs(sparse.forces(y, lam)[0] / sparse.spans).max(initial=0.0)),
@@ -266,16 +266,16 @@ def _along(rows: Any, free: int) -> Array:
 
 def _smallest(sparse: Sparse, y: Array, lam: Array) -> tuple[Array, Array]:
     """Return the smallest multipliers that exert the same, and the share of each row in what exerts nothing."""
-    extra = np.setdiff1d(np.arange(sparse.pattern.m), sparse.kept)
+    extra = np.setdiff1d(np.arange(sparse.pattern.m), sparse.active)
     if not len(extra):
         return lam, np.zeros(sparse.pattern.m)
-    whole = replace(sparse, kept=np.arange(sparse.pattern.m)).derivatives(y, np.zeros(sparse.pattern.m))[1].tocsr()
-    kept = whole[sparse.kept]
-    solve = _regular(level(whole.T @ whole), kept)
+    whole = replace(sparse, active=np.arange(sparse.pattern.m)).derivatives(y, np.zeros(sparse.pattern.m))[1].tocsr()
+    active = whole[sparse.active]
+    solve = _regular(level(whole.T @ whole), active)
     # D_extra = C D_kept, so that (C, -1) exerts nothing: C from least squares
     none = np.zeros((len(extra), sparse.pattern.m))
     for i, row in enumerate(extra):
-        none[i, sparse.kept] = solve(whole[row].toarray().ravel(), np.zeros(len(sparse.kept)))[1]
+        none[i, sparse.active] = solve(whole[row].toarray().ravel(), np.zeros(len(sparse.active)))[1]
         none[i, row] = -1.0
     loads = sparse.loads
     basis = np.linalg.qr(none.T / (sparse.gaps * loads)[:, np.newaxis])[0]
@@ -332,7 +332,7 @@ def _far_below(stiffness: Any, mass: Any, rows: Any, squares: Array) -> list[flo
 
 
 def _regular(stiffness: Any, rows: Any) -> Solver:
-    found = solver(stiffness, rows)
-    if found is None:
+    solution = solver(stiffness, rows)
+    if solution is None:
         raise AnalysisError("the stiffness is singular: something can move without a force")
-    return found
+    return solution

@@ -138,8 +138,8 @@ def modes(subject: Subject, y: Array, states: Sequence[str] = (), bodies: Callab
     else:
         squares = np.zeros(0)
         values, vectors = eigenvectors(x, names, still)
-        kept = [int(i) for i in ranking(values) if values[i].imag >= 0.0]
-        vectors = vectors[:, kept]
+        order = [int(i) for i in ranking(values) if values[i].imag >= 0.0]
+        vectors = vectors[:, order]
         if states or not at_rest(subject, x):
             shapes, about = x.changes_of(names)[:, : x.size] @ vectors, {name: x.quantity(name).value for name in names}
             largest = np.abs(shapes).max(axis=0, initial=0.0)

@@ -176,7 +176,7 @@ def _of_bodies(
     return tuple(whole)
 
 
-def range_of(where: str, given: object) -> tuple[str, Array]:
+def range_of(where: str, pair: object) -> tuple[str, Array]:
     """Return a name and its values, checked.
 
     Raises
@@ -184,9 +184,9 @@ def range_of(where: str, given: object) -> tuple[str, Array]:
     InputError
         If it is no pair of a name and finite numbers.
     """
-    if not isinstance(given, tuple) or len(given) != 2 or not isinstance(given[0], str):
-        raise InputError(where, "a pair of a name and its values", quoted(given))
-    return given[0], np.array(arguments.numbers(f"{where} {given[0]}", given[1]), dtype=np.float64)
+    if not isinstance(pair, tuple) or len(pair) != 2 or not isinstance(pair[0], str):
+        raise InputError(where, "a pair of a name and its values", quoted(pair))
+    return pair[0], np.array(arguments.numbers(f"{where} {pair[0]}", pair[1]), dtype=np.float64)
 
 
 def modes_at(place: NamedPlace, states: Sequence[str] = (), count: int | None = None) -> Modes:

@@ -68,14 +68,14 @@ class DenseStatics:
         return self.subject.lengths
 
     @property
-    def _kept(self) -> NDArray[np.bool_]:
+    def _active(self) -> NDArray[np.bool_]:
         return np.append(~self.subject.redundant, np.ones(len(self.held), dtype=np.bool_))
 
     def _parts(self, y: Array, lam: Array) -> tuple[Array, Array, Array, Array, Array]:
         subject = self.subject
         e = subject.evaluated(y, lam=lam[: subject.m])
-        motion, kept = e.by("motion", "v"), ~subject.redundant
-        rows, gaps = [e.by("velocities", "v")[kept]], [e.value("positions")[kept]]
+        motion, active = e.by("motion", "v"), ~subject.redundant
+        rows, gaps = [e.by("velocities", "v")[active]], [e.value("positions")[active]]
         force = e.value("balance")
         for (name, value), multiplier in zip(self.held, lam[subject.m :], strict=True):
             space, at = subject.position(name)
@@ -86,7 +86,7 @@ class DenseStatics:
             force = force + row * multiplier
             rows.append(row[np.newaxis])
             gaps.append(np.array([now - value]))
-        spans, units = subject.spans, self._units()[self._kept]
+        spans, units = subject.spans, self._units()[self._active]
         stiffness = spans[:, np.newaxis] * (e.by("balance", "q") @ motion) * spans
         return (
             spans * force,
@@ -111,9 +111,9 @@ class DenseStatics:
 
     def whole(self, work: Array | None) -> Array:
         """Return multipliers of all rows from the work of those in D, those of what is held last; 0 without."""
-        found = np.zeros(len(self._kept))
-        found[self._kept] = 0.0 if work is None else work
-        return np.asarray(found / self._units())
+        multipliers = np.zeros(len(self._active))
+        multipliers[self._active] = 0.0 if work is None else work
+        return np.asarray(multipliers / self._units())
 
     def moved(self, y: Array, change: Array) -> Array:
         """Return a state whose coordinates are moved by a change."""

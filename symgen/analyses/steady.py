@@ -286,7 +286,7 @@ def _later(subject: Subject, x: StateTangent) -> StateTangent:
     from scipy.integrate import solve_ivp
 
     nq, size, y, w = subject.nq, subject.nq + subject.nv, x.y.copy(), subject.w.copy()
-    kept = ~subject.redundant
+    active = ~subject.redundant
     rates, iw, whole = rate_function(subject.compiled), np.zeros(len(COUNTERS), dtype=np.int64), np.zeros_like(y)
 
     def slope(t: float, z: Array) -> Array:
@@ -305,8 +305,8 @@ def _later(subject: Subject, x: StateTangent) -> StateTangent:
     y = subject.moved(y, np.zeros(nq))
     for _ in range(4):
         e = subject.evaluated(y, t=end)
-        inverse = split(subject.rows(e) * kept[:, None])[1]
-        y = subject.moved(y, -e.by("motion", "v") @ (inverse @ (e.value("positions") * kept)))
+        inverse = split(subject.rows(e) * active[:, None])[1]
+        y = subject.moved(y, -e.by("motion", "v") @ (inverse @ (e.value("positions") * active)))
     e = subject.evaluated(y, t=end)
-    y[nq:size] -= split(subject.rows(e) * kept[:, None])[1] @ (e.value("velocities") * kept)
+    y[nq:size] -= split(subject.rows(e) * active[:, None])[1] @ (e.value("velocities") * active)
     return tangent(subject, y, end)

@@ -83,11 +83,11 @@ class Yardsticks:
 
     def moved(self, y: Array, change: Array) -> Array:
         """Return a state whose coordinates are moved by a change, Euler parameters kept at length 1."""
-        found = y.copy()
-        found[: self.compiled.info.nq] += change
+        state = y.copy()
+        state[: self.compiled.info.nq] += change
         for first, _ in self.compiled.info.spins:
-            found[first : first + 4] /= np.linalg.norm(found[first : first + 4])
-        return found
+            state[first : first + 4] /= np.linalg.norm(state[first : first + 4])
+        return state
 
     def _of(self, units: tuple[str, ...], long: str) -> Array:
         return np.array([self.length if unit == long else 1.0 for unit in units])
@@ -238,7 +238,7 @@ class Subject(Yardsticks):
     def values_of_inputs(self, y: Array, t: float) -> dict[str, float]:
         """Return the values of inputs at a state: numbers, or what formulas of the state are there."""
         values = {name: float(self.p[i]) for name, i in zip(self.inputs, self.places, strict=False)}
-        if formulas := self.mechanism.given:
+        if formulas := self.mechanism.input_formulas:
             side = compile_side(self.mechanism, self.compiled, "given", "what formulas of inputs are", formulas)
             at = side(t, y, self.p, self.w.copy(), np.zeros_like(y))
             values |= {name: values[name] + float(x) for (name, _), x in zip(formulas, at, strict=True)}
@@ -305,7 +305,7 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
             raise InputError(f"by '{name}'", expected, "none of that name", nearest(name, names))
     by = tuple(name for name in dict.fromkeys(by) if name not in mechanism.inputs)
     varied = mechanism
-    if placed.driven is not None and mechanism.given:  # what stands in an input's slot is added to its formula
+    if placed.driven is not None and mechanism.input_formulas:  # what stands in an input's slot is added to its formula
         varied = replaced(mechanism, forces=placed.driven.varied.forces, outputs=placed.driven.varied.outputs)
     if any(q.formula is not None and q.name in settings.parameters for q in varied.parameters):
         plain = (replaced(q, formula=None) if q.name in settings.parameters else q for q in varied.parameters)
@@ -315,7 +315,7 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
     for stop in placed.stops[1:]:
         if stop.t <= start.t * (1.0 + HERE):
             p[[places[name] for name in stop.values]] = list(stop.values.values())
-    p[[places[name] for name, _ in placed.mechanism.given]] = 0.0
+    p[[places[name] for name, _ in placed.mechanism.input_formulas]] = 0.0
     compiled.prepare(p)
     return Subject(mechanism, compiled, form, start.t, start.y.copy(), p, start.w.copy(), closed, by, inputs)
 

@@ -231,7 +231,7 @@ class Tracer:
 
     def _cross(self, code: int, rows: Any) -> bool:
         """Go over a singular position ahead, on the branch that continues the motion; return whether there is one."""
-        kept, clock = self._taken(), self.clock.copy()
+        before, clock = self._taken(), self.clock.copy()
         elapsed = abs(clock[f.TRIED] - clock[f.TIME])
         if code == f.PASSING:
             slope = (clock[f.SINE] + clock[f.TRIED_SINE]) / elapsed
@@ -244,7 +244,7 @@ class Tracer:
             width = max(SPACING / slope / 2.0**attempt, abs(middle - clock[f.TIME]))
             if self._over(middle, width, rows):
                 return True
-            self._back_to(kept)
+            self._back_to(before)
         return False
 
     def _over(self, middle: float, width: float, rows: Any) -> bool:
@@ -320,11 +320,11 @@ class Tracer:
         """Return a singular position: of the curve there, or where the loop stands."""
         y = self.stand.y if curve is None else curve(np.array([t]))[0][0]
         info = self.info
-        kept = np.flatnonzero(self.compiled.section(self.w, "mask") == 0.0)
-        left, _, right = np.linalg.svd(jacobian_at(self.compiled, t, y, self.p, self.w)[kept])
+        active = np.flatnonzero(self.compiled.section(self.w, "mask") == 0.0)
+        left, _, right = np.linalg.svd(jacobian_at(self.compiled, t, y, self.p, self.w)[active])
         moving, holding = np.abs(right[-1]), np.abs(left[:, -1])
         order = [j for j in np.argsort(-moving) if moving[j] > COUNTS * moving.max()]
-        drivers = dict.fromkeys(info.rows[i].joint for i in kept[holding > CUTOFF**0.5 * holding.max()])
+        drivers = dict.fromkeys(info.rows[i].joint for i in active[holding > CUTOFF**0.5 * holding.max()])
         kinds = {joint.name: joint.kind for joint in self.motion.mechanism.joints}
         positions = {velocity_of(i, info): c.name for i, c in enumerate(info.coordinates) if i not in self.spun}
         names = [positions.get(int(j), info.velocities[j].name) for j in order[:MOST_NAMED]]

@@ -65,31 +65,30 @@ class _Angle:
         self.pin = self._joint(pin.strip())
         if self.pin.kind != PIN or GROUND in self.pin.bodies:
             raise InputError(WHERE, "a pin between two moving bodies", quoted(self.pin.name))
-        self.asked = [part.strip() for part in rest.rstrip().removesuffix(")").split(",")] if bracket else []
-        if bracket and (len(self.asked) != 2 or not all(self.asked) or not rest.rstrip().endswith(")")):
+        self.neighbours = [part.strip() for part in rest.rstrip().removesuffix(")").split(",")] if bracket else []
+        if bracket and (len(self.neighbours) != 2 or not all(self.neighbours) or not rest.rstrip().endswith(")")):
             raise InputError(WHERE, "a pin with the further joints of its bodies, such as C(B, D)", quoted(name))
 
     def values(self) -> Array:
         """Return the angle at all times."""
-        lines = [self._line(body, self.asked[i] if self.asked else "") for i, body in enumerate(self.pin.bodies)]
+        lines = [self._line(*each) for each in zip(self.pin.bodies, self.neighbours or ("", ""), strict=True)]
         (ax, ay), (bx, by) = (line.T for line in lines)
-        found: Array = np.arctan2(np.abs(ax * by - ay * bx), ax * bx + ay * by)
-        return found
+        return np.asarray(np.arctan2(np.abs(ax * by - ay * bx), ax * bx + ay * by))
 
     def _joint(self, name: str) -> Joint:
-        known = {joint.name: joint for joint in self.mechanism.joints}
-        if name not in known:
-            raise InputError(WHERE, f"a joint of {self.mechanism.name}", quoted(name), nearest(name, known))
-        return known[name]
+        joints = {joint.name: joint for joint in self.mechanism.joints}
+        if name not in joints:
+            raise InputError(WHERE, f"a joint of {self.mechanism.name}", quoted(name), nearest(name, joints))
+        return joints[name]
 
-    def _line(self, body: str, asked: str) -> Array:
+    def _line(self, body: str, neighbour: str) -> Array:
         """Return the direction from the pin to the next joint of a body in the ground frame, shape (k, 2)."""
         kinds = (PIN, SLIDER)
         others = [j for j in self.mechanism.joints if body in j.bodies and j is not self.pin and j.kind in kinds]
-        if asked:
-            others = [self._joint(asked)]
+        if neighbour:
+            others = [self._joint(neighbour)]
             if body not in others[0].bodies or others[0].kind not in kinds:
-                raise InputError(WHERE, f"a pin or slider of {body}", quoted(asked))
+                raise InputError(WHERE, f"a pin or slider of {body}", quoted(neighbour))
         if len(others) != 1:
             names = ", ".join(j.name for j in others) or "none"
             hint = f"such as {self.pin.name}({others[0].name}, ...)" if others else ""

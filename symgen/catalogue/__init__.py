@@ -64,8 +64,8 @@ SIZED: Registry[Sized] = Registry(__name__, "sized mechanism")
 
 def _files(group: str) -> dict[str, Path]:
     folder = _FOLDER / MACHINES if group == MACHINES else _FOLDER
-    found = sorted(folder.iterdir(), key=lambda path: path.name)
-    return {path.name.removesuffix(".toml"): path for path in found if path.name.endswith(".toml")}
+    paths = sorted(folder.iterdir(), key=lambda path: path.name)
+    return {path.name.removesuffix(".toml"): path for path in paths if path.name.endswith(".toml")}
 
 
 def names(group: str = STUDIED) -> tuple[str, ...]:
@@ -79,7 +79,7 @@ def names(group: str = STUDIED) -> tuple[str, ...]:
     return tuple(sorted({*_files(group), *(SIZED.names if group == STUDIED else ())}))
 
 
-def known() -> tuple[str, ...]:
+def all_names() -> tuple[str, ...]:
     """Return the names of all groups in alphabetical order."""
     return tuple(sorted((*names(STUDIED), *names(MACHINES))))
 
@@ -95,7 +95,7 @@ def raw(name: str, size: int | None = None) -> dict[str, Any]:
     Parameters
     ----------
     name : str
-        One of `known`.
+        One of `all_names`.
     size : int, optional
         Only for sized entries.
     """

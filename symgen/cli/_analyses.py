@@ -60,8 +60,8 @@ def command_of(name: str) -> click.Command:
     command: Callable[..., int] = json_option(run)
     for option in reversed(analysis.options):
         command = _option(option)(command)
-    made = click.command(name, help=analysis.command.__doc__, epilog=examples(*analysis.examples))
-    return made(click.argument("model")(command))
+    decorate = click.command(name, help=analysis.command.__doc__, epilog=examples(*analysis.examples))
+    return decorate(click.argument("model")(command))
 
 
 def _option(option: Option) -> Callable[[Callable[..., int]], Callable[..., int]]:

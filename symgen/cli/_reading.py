@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import click
 import msgspec
 
+from symgen.report.words import counted
+
 if TYPE_CHECKING:
     from symgen.api import Model
     from symgen.compiling.pipeline import MethodChoice
@@ -85,9 +87,8 @@ def write_page(name: str, settings: Settings, output: str) -> None:
     mechanism, choice, run = model.mechanism, method_of(settings), None
     try:
         run, mechanism, choice = at_start(model, settings)
-        free = run.compiled.info.nv - run.start.rank
-        degrees = f"{free} degree{'' if free == 1 else 's'} of freedom"
-        facts = [f"At the start D has rank {run.start.rank}: {degrees}.", *run.start.notes]
+        degrees = counted(run.compiled.info.nv - run.start.rank, "degree")
+        facts = [f"At the start D has rank {run.start.rank}: {degrees} of freedom.", *run.start.notes]
         if run.start.redundant_rows:
             facts.append(f"Redundant at the start: {', '.join(run.start.redundant_rows)}.")
         if settings.coordinates == "auto":

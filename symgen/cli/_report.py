@@ -120,7 +120,7 @@ def sketches_of(
     return {model.name: model.draw(parameters, start).svg for model in small}
 
 
-def interrupted(row: str, kept: bool) -> int:
+def interrupted(row: str, stored: bool) -> int:
     """Say that a study was interrupted and whether a journal keeps its rows, and return the exit code."""
-    how = "the same command goes on behind them" if kept else "--resume FILE would have kept them for another time"
+    how = "the same command goes on behind them" if stored else "--resume FILE would have kept them for another time"
     return complain(f"interrupted; the {row}s that were done are shown; {how}", INTERRUPTED)

@@ -112,8 +112,8 @@ def command(
         "--steps": any(row.step is not None for row in rows),
         "--rtols": any(row.rtol is not None for row in rows),
     }
-    for option, given in (("--steps", step_list), ("--rtols", rtol_list)):
-        if given and rows and not used[option]:
+    for option, requested in (("--steps", step_list), ("--rtols", rtol_list)):
+        if requested and rows and not used[option]:
             click.echo(f"symgen: {option} counted for nothing: no run of these integrators has such steps", err=True)
     if as_json:
         tables = [study.to_json() for study in studies]
@@ -129,7 +129,7 @@ def command(
         from symgen.report.write import write
 
         sketches = sketches_of(loaded, values["parameters"], values["start"])
-        texts = [text for option, text in _asked(step_list, rtol_list).items() if used[option]]
+        texts = [text for option, text in _ranges(step_list, rtol_list).items() if used[option]]
         write(comparison(studies, command_again(), texts, sketches), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
@@ -138,7 +138,7 @@ def command(
     return write_files(_exit_code(studies, files.journal is not None), written)
 
 
-def _asked(steps: tuple[float, ...], rtols: tuple[float, ...]) -> dict[str, tuple[str, str]]:
+def _ranges(steps: tuple[float, ...], rtols: tuple[float, ...]) -> dict[str, tuple[str, str]]:
     """Return what was asked for by --steps and --rtols: a label and words."""
     from symgen.report.words import exact
     from symgen.study.comparison.combinations import ATOL_SHARE, RTOLS, STEP_FACTORS
@@ -151,9 +151,9 @@ def _asked(steps: tuple[float, ...], rtols: tuple[float, ...]) -> dict[str, tupl
     }
 
 
-def _exit_code(studies: list[Study], kept: bool) -> int:
+def _exit_code(studies: list[Study], stored: bool) -> int:
     if studies[-1].interrupted:
-        return interrupted("row", kept)
+        return interrupted("row", stored)
     for study in studies:
         if study.failed:
             return complain(f"{study.mechanism}: every run failed", FAILURE)

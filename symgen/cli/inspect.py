@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -117,7 +116,9 @@ def describe(name: str, settings: Settings, with_method: bool) -> dict[str, Any]
     plan, start = run.plan, run.start
     of_tree: dict[str, Any] = {}
     if mechanism.topology is not None:
-        of_tree = {"topology": _topology(mechanism.topology, mechanism), "tree": _links(mechanism.topology)}
+        links = mechanism.topology.links
+        tree = [{"body": x.body, "joint": x.joint or None, "on": x.parent if x.joint else None} for x in links]
+        of_tree = {"topology": _topology(mechanism.topology, mechanism), "tree": tree}
     equations = formulate(mechanism)
     show = texts(equations)
     values = model.parameters(settings.parameters)
@@ -188,11 +189,6 @@ def _topology(topology: Topology, mechanism: Mechanism) -> dict[str, list[str]]:
     }
 
 
-def _links(topology: Topology) -> list[dict[str, str | None]]:
-    """Return for each body what carries it, and by which joint."""
-    return [{"body": x.body, "joint": x.joint or None, "on": x.parent if x.joint else None} for x in topology.links]
-
-
 def _kernels(model: Model) -> dict[str, int]:
     """Return how many instances each kernel of the looped shape would have."""
     from symgen.compiling.looped import kernel_stems
@@ -255,16 +251,6 @@ def _method(mechanism: Mechanism, equations: Equations, choice: Any) -> dict[str
     }
 
 
-def _degrees(facts: Mapping[str, Any]) -> str:
-    count = facts["degrees_of_freedom"]
-    return f"{count} {'degree' if count == 1 else 'degrees'}"
-
-
-def _cut(facts: dict[str, Any]) -> str:
-    """Return the joints that close loops, in words."""
-    return ", ".join(facts["topology"]["cut"]) or "no joint: the mechanism is a tree"
-
-
 def as_text(facts: dict[str, Any]) -> str:
     """Return what ``symgen inspect`` shows as text."""
     sizes, lines = facts["sizes"], list[str]()
@@ -275,19 +261,20 @@ def as_text(facts: dict[str, Any]) -> str:
     lines.append(f"{facts['mechanism']}: {facts['title']}")
     lines.append(
         f"{sizes['coordinates']} coordinates, {sizes['velocities']} velocities, "
-        f"{counted(sizes['rows'], 'constraint row')} of rank {facts['rank']}, {_degrees(facts)} of freedom at the start"
+        f"{counted(sizes['rows'], 'constraint row')} of rank {facts['rank']}, "
+        f"{counted(facts['degrees_of_freedom'], 'degree')} of freedom at the start"
     )
     lines += [f"note: {note}" for note in facts["notes"]]
     shape = facts["shape"]
-    kinds: dict[str, int] = {}
+    kinds = Counter[str]()
     for name, count in shape["kernels"].items():  # a kind, and a digest of what the kernel computes
-        kind = name.rpartition("_")[0]
-        kinds[kind] = kinds.get(kind, 0) + count
+        kinds[name.rpartition("_")[0]] += count
     kernels = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
     lines.append(f"shape: {shape['shape']}, as {shape['reason']}")
     lines.append(f"as loops: {len(shape['kernels'])} kernels for {kernels}")
     if "tree" in facts:
-        lines.append(f"joint coordinates: {facts['state']['reason']}; loops are closed by {_cut(facts)}")
+        cut = ", ".join(facts["topology"]["cut"]) or "no joint: the mechanism is a tree"
+        lines.append(f"joint coordinates: {facts['state']['reason']}; loops are closed by {cut}")
         lines += [
             f"  {x['body']} " + (f"on {x['on']} by {x['joint']}" if x["joint"] else "free") for x in facts["tree"]
         ]

@@ -85,8 +85,8 @@ def command(
         from symgen.report.stress import stress_report
         from symgen.report.write import write
 
-        known = [load(name) for name in dict.fromkeys(models)]
-        write(stress_report(study, command_again(), sketches_of(known)), file)
+        mechanisms = [load(name) for name in dict.fromkeys(models)]
+        write(stress_report(study, command_again(), sketches_of(mechanisms)), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
     report = files.report if study.rows else None
@@ -94,11 +94,11 @@ def command(
     return write_files(_exit_code(study, files.journal is not None), written)
 
 
-def _exit_code(study: Stress, kept: bool) -> int:
+def _exit_code(study: Stress, stored: bool) -> int:
     from symgen.running.automatic import AUTO
 
     if study.interrupted:
-        return interrupted("cell", kept)
+        return interrupted("cell", stored)
     wrong = sum(row.method == AUTO for row in study.false_successes)
     if wrong:
         cells = "1 cell" if wrong == 1 else f"{wrong} cells"

@@ -140,9 +140,9 @@ def _exit_code(study: Sweep, path: Path | None) -> int:
     counts = study.counts
     if study.interrupted:
         done = len(study) - counts["not run"]
-        kept = f"{done} of {len(study)} runs are done"
+        progress = f"{done} of {len(study)} runs are done"
         hint = " and kept; --resume goes on from there" if path is not None else ""
-        return complain(f"interrupted; {kept}{hint}", INTERRUPTED)
+        return complain(f"interrupted; {progress}{hint}", INTERRUPTED)
     if counts["failed"] == len(study):
         return complain(f"all {len(study)} runs failed: {study.reasons(1)[0][0]}", FAILURE)
     if counts["failed"]:

@@ -70,10 +70,10 @@ def command(
     cursor. Where the equations are not too large it holds them, so that sliders of parameters change the motion.
     """
     stored, film = what.lower().endswith(".nc"), output is not None and Path(output).suffix.lower() in (".gif", ".mp4")
-    model_given = f"the model '{what}'"
+    model_text = f"the model '{what}'"
     for refused, option, expected, got in (
-        (described is not None and not stored, "--model", "a saved result to be viewed", model_given),
-        (beside is not None and not stored, "--beside", "two saved results", model_given),
+        (described is not None and not stored, "--model", "a saved result to be viewed", model_text),
+        (beside is not None and not stored, "--beside", "two saved results", model_text),
         (beside is not None and film, "--beside", "a page, .html", f"'{output}'"),
         (mode is not None and stored, "--mode", "a model, about whose equilibrium modes are", f"the result '{what}'"),
         (mode is None and at != "equilibrium", "--at", "a mode shape, asked for with --mode", "no --mode"),

@@ -112,7 +112,7 @@ def sizes_of_kinks(curve: Interpolation) -> tuple[float, ...]:
 
 
 def masses_of(mechanism: Mechanism, values: Mapping[str, float]) -> Masses:
-    """Return what makes M, over the velocities of bodies where joints of a tree carry these."""
+    """Return the factors of M, over the velocities of bodies where joints of a tree carry these."""
     if mechanism.topology is not None:
         return partial(_carried_masses, mechanism)
     return partial(_own_masses, tuple(_products(mechanism, values)))

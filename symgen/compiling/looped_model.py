@@ -107,7 +107,7 @@ def preparation(
 
 
 def describe_model(mechanism: Mechanism, shape: LoopedShape, tables: IndexTables) -> ModelInfo:
-    """Return what the runtime has to know of a mechanism in the looped shape."""
+    """Return the runtime's facts of a mechanism in the looped shape."""
     mechanism, repeats = without_repeats(mechanism)
     coordinates, velocities = quantities(mechanism)
     operations: dict[str, int] = {}

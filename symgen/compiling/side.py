@@ -81,7 +81,7 @@ class Side:
 
 
 def beside(mechanism: Mechanism, compiled: CompiledModel) -> Beside:
-    """Return what formulas may read of a compiled model."""
+    """Return the quantities of a compiled model that formulas may read."""
     info = compiled.info
     sections = {section: info.sections[section] for section in READ if section in info.sections}
     rows = {row.name: i for i, row in enumerate(info.rows)}
@@ -97,7 +97,7 @@ def stem_of(name: str, *identity: object) -> str:
 def module_beside(
     mechanism: Mechanism, name: str, identity: Sequence[object], make: Callable[[], tuple[str, dict[str, Any]]]
 ) -> tuple[dict[str, Any], Path]:
-    """Return what is known of a module beside a model's, by all that shapes it, and its path; made where it is new."""
+    """Return the description of a module beside a model's, by all that shapes it, and its path; emit a new one."""
     store, folder, stem = Entries(), folder_of(mechanism), stem_of(name, *identity)
     return store.description(folder, stem, make), store.path(folder, stem)
 

@@ -63,9 +63,9 @@ def identity(mechanism: Mechanism) -> str:
     """
     import hashlib
 
-    plain = msgspec.structs.replace(mechanism, shapes=(), given=())
+    plain = msgspec.structs.replace(mechanism, shapes=(), input_formulas=())
     # the text of structs, which older folders of sweeps and journals were named by
-    text = msgspec.Struct.__repr__(plain).replace(", shapes=()", "").replace(", given=()", "")
+    text = msgspec.Struct.__repr__(plain).replace(", shapes=()", "").replace(", input_formulas=()", "")
     return hashlib.sha256(text.encode()).hexdigest()
 
 

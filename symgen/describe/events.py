@@ -95,7 +95,7 @@ def watched(mechanism: Mechanism, settings: str, when: str, action: str) -> Even
     """
     switching, condition = _switching(Scope(Context.of(mechanism), settings), "", when)
     text = " ".join(when.split())
-    return put(Event(text, switching, RISING if condition else ANY, action, (), text), dict(mechanism.given))
+    return put(Event(text, switching, RISING if condition else ANY, action, (), text), dict(mechanism.input_formulas))
 
 
 def events_of(mechanism: Mechanism, tables: Mapping[str, Any]) -> tuple[Event, ...]:
@@ -107,7 +107,7 @@ def events_of(mechanism: Mechanism, tables: Mapping[str, Any]) -> tuple[Event, .
             where = f"{mechanism.name}: events.{name}"
             raise InputError(where, "a name that no event of the mechanism has", f"'{name}' again")
         event = read_event(Scope(Context.of(mechanism), f"events.{name}", name), name, table)
-        result.append(put(event, dict(mechanism.given)))
+        result.append(put(event, dict(mechanism.input_formulas)))
     return tuple(result)
 
 

@@ -90,7 +90,7 @@ class DrivenMechanism:
     @property
     def varied(self) -> Mechanism:
         """The mechanism whose inputs are their formulas and data, and what stands in their slots beside these."""
-        beside = {name: call("add", e, Name(name)) for name, e in self.mechanism.given}
+        beside = {name: call("add", e, Name(name)) for name, e in self.mechanism.input_formulas}
         parts = {part: put(getattr(self.declared, part), beside) for part in _READING}
         return msgspec.structs.replace(self.mechanism, **parts)
 
@@ -147,7 +147,7 @@ def driven(mechanism: Mechanism, sources: Mapping[str, Any]) -> DrivenMechanism:
         return DrivenMechanism(mechanism, numbers, samples, curves, (), words, mechanism)
     parts = {part: put(getattr(with_tables, part), changed) for part in _READING}
     parameters, put_in = (*with_tables.parameters, *switches), tuple(changed.items())
-    whole = msgspec.structs.replace(with_tables, **parts, parameters=parameters, given=put_in)
+    whole = msgspec.structs.replace(with_tables, **parts, parameters=parameters, input_formulas=put_in)
     return DrivenMechanism(whole, numbers, samples, curves, tuple(jumps), words, with_tables)
 
 

@@ -36,7 +36,7 @@ _LOW = 16
 _PLAIN = frozenset(("add", "sub", "neg", "mul", "where", "and", "or", "not", *BENT))
 
 
-def known_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[tuple[Jump, ...], tuple[Jump, ...]]:
+def jumps_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[tuple[Jump, ...], tuple[Jump, ...]]:
     """Return where formulas of joints, forces, integrals and events have kinks in time, and what they compare there.
 
     Jumps have no switch. `abs`, `min` and `max` have kinks where two values are equal, and tables at their points,

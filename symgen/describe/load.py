@@ -91,7 +91,7 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
     arguments.path("model", model)
     text = os.fspath(model)
     match = _CATALOGUE.fullmatch(text)
-    if match and match.group("name") in catalogue.known():
+    if match and match.group("name") in catalogue.all_names():
         size = match.group("size")
         return catalogue.raw(match.group("name"), None if size is None else int(size)), text
     path = Path(text)
@@ -99,7 +99,7 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
         return read_toml(path), path.name
     if path.suffix == ".toml" or "/" in text or os.sep in text:
         raise InputError("model", "a catalogue name or the path of a file", f"{quoted(text)}, which is no file")
-    entries = catalogue.known()
+    entries = catalogue.all_names()
     hint = nearest(text.partition(":")[0], entries)
     if ":" in text and not hint.startswith("known"):
         hint = f"a size is written as in {catalogue.example_of_size()}"

@@ -336,7 +336,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     cuts: tuple[str, ...] = ()  # joints that carry nothing where the state is that of a tree
     shapes: tuple[tuple[str, Shape], ...] = ()  # body -> what it looks like, several entries for several shapes
     topology: Topology | None = None  # where joint coordinates are the state; joints of the tree have no rows then
-    given: tuple[tuple[str, Expr], ...] = ()  # input -> the formula that a run has put in its place
+    input_formulas: tuple[tuple[str, Expr], ...] = ()  # input -> the formula that a run has put in its place
 
     def __repr__(self) -> str:
         counted = (

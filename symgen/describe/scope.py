@@ -306,11 +306,11 @@ class Scope:
         """Return a number or an expression of t, parameters and all that is known at outputs."""
         what = "a number or an expression of t, parameters and what is known of the motion"
         own = {
-            name: (*known, *(ACCELERATIONS[speed] for speed in self.context.bodies[name].speeds))
-            for name, known in self.context.coordinates.items()
+            name: (*coordinates, *(ACCELERATIONS[speed] for speed in self.context.bodies[name].speeds))
+            for name, coordinates in self.context.coordinates.items()
         }
-        known = Readings(self.context, OUTPUT)
-        names = FormulaNames(what, self.context.states, own, self.context.functions, readings=known, integrals=True)
+        readings = Readings(self.context, OUTPUT)
+        names = FormulaNames(what, self.context.states, own, self.context.functions, readings=readings, integrals=True)
         return self._expression(key, value, names)
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:

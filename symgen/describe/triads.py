@@ -112,7 +112,6 @@ def make_cross(
     bodies: tuple[str, str],
     axes: tuple[tuple[float | str, ...], tuple[float | str, ...]],
     reference: tuple[tuple[float | str, ...], tuple[float | str, ...]] | None = None,
-    keys: tuple[str, str] = ("axes", "reference"),
 ) -> tuple[Triad, Triad]:
     """Return the triads about the two axes of a cross, one of each body.
 
@@ -121,14 +120,14 @@ def make_cross(
     """
     triads = []
     for i, (body, other) in enumerate((bodies, bodies[::-1])):
-        along = _unit(scope, keys[0], axes[i])
+        along = _unit(scope, "axes", axes[i])
         if reference is not None:
-            first = _across(scope, keys[1], _unit(scope, keys[1], reference[i]), along)
+            first = _across(scope, "reference", _unit(scope, "reference", reference[i]), along)
         elif _is_numeric(scope, body) and _is_numeric(scope, other):
-            towards = _carried(scope, keys[0], other, body, _unit(scope, keys[0], axes[1 - i]))
+            towards = _carried(scope, "axes", other, body, _unit(scope, "axes", axes[1 - i]))
             if abs(_dot(towards, along)) > 0.99:
-                raise scope.error(keys[0], "two axes that cross", "two that start parallel")
-            first = _across(scope, keys[0], towards, along)
+                raise scope.error("axes", "two axes that cross", "two that start parallel")
+            first = _across(scope, "axes", towards, along)
         else:
             first = _any_across(along)
         triads.append(_triad(body, first, along))

@@ -117,16 +117,16 @@ class Drawing:
         return on_paper(self.scene, np.array(self.q), self.view)
 
     def _behind(self) -> list[Drawn]:
-        found: list[Drawn] = []
+        drawn: list[Drawn] = []
         eye = axes(self.scene, self.view)
         for i, path in enumerate(self.paths):
             points = np.array(path) @ eye.T
             look = Look(COLOURS[i % len(COLOURS)], "", 0.8)
             way = Item("path", "", "", ())
-            found.append(Drawn(way, (Stroke(points[:, :2], look, False),), 0.0, None))
+            drawn.append(Drawn(way, (Stroke(points[:, :2], look, False),), 0.0, None))
         for ghost in self.ghosts:
-            found += on_paper(self.scene, np.array(ghost), self.view, bodies=True)
-        return found
+            drawn += on_paper(self.scene, np.array(ghost), self.view, bodies=True)
+        return drawn
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the picture to ``.svg``, or with matplotlib to ``.png`` or ``.pdf``; whole or not at all.

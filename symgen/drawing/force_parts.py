@@ -19,7 +19,7 @@ COIL = Look(INK, "", 1.2)
 
 
 def force_item(pen: Pen, force: Force) -> Item:
-    """Return what is drawn of a force element; what it does not say where it acts is drawn at its bodies."""
+    """Return the symbol of a force element; one without points is drawn at its bodies."""
     numbers = pen.numbers
     stretched = [m for m in parts(force.efforts) if isinstance(m, Distance)]
     turned = [m for m in parts(force.efforts) if isinstance(m, Angle | Turn | Spin)]

@@ -84,7 +84,7 @@ class PlacedMechanism:
         return evaluate(expression, self.values)
 
     def at(self, expression: Any, further: Mapping[str, float]) -> float:
-        """Return what a formula of the state is in the first positions, at rest."""
+        """Return the value of a formula of the state in the first positions, at rest."""
         values = {**self.values, **self.state, **further}
         return evaluate(expression, values, tables={table.name: table for table in self.mechanism.tables})
 

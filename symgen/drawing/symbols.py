@@ -322,7 +322,7 @@ SPATIAL: dict[str, Callable[[Pen, Joint], list[Mark]]] = {
 
 
 def joint_item(pen: Pen, joint: Joint) -> Item:
-    """Return what is drawn of a joint; kinds without a symbol show the points that they tie."""
+    """Return the symbol of a joint; kinds without one show the points that they tie."""
     numbers = pen.numbers
     draw = (SPATIAL if numbers.spatial else PLANAR).get(joint.kind, plain)
     measures = [m for row in joint.rows for m in parts(row) if isinstance(m, Component | LinkStretch)]
@@ -334,7 +334,7 @@ def joint_item(pen: Pen, joint: Joint) -> Item:
 
 
 def gap_item(pen: Pen, item: Item) -> Item:
-    """Return what marks a joint as open: its two points in rings, and a dashed line between them."""
+    """Return the mark of an open joint: its two points in rings, and a dashed line between them."""
     look, marks = Look(RED, "", 2.0, dashed=True), list[Mark]()
     places = [BodyPoint(body, at) for body, at in item.ends]
     if len(places) == 2:

@@ -123,7 +123,7 @@ _IMPLICIT = "Implicit integrators solve `residual` = 0 for k = (q', v', multipli
 
 
 def _guide(program: LawProgram, model: ModelProgram, equations: Equations) -> list[str]:
-    """Return what the header of a law says to people: notation, use, and the meaning of elements of y and p."""
+    """Return the header of a law for readers: notation, use, and the meaning of elements of y and p."""
     info, first = program.info, model.layout.parameters
     own, behind = first + model.hoisted, info.parameter_offset + len(info.parameters)
     computed = {"the model's `prepare`": (first, own), "`prepare`": (own, info.parameter_offset)}
@@ -136,11 +136,11 @@ def versions(digest: str) -> str:
     return f"digest {digest}, format {FORMAT}, templates {templates_digest()}"
 
 
-def law_header(info: LawInfo, summary: str, reference: str, made: str, place: str = "p[{}]") -> list[str]:
-    """Return the lines of a law's docstring; `made` says what of, `place` is where parameters of the method stand."""
+def law_header(info: LawInfo, summary: str, reference: str, source: str, place: str = "p[{}]") -> list[str]:
+    """Return the lines of a law's docstring; `source` says what of, `place` is where parameters of the method stand."""
     parameters = enumerate(info.parameters, info.parameter_offset)
     return [
-        *(f"{sentence(summary)}.", reference, made),
+        *(f"{sentence(summary)}.", reference, source),
         *(f"option {option} = {value}" for option, value in sorted(info.options.items())),
         *(f"{place.format(i)} {name} (default {default})" for i, (name, default) in parameters),
     ]
@@ -172,13 +172,13 @@ class LiteralLayout(PartsLayout):
         return self.element(self.program.info.parameter_offset + place)
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
-        """Return nothing before a function's own lines, and the sections that were asked for."""
+        """Return nothing before a function's own lines, and the sections in use."""
         sections, self.sections = self.sections, set()
         return [], set(), sections
 
 
 def table_names(tables: Sequence[Interpolation], slopes: bool = True) -> list[str]:
-    """Return what functions of tables are called; those of straight lines have a slope where it is asked for."""
+    """Return the names of functions of tables; those of straight lines have a slope where it is used."""
     return [table_name(t.name, what) for t in tables for what in DERIVATIVES[: 3 if t.pieces else 1 + slopes]]
 
 

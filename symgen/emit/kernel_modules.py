@@ -83,7 +83,7 @@ class InstanceAccess(Access):
     Attributes
     ----------
     used : set of str
-        Names of places and of numbers at the head of the tables that have been asked for.
+        Names of places and of numbers at the head of the tables that the code reads.
     """
 
     info: KernelInfo
@@ -111,7 +111,7 @@ class InstanceAccess(Access):
         return f"{space}_{index}", self.element(*_READ[space], plus=index)
 
     def operator(self, target: Target) -> str:
-        """Return what joins an output to its value."""
+        """Return the sign between an output and its value."""
         return "+=" if target.space in (*_SUMS, "force+") else "="
 
     def write(self, target: Target) -> str:
@@ -168,7 +168,7 @@ class FormAccess(InstanceAccess):
         return super().read(space, index)
 
     def operator(self, target: Target) -> str:
-        """Return what joins an output to its value."""
+        """Return the sign between an output and its value."""
         return "=" if target.space == "entry" else "+="
 
     def write(self, target: Target) -> str:

@@ -190,7 +190,7 @@ class LoopAccess(Access):
         return text, text
 
     def operator(self, target: Target) -> str:
-        """Return what joins an output to its value."""
+        """Return the sign between an output and its value."""
         return "+=" if target.space == data.SUM else "="
 
     def write(self, target: Target) -> str:

@@ -22,7 +22,7 @@ class Platform(NamedTuple):
     Attributes
     ----------
     decorator : str
-        What precedes every emitted function. On CUDA, Numba's defaults are what is asked for elsewhere: divisions by 0
+        What precedes every emitted function. On CUDA, Numba's defaults are the options used elsewhere: divisions by 0
         give infinity, multiply-add may be contracted, nothing else is fast or inexact.
     numba : str
         What is imported from Numba.

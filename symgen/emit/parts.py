@@ -49,7 +49,7 @@ class PartsLayout:
         return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
-        """Return lines before a function's own, and the names and sections that were asked for since the last one."""
+        """Return lines before a function's own, and the names and sections that were used since the last one."""
         return [], set(), set()
 
 

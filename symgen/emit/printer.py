@@ -51,7 +51,7 @@ class Access(ABC):
         """Return the left-hand side of an output."""
 
     def operator(self, target: Target) -> str:
-        """Return what joins an output to its value."""
+        """Return the sign between an output and its value."""
         return "="
 
     def note(self, space: str, index: int) -> str:
@@ -59,7 +59,7 @@ class Access(ABC):
         return ""
 
     def function(self, name: str) -> str:
-        """Return what a mathematical function is called."""
+        """Return the name of a mathematical function."""
         return f"math.{name}"
 
 
@@ -112,7 +112,7 @@ class LaneAccess(ElementAccess):
         return f"z[{(self.bases[array] + index) * self.lanes} + lane]"
 
     def function(self, name: str) -> str:
-        """Return what a mathematical function is called: sines of lanes are no calls."""
+        """Return the name of a mathematical function: sines of lanes are no calls."""
         return {"sin": "sine", "cos": "cosine"}.get(name, f"math.{name}")
 
 

@@ -119,7 +119,7 @@ class Composite:
         self.v = Vectors(model.graph)
         self.order = [name for name in placed if name != GROUND]
         self.rigid: dict[str, Inertia] = {}
-        self.given: dict[str, Inertia] = {}  # what a body leaves to what carries it, about the point of that
+        self.transferred: dict[str, Inertia] = {}  # what a body leaves to what carries it, about the point of that
         self.hanging: dict[str, Inertia] = {}
         self.push: dict[str, Triple] = {}
         self.torque: dict[str, Triple] = {}
@@ -146,8 +146,8 @@ class Composite:
         for child in p.children:
             if welded(self.placed[child]):
                 inertia = self._joined(inertia, self._carried(self.placed[child], self.rigid[child]))
-            elif child in self.given:
-                inertia = self._joined(inertia, self.given[child])
+            elif child in self.transferred:
+                inertia = self._joined(inertia, self.transferred[child])
         return inertia
 
     def _without_rod(self, name: str, inertia: Inertia) -> Inertia:
@@ -159,7 +159,7 @@ class Composite:
         shift = v.scale(inertia.mass, p.arm)
         ((i, sign),) = [(k, g.value(x)) for k, x in enumerate(axis) if g.value(x) not in (0.0, None)][:1] or [(0, None)]
         if axis == v.zero or sign not in (1.0, -1.0) or sum(x != g.zero for x in axis) != 1:
-            self.given[name] = Inertia(inertia.mass, shift, v.shifted(shift, p.arm))
+            self.transferred[name] = Inertia(inertia.mass, shift, v.shifted(shift, p.arm))
             return Inertia(g.zero, inertia.first, inertia.second)
         first, second = list(inertia.first), [list(row) for row in inertia.second]
         j, k = (i + 1) % 3, (i + 2) % 3
@@ -170,7 +170,7 @@ class Composite:
         first[i] = g.zero
         second[j][j], second[k][k] = g.sub(second[j][j], along), g.sub(second[k][k], along)
         double = v.add(shift, turned, turned)
-        self.given[name] = Inertia(inertia.mass, v.add(shift, turned), v.plus(rod, v.shifted(double, p.arm)))
+        self.transferred[name] = Inertia(inertia.mass, v.add(shift, turned), v.plus(rod, v.shifted(double, p.arm)))
         return Inertia(g.zero, v.triple(first), (v.triple(second[0]), v.triple(second[1]), v.triple(second[2])))
 
     def _hanging(self, name: str) -> Inertia:

@@ -99,7 +99,7 @@ def _sign(value: float) -> int:
 
 
 def _sign_of(op: str, args: tuple[int, ...], operands: list[tuple[int, bool]]) -> tuple[int, bool]:
-    """Return what is known of an operation: 2 if it is above 0, 1 if not below, else 0; and whether it is a number.
+    """Return the sign of an operation: 2 if it is above 0, 1 if not below, else 0; and whether it is a number.
 
     Squares, roots and sums of them are not below 0, so that distances are numbers.
     """

@@ -146,7 +146,7 @@ def _parts(x: Sequence[float], y: Sequence[float]) -> tuple[list[float], list[fl
 
 
 def _inner_rows(h: Sequence[float], d: Sequence[float]) -> tuple[list[float], list[float], list[float], list[float]]:
-    """Return what makes second derivatives agree at the points between the ends: three diagonals and the right side."""
+    """Return the equations of continuous second derivatives at the inner points: three diagonals and the right side."""
     inner = range(1, len(h))
     low = [0.0, *(h[i] for i in inner), 0.0]
     diagonal = [0.0, *(2.0 * (h[i - 1] + h[i]) for i in inner), 0.0]

@@ -91,7 +91,7 @@ class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         return Joint(scope.name, scope.kind, bodies, (row,))
 
     def _weights(self, scope: Scope) -> tuple[Expr, Expr, str]:
-        """Return what the angles are weighed with, and the unit of the sum."""
+        """Return the weights of the angles, and the unit of the sum."""
         if (self.radii is None) == (self.ratio is None):
             raise scope.error("", "either the key radii or the key ratio", "neither" if self.ratio is None else "both")
         if self.radii is not None:

@@ -88,7 +88,7 @@ def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part) -> Block:
 
 
 def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
-    """Return what a function of a law writes; where M changes with the position, those without the state read it."""
+    """Return the outputs of a function of a law; where M changes with the position, those without the state read it."""
     if scalars.mass_entries and "y" not in ARGUMENTS[part.name]:
         scalars = scalars.with_stored_mass
     outputs = [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
@@ -101,9 +101,9 @@ def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:
     """Return where the nodes of a value go."""
     e, value = scalars.equations, scalars.values[index]
     if scalars.operations[index].kind.startswith("keep"):
-        return scalars.kept[place]
+        return scalars.stored[place]
     if isinstance(value, FactorNodes):
-        return scalars.kept[f"{place}lower"] + scalars.kept[f"{place}reciprocal"]
+        return scalars.stored[f"{place}lower"] + scalars.stored[f"{place}reciprocal"]
     if place == "geometry":
         return list(value)
     if place == "dense":

@@ -168,7 +168,7 @@ def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:
 
 
 def _elements(model: SideModel) -> tuple[tuple[tuple[str, int], ...], list[int]]:
-    """Return what each force element adds to the balance, velocity by velocity."""
+    """Return the contribution of each force element to the balance, velocity by velocity."""
     if model.tree is not None:
         return (), []
     g, entries = model.graph, dict[tuple[str, int], int]()

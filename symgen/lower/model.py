@@ -34,7 +34,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         ("status", len(STATUS)),
         ("winding", len(equations.windings)),  # right behind the status: both are kept with every output
         *((name, sizes[size]) for name, size in SECTIONS),
-        *((name, len(scalars.kept[name])) for name in ("lower", "reciprocal")),
+        *((name, len(scalars.stored[name])) for name in ("lower", "reciprocal")),
         ("mass_entry", len(scalars.mass_entries)),
     ):
         if size or name not in ("winding", "mass_entry"):

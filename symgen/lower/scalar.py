@@ -59,7 +59,7 @@ class ScalarNodes(OfMass):
         """Return the factor of D G D^T that decides rank: dependent rows get a reciprocal pivot of 0."""
 
         def reciprocal(row: int, pivot: int, diagonal: int) -> int:
-            return self._kept(self._decided(row, pivot, diagonal), pivot)
+            return self._masked_reciprocal(self._decided(row, pivot, diagonal), pivot)
 
         return factorise(self.graph, self.gram(self.rows, self.gauge), self.order, reciprocal)
 
@@ -77,7 +77,7 @@ class ScalarNodes(OfMass):
         return pivot == diagonal and self.equations.rows[row].size is None
 
     def _usual(self, row: int, diagonal: int) -> int:
-        """Return what the pivot of a row in D G D^T is compared with: its square, or what it was before."""
+        """Return the scale of the pivot of a row in D G D^T: the row's square, or the pivot before."""
         g, constraint = self.graph, self.equations.rows[row]
         if constraint.size is None:
             return diagonal
@@ -87,7 +87,7 @@ class ScalarNodes(OfMass):
         gauge = g.mul(g.constant(1.0 / max(1, len(turns))), g.total(turns))
         return g.call("max", diagonal, g.mul(constraint.size, gauge))
 
-    def _kept(self, keep: int, pivot: int) -> int:
+    def _masked_reciprocal(self, keep: int, pivot: int) -> int:
         """Return 1 / pivot where `keep` is 1, else 0."""
         g = self.graph
         return g.div(g.one, pivot) if keep == g.one else g.div(keep, g.call("max", pivot, g.constant(TINY)))
@@ -96,7 +96,7 @@ class ScalarNodes(OfMass):
         """Return the factor of D W D^T, of the rows for which `keep` gives 1."""
 
         def reciprocal(row: int, pivot: int, _: int) -> int:
-            return self._kept(keep(row), pivot)
+            return self._masked_reciprocal(keep(row), pivot)
 
         return factorise(self.graph, matrix, self.order, reciprocal)
 

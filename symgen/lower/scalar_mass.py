@@ -33,7 +33,7 @@ class OfMass(NodeValues):
         M is replaced before anything is made of it: products with it do not keep its entries together.
         """
         other = self._with_mass(_replaced(self.equations.mass, self.mass_entries, self.graph, "mass_entry"))
-        other.values, other.kept, other.flags = {}, {}, []
+        other.values, other.stored, other.flags = {}, {}, []
         other.run(range(len(other.operations)))
         return other
 

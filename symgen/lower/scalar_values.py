@@ -52,7 +52,7 @@ class NodeValues(Replay):
         self.nu = tuple(r.nu for r in e.rows)
         self.v = tuple(g.input("v", i) for i in range(e.nv))
         self.flags: list[int] = []
-        self.kept: dict[str, Outputs] = {}
+        self.stored: dict[str, Outputs] = {}
 
     def following(self, operations: tuple[FormulaStep, ...]) -> Self:
         """Return the same for another tape, in the same graph."""
@@ -215,7 +215,7 @@ class NodeValues(Replay):
 
     def _keep(self, section: str, x: Iterable[int]) -> Iterator[int]:
         """Note what one function writes into a section, and yield it as others read it, literals as they are."""
-        written = self.kept.setdefault(section, [])
+        written = self.stored.setdefault(section, [])
         for node in x:
             if self.graph.value(node) is None:
                 written.append((Target(section, len(written)), node))

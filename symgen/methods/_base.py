@@ -208,7 +208,7 @@ class Method(ABC):
         return None
 
     def correction(self, options: Mapping[str, str]) -> Correction:
-        """Return what is corrected after each accepted step; nothing unless overridden."""
+        """Return the correction after each accepted step; nothing unless overridden."""
         return Correction()
 
     def complete_options(self, values: Mapping[str, str]) -> dict[str, str]:
@@ -342,7 +342,7 @@ class MultiplierMethod(Method):
     options: ClassVar[tuple[MethodOption, ...]] = (SOLVER,)
 
     def target(self, system: System) -> Vector:
-        """Return what D v' shall be; gamma unless overridden."""
+        """Return the right-hand side of D v'; gamma unless overridden."""
         return system.gamma
 
     def law(self, system: System, options: Mapping[str, str]) -> Law:

@@ -62,7 +62,7 @@ class Tape:
         return Scalar(self, self.add(FormulaStep("constant", payload=(float(value),))))
 
     def named(self, cls: type[_Value], kind: str, *names: str, size: str = "") -> _Value:
-        """Return what stands under a name."""
+        """Return the value of a name."""
         return cls(self, self.add(FormulaStep(kind, (), names, size)))
 
     def stored_value(self, cls: type[_Value], kind: str, section: str, x: Value, size: str = "") -> _Value:
@@ -92,7 +92,7 @@ class Value:
     index: int
 
     def applied(self, cls: type[_Value], kind: str, *operands: Value, size: str = "") -> _Value:
-        """Return what an operation on values gives."""
+        """Return the result of an operation on values."""
         return cls(self.tape, self.tape.add(FormulaStep(kind, tuple(v.index for v in operands), (), size)))
 
 

@@ -124,7 +124,7 @@ A_OPERATION = 24
 NONE = "the page has no live part"
 
 #: Sections of the scratch that a start finds and evaluations do not.
-_KEPT = ("status", "mask", "gauge", "row_weight", "mass", "pivot")
+_SECTIONS = ("status", "mask", "gauge", "row_weight", "mass", "pivot")
 
 
 @dataclass(frozen=True)
@@ -191,8 +191,8 @@ def live_part(
         return None, f"{NONE}: a formula of the start is not one that pages know"
     if begin is not None:
         start = replace(start, y=np.concatenate([begin, start.y[len(begin) :]]))
-    kept = {*still, *dict(mechanism.given)}
-    return Live(f"{HELPERS}{code}\n{script}", _spec(mechanism, compiled, start, step, joint, begin, kept)), ""
+    constants = {*still, *dict(mechanism.input_formulas)}
+    return Live(f"{HELPERS}{code}\n{script}", _spec(mechanism, compiled, start, step, joint, begin, constants)), ""
 
 
 def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:
@@ -248,9 +248,9 @@ def _held_values(mechanism: Mechanism, own: Mapping[str, Any], lines: ScriptLine
     names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
     speeds = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
     for name, value in own.items():
-        for known, found in ((names, q), (speeds, v)):
-            if name in known and value is not None:
-                found[known.index(name)] = lines.value(value, name)
+        for columns, numbers in ((names, q), (speeds, v)):
+            if name in columns and value is not None:
+                numbers[columns.index(name)] = lines.value(value, name)
 
 
 def _index(place: str) -> str:
@@ -258,16 +258,16 @@ def _index(place: str) -> str:
 
 
 def _rates_spec(compiled: CompiledModel, start: Start) -> dict[str, Any]:
-    """Return what a page has to know to evaluate the right-hand side."""
+    """Return a page's data for the right-hand side."""
     info = compiled.info
     values = [float(start.p[i]) for i in range(len(info.parameters))]
-    kept = [i for name in _KEPT for i in range(info.sections[name][0], sum(info.sections[name]))]
+    places = [i for name in _SECTIONS for i in range(info.sections[name][0], sum(info.sections[name]))]
     return {
         "ny": info.ny,
         "nw": len(start.w),
         "p0": [float(x) for x in start.p],
-        "w0": [[i, float(start.w[i])] for i in kept if start.w[i] != 0.0 and np.isfinite(start.w[i])],
-        "masked": [i for i in kept if np.isinf(start.w[i])],
+        "w0": [[i, float(start.w[i])] for i in places if start.w[i] != 0.0 and np.isfinite(start.w[i])],
+        "masked": [i for i in places if np.isinf(start.w[i])],
         "parameters": [
             {"name": q.name, "unit": q.unit, "value": value} for q, value in zip(info.parameters, values, strict=True)
         ],
@@ -282,7 +282,7 @@ def _spec(
     step: float,
     joint: bool,
     begun: Array | None,
-    kept: Collection[str],
+    constants: Collection[str],
 ) -> dict[str, Any]:
     info, rates = compiled.info, _rates_spec(compiled, start)
     own = independent_values(mechanism, {p["name"]: p["value"] for p in rates["parameters"]})
@@ -307,8 +307,8 @@ def _spec(
         "at": sections,
         "status": {"length": abi.LENGTH, "first": abi.WINDING},
         "parameters": [
-            {**told, "follows": bool(own.formula), **({"still": True} if own.name in kept else {})}
-            for told, own in zip(rates["parameters"], mechanism.parameters, strict=False)
+            {**entry, "follows": bool(own.formula), **({"still": True} if own.name in constants else {})}
+            for entry, own in zip(rates["parameters"], mechanism.parameters, strict=False)
         ],
         "state": [q.name for q in (*info.coordinates, *info.velocities)],
         "set": [i for i, p in enumerate(mechanism.parameters) if p.formula is not None and p.name in own],

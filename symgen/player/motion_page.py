@@ -78,11 +78,11 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
     pins = scene.pins
     data["motions"] = []
     for each in motions:
-        kept, coarse = fitted(each, share, len(pins))
-        if kept is not each and not data["note"].endswith(BARE):
+        shown, coarse = fitted(each, share, len(pins))
+        if shown is not each and not data["note"].endswith(BARE):
             data["note"] = f"{data['note']}; {BARE}" if data["note"] else BARE
-        keep = frames_within(kept, share, coarse, len(pins))
-        data["motions"].append(packed(kept, keep, coarse) | _gaps(scene, kept.q[keep]))
+        keep = frames_within(shown, share, coarse, len(pins))
+        data["motions"].append(packed(shown, keep, coarse) | _gaps(scene, shown.q[keep]))
     text = _web("page.html")
     parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": as_json(data), "SCRIPT": script}
     for name, part in parts.items():

@@ -81,9 +81,9 @@ def document(
     if not e.m:
         for part in ("Phi", "D", "nu", "gamma"):
             del sections[part]
-    kept = [part for part in sections if part in wanted]
-    parts = [text for part in kept for text in sections[part]]
-    parts += _section("Shared terms", _lines(sheet.shared(sheet.nodes(kept))))
+    chosen = [part for part in sections if part in wanted]
+    parts = [text for part in chosen for text in sections[part]]
+    parts += _section("Shared terms", _lines(sheet.shared(sheet.nodes(chosen))))
     if "law" in wanted:
         parts += _law(law)
     if "left-out" in wanted and e.omissions:
@@ -118,7 +118,7 @@ def _head(mechanism: Mechanism, sheet: Sheet) -> list[str]:
 
 
 def selected(equations: Equations, select: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the sections and the joints that are asked for; ``joints.D`` is a joint, ``D`` the Jacobian."""
+    """Return the selected sections and joints; ``joints.D`` is a joint, ``D`` the Jacobian."""
     with_rows = tuple(dict.fromkeys(row.joint for row in equations.rows))
     sections, joints = list[str](), list[str]()
     for item in select:

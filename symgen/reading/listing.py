@@ -29,7 +29,7 @@ LONGEST = 150_000
 def text_of(model: str | PathLike[str]) -> str:
     """Return the text that describes a model; empty where no file does, or a very long one."""
     name = fspath(model)
-    path = catalogue.file_of(name) if name in catalogue.known() else None if ":" in name else Path(name)
+    path = catalogue.file_of(name) if name in catalogue.all_names() else None if ":" in name else Path(name)
     try:
         text = "" if path is None else path.read_text(encoding="utf-8")
     except (OSError, ValueError):

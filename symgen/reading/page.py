@@ -46,7 +46,7 @@ if TYPE_CHECKING:
 LARGEST = 2_000_000
 #: Mechanisms with more rows and velocities have no page.
 MOST_ROWS = 1500
-#: Up to so many velocities of bodies a page has the code of a run in straight lines, unless asked otherwise.
+#: Up to so many velocities of bodies a page has the code of a run in straight lines, unless the shape is set.
 MOST_STRAIGHT = 150
 #: Shared terms that stand together.
 _TOGETHER = 25

@@ -174,7 +174,7 @@ class Sheet:
         return [e.kinetic, e.potential, e.power, *driving]
 
     def prescribed(self) -> dict[str, str]:
-        """Return what each driver prescribes that has no row, as a sentence, by its name."""
+        """Return a sentence by name for each driver without a row: the motion that it prescribes."""
         topology = self.mechanism.topology
         joints = {} if topology is None else {link.body: link.joint for link in topology.links}
         sentences = {}
@@ -184,7 +184,7 @@ class Sheet:
         return sentences
 
     def shared(self, nodes: Iterable[int]) -> list[Equation]:
-        """Return what the names of shared terms that `nodes` need stand for."""
+        """Return the equations of the shared terms of `nodes`."""
         return [Equation(self.writer.definitions[n][0], self.writer.definitions[n][1]) for n in self.writer.used(nodes)]
 
     def nodes(self, what: Iterable[str]) -> list[int]:

@@ -30,7 +30,7 @@ LARGEST = 30_000
 
 
 class _Lazy(cached_property[Any]):
-    """Something that is made when it is first asked for, with its docstring."""
+    """A value that is computed at its first use, with its docstring."""
 
     def __init__(self, doc: str, make: Callable[[Any], Any]) -> None:
         super().__init__(make)
@@ -42,7 +42,7 @@ class SymbolicEquations:
     """Equations of motion of a mechanism as SymPy matrices and symbols with the names of the file.
 
     ``M v' + D^T lambda = f``, ``D v' = gamma``, ``q' = N v``; `Phi`, `D`, `nu`, `gamma`, `N`, `M`, `f`, `T`, `V` and
-    `power` are made when they are first asked for, in coordinates of joints also `b` and `c`. Quantities with
+    `power` are computed at their first use, in coordinates of joints also `b` and `c`. Quantities with
     more than `LARGEST` operations are written with shared terms, whose meaning stands in `definitions`; `notes` says
     which.
 
@@ -261,7 +261,7 @@ class SymbolicEquations:
         return " \\\\\n".join(f"{boxes.latex(boxes.name(left))} = {boxes.latex(box(right))}" for left, right in sides)
 
     def _repr_latex_(self) -> str:
-        """Return what a notebook shows where it has no HTML."""
+        """Return the plain text for a notebook."""
         return (
             r"$\displaystyle M \dot v + D^T \lambda = f,\quad D \dot v = \gamma,\quad \dot q = N v,\quad "
             rf"q \in \mathbb{{R}}^{{{self.derived.nq}}},\ v \in \mathbb{{R}}^{{{self.derived.nv}}},\ "
@@ -269,7 +269,7 @@ class SymbolicEquations:
         )
 
     def _repr_html_(self) -> str:
-        """Return what a notebook shows: sizes, and the quantities folded."""
+        """Return the HTML for a notebook: sizes, and the quantities folded."""
         e = self.derived
         sizes = f"{e.nq} coordinates, {e.nv} velocities, {e.m} constraint rows, in {self.coordinates} coordinates"
         parts = [f"<p><b>{escape(e.name)}</b>: {escape(sizes)}</p>"]

@@ -192,7 +192,7 @@ def _where(row: Row) -> str:
 
 
 def _warnings(study: Study) -> list[str]:
-    """Return what rows warn of, each sentence once with the first row that says it."""
+    """Return the warnings of rows, each sentence once with its first row."""
     common = study.common_warnings
     by_text: dict[str, list[Row]] = {}
     for row in study.rows:

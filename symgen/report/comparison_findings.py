@@ -66,7 +66,7 @@ def settings_text(study: Study) -> str:
 
 
 def findings(study: Study) -> tuple[str, ...]:
-    """Return what the rows say, most important first; what cannot be said is left out."""
+    """Return the findings of the rows, most important first; those without numbers are left out."""
     sentences = [
         _reference(study),
         _cheapest(study),

@@ -1,6 +1,6 @@
 """The error of a run, estimated by a second run with finer steps.
 
-A second run is made where it is asked for (``--verify``), and where anything was chosen automatically: who leaves the
+A second run is made on request (``--verify``), and where anything was chosen automatically: who leaves the
 choice to the program has not looked at tolerances either.
 """
 
@@ -77,7 +77,7 @@ def _comparable(first: Outcome, second: Outcome) -> tuple[NDArray[np.intp], NDAr
 
 
 def _steps_of(run: Prepared) -> str:
-    """Return what chooses the steps of a run, in words."""
+    """Return in words how the steps of a run are chosen."""
     return f"rtol = {run.spec.rtol:g}" if run.spec.adaptive else f"step = {run.spec.step:g} s"
 
 
@@ -89,7 +89,7 @@ def verified(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Prepa
     run, outcome : Prepared, Outcome
         The run.
     free : bool
-        Whether nobody asked for the tolerances of an adaptive run: they are made smaller then until two runs agree, and
+        Whether the tolerances of an adaptive run are defaults: they are made smaller then until two runs agree, and
         the finer one of these is reported.
 
     Returns

@@ -166,7 +166,7 @@ def _arrays(outcome: Outcome) -> dict[str, NDArray[Any]]:
 
 
 def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> list[str]:
-    """Return what redundant constraints mean for this run, as sentences."""
+    """Return sentences about redundant constraints in this run."""
     info, start, notes = compiled.info, outcome.start, list[str]()
     if start.rank < info.m:
         extra = info.m - start.rank
@@ -179,7 +179,7 @@ def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> li
 
 
 def _dense(compiled: CompiledModel, outcome: Outcome) -> list[str]:
-    """Return what the dense factorisation met, where it was used."""
+    """Return the warnings of the dense factorisation, where it was used."""
     count = outcome.counters["dense_solves"]
     if count == 0:
         return []

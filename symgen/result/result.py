@@ -133,7 +133,7 @@ class Result(MotionTables):
     """
 
     of_process: ClassVar[tuple[str, ...]] = ("outcome", "forces", "measured", "ended")
-    kept: ClassVar[tuple[str, ...]] = (
+    cached: ClassVar[tuple[str, ...]] = (
         *("non_unique_reactions", "shape", "start", "last_state"),
         "_final_multipliers",
     )
@@ -215,9 +215,9 @@ class Result(MotionTables):
 
     def reaction(self, joint: str) -> Array:
         """Return the reaction of one joint, shape (k, 3), in space (k, 6): force [N] and moment [N m]."""
-        known = list(dict.fromkeys(name.rpartition(".")[0] for name in self.reactions.names))
-        if joint not in known:
-            raise InputError("joint", "the name of a joint", shown(joint), nearest(str(joint), known))
+        joints = list(dict.fromkeys(name.rpartition(".")[0] for name in self.reactions.names))
+        if joint not in joints:
+            raise InputError("joint", "the name of a joint", shown(joint), nearest(str(joint), joints))
         return self.reactions[joint]
 
     @cached_property

@@ -114,8 +114,8 @@ def _of_dataset(path: Path, whence: str) -> Recorded:
         columns |= {f"{PREFIX[table]}{name}": values[:, i] for i, name in enumerate(dataset[DIMENSIONS[table]].values)}
     last = None
     if LAST_HEADER in dataset.attrs:
-        kept = {str(name): v.values for name, v in dataset.data_vars.items() if v.dims == (f"{name}_index",)}
-        arrays = {name.removeprefix(LAST_PREFIX): array for name, array in kept.items()}
+        variables = {str(name): v.values for name, v in dataset.data_vars.items() if v.dims == (f"{name}_index",)}
+        arrays = {name.removeprefix(LAST_PREFIX): array for name, array in variables.items()}
         last = json.loads(dataset.attrs[LAST_HEADER]), arrays
     t, facts = np.asarray(dataset["time"].values, dtype=np.float64), dataset.attrs
     return Recorded(whence, t, columns, str(facts["mechanism"]), json.loads(facts["run"]), last)
@@ -197,10 +197,10 @@ def read_last_state(option: str, path: Path) -> LastState:
     def state(saved: Recorded) -> LastState:
         if saved.last is None:
             return _of_columns(saved)
-        found = LastState.of_header(*saved.last)
-        if found is None:
+        last = LastState.of_header(*saved.last)
+        if last is None:
             raise InputError(option, "the last state as it was written", f"'{path}', in which it was changed")
-        return found
+        return last
 
     return _read(option, path, state)
 

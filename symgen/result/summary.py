@@ -18,7 +18,7 @@ def lines(result: Result) -> list[tuple[str, str]]:
     rejected = f", {result.rejected} rejected" if result.rejected else ""
     s, rank = result.seconds, result.rank
     spread = f" (spread {s.run_spread:.2g} s)" if s.run_spread else ""
-    made = f"; derived in {s.derive:.3g} s, emitted in {s.emit:.3g} s" if s.derive else ""
+    derivation = f"; derived in {s.derive:.3g} s, emitted in {s.emit:.3g} s" if s.derive else ""
     dropped = f", {rank.identical_rows_dropped} identical dropped" if rank.identical_rows_dropped else ""
     width = result.vector_width
     together = f" at eight nodes together, in vectors of {width}" if width else ""
@@ -28,7 +28,7 @@ def lines(result: Result) -> list[tuple[str, str]]:
         *([("coordinates", _coordinates(result))] if result.coordinates != "absolute" else []),
         ("status", status_in_words(result)),
         ("steps", f"{result.steps}{rejected}, {result.evaluations} evaluations of the right-hand side{together}"),
-        ("time", f"run {s.run:.4g} s{spread}; compiled code ready in {s.compile:.3g} s{made}"),
+        ("time", f"run {s.run:.4g} s{spread}; compiled code ready in {s.compile:.3g} s{derivation}"),
         ("violations", f"position {result.position_violation_max:.3g}, velocity {result.velocity_violation_max:.3g}"),
         ("energy error", f"{result.energy_drift_max:.3g} J"),
         ("rank", f"{rank.rank} of {rank.rows} rows{dropped}"),
@@ -45,7 +45,7 @@ def lines(result: Result) -> list[tuple[str, str]]:
 
 
 def _coordinates(result: Result) -> str:
-    """Return what the state was made of, in words."""
+    """Return the coordinates of the state, in words."""
     count = len(result.state)
     return f"{result.coordinates}, {count} numbers of the state; the rank is that over all rows of the mechanism"
 

@@ -85,7 +85,7 @@ class Tables(ABC):
 
     #: Attributes that belong to the process: compiled code is no data. And what a copy keeps beside its tables.
     of_process: ClassVar[tuple[str, ...]] = ("motion", "forces", "measured")
-    kept: ClassVar[tuple[str, ...]] = ("non_unique_reactions",)
+    cached: ClassVar[tuple[str, ...]] = ("non_unique_reactions",)
 
     @property
     @abstractmethod
@@ -132,7 +132,7 @@ class Tables(ABC):
     # -- copies and other processes ------------------------------------------------------------------------------------
 
     def __getstate__(self) -> dict[str, Any]:
-        for name in (*self.names, *self.kept):
+        for name in (*self.names, *self.cached):
             getattr(self, name)  # kept by the instance
         return {name: value for name, value in self.__dict__.items() if name not in self.of_process}
 
@@ -174,13 +174,13 @@ class Tables(ABC):
         """
         columns = {PREFIX[table] + name: table for table in self.names for name in self.columns(table)}
         chosen = choose(columns, names, self.mechanism, self.names)
-        found = {
+        tables = {
             PREFIX[table] + name: (i, values)
             for table in dict.fromkeys(chosen.values())
             for values in (getattr(self, table),)
             for i, name in enumerate(values.names)
         }
-        places = [found[name] for name in chosen]
+        places = [tables[name] for name in chosen]
         stacked = [table.values[:, i] for i, table in places]
         values = np.column_stack(stacked) if stacked else np.zeros((len(self.t), 0))
         return Labelled(values, tuple(chosen), tuple(table.units[i] for i, table in places))

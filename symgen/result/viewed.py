@@ -121,7 +121,7 @@ def _reactions(mechanism: Mechanism, table: Labelled) -> tuple[Array | None, tup
 
 
 def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> list[PlottedGroup]:
-    """Return what can be plotted: outputs of the file first, then energy, violations and positions of few bodies."""
+    """Return the groups of a plot: outputs of the file first, then energy, violations and positions of few bodies."""
     groups: list[PlottedGroup] = []
     outputs = tables["outputs"]
     for unit in dict.fromkeys(outputs.units):
@@ -144,7 +144,7 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, st
     from symgen.running.prepare import prepare
     from symgen.settings import Settings
 
-    inputs, formulas, begun = run["inputs"], dict(mechanism.given), run["start"]
+    inputs, formulas, begun = run["inputs"], dict(mechanism.input_formulas), run["start"]
     if any(isinstance(x, str) and name not in formulas for name, x in inputs.items()) or (
         not set(mechanism.inputs) <= set(inputs)
     ):

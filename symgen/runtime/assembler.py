@@ -74,7 +74,7 @@ class Assembly:
     compiled : CompiledModel
         Model and method.
     held : Held
-        What starts keep; of many starts the values stand in what is asked of each.
+        What starts keep; of many starts the values stand in the conditions of each.
     strict : bool
         Whether a start that has to be changed is refused.
     ask_light : bool
@@ -99,7 +99,7 @@ class Assembly:
         return layout._replace(
             t=self.t,
             ask_light=int(self.ask_light and hasattr(self.compiled.law_module, "confirm")),
-            kept=_marked(tuple(held.velocities), info.nv),
+            unchanged=_marked(tuple(held.velocities), info.nv),
             fixed=_marked(held.fixed, info.nv),
             held=np.array([(i, velocity_of(i, info)) for i in held.coordinates], dtype=np.int64).ravel(),
             branches=np.array(self.branches, dtype=np.float64) if len(self.branches) else layout.branches,
@@ -191,7 +191,7 @@ class Assembly:
         return flat, tuple(f if kind is None else Ready(f, kind) for f, kind in plain), plain_form
 
     def _judge(self, ws: Array, summaries: Array) -> None:
-        """Name the joint that stays open most; refuse starts that were changed, where that is asked for."""
+        """Name the joint that stays open most; refuse changed starts in a strict run."""
         info = self.compiled.info
         for r in np.flatnonzero(summaries[:, e.START] == e.OPEN):
             joints, residual = joints_of(info), np.nan_to_num(self.compiled.section(ws[r], "residual"), nan=np.inf)

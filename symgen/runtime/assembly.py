@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo
 
 Array = NDArray[np.float64]
-#: What is told of coordinates as described and as closed beside these: names, by how much, and units.
+#: Coordinates as described and as closed that are reported: names, differences, and units.
 Moved = Callable[[Array, Array], Iterable[tuple[str, float, str]]]
 
 
@@ -49,7 +49,7 @@ class Start:
     changes : tuple of Change
         The same as data, positions before velocities.
     light : bool
-        Whether a pivot of S is suspiciously small although D D^T finds no row dependent; False where nobody asked.
+        Whether a pivot of S is suspiciously small although D D^T finds no row dependent; False where unexamined.
     warnings : tuple of str
         What was changed by so much that another motion may have been meant.
     t : float
@@ -79,7 +79,7 @@ class Start:
 
 
 def state_scales(compiled: CompiledModel, w: Array, until: float) -> Array:
-    """Return what coordinates and velocities are compared with: the scales that a run settles at its beginning.
+    """Return the scales of coordinates and velocities that a run settles at its beginning.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ def assemble(
     ask_light : bool
         Whether the start shall say if bodies are too light for the law's solver.
     moved : callable, optional
-        What is told of the coordinates as described and as closed beside these: names, by how much, and units.
+        The coordinates as described and as closed that are reported: names, differences, and units.
     instant : tuple of float and sequence of float, optional
         Time of the start [s], and the angles that count turns where their branches are known.
 

@@ -85,7 +85,7 @@ def _shift(closing: Any, layout: Any, y: Any, w: Any, change: Any, factor: float
 
 
 @exact()
-def complete_velocities(closing: Any, layout: Any, now: Any, work: Any, given: Any) -> int:
+def complete_velocities(closing: Any, layout: Any, now: Any, work: Any, velocities: Any) -> int:
     """Set the velocities: those that are given are kept, the others are the smallest that satisfy D v = nu.
 
     Where the given ones contradict the constraints, all but those to be kept are projected in the metric of the mass
@@ -93,8 +93,8 @@ def complete_velocities(closing: Any, layout: Any, now: Any, work: Any, given: A
     """
     n, w, v, mass, scale = layout.nv, now.w, part(now.y, layout.nq, layout.nv), layout.mass, work.scale
     for j in range(n):
-        v[j] = given[j] if math.isfinite(given[j]) else 0.0
-        scale[j] = 0.0 if math.isfinite(given[j]) else free_scale(layout, w, j)
+        v[j] = velocities[j] if math.isfinite(velocities[j]) else 0.0
+        scale[j] = 0.0 if math.isfinite(velocities[j]) else free_scale(layout, w, j)
     if layout.m == 0:
         return int(e.ASSEMBLED)
     speed = speed_of(layout, w, v)
@@ -105,7 +105,7 @@ def complete_velocities(closing: Any, layout: Any, now: Any, work: Any, given: A
     if size <= decisions.VELOCITIES_FIT * speed:
         # what is left is rounding: take it out without touching the given values noticeably, and those kept not at all
         for j in range(n):
-            scale[j] = 0.0 if layout.kept[j] != 0 else free_scale(layout, w, j)
+            scale[j] = 0.0 if layout.unchanged[j] != 0 else free_scale(layout, w, j)
         _correct_velocities(closing, layout, now, work)
         return int(e.ASSEMBLED)
     heaviest = 0.0
@@ -114,7 +114,7 @@ def complete_velocities(closing: Any, layout: Any, now: Any, work: Any, given: A
     for j in range(n):  # massless bodies give way first
         least = decisions.LEAST_MASS * (heaviest if heaviest > 0.0 else 1.0) / w[layout.gauge + j]
         weight = w[mass + j] if w[mass + j] > least else least
-        scale[j] = 0.0 if layout.kept[j] != 0 else 1.0 / math.sqrt(weight)
+        scale[j] = 0.0 if layout.unchanged[j] != 0 else 1.0 / math.sqrt(weight)
     for _ in range(2):
         size = _correct_velocities(closing, layout, now, work)
     return int(e.PROJECTED if size <= decisions.VELOCITIES_CONTRADICT * speed else e.CONTRADICTION)
@@ -152,7 +152,7 @@ def mask_redundant(closing: Any, layout: Any, now: Any, work: Any, nothing: Any)
     m, other = layout.m, Instant(work.y, now.p, work.w)
     weigh_rows(layout, now)
     count = _mark(closing, layout, now, work)
-    poor = m > 0 and layout.sparse == 0 and is_poor(_kept_pivot(layout, now.w))
+    poor = m > 0 and layout.sparse == 0 and is_poor(_active_pivot(layout, now.w))
     count = m - _rank(layout, now.w, work) if poor else count
     alone, same = count, not poor
     for k in range(decisions.PROBES):
@@ -174,7 +174,7 @@ def mask_redundant(closing: Any, layout: Any, now: Any, work: Any, nothing: Any)
         if closed:
             for i in range(m):
                 same = same and (now.w[layout.mask + i] != 0.0 or other.w[layout.mask + i] == 0.0)
-            if layout.sparse == 0 and is_poor(_kept_pivot(layout, other.w)):
+            if layout.sparse == 0 and is_poor(_active_pivot(layout, other.w)):
                 near, same = m - _rank(layout, other.w, work), False
             count = near if near < count else count
     return int(_masked(closing, layout, now, other, work, count, alone, same))
@@ -219,7 +219,7 @@ def _masked(closing: Any, layout: Any, now: Any, other: Any, work: Any, count: i
             now.w[mask + i] = 0.0
         return 0
     here = now.w if count == alone else other.w  # at a singular position rounding would choose
-    if layout.sparse == 0 and (not same or _kept_pivot(layout, here) < decisions.STAND_BADLY):
+    if layout.sparse == 0 and (not same or _active_pivot(layout, here) < decisions.STAND_BADLY):
         choose_rows(layout, m - count, 1, here, work.numbers)
         for i in range(m):
             now.w[mask + i] = here[mask + i]
@@ -239,7 +239,7 @@ def _masked(closing: Any, layout: Any, now: Any, other: Any, work: Any, count: i
 
 
 @exact()
-def _kept_pivot(layout: Any, w: Any) -> float:
+def _active_pivot(layout: Any, w: Any) -> float:
     """Return the smallest pivot of D D^T among the rows that do not depend on others."""
     smallest = 1.0
     for i in range(layout.m):

@@ -37,7 +37,7 @@ _N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
 
 
 class Starts(NamedTuple):
-    """What runs begin with, shapes (ny, runs), (np, runs), (nw, runs); and what they are judged and asked by."""
+    """What runs begin with, shapes (ny, runs), (np, runs), (nw, runs); and the inputs of their observers."""
 
     ys: Any
     ps: Any
@@ -124,13 +124,13 @@ class ForgivingMath:
     """``math`` as compiled code has it, for the simulator: undefined results are nan or infinite, not exceptions."""
 
     def __getattr__(self, name: str) -> Any:
-        found = getattr(math, name)
-        if not callable(found):
-            return found
+        value = getattr(math, name)
+        if not callable(value):
+            return value
 
         def forgiving(*arguments: float) -> Any:
             try:
-                return found(*arguments)
+                return value(*arguments)
             except ValueError:
                 return math.nan
             except OverflowError:
@@ -164,7 +164,7 @@ def _compiled(copy: python.FunctionType, original: Any) -> Any:
 
 @dataclass(frozen=True)
 class Need:
-    """What shapes a kernel beside its law: sizes in numbers, and what is asked of it.
+    """What shapes a kernel beside its law: sizes in numbers, and its outputs.
 
     Attributes
     ----------
@@ -175,7 +175,7 @@ class Need:
     rows : int
         What ``observe`` writes at an output.
     adaptive, rates, joints : bool
-        Whether steps are adaptive, accelerations or multipliers asked for, and joint coordinates.
+        Whether steps are adaptive, accelerations or multipliers are outputs, and joint coordinates.
     """
 
     width: int
@@ -194,14 +194,14 @@ class Need:
         return max(self.width + self.room, 2 * self.width + self.rows)
 
     @property
-    def kept(self) -> int:
+    def stored(self) -> int:
         """Length of the copy of the scratch array that observing begins with."""
         return self.nw if self.rates else 1
 
     @property
     def local_bytes(self) -> int:
         """Local memory of a thread for its run."""
-        own = 4 * self.width + self.n_p + self.nw + self.kept + self.memory + self.working
+        own = 4 * self.width + self.n_p + self.nw + self.stored + self.memory + self.working
         return 8 * (own + abi.N_COUNTERS + abi.N_CLOCK + abi.N_GAUGES + e.N_CONTROL + N_EVENTS)
 
 
@@ -219,7 +219,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     -------
     function
         ``kernel(scheme, sizes, span, starts, results)``, of the types in `SIGNATURE`; every array of runs has the run
-        as its last index, and none is empty: what is not asked for has one element.
+        as its last index, and none is empty: an unused one has one element.
     """
     parts: dict[str, Any] = explicit.ADAPTIVE_PARTS if need.adaptive else explicit.CONSTANT_PARTS
     one_event = on_device(watch.watch, _N_EVENT=0)
@@ -231,7 +231,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     nothing = on_device(confirm_nothing)
     rhs, accept, confirm = law.rhs, law.accept, getattr(law, "confirm", nothing)
     rates, observed_by = rates_of(law)[0], model.observe if need.joints else nothing
-    width, n_p, nw, n_room, n_kept = need.width, max(1, need.n_p), need.nw, need.working, need.kept
+    width, n_p, nw, n_room, n_stored = need.width, max(1, need.n_p), need.nw, need.working, need.stored
     n_counters, n_gauges, n_control, n_clock = abi.N_COUNTERS, abi.N_GAUGES, e.N_CONTROL, abi.N_CLOCK
     n_events, n_memory, n_rows = N_EVENTS, max(1, need.memory), need.rows
     wants_rates, wants_joints = need.rates, need.joints
@@ -241,7 +241,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
         if i >= starts.ys.shape[1]:
             return
         y, p, w = cuda.local.array(width, float64), cuda.local.array(n_p, float64), cuda.local.array(nw, float64)
-        kept, room = cuda.local.array(n_kept, float64), cuda.local.array(n_room, float64)
+        stored, room = cuda.local.array(n_stored, float64), cuda.local.array(n_room, float64)
         clock, gauges = cuda.local.array(n_clock, float64), cuda.local.array(n_gauges, float64)
         events, memory = cuda.local.array(n_events, float64), cuda.local.array(n_memory, float64)
         metric, scales = cuda.local.array(width, float64), cuda.local.array(width, float64)
@@ -254,7 +254,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
         for j in range(nw):
             w[j] = starts.ws[j, i]
             if wants_rates:
-                kept[j] = w[j]
+                stored[j] = w[j]
         for j in range(n_room):
             room[j] = 0.0
         for j in range(n_memory):
@@ -278,7 +278,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
         if wants_rates:
             for j in range(n_counters):
                 iw[j] = 0
-            observe_rates((sizes, rates, confirm, accept), outputs, count, p, kept, iw, observed, room)
+            observe_rates((sizes, rates, confirm, accept), outputs, count, p, stored, iw, observed, room)
         if wants_joints:
             observe_rows(observed_by, sizes, outputs, count, p, w, observed, room)
         pick(sizes, starts.picks, Kept(outputs, observed), count, gauges[abi.ENERGY_START], results.values[:, i])

@@ -1,4 +1,4 @@
-"""Events of a run: what loops are told of them, what is done where one happens, and when they happen ever faster."""
+"""Events of a run: the data of loops for them, the actions where one happens, and events that accumulate."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ class Watched:
     jumps: bool = False
 
     def impact(self, compiled: CompiledModel, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array) -> Impact:
-        """Return what resets at one time do to a state; see `symgen.runtime.resets.impact_of`.
+        """Return the effect of resets at one time on a state; see `symgen.runtime.resets.impact_of`.
 
         Parameters
         ----------
@@ -179,7 +179,7 @@ class Events:
         self.accumulation = None
 
     def take(self, state: hunting.HuntingState) -> list[tuple[int, Happening]]:
-        """Return what a loop has noted since it was last asked, with numbers of events, and remember it."""
+        """Return the passages that a loop has noted since the last call, with numbers of events, and store them."""
         names, actions, size = self.watched.names, self.watched.actions, self.compiled.info.work
         events = [
             (number, Happening(t, names[number], actions[number], y[:size]))
@@ -294,7 +294,7 @@ class Events:
 
 
 def _rest(before: float, last: float) -> float:
-    """Return what is left of a geometric series behind two of its terms (Aitken)."""
+    """Return the rest of a geometric series behind two of its terms (Aitken)."""
     ratio = last / before
     return last * ratio / (1.0 - ratio)
 
@@ -328,8 +328,8 @@ class EventRecord:
     v_after : mapping or None
         Velocities after a reset.
     impulses : mapping
-        Of a reset: those of constraint rows, signed as the multipliers, and those along the velocities that were given
-        values.
+        Of a reset: those of constraint rows, signed as the multipliers, and those along the velocities that have
+        new values.
     work : float
         What a reset adds to the energy [J]; resets at the same time are one, whose work the first of them has.
     """
@@ -367,7 +367,7 @@ def record_of(info: ModelInfo, event: Happening) -> EventRecord:
     if impact is None:
         return EventRecord(event.t, event.name, event.action, q, v)
     after = {c.name: float(x) for c, x in zip(info.velocities, impact.v, strict=True)}
-    signs = [-1.0] * info.m + [1.0] * len(impact.given)  # D^T lambda stands on the left of the equations of motion
-    names = [*(row.name for row in info.rows), *impact.given]
+    signs = [-1.0] * info.m + [1.0] * len(impact.imposed)  # D^T lambda stands on the left of the equations of motion
+    names = [*(row.name for row in info.rows), *impact.imposed]
     impulses = {name: float(s * x) for name, s, x in zip(names, signs, impact.impulses, strict=True)}
     return EventRecord(event.t, event.name, event.action, q, v, after, impulses, event.energy)

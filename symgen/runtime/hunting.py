@@ -51,7 +51,7 @@ def opened(sizes: Any, state: Any) -> Any:
 
 
 def decided(system: Any, run: Any, t: float, h: float, doing: int, y: Any) -> int:
-    """Return what `symgen.runtime.searching.decide` says of the state `y` at the end of a step."""
+    """Return the decision of `symgen.runtime.searching.decide` on the state `y` at the end of a step."""
     n, width = int(run.hunt[searching.COUNT]), system.sizes.width
     notes = notes_at(n, width, run.w.shape[0])
     return int(system.decide(run.hunt, n, notes, t, h, doing, width, y, run.w, run.iw))
@@ -110,7 +110,7 @@ _loops: dict[Any, Any] = {}
 
 
 def with_events(loop: Any) -> Any:
-    """Return the loop that looks for events and is otherwise the same; made when it is first asked for.
+    """Return the loop that looks for events and is otherwise the same; built at the first use.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ Over = Callable[[Array], Array]
 MOST_PIECES = 100_000
 #: Instants at which a formula is looked at first, and at most, until it changes sides as often as the time before.
 _FIRST, _MOST = 2048, 2**19
-#: Looks at each passage, or near one, at least: with fewer it cannot be told from the next.
+#: Looks at each passage, or near one, at least: with fewer it cannot be separated from the next.
 _LOOKS = 4
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 

@@ -94,7 +94,7 @@ class LastState:
 
     @classmethod
     def of_header(cls, header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> LastState | None:
-        """Return what `header` and the arrays that have elements stand for, None where they are not what was written.
+        """Return the last state of `header` and the arrays that have elements, None where their digest does not fit.
 
         Parameters
         ----------

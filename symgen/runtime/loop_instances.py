@@ -81,14 +81,14 @@ class Instances:
 
     def __init__(self, meanings: Mapping[str, Any], compiled: Compile = part, everything: bool = False) -> None:
         self.meanings, self.compiled, self.everything = meanings, compiled, everything
-        self.made: dict[Any, Any] = {}
+        self.instances: dict[Any, Any] = {}
 
     def of(self, function: Any) -> Any:
         """Return the instance of a plain or compiled function, of which the Python source counts; each is made once."""
         plain = getattr(function, "py_func", function)
-        if plain not in self.made:
-            self.made[plain] = self.compiled(self.copy(plain), function)
-        return self.made[plain]
+        if plain not in self.instances:
+            self.instances[plain] = self.compiled(self.copy(plain), function)
+        return self.instances[plain]
 
     def copy(self, function: Any) -> python.FunctionType:
         """Return a copy of a plain function in which names mean what they shall.
@@ -105,7 +105,7 @@ class Instances:
         return result
 
     def meaning(self, name: str, function: Any) -> Any:
-        """Return what a global name of a function means in its copy, None where that is no matter."""
+        """Return the value of a global name of a function in its copy, None where it does not matter."""
         replaced = name in self.meanings
         value = self.meanings[name] if replaced else function.__globals__.get(name)
         plain = getattr(value, "py_func", None)

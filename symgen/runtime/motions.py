@@ -79,7 +79,7 @@ def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> 
         for change in changes:
             try:
                 crossings.update(formulas.crossings(change, until))
-            except InputError:  # more often than can be told
+            except InputError:  # more often than can be separated
                 continue
         times = [0.0, *sorted(t for t in crossings if 1e-9 * until < t < (1.0 - 1e-9) * until), until]
         for (before, t), (_, after) in zip(pairwise(times), pairwise(times[1:]), strict=False):
@@ -96,7 +96,7 @@ def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> 
 
 
 def _jump(f: Callable[[float], float], t: float, h: float, until: float) -> tuple[str, float]:
-    """Return what of a function jumps at a time, and by how much; nothing where neither value nor slope does."""
+    """Return the jumps of a function's value and slope at a time; nothing where there are none."""
     h /= _NEARER
     (value, slope, speed), (far_value, far_slope, _) = _sides(f, t, h), _sides(f, t, _NEARER * h)
     for kind, near, far in (("value", value, far_value), ("rate", slope, far_slope)):

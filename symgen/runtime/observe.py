@@ -61,7 +61,7 @@ def observe_rates(model: Any, outputs: Any, count: int, p: Any, w: Any, iw: Any,
 
 @jit(_I8(abi.OBSERVE, SIZES, OUTPUTS, _I8, _A, _A, OBSERVED, _A))
 def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: Any, observed: Any, room: Any) -> int:
-    """Evaluate a function of the motion at outputs: D v' - gamma and joint coordinates, or what was asked for.
+    """Evaluate a function of the motion at outputs: D v' - gamma and joint coordinates, or other quantities.
 
     Parameters
     ----------

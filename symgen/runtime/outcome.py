@@ -1,4 +1,4 @@
-"""What a run gave: what its loop left behind, and what is evaluated at its outputs when it is first asked for."""
+"""What a run gave: what its loop left behind, and what is evaluated at its outputs at the first use."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class RankEvent:
 
 @dataclass(frozen=True, kw_only=True)
 class Motion:
-    """A motion at some times, integrated or prescribed, and what is evaluated there when it is first asked for.
+    """A motion at some times, integrated or prescribed, and what is evaluated there at the first use.
 
     Arrays have one row a time. `status_columns` holds |Phi|, |D v - nu|, kinetic and potential energy, smallest pivot
     and rank, then the angles that count turns. `held` are the parameters of earlier pieces, each with the last time
@@ -124,7 +124,7 @@ class Motion:
         return self.observed(self.compiled.model.observe, self.compiled.info.observed)
 
     def observed(self, function: Any, length: int, multipliers: Array | None = None) -> Array:
-        """Return what a function of the motion gives at the outputs, shape (k, length).
+        """Return the values of a function of the motion at the outputs, shape (k, length).
 
         Parameters
         ----------
@@ -150,25 +150,24 @@ class Motion:
 
 @dataclass(frozen=True, kw_only=True)
 class PrescribedMotion(Motion):
-    """A motion that is known with its accelerations; multipliers are worked out from it, or known as well.
+    """A motion with its accelerations; multipliers follow from it where they are not prescribed.
 
     Attributes
     ----------
-    given : Array, shape (k, nv)
-        Accelerations.
-    found : Array, shape (k, m), optional
-        Multipliers.
+    prescribed_accelerations : Array, shape (k, nv)
+    prescribed_multipliers : Array, shape (k, m), optional
     """
 
-    given: Array = field(repr=False)
-    found: Array | None = field(default=None, repr=False)
+    prescribed_accelerations: Array = field(repr=False)
+    prescribed_multipliers: Array | None = field(default=None, repr=False)
 
     @cached_property
     def _rates(self) -> Observed:
-        accelerations = np.ascontiguousarray(self.given)
-        if self.found is not None:
-            return self._seen[2]._replace(accelerations=accelerations, multipliers=np.ascontiguousarray(self.found))
-        return super()._rates._replace(accelerations=accelerations)
+        accelerations = np.ascontiguousarray(self.prescribed_accelerations)
+        if self.prescribed_multipliers is None:
+            return super()._rates._replace(accelerations=accelerations)
+        multipliers = np.ascontiguousarray(self.prescribed_multipliers)
+        return self._seen[2]._replace(accelerations=accelerations, multipliers=multipliers)
 
     @cached_property
     def responses(self) -> Observed:

@@ -38,8 +38,8 @@ LARGEST = 250_000
 
 
 @exact(_N(LAYOUT, _N, _N, types.float64, _N, _A, _A))
-def farthest(layout: Any, width: int, kept: int, least: float, weighed: int, w: Any, room: Any) -> int:
-    """Choose up to `kept` rows, each the one that is farthest from those chosen before it; return how many.
+def farthest(layout: Any, width: int, count: int, least: float, weighed: int, w: Any, room: Any) -> int:
+    """Choose up to `count` rows, each the one that is farthest from those chosen before it; return how many.
 
     Unlike an elimination in a given order this passes no small pivot before it has to, so rounding stays rounding: the
     number of rows that are farther than `least` is the rank.
@@ -48,7 +48,7 @@ def farthest(layout: Any, width: int, kept: int, least: float, weighed: int, w: 
     ----------
     layout : Layout
         Of the model.
-    width, kept : int
+    width, count : int
         Numbers kept of a row, and how many rows are chosen at most. With `width` nv + m there stand, behind what is
         left of a row, the lengths of all rows in the sum that it is.
     least : float
@@ -79,7 +79,7 @@ def farthest(layout: Any, width: int, kept: int, least: float, weighed: int, w: 
         room[lengths + i] = 1.0 / square if square > 0.0 else 0.0
         if width > n:
             room[i * width + n + i] = math.sqrt(square) if square > 0.0 else 1.0
-    for chosen in range(kept):
+    for chosen in range(count):
         best, most = -1, -1.0
         for i in range(m):
             if room[lengths + i] >= 0.0:  # of the rows that wait
@@ -100,12 +100,12 @@ def farthest(layout: Any, width: int, kept: int, least: float, weighed: int, w: 
                     for j in range(width):
                         room[i * width + j] -= total / square * room[best * width + j]
         room[lengths + best] = -1.0
-    return kept
+    return count
 
 
 @exact(_N(LAYOUT, _N, _N, _A, _A))
-def choose_rows(layout: Any, kept: int, weighed: int, w: Any, room: Any) -> int:
-    """Mask all rows but `kept` ones, of which the others are sums with small factors.
+def choose_rows(layout: Any, count: int, weighed: int, w: Any, room: Any) -> int:
+    """Mask all rows but `count` ones, of which the others are sums with small factors.
 
     An error in a row that is kept is one in the others times these factors. The rows that are left over where each is
     chosen that is farthest from those before it (`farthest`) are sums of all rows that vanish. Of these sums the
@@ -117,7 +117,7 @@ def choose_rows(layout: Any, kept: int, weighed: int, w: Any, room: Any) -> int:
     ----------
     layout, weighed, w
         As for `farthest`.
-    kept : int
+    count : int
         How many rows are kept.
     room : Array, shape (m * (nv + m) + 2 * m,)
         Working memory.
@@ -129,12 +129,12 @@ def choose_rows(layout: Any, kept: int, weighed: int, w: Any, room: Any) -> int:
     """
     m, n, alone, mask = layout.m, layout.nv, layout.alone, layout.mask
     width = n + m
-    if farthest(layout, width, kept, 0.0, weighed, w, room) < kept:
+    if farthest(layout, width, count, 0.0, weighed, w, room) < count:
         return 0  # where D is not finite nothing can be said
     lengths, masked, changed = m * width, m * width + m, 0
     for i in range(m):
         room[masked + i] = 0.0
-    for _ in range(m - kept):
+    for _ in range(m - count):
         sum_, row, most = -1, -1, -1.0
         for i in range(m):
             for k in range(m if room[lengths + i] >= 0.0 else 0):
@@ -162,7 +162,7 @@ def room_of_choice(m: int, n: int) -> int:
 
 
 def row_chooser(compiled: CompiledModel) -> Callable[[Array], bool]:
-    """Return what chooses the rows that stand for all at the position of w and says whether they are others.
+    """Return the function that chooses independent rows at the position of w; it returns whether they changed.
 
     Rows of mechanisms that are too large for it stay what they are.
     """

@@ -62,7 +62,7 @@ class Impact:
         Velocities afterwards.
     impulses : Array
         Of each row of D, then of each velocity that was given a value.
-    given : tuple of str
+    imposed : tuple of str
         These velocities.
     energy : float
         What is added to the energy [J].
@@ -70,14 +70,14 @@ class Impact:
 
     v: Array
     impulses: Array
-    given: tuple[str, ...]
+    imposed: tuple[str, ...]
     energy: float
 
 
 def impact_of(
     compiled: CompiledModel, resets: Sequence[Reset], masses: Masses, names: str, t: float, y: Array, p: Array, w: Array
 ) -> Impact:
-    """Return what resets do to a state.
+    """Return the velocities, impulses and energy of resets of a state.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def impact_of(
     Raises
     ------
     InputError
-        If the constraints, or other resets, do not allow what is asked for.
+        If the constraints, or other resets, do not allow it.
     """
     info = compiled.info
     Ready(compiled.model.geometry, abi.MEASURE)(t, y, p, w)
@@ -127,7 +127,7 @@ def _rows(compiled: CompiledModel, reset: Reset, t: float, y: Array, p: Array, w
 
 
 def linear_in_v(info: ModelInfo, y: Array, function: Callable[[Array], Array]) -> tuple[Array, Array]:
-    """Return what a function of the state that is linear in v multiplies v by, and what it is at rest."""
+    """Return the row of coefficients of v in a function that is linear in v, and the function's value at rest."""
     still = y.copy()
     still[info.nq : info.nq + info.nv] = 0.0
     rest = function(still).copy()
@@ -194,7 +194,7 @@ def strike(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Ar
     after = v + unit * change
     left = rows @ after - values
     largest = float(np.max(np.abs(scale * values), initial=0.0) + np.max(np.abs(scale * (rows @ v)), initial=0.0))
-    # what is asked of a slow body may be less than the rounding of fast ones beside it
+    # the change of a slow body may be less than the rounding of fast ones beside it
     noise = _NOISE * float(np.max(scale * (np.abs(rows) @ (np.abs(v) + np.abs(after))), initial=0.0))
     contradictory = bool(np.any(np.abs(scale * left) > _MET * largest + noise))
     return after, scale * (back @ (span @ (metric @ change))), contradictory

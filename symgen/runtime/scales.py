@@ -22,7 +22,7 @@ LEAST_ROW = 1e-2
 #: Rows below this part of a usual one, squared, have vanished: what is left of their numbers is rounding. A row of D in
 #: joint coordinates is a sum of products of size 1 along a chain, of which rounding leaves some 1e-16.
 VANISHED = 1e-18
-#: Speeds below this part of the scale of speeds are no motion, whatever tolerances are asked for.
+#: Speeds below this part of the scale of speeds are no motion, whatever the tolerances are.
 LEAST_SPEED = 1e-9
 #: Speeds are known to so many times their tolerance: the errors of many steps add up.
 _ADDED_UP = 1e3
@@ -82,7 +82,7 @@ def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
 
 @exact()
 def mean_mass(layout: Any, w: Any) -> float:
-    """Return what a velocity has of mass on average, those of angles over the square of a length.
+    """Return the average mass of a velocity, that of an angle over the square of a length.
 
     Where nothing has a mass, any will do: it weighs rows beside M, which is 0.
     """
@@ -153,7 +153,7 @@ def speed_of(layout: Any, w: Any, v: Any) -> float:
 
 @exact()
 def row_weight(layout: Any, w: Any, i: int) -> float:
-    """Return what makes a row of Phi a length: 1, or the scale of lengths where the row is an angle or a number."""
+    """Return the factor that makes a row of Phi a length: 1, or the scale of lengths for an angle or a number."""
     return 1.0 if layout.rows[2 * i + 1] == 1 else float(w[abi.LENGTH])
 
 
@@ -187,7 +187,7 @@ def still(span: Any, speed: float) -> Any:
 
 @viewing
 def weights_of(span: Any, run: Any) -> Any:
-    """Return by what the elements of a state are multiplied where tolerances are asked of them."""
+    """Return the factors of the elements of a state for their tolerances."""
     return run.scales if span.relative != 0.0 else run.share
 
 

@@ -16,7 +16,7 @@ DOING, COUNT, NEEDS_RATES, HIGH, WHOLE, RESOLUTION = range(LOW + 1, LOW + 7)
 #: passed since some time, that time, the step that the error estimate proposes, where the points of tables begin, and
 #: in what time rounding hides a root.
 PROBES, ROUNDS, WIDTH, NOTED, ACCEPTED, PASSED, SINCE, REACH, TABLES, BLUR = range(LOW + 7, LOW + 17)
-#: What describes each function: direction asked for (0: any), action, how many points its table has (0: it is passed at
+#: What describes each function: direction (0: any), action, how many points its table has (0: it is passed at
 #: zero), where these begin, the period of the table, part of a step by which a passage may be missed; ...
 DIRECTION, ACTION, POINTS, FIRST, PERIOD, MISSED = range(6)
 #: ... side at the beginning of the step, 1 where it has just happened, 1 where g is on the other side by rounding, side

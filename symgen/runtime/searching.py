@@ -1,6 +1,6 @@
 """The search for events inside a step: which shorter step to try next, by values and rates of switching functions.
 
-An event is a switching function g(t, q, v) that changes its sign in the direction asked for. `decide` is told g and its
+An event is a switching function g(t, q, v) that changes its sign in its direction. `decide` takes g and its
 rate g' at the end of a step, whole or shorter, and says what to do next; it is called by address, so that no loop is
 compiled with a copy of it.
 
@@ -238,7 +238,7 @@ def give_back(hunt: A, first: int, nw: int, w: A, iw: A) -> int:
 
 @plain
 def ended(hunt: A, n: int, notes: int, following: float, width: int, y: A) -> int:
-    """Return what is to be done at the end of a step that ends at a passage."""
+    """Return the action at the end of a step that ends at a passage."""
     action = crossed(hunt, n, G_HIGH, NOTE)
     note(hunt, n, notes, following, width, y)
     if action == ANEW:

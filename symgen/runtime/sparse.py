@@ -25,7 +25,7 @@ from symgen.store.jit import jit
     PRODUCTS,
     TURNS,
     ROOM,  # room for entries of L and U
-    KNOWN,  # 1 if pivots of an earlier matrix can be tried
+    FACTORISED,  # 1 if pivots of an earlier matrix can be tried
     COLUMNS,  # where each column's entries begin, columns in the order of elimination
     ROWS,  # row of each entry
     PLACES,  # position of that row's pivot
@@ -43,11 +43,11 @@ from symgen.store.jit import jit
 ) = range(21)
 N_HEAD = 21
 #: Parts of the working memory, each as long as there are unknowns.
-_PLACE, _UPPER, _LOWER, _END, _FOUND, _MARK, _STACK, _NEXT, _PIVOT_ROW = range(9)
+_PLACE, _UPPER, _LOWER, _END, _REACHED, _MARK, _STACK, _NEXT, _PIVOT_ROW = range(9)
 
 #: In place of the entry of an acceleration: an unknown of another kind.
 OTHER, MULTIPLIER = -1, -2
-#: In place of `KNOWN`: there was no room for the factors.
+#: In place of `FACTORISED`: there was no room for the factors.
 _TOO_SMALL = -1
 #: A pivot below this belongs to a dependent equation (rows and columns are scaled to 1): its unknown is set to 0. For
 #: accelerations the limit is this part of the mass.
@@ -55,7 +55,7 @@ SKIPPED = 1e-13
 #: The diagonal entry is the pivot if it is at least this part of the largest candidate: it keeps the fill low.
 PREFERRED = 1e-3
 #: A pivot of an earlier matrix is good while it is at least this part of the largest candidate.
-KEPT = 1e-4
+THRESHOLD = 1e-4
 
 
 @jit()
@@ -123,17 +123,17 @@ def prepare(plan: Any, sources: Any, coefficients: Any, numbers: Any) -> int:
     assemble(plan, sources, coefficients, numbers)
     skipped = factorise(plan, numbers)
     if skipped < 0:
-        plan[KNOWN] = _TOO_SMALL
+        plan[FACTORISED] = _TOO_SMALL
     return int(skipped)
 
 
 def enlarged(plan: NDArray[np.int64], numbers: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Return a plan and its numbers with room for twice the factors, where `prepare` found too little."""
-    if plan[KNOWN] != _TOO_SMALL:
+    if plan[FACTORISED] != _TOO_SMALL:
         return plan, numbers
     more = int(plan[ROOM])  # factors stand at the end of both
     plan, numbers = np.append(plan, np.zeros(more, dtype=np.int64)), np.append(numbers, np.zeros(more))
-    plan[KNOWN], plan[ROOM] = 0, 2 * more
+    plan[FACTORISED], plan[ROOM] = 0, 2 * more
     return plan, numbers
 
 
@@ -182,7 +182,7 @@ def factorise(plan: Any, numbers: Any) -> int:
             inverse[k] = math.nan
             plan[work + _PLACE * n + k] = plan[work + _PIVOT_ROW * n + k] = k
             plan[work + _UPPER * n + k] = plan[work + _LOWER * n + k] = plan[work + _END * n + k] = 0
-        plan[KNOWN] = 0
+        plan[FACTORISED] = 0
         return 0
     for i in range(n):
         row_scale[i] = 1.0 / row_scale[i] if row_scale[i] > 0.0 else 0.0
@@ -197,7 +197,7 @@ def factorise(plan: Any, numbers: Any) -> int:
             values[i] *= scale
         mass = abs(values[own[k]]) if own[k] >= 0 else 0.0
         least[k] = SKIPPED * (mass if mass > 0.0 else 1.0)
-    if plan[KNOWN] == 1 and factorise_again(plan, numbers):
+    if plan[FACTORISED] == 1 and factorise_again(plan, numbers):
         return 0
     return int(factorise_anew(plan, numbers))
 
@@ -230,7 +230,7 @@ def factorise_again(plan: Any, numbers: Any) -> bool:
             x[positions[e]] = 0.0
             largest = max(largest, abs(entry))
             pool[e] = entry * reciprocal
-        if not (abs(pivot) > least[k] and abs(pivot) >= KEPT * largest):
+        if not (abs(pivot) > least[k] and abs(pivot) >= THRESHOLD * largest):
             return False
         inverse[k] = reciprocal
     return True
@@ -245,11 +245,11 @@ def factorise_anew(plan: Any, numbers: Any) -> int:
     upper, lower = part(plan, work + _UPPER * n, n), part(plan, work + _LOWER * n, n)
     end = part(plan, work + _END * n, n)
     place, pivot_row = part(plan, work + _PLACE * n, n), part(plan, work + _PIVOT_ROW * n, n)
-    reached, mark = part(plan, work + _FOUND * n, n), part(plan, work + _MARK * n, n)
+    reached, mark = part(plan, work + _REACHED * n, n), part(plan, work + _MARK * n, n)
     positions = part(plan, plan[POOL], room)
     values, inverse, x = part(numbers, 0, size), part(numbers, size + 2 * n, n), part(numbers, size + 3 * n, n)
     least, pool = part(numbers, size + 4 * n, n), part(numbers, size + 5 * n, room)
-    plan[KNOWN] = 0
+    plan[FACTORISED] = 0
     for i in range(n):
         place[i] = pivot_row[i] = mark[i] = -1
     used, skipped = 0, 0
@@ -310,7 +310,7 @@ def factorise_anew(plan: Any, numbers: Any) -> int:
             positions[e] = place[positions[e]]
     for i in range(size):
         places[i] = place[rows[i]]
-    plan[KNOWN] = 1 if skipped == 0 else 0
+    plan[FACTORISED] = 1 if skipped == 0 else 0
     return skipped
 
 
@@ -327,7 +327,7 @@ def reach(plan: Any, k: int) -> int:
     columns, rows, positions = plan[COLUMNS], plan[ROWS], plan[POOL]
     place, lower = part(plan, work + _PLACE * n, n), part(plan, work + _LOWER * n, n)
     end = part(plan, work + _END * n, n)
-    reached, mark = part(plan, work + _FOUND * n, n), part(plan, work + _MARK * n, n)
+    reached, mark = part(plan, work + _REACHED * n, n), part(plan, work + _MARK * n, n)
     stack, following = part(plan, work + _STACK * n, n), part(plan, work + _NEXT * n, n)
     top = n
     for i in range(plan[columns + k], plan[columns + k + 1]):

@@ -37,7 +37,7 @@ def record_type(name: str, module: str, *kinds: tuple[str, types.Kind]) -> types
 #: - mass, residual, nu, jacobian, pivot, mask, change, gauge, row_weight: Where these sections of w begin.
 #: - entries (shape (3 k,)): (row, column, slot or -1) of D's structural entries.
 #: - constants (shape (k,)): Their values where they have no slot.
-#: - massless, kept, fixed (shape (nv,)): 1 where a mass of 0 is described; where a given velocity may not be changed;
+#: - massless, unchanged, fixed (shape (nv,)): 1 where a mass of 0 is described; where a velocity may not change;
 #:   where the coordinate that it changes stays as described.
 #: - held (shape (2 h,)): (coordinate, velocity) of each coordinate that is held.
 #: - rows (shape (2 m,)): (joint, 0 for a row that is an angle or a number) of each row.
@@ -53,7 +53,7 @@ LAYOUT = record_type(
     ("mass residual nu jacobian pivot mask change gauge row_weight", _N),
     ("entries", _I),
     ("constants", _A),
-    ("massless kept fixed held rows alone spin", _I),
+    ("massless unchanged fixed held rows alone spin", _I),
     ("lengths branches", _A),
 )
 Layout: Any = LAYOUT.constructor
@@ -64,11 +64,11 @@ INSTANT = record_type("Instant", __name__, ("y p w", _A))
 Instant: Any = INSTANT.constructor
 
 
-#: What is asked of the start of a run, and what is said of it.
-#: - given (shape (nv,)): Velocities; nan where they are to be completed.
+#: Conditions on the start of a run, and its summary.
+#: - velocities (shape (nv,)): Velocities; nan where they are to be completed.
 #: - targets (shape (h,)): Values of the held coordinates.
 #: - summary (shape (N_SUMMARY,)): The columns of the start are set; see `symgen.runtime.ensemble_abi`.
-START_CONDITIONS = record_type("StartConditions", __name__, ("given targets summary", _A))
+START_CONDITIONS = record_type("StartConditions", __name__, ("velocities targets summary", _A))
 StartConditions: Any = START_CONDITIONS.constructor
 
 

@@ -42,7 +42,7 @@ class Change:
 
 
 def changes_of(info: ModelInfo, described: Array, y: Array, scales: Array) -> tuple[Change, ...]:
-    """Return what differs noticeably from what was described; velocities that were not given are nan there."""
+    """Return the noticeable differences from the description, whose free velocities are nan."""
     quantities = (*info.coordinates, *info.velocities)
     return tuple(
         Change(quantities[i].name, quantities[i].unit, float(described[i]), float(y[i]))
@@ -80,7 +80,7 @@ def warnings_of(
 
 
 def notes_of(held: Held, summary: Array, changes: Sequence[Change], info: ModelInfo) -> tuple[str, ...]:
-    """Return what was changed, one sentence each; what is held at values of its own is told beside."""
+    """Return the changes, one sentence each; coordinates held at values of their own have another sentence."""
     notes = list[str]()
     names = {quantity.name for quantity in info.coordinates}
     positions = [change for change in changes if change.name in names]
@@ -101,7 +101,7 @@ def notes_of(held: Held, summary: Array, changes: Sequence[Change], info: ModelI
 
 
 def opposite(joint: str) -> str:
-    """Return what is said of a joint whose axes are one line, but not one direction."""
+    """Return the sentence about a joint whose axes are one line, but not one direction."""
     return f"the axes of joint '{joint}' point opposite ways at the start: they are taken for one line"
 
 

@@ -70,13 +70,13 @@ def close_row(model: Any, now: Any, conditions: Any, work: Any) -> int:
     if code == e.ASSEMBLED:
         code = _reach(closing, layout, now, conditions, work, joints, nothing)
     h = layout.held.shape[0] // 2
-    if code == e.OPEN and h > 0 and values == 0 and _is_given(closing, layout, now, conditions, work, nothing):
+    if code == e.OPEN and h > 0 and values == 0 and _close_at_once(closing, layout, now, conditions, work, nothing):
         if layout.windings > 0:
             turns(geometry, measure, layout, now, work)
         code = e.ASSEMBLED
     if code == e.ASSEMBLED:
         if joints.rates.m == layout.m:
-            code = complete_velocities(closing, layout, now, work, conditions.given)
+            code = complete_velocities(closing, layout, now, work, conditions.velocities)
         else:
             code = _complete_with_rates(closing, layout, now, conditions, work, joints, observe)
     if code == e.PROJECTED:
@@ -183,11 +183,11 @@ def _complete_with_rates(closing: Any, layout: Any, now: Any, goal: Any, work: A
     copied_scratch(now.w, joints.w, now.w.shape[0])
     further = Further(observe, of, goals, joints.out, layout.residual, layout.nu)
     place(closing, joints.rates, state, work, further)
-    return int(complete_velocities(closing, joints.rates, state, work, goal.given))
+    return int(complete_velocities(closing, joints.rates, state, work, goal.velocities))
 
 
 @exact()
-def _is_given(closing: Any, layout: Any, now: Any, conditions: Any, work: Any, nothing: Any) -> bool:
+def _close_at_once(closing: Any, layout: Any, now: Any, conditions: Any, work: Any, nothing: Any) -> bool:
     """Put held coordinates to their values at once; whether all is closed then, the others as they were described.
 
     If not, the state is what it was.
@@ -243,7 +243,7 @@ def close_rows(model: Any, all_of_now: Any, all_conditions: Any, work: Any, sele
         r = selected[s]
         now = Instant(part(ys, r * ny, ny), part(ps, r * n_p, n_p), part(ws, r * nw, nw))
         summary = part(rest.summary, r * e.N_SUMMARY, e.N_SUMMARY)
-        conditions = StartConditions(part(rest.given, r * n, n), part(rest.targets, r * h, h), summary)
+        conditions = StartConditions(part(rest.velocities, r * n, n), part(rest.targets, r * h, h), summary)
         close_row(model, now, conditions, work)
     return int(selected.shape[0])
 

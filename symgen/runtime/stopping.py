@@ -135,8 +135,8 @@ def with_stops(loop: Any) -> Any:
         name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}"
         signature = signature_of(loop)
         model = types.RecordType((*signature.arguments[:1], STOPS, types.FunctionType(signature), e.PREPARE, e.PREPARE))
-        made = compiled_loop(__name__, name, between_stops, types.int64(model, *signature.arguments[1:]), once=True)
-        _loops[loop] = globals()[name] = made  # it is known by its name, as all loops are
+        entry = compiled_loop(__name__, name, between_stops, types.int64(model, *signature.arguments[1:]), once=True)
+        _loops[loop] = globals()[name] = entry  # it is known by its name, as all loops are
     return _loops[loop]
 
 
@@ -146,7 +146,7 @@ def with_stops(loop: Any) -> Any:
 def with_table(
     compiled: CompiledModel, system: tuple[Any, ...], loop: Any, adaptive: bool, rows: Sequence[Sequence[Stop]]
 ) -> tuple[Any, ...]:
-    """Return what the loop takes first that goes from stop to stop.
+    """Return the first arguments of the loop that goes from stop to stop.
 
     Parameters
     ----------

@@ -16,7 +16,7 @@ from typing import Any
 
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import DrivenMechanism, Jump
-from symgen.describe.kinks import known_in_time
+from symgen.describe.kinks import jumps_in_time
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.remembered import remembered
 from symgen.errors import InputError
@@ -119,7 +119,7 @@ class Foreseen:
     mechanism : Mechanism
         Whose tables they may read.
     kinks, sides : tuple of Jump
-        From `symgen.describe.kinks.known_in_time`.
+        From `symgen.describe.kinks.jumps_in_time`.
     latest : dict
         The latest result, by what it depends on.
     """
@@ -170,7 +170,7 @@ class Foreseen:
         return result
 
     def missed(self, values: Mapping[str, float], until: float, step: float | None) -> list[str]:
-        """Return what steps of a run may not see, in words: constant ones what is shorter than one.
+        """Return the sentence about what steps of a run may miss: constant ones what is shorter than one.
 
         Parameters
         ----------
@@ -194,7 +194,7 @@ class Foreseen:
 
 
 def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
-    """Return what is known beforehand of the formulas of joints, forces and integrals of a mechanism, and of events.
+    """Return the foreseen discontinuities of formulas of joints, forces and integrals of a mechanism, and of events.
 
     An event that is a straight line in t is found wherever steps end; another one may come and go within a step.
     """
@@ -207,13 +207,13 @@ def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
         for jump in (Jump(event.when) for event in events)
         if "t" in (read := {*names(jump.argument)}) and read <= timely and line_of(jump, values) is None
     )
-    kinks, sides = known_in_time(mechanism, events)
+    kinks, sides = jumps_in_time(mechanism, events)
     return Foreseen(mechanism, kinks, (*sides, *happening))
 
 
 @remembered
 def _passed(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], dict[Any, Any]]:
-    return *known_in_time(mechanism), {}
+    return *jumps_in_time(mechanism), {}
 
 
 def times_between(
@@ -224,7 +224,7 @@ def times_between(
     Parameters
     ----------
     jumps : sequence of Jump
-        From `symgen.describe.kinks`. What passes levels more often than can be told apart is left out.
+        From `symgen.describe.kinks`. What passes levels more often than can be separated is left out.
     mechanism : Mechanism
         Whose tables they may read.
     values : mapping of str to float

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from symgen.runtime.outcome import Outcome
 
-#: Timed runs at most, unless more are asked for.
+#: Timed runs at most, unless more are requested.
 MOST = 30
 
 

@@ -68,8 +68,8 @@ class SteppedRun:
         self._clocks, self._calling, self._advance = list[Clock](), False, Advance(self._loop)
         inputs, self._driven = plan.inputs.words, plan.inputs.driven
         self._jumps = plan.inputs.stops
-        self._known = foreseen(plan.mechanism, plan.events) if self._adaptive else Foreseen(mechanism)
-        self._given = {name: words for name, words in inputs.items() if isinstance(words, str)}
+        self._foreseen = foreseen(plan.mechanism, plan.events) if self._adaptive else Foreseen(mechanism)
+        self._input_formulas = {name: words for name, words in inputs.items() if isinstance(words, str)}
         self._inputs = {name: x for name, x in inputs.items() if not isinstance(x, str)}
         places = {q.name: i for i, q in enumerate(info.parameters)}
         self._varying = [places[name] for name in mechanism.inputs if name not in self._inputs]  # by formulas and data
@@ -232,8 +232,10 @@ class SteppedRun:
             self._set_inputs(changes)
             return
         for name in changes:
-            if name in self._given:
-                raise InputError(f"set: '{name}'", "an input that is a number in this run", f"'{self._given[name]}'")
+            if name in self._input_formulas:
+                raise InputError(
+                    f"set: '{name}'", "an input that is a number in this run", f"'{self._input_formulas[name]}'"
+                )
         changed = {**self._changed, **changes}
         parameters = parameter_values(self._mechanism, changed)
         self._advance.recover()
@@ -317,11 +319,11 @@ class SteppedRun:
         }
 
     def _divided(self, values: Mapping[str, float]) -> RunSpec:
-        """Return what the run is to do with values of parameters: inputs jump, and formulas have kinks, elsewhere."""
+        """Return the run's specification for values of parameters: inputs jump, and formulas have kinks, elsewhere."""
         spec, driven = self._loop.spec, self._driven
         if driven is not None and driven.jumps:
             self._jumps = stops_of(driven, values, spec.until)
-        return replace(spec, stops=merged(self._jumps, self._known.stops(values, spec.until)))
+        return replace(spec, stops=merged(self._jumps, self._foreseen.stops(values, spec.until)))
 
     def _ready(self, what: str) -> None:
         """Refuse a call from inside a controller, and have an accepted state."""

@@ -44,7 +44,7 @@ class _Source:
 
 
 #: What has been read in this process, by place and content: a model is loaded again for every run.
-_known: dict[tuple[Path, str], _Source] = {}
+_sources: dict[tuple[Path, str], _Source] = {}
 
 
 def load_module(path: str | Path, qualified_name: str | None = None) -> ModuleType:
@@ -109,10 +109,10 @@ def _read(path: Path) -> _Source:
     except OSError as error:
         raise InputError(str(path), "a generated module", error.strerror or "an unreadable file") from error
     digest = hashlib.sha256(content).hexdigest()
-    source = _known.get((path, digest))
+    source = _sources.get((path, digest))
     if source is None:
         code = _code(path, content, digest)
-        source = _known[path, digest] = _Source(path, content, digest, code, tuple(_siblings(code)))
+        source = _sources[path, digest] = _Source(path, content, digest, code, tuple(_siblings(code)))
     return source
 
 

@@ -44,7 +44,7 @@ class CacheLocation:
 
 
 # By process and wish: a forked child must not share its parent's temporary folder, which the parent removes.
-_known: dict[tuple[int, str | None], CacheLocation] = {}
+_locations: dict[tuple[int, str | None], CacheLocation] = {}
 
 
 def cache_location() -> CacheLocation:
@@ -56,9 +56,9 @@ def cache_location() -> CacheLocation:
         The same object for every call, until ``SYMGEN_CACHE_DIR`` changes.
     """
     key = _key()
-    if key not in _known:
-        _known[key] = _locate(key[1])
-    return _known[key]
+    if key not in _locations:
+        _locations[key] = _locate(key[1])
+    return _locations[key]
 
 
 def _key() -> tuple[int, str | None]:
@@ -82,8 +82,8 @@ def abandon(root: Path, reason: str) -> Path:
     """
     location = _temporary(reason)
     key = _key()
-    if key in _known and _known[key].path == root:
-        _known[key] = location
+    if key in _locations and _locations[key].path == root:
+        _locations[key] = location
     return location.path
 
 

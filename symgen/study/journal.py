@@ -89,7 +89,7 @@ class Journal:
         self._done: dict[str, Outcome] = {}
         self._file: IO[bytes] | None = None
         self._lock: BaseFileLock | None = None
-        self._made = False
+        self._created = False
         if path is not None:
             self._open(path)
 
@@ -106,7 +106,7 @@ class Journal:
         if self._file is not None:
             self._file.close()
             self._file = None
-            if self._made and not self._done and self.path is not None:  # whoever is refused leaves nothing behind
+            if self._created and not self._done and self.path is not None:  # whoever is refused leaves nothing behind
                 for path in (self.path, _lock_of(self.path)):
                     with suppress(OSError):
                         path.unlink()
@@ -153,7 +153,7 @@ class Journal:
             raise ValueError(f"cell {key} is in the journal already")
         entry = {"key": key, "outcome": dict(outcome)}
         line = json.dumps(entry | {"sha256": _digest(entry)}, allow_nan=False).encode()
-        kept: Outcome = json.loads(line)["outcome"]
+        recorded: Outcome = json.loads(line)["outcome"]
         if self._file is not None:
             try:
                 # one write call: a kill leaves a line whole or, on a full disk, torn at the end of the file
@@ -162,8 +162,8 @@ class Journal:
             except OSError as error:
                 why = error.strerror or str(error)
                 raise SimulationError(f"the journal '{self.path}' cannot be written: {why}") from None
-        self._done[key] = kept
-        return kept
+        self._done[key] = recorded
+        return recorded
 
     def _open(self, path: Path) -> None:
         import filelock
@@ -192,7 +192,7 @@ class Journal:
             whole, ended, torn = content.rpartition(b"\n")
             keep = len(whole) + len(ended)
             self._done.update(filter(None, map(_parsed, whole.split(b"\n")[1:] if ended else ())))
-            self._made = not path.exists()
+            self._created = not path.exists()
             self._file = path.open("ab", buffering=0)
             if torn or (content and not ended):
                 self._file.truncate(keep)

@@ -14,7 +14,7 @@ class Info(msgspec.Struct, frozen=True):
     """What is known of a module or of a part of it."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what JSON can express."""
+        """Return the values as JSON can express them."""
         result: dict[str, Any] = msgspec.to_builtins(self)
         return result
 
@@ -62,7 +62,7 @@ class LawInfo(Info, frozen=True, kw_only=True):
     nw : int
         Length of ``w``.
     unknowns : int
-        Of a stage in the descriptor form, before q and v; 0 where it was not asked for.
+        Of a stage in the descriptor form, before q and v; 0 without one.
     level : str
         Of the constraints in the descriptor form.
     tangent : tuple of (int, int)

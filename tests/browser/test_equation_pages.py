@@ -33,7 +33,7 @@ def settled(chromium: Chromium) -> float:
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize("name", sorted(catalogue.known()))
+@pytest.mark.parametrize("name", sorted(catalogue.all_names()))
 def test_pages_of_the_catalogue(name: str, coordinates: str, chromium: Chromium, tmp_path: Path) -> None:
     """Nothing is said on the console, nothing asked of a network; all that is folded can be opened."""
     path = page_of(name, tmp_path, "--coordinates", coordinates)

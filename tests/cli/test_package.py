@@ -261,7 +261,7 @@ def test_files_of_other_people_stay_as_they_are(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", sorted(catalogue.known()))
+@pytest.mark.parametrize("name", sorted(catalogue.all_names()))
 def test_packages_of_the_catalogue_give_the_numbers_of_runs(name, alone, tmp_path):
     agrees(name, alone, tmp_path)
 

@@ -44,7 +44,7 @@ def test_the_catalogue_lists_what_it_holds():
     assert [entry.name for entry in entries if entry.sized] == SIZED
 
 
-@pytest.mark.parametrize("name", catalogue.known())
+@pytest.mark.parametrize("name", catalogue.all_names())
 def test_every_entry_says_how_it_runs(name):
     section = read_raw(name)[0]["run"]
     assert {"until", "step", "output_step"} <= set(section)
@@ -123,7 +123,7 @@ def test_driven_four_bar_is_the_four_bar_with_a_motor():
 def test_there_are_examples_beyond_the_catalogue():
     names = {load(path).name for path in FILES}
     assert len(names) == len(FILES) >= 3
-    assert not names & set(catalogue.known())
+    assert not names & set(catalogue.all_names())
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
@@ -166,7 +166,7 @@ def test_the_template_is_a_mechanism_with_every_key_explained(space):
         template("My crane")
 
 
-@pytest.mark.parametrize("model", [*catalogue.known(), *FILES], ids=str)
+@pytest.mark.parametrize("model", [*catalogue.all_names(), *FILES], ids=str)
 def test_every_description_survives_being_written_and_read(model):
     raw, source = read_raw(model)
     assert tomllib.loads(to_toml(raw)) == raw

@@ -11,7 +11,7 @@ from symgen import catalogue
 from symgen.api import load
 from symgen.describe.validate import validate
 from symgen.drawing import build_scene, sketch
-from symgen.drawing.body_parts import hull
+from symgen.drawing.mechanism_scene import hull
 from symgen.drawing.paper import Circle, on_paper
 from symgen.drawing.scene import Disc
 from symgen.errors import InputError

@@ -187,7 +187,7 @@ def test_parts_of_another_document_need_amsmath_alone(name, tmp_path, capsys):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize("name", sorted(catalogue.known()))
+@pytest.mark.parametrize("name", sorted(catalogue.all_names()))
 def test_documents_of_the_catalogue_compile_without_overfull_boxes(name, coordinates, tmp_path, capsys):
     symbols = ["--symbols"] if coordinates == "joint" else []
     log = set_by_an_engine(document(capsys, name, "--coordinates", coordinates, *symbols), tmp_path)

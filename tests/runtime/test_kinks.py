@@ -13,7 +13,7 @@ from support.pushed import pushed_mass
 import symgen
 from symgen import catalogue
 from symgen.describe.inputs import Jump
-from symgen.describe.kinks import compares_state, discontinuities_of, known_in_time
+from symgen.describe.kinks import compares_state, discontinuities_of, jumps_in_time
 from symgen.describe.parser import FormulaNames, parse
 from symgen.ensemble.sweep import sweep
 from symgen.runtime.stops import Stop, merged, times_between
@@ -128,7 +128,7 @@ def test_what_formulas_of_the_catalogue_pass() -> None:
     assert {name for name, m in every.items() if compares_state(m)} == {"inverted-pendulum"}
     assert {name for name, m in every.items() if any(x.table for x in discontinuities_of(m))} == {"engine", "wiper"}
     # a table over an angle in time, a ramp that ends; none over an angle, over a speed
-    counts = [len(known_in_time(every[name])[0]) for name in ("cam-follower", "scissor-lift", "engine", "wiper")]
+    counts = [len(jumps_in_time(every[name])[0]) for name in ("cam-follower", "scissor-lift", "engine", "wiper")]
     assert counts == [1, 1, 0, 0]
 
 

@@ -22,7 +22,7 @@ def test_folder_named_by_the_environment_is_made_for_the_user_only(cache):
 def test_user_folder_is_the_default(tmp_path, monkeypatch):
     monkeypatch.delenv("SYMGEN_CACHE_DIR", raising=False)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "xdg"))
-    monkeypatch.setattr(paths, "_known", {})
+    monkeypatch.setattr(paths, "_locations", {})
     assert paths.cache_root() == tmp_path / "xdg" / "symgen"
     assert mode(tmp_path / "xdg") == 0o700
 

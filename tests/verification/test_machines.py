@@ -81,7 +81,7 @@ def test_machines_stand_beside_the_studied_entries(capsys):
     assert main(["list", "--json"]) == 0
     listed = {row["name"]: row["group"] for row in json.loads(capsys.readouterr().out)["mechanisms"]}
     assert {name for name, group in listed.items() if group == "machines"} == set(NAMES)
-    assert set(listed) == set(catalogue.known())
+    assert set(listed) == set(catalogue.all_names())
     assert all(entry.title and entry.source and not entry.sized for entry in catalogue.entries(catalogue.MACHINES))
 
 

@@ -102,23 +102,23 @@ def command(
         raise InputError("--scan", "an equilibrium at rest", "--steady as well")
     model = load()
     if scan is not None:
-        found = equilibria(model, scan, settings)
+        results = equilibria(model, scan, settings)
     else:
-        found = (steady(model, settings) if moving else equilibrium(model, settings),)
+        results = (steady(model, settings) if moving else equilibrium(model, settings),)
     return AnalysisOutput(
-        {"mechanism": model.mechanism.name, "equilibria": [one.to_dict() for one in found]},
-        (item for one in found for item in _shown(one)),
-        dict.fromkeys(note for one in found for note in one.notes),
+        {"mechanism": model.mechanism.name, "equilibria": [one.to_dict() for one in results]},
+        (item for one in results for item in _shown(one)),
+        dict.fromkeys(note for one in results for note in one.notes),
     )
 
 
-def _shown(found: Equilibrium) -> Iterator[str | AnalysisTable]:
-    squares = ", ".join(f"{x:.6g}" for x in found.omega_squared[:8]) + (", ..." if len(found.omega_squared) > 8 else "")
-    yield f"{found.stability}; omega^2 [1/s^2]: {squares or 'nothing can move'}"
-    yield f"  {found.iterations} steps, largest force that is not balanced {found.residual:.3g}"
-    if found.not_unique:
-        yield f"  reactions are not unique at {', '.join(found.not_unique)}"
-    for title, values in (("coordinate", found.q), ("multiplier", found.multipliers)):
+def _shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
+    squares = ", ".join([f"{x:.6g}" for x in result.omega_squared[:8]] + ["..."] * (len(result.omega_squared) > 8))
+    yield f"{result.stability}; omega^2 [1/s^2]: {squares or 'nothing can move'}"
+    yield f"  {result.iterations} steps, largest force that is not balanced {result.residual:.3g}"
+    if result.not_unique:
+        yield f"  reactions are not unique at {', '.join(result.not_unique)}"
+    for title, values in (("coordinate", result.q), ("multiplier", result.multipliers)):
         if values:
             yield AnalysisTable(
                 (title, "value"), [(n, f"{x:.9g}") for n, x in list(values.items())[:MOST]], left=(title,)

@@ -60,23 +60,23 @@ def command(load: Callable[[], Analysed], settings: Settings, **further: Any) ->
     of B and D are derivatives by parameters as well, the states held.
     """
     model = load()
-    found = linearise(model, settings, **further)
-    return AnalysisOutput({"mechanism": model.mechanism.name, **found.to_dict()}, _shown(found), found.notes)
+    system = linearise(model, settings, **further)
+    return AnalysisOutput({"mechanism": model.mechanism.name, **system.to_dict()}, _shown(system), system.notes)
 
 
-def _shown(found: LinearSystem) -> Iterator[str | AnalysisTable]:
+def _shown(system: LinearSystem) -> Iterator[str | AnalysisTable]:
     matrices = (
-        ("x' = A x", found.states, found.states, found.A),
-        ("+ B u", found.states, found.inputs, found.B),
-        ("y = C x", found.outputs, found.states, found.C),
-        ("+ D u", found.outputs, found.inputs, found.D),
+        ("x' = A x", system.states, system.states, system.A),
+        ("+ B u", system.states, system.inputs, system.B),
+        ("y = C x", system.outputs, system.states, system.C),
+        ("+ D u", system.outputs, system.inputs, system.D),
     )
     for title, rows, columns, values in matrices:
         if values.size:
             cells = [(name, *(f"{x:.6g}" for x in row)) for name, row in zip(rows, values, strict=True)]
             yield AnalysisTable((title, *columns), cells, left=(title,))
-    if found.left_out:
-        yield f"outputs left out, as they depend on more than the states: {', '.join(found.left_out)}"
+    if system.left_out:
+        yield f"outputs left out, as they depend on more than the states: {', '.join(system.left_out)}"
 
 
 KIND = Analysis(

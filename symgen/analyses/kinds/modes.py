@@ -147,30 +147,30 @@ def command(
     model = load()
     name = model.mechanism.name
     if over is None:
-        found = modes(model, settings, count=count, **place)
-        return AnalysisOutput({"mechanism": name, **found.to_dict()}, _shown(found), found.notes)
+        result = modes(model, settings, count=count, **place)
+        return AnalysisOutput({"mechanism": name, **result.to_dict()}, _shown(result), result.notes)
     roots = locus(model, over, settings, **place)
     return AnalysisOutput({"mechanism": name, **roots.to_dict()}, _shown_locus(roots), files={plot: roots.plot})
 
 
-def _shown(found: Modes) -> Iterator[str | AnalysisTable]:
-    freedom, many = found.degrees_of_freedom, len(found.eigenvalues)
+def _shown(result: Modes) -> Iterator[str | AnalysisTable]:
+    freedom, many = result.degrees_of_freedom, len(result.eigenvalues)
     yield (
         f"{freedom} {'degree' if freedom == 1 else 'degrees'} of freedom; "
         f"{many} {'eigenvalue' if many == 1 else 'eigenvalues'}"
     )
-    tables = {"moves": found.participation, "stiffness by": found.stiffening, "damping by": found.dissipation}
+    tables = {"moves": result.participation, "stiffness by": result.stiffening, "damping by": result.dissipation}
     tables = {heading: parts for heading, parts in tables.items() if parts}
     rows = [
         (
-            *(str(k + 1), _complex(value), f"{found.frequencies[k]:.6g}", f"{found.damping[k]:.4g}"),
+            *(str(k + 1), _complex(value), f"{result.frequencies[k]:.6g}", f"{result.damping[k]:.4g}"),
             *(_shares(parts, k) for parts in tables.values()),
         )
-        for k, value in enumerate(found.of_shapes[:MOST])
+        for k, value in enumerate(result.of_shapes[:MOST])
     ]
     yield AnalysisTable(("mode", "eigenvalue [1/s]", "frequency [Hz]", "damping", *tables), rows, left=(*tables,))
-    if len(found.of_shapes) > MOST:
-        yield f"... and {len(found.of_shapes) - MOST} more; --json has all"
+    if len(result.of_shapes) > MOST:
+        yield f"... and {len(result.of_shapes) - MOST} more; --json has all"
 
 
 def _shares(parts: Mapping[str, Any], k: int, most: int = 4) -> str:
@@ -185,16 +185,16 @@ def _complex(x: complex) -> str:
     return f"{x.real:.6g}" + (f" +- {abs(x.imag):.6g}i" if x.imag else "")
 
 
-def _shown_locus(found: Locus) -> Iterator[str | AnalysisTable]:
-    headings = (found.name, *(f"eigenvalue {k + 1} [1/s]" for k in range(found.branches.shape[1])))
+def _shown_locus(result: Locus) -> Iterator[str | AnalysisTable]:
+    headings = (result.name, *(f"eigenvalue {k + 1} [1/s]" for k in range(result.branches.shape[1])))
     rows = [
         (f"{value:g}", *(f"{x.real:.5g}{x.imag:+.5g}i" if x.imag else f"{x.real:.5g}" for x in row))
-        for value, row in zip(found.values, found.branches, strict=True)
+        for value, row in zip(result.values, result.branches, strict=True)
     ]
     yield AnalysisTable(headings, rows)
-    for crossing in found.crossings:
+    for crossing in result.crossings:
         becomes = "grows" if crossing.rising else "decays"
-        yield f"from {found.name} = {crossing.value:.9g} on {_complex(crossing.eigenvalue)} {becomes}"
+        yield f"from {result.name} = {crossing.value:.9g} on {_complex(crossing.eigenvalue)} {becomes}"
 
 
 KIND = Analysis(

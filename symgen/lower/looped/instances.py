@@ -178,7 +178,7 @@ class _Rewriting:
         return result
 
     def alias(self, body: str) -> str:
-        """Return what a body is called in the abstract mechanism."""
+        """Return the name of a body in the abstract mechanism."""
         return body if body == GROUND else self.frames.setdefault(body, f"f{len(self.frames)}")
 
     def marker(self, marker: Any) -> Marker:

@@ -83,7 +83,7 @@ _OF_A_JOINT |= {"status", "section", "zeros", "gamma", "nu", "phi", "v"}
 
 
 def _strange(record: RecordedLaw, kinds: frozenset[str], functions: tuple[str, ...]) -> str:
-    """Return what a formula asks for that is not among `kinds`, or a function that is not among `functions`."""
+    """Return an operation of a formula that is not among `kinds`, or a function that is not among `functions`."""
     operations = record.operations
     for part in record.parts:
         if part.name not in functions:

@@ -56,7 +56,7 @@ class Loops(Replay):
         self.sections: dict[str, str] = {}
         self.statements: list[Statement] = []
         self.flagged, self.locals = False, 0
-        self.made: set[str] = set()
+        self.stored: set[str] = set()
         self.mask = self._leaf("mask", "m")
 
     def function(self, positions: bool) -> LoopedFunction:
@@ -270,9 +270,9 @@ class Loops(Replay):
     def _make(self, factor: _Factor, target: str = "") -> bool:
         """Factorise a matrix unless that has been done; return whether half of the solution in `target` was, too."""
         self.sections[factor.section] = "augmented" if factor.matrix == "augmented" else "gram"
-        if factor.stored or factor.section in self.made:
+        if factor.stored or factor.section in self.stored:
             return False
-        self.made.add(factor.section)
+        self.stored.add(factor.section)
         name, last = ("factorise_forward", (target,)) if target else ("factorise", ())
         if factor.matrix == "augmented":
             self._call("augment", "T", "p", "w", self._place(factor.penalties, "m"), factor.section)

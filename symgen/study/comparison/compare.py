@@ -340,7 +340,7 @@ def compare_all(
     arguments.function("progress", progress)
     if journal is not None:
         arguments.of_kind("journal", journal, Journal, "a symgen.study.journal.Journal")
-    works, kept = [], Journal() if journal is None else journal
+    works, records = [], Journal() if journal is None else journal
     for model in models:
         chosen = _chosen(load(model), common)
         end = _end(chosen, common.until)
@@ -350,7 +350,7 @@ def compare_all(
         base = replace(common, output_step=None, shape=shape, until=end, times=times.tolist())
         settings = list(runs.settings(base, chosen.mechanism.defaults.step))
         plans = [make_plan(chosen.mechanism, s) for s in settings]  # refuses what is wrong before anything is run
-        works.append(_Work(chosen, end, times, settings, plans, reference_by, kept))
+        works.append(_Work(chosen, end, times, settings, plans, reference_by, records))
     reached, total = 0.0, sum(w.total for w in works)
     report: Progress = progress or (lambda what, reached, of: None)
     if jobs > 1 and cache_location().persistent:  # else what another process compiles would be lost
@@ -361,7 +361,7 @@ def compare_all(
         def prepared(status: Status) -> None:
             report(f"preparing: {status.done} of {status.total}", PREPARATION * status.done, total)
 
-        if run_cells(cells, compute, kept, jobs, prepared, PATIENCE)[1]:
+        if run_cells(cells, compute, records, jobs, prepared, PATIENCE)[1]:
             return [works[0].study(True)]
     studies = []
     for work in works:

@@ -208,8 +208,8 @@ class Base:
             }
         for section, entries in change.items():
             for name, table in entries.items():
-                kept = {**raw.setdefault(section, {}).get(name, {}), **table}
-                raw[section][name] = {key: value for key, value in kept.items() if value is not None}
+                merged = {**raw.setdefault(section, {}).get(name, {}), **table}
+                raw[section][name] = {key: value for key, value in merged.items() if value is not None}
         return validate(raw, f"{self.name} ({suffix})")
 
     # -- numbers of the base -------------------------------------------------------------------------------------------
