@@ -23,14 +23,14 @@ def _eight(builder: Any, index: Any) -> Any:
     return builder.mul(index, I64(NODES))
 
 
-def _vectors(builder: Any, data: Any, begin: int, count: int = POINTS) -> list[Any]:
+def _vectors(builder: Any, data: Any, begin: int) -> list[Any]:
     """Return rows of a table, which stay in registers."""
-    return [load(builder, data, I64(begin + NODES * p)) for p in range(count)]
+    return [load(builder, data, I64(begin + NODES * p)) for p in range(POINTS)]
 
 
-def _sum(builder: Any, factors: list[Any], vectors: list[Any], begin: Any = None) -> Any:
+def _sum(builder: Any, factors: list[Any], vectors: list[Any]) -> Any:
     """Return the sum of products."""
-    total = begin
+    total: Any = None
     for factor, vector in zip(factors, vectors, strict=True):
         total = builder.fmul(vector, factor) if total is None else added(builder, vector, factor, total)
     return total

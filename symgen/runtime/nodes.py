@@ -22,8 +22,6 @@ POINTS = NODES + 1
 #: Where the parts of `table` begin: the integrals of a polynomial through the rates up to each node, the second
 #: integrals, and the nodes themselves.
 INTEGRALS, DOUBLED, PLACES = 0, POINTS * NODES, 2 * POINTS * NODES
-#: Length of these parts.
-COLLOCATION = PLACES + NODES
 
 
 def _place(h: float, rows: Any, y: Any, first: Any, rates: Any, table: Any, out: Any) -> None:
