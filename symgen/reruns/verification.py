@@ -1,7 +1,7 @@
 """The error of a run, estimated by a second run with finer steps.
 
-A second run is made on request (``--verify``), and where anything was chosen automatically: who leaves the
-choice to the program has not looked at tolerances either.
+A second run is made on request (``--verify``), where anything was chosen automatically, and where steps are adaptive and
+the first run took little time, unless that is switched off (``--no-verify``).
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.describe.evaluate import parameter_values
+from symgen.result import points
 from symgen.result.points import Agreement, Points, Verification, agreement
 from symgen.runtime import abi
 
@@ -79,6 +80,14 @@ def _comparable(first: Outcome, second: Outcome) -> tuple[NDArray[np.intp], NDAr
 def _steps_of(run: Prepared) -> str:
     """Return in words how the steps of a run are chosen."""
     return f"rtol = {run.spec.rtol:g}" if run.spec.adaptive else f"step = {run.spec.step:g} s"
+
+
+def is_verified(run: Prepared, seconds: float) -> bool:
+    """Return whether a second run estimates the error of a run that took so long [s]."""
+    wanted = run.plan.verify
+    if wanted is not None:
+        return wanted
+    return bool(run.plan.notes) or (run.spec.adaptive and seconds < points.QUICK)
 
 
 def verified(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Prepared, Outcome, Verification]:

@@ -125,6 +125,8 @@ class Result(MotionTables):
     error_estimate : float or None
         About how far from the exact motion a point of a body is at worst [m], by a second run with finer steps; None
         where there was none.
+    proposals : tuple of str
+        Options of a run that would take fewer steps, such as ``"--integrator radau5"`` where the motion was stiff.
 
     Notes
     -----
@@ -170,6 +172,7 @@ class Result(MotionTables):
     velocity_violation_max: float
     energy_drift_max: float
     error_estimate: float | None
+    proposals: tuple[str, ...]
     outcome: Outcome
     forces: Forces
     measured: Measured
