@@ -178,8 +178,8 @@ class Method(ABC):
         Problem forms the method gives: ``ode`` for explicit integrators; ``index-1``, ``index-2`` or ``index-3`` for
         implicit ones.
     default_integrator : str
-        What runs take by default. ``picard`` is for laws whose right-hand side has a form in vectors; those that iterate,
-        choose coordinates or factorise in loops have ``dop853``.
+        What runs take by default: ``picard`` for laws whose right-hand side has a form in vectors, ``dop853`` for those
+        that iterate, choose coordinates or factorise in loops.
     integrates : str
         ``"all"`` coordinates, or only the ``"independent"`` ones of a partition.
     dense : str

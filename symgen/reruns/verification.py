@@ -1,7 +1,7 @@
 """The error of a run, estimated by a second run with finer steps.
 
-A second run is made on request (``--verify``), where anything was chosen automatically, and where steps are adaptive and
-the first run took little time, unless that is switched off (``--no-verify``).
+A second run is made on request (``--verify``), where anything was chosen automatically, and where a run with default
+tolerances took little time: who leaves the choice to the program has not looked at tolerances either.
 """
 
 from __future__ import annotations
@@ -83,11 +83,16 @@ def _steps_of(run: Prepared) -> str:
 
 
 def is_verified(run: Prepared, seconds: float) -> bool:
-    """Return whether a second run estimates the error of a run that took so long [s]."""
-    wanted = run.plan.verify
+    """Return whether a second run estimates the error of a run that took so long [s].
+
+    Unless that is set, one does where something was chosen automatically, and where it takes little time and nobody
+    chose the steps or the tolerances.
+    """
+    wanted, settings = run.plan.verify, run.plan.settings
     if wanted is not None:
         return wanted
-    return bool(run.plan.notes) or (run.spec.adaptive and seconds < points.QUICK)
+    free = run.spec.adaptive and settings.rtol is None and settings.atol is None
+    return bool(run.plan.notes) or (free and seconds < points.QUICK)
 
 
 def verified(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Prepared, Outcome, Verification]:

@@ -63,7 +63,7 @@ def status_in_words(result: Result) -> str:
         parts.append(f"error about {result.error_estimate:.2g} m, from a run with {other}")
     else:
         whole, finer = ("global error", "a tenth of it") if adaptive else ("error", "half the step")
-        slow = result.seconds.run >= QUICK and adaptive
+        slow = adaptive and result.seconds.run >= QUICK
         why = f" as the run took {result.seconds.run:.2g} s" if slow else ""
         parts.append(f"{whole} not estimated{why}: --verify runs again with {finer}")
     parts += [f"stiff: {proposal} takes longer steps" for proposal in result.proposals]

@@ -33,6 +33,8 @@ Array = NDArray[np.float64]
 AUTO = "auto"
 #: Integrator of motions that are not stiff, and that of smooth ones whose right-hand side is evaluated in vectors.
 EXPLICIT, TOGETHER = "dop853", "picard"
+#: Explicit integrator of constant steps where none is named: of studies, lanes and devices.
+CONSTANT = "rk4"
 #: Steps of a trial, and the part of them whose iteration converges slowly where the motion is stiff.
 TRIAL, SLOW = 100, 0.5
 #: A mechanism counts as stiff where stability asks for this many times the steps that following its motion does.
@@ -214,6 +216,12 @@ def slow_steps(run: Prepared) -> float:
     simulation.enter(simulation.outputs(np.zeros(0)), pause=TRIAL)
     steps, slow = simulation.state.control[[abi.STEPS, abi.POINTS]]
     return float(slow) / max(float(steps), 0.5 * TRIAL)
+
+
+def constant_integrator(method: str, where: str = "--method") -> str:
+    """Return the integrator that studies take a method with: `CONSTANT`, or its own where it solves another form."""
+    chosen = METHODS.get(method, where)
+    return CONSTANT if set(INTEGRATORS.get(CONSTANT).forms) & set(chosen.forms) else chosen.default_integrator
 
 
 def stiff_by_steps(run: Prepared, outcome: Outcome) -> tuple[str, ...]:
