@@ -17,6 +17,9 @@ _WINDOW = 10_000
 VANISHING = 1e-2
 #: An error of the energy below this part of kinetic and potential energy is no failure.
 NEGLIGIBLE = 1e-9
+#: Nor is one below the work of a force over this part of the mechanism's length: a tenth of what motions that agree may
+#: be apart.
+NEGLIGIBLE_WAY = 1e-5
 
 
 def remember_rank(sizes: Any, run: Any) -> None:
@@ -84,6 +87,22 @@ def stuck(span: Any, run: Any, t: float) -> bool:
     return False
 
 
+def force(sizes: Any, run: Any, y: Any, before: float) -> float:
+    """Return the force that a step shows [N]: its change of the kinetic energy over the largest way of a body.
+
+    Parameters
+    ----------
+    sizes, run, y
+        As for `watch`; `run` has the state before as well.
+    before : float
+        Kinetic energy of the state before [J].
+    """
+    way = 0.0
+    for i in range(sizes.nq):
+        way = max(way, abs(y[i] - run.y[i]) * run.metric[i])
+    return abs(run.w[abi.KINETIC] - before) / way if way > 0.0 else 0.0
+
+
 def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     """Judge an accepted state; return how the loop has to end, or `DONE` to go on.
 
@@ -109,6 +128,8 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     scale = max(w[abi.KINETIC], abs(w[abi.POTENTIAL] - gauges[abi.POTENTIAL_START]), abs(work))
     if scale > gauges[abi.ENERGY_SCALE]:
         gauges[abi.ENERGY_SCALE] = scale
+    before = gauges[abi.LAST_KINETIC]
+    gauges[abi.LAST_KINETIC] = w[abi.KINETIC]
 
     pivot, rank = w[abi.PIVOT], int(w[abi.RANK])
     if pivot < gauges[abi.SMALLEST_PIVOT]:
@@ -156,9 +177,13 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
         return abi.POSITION
     if w[abi.DRIFT_MEASURE] > gauges[abi.LIMIT_DRIFT] * speed:
         return abi.VELOCITY
-    # energies are no more exact than the rounding of what they are sums of
-    if abs(error) > gauges[abi.LIMIT_ENERGY] * gauges[abi.ENERGY_SCALE] + NEGLIGIBLE * (
-        w[abi.KINETIC] + abs(w[abi.POTENTIAL])
-    ):
-        return abi.ENERGY
+    # energies are no more exact than the rounding of what they are sums of, and their balance no more than the work of
+    # forces over a way that counts as none: large works cancel where a body stands still
+    rounding = NEGLIGIBLE * (w[abi.KINETIC] + abs(w[abi.POTENTIAL]))
+    excess = abs(error) - gauges[abi.LIMIT_ENERGY] * gauges[abi.ENERGY_SCALE] - rounding
+    way = NEGLIGIBLE_WAY * length
+    if excess > way * gauges[abi.FORCE]:
+        gauges[abi.FORCE] = max(gauges[abi.FORCE], force(sizes, run, y, before))
+        if excess > way * gauges[abi.FORCE]:
+            return abi.ENERGY
     return abi.DONE
