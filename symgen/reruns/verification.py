@@ -136,7 +136,8 @@ def verified(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Prepa
             doubt = f"a check by {name} did not come to its end: {end}"
             return run, outcome, Verification(doubt, None, error, total)
         apart = agreed.apart
-        error = apart / apart_of_error if math.isfinite(apart) else None
+        # two runs may agree to the last bit, and neither is exact
+        error = max(apart / apart_of_error, agreed.rounding) if math.isfinite(apart) else None
         if agreed.holds:
             verification = Verification(None, f"verified: {name} agrees within {apart:.2g} m", error, total)
             return (finer, second, verification) if free else (run, outcome, verification)

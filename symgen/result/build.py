@@ -72,7 +72,7 @@ def build_result(
         mechanism=mechanism.name,
         method=law.method,
         integrator=plan.integrator.name,
-        step=None if spec.adaptive else spec.step,
+        step=plan.settings.step if spec.adaptive else spec.step,
         rtol=spec.rtol if spec.adaptive else None,
         atol=spec.atol if spec.adaptive else None,
         until=spec.until,

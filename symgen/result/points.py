@@ -142,6 +142,11 @@ class Agreement:
         return float(self.distances.max(initial=0.0))
 
     @property
+    def rounding(self) -> float:
+        """Rounding of a point of the mechanism [m]."""
+        return float(np.finfo(np.float64).eps * self.limit / AGREEMENT)
+
+    @property
     def holds(self) -> bool:
         """Whether they agree."""
         return self.apart <= self.limit

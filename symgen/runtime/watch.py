@@ -17,9 +17,8 @@ _WINDOW = 10_000
 VANISHING = 1e-2
 #: An error of the energy below this part of kinetic and potential energy is no failure.
 NEGLIGIBLE = 1e-9
-#: Nor is one below the work of a force over this part of the mechanism's length: a tenth of what motions that agree may
-#: be apart.
-NEGLIGIBLE_WAY = 1e-5
+#: A way below this part of the mechanism's length is none: so far two motions that agree may be apart.
+NO_WAY = 1e-4
 
 
 def remember_rank(sizes: Any, run: Any) -> None:
@@ -177,13 +176,12 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
         return abi.POSITION
     if w[abi.DRIFT_MEASURE] > gauges[abi.LIMIT_DRIFT] * speed:
         return abi.VELOCITY
-    # energies are no more exact than the rounding of what they are sums of, and their balance no more than the work of
-    # forces over a way that counts as none: large works cancel where a body stands still
-    rounding = NEGLIGIBLE * (w[abi.KINETIC] + abs(w[abi.POTENTIAL]))
-    excess = abs(error) - gauges[abi.LIMIT_ENERGY] * gauges[abi.ENERGY_SCALE] - rounding
-    way = NEGLIGIBLE_WAY * length
-    if excess > way * gauges[abi.FORCE]:
+    # energies are no more exact than the rounding of what they are sums of
+    limit, rounding = gauges[abi.LIMIT_ENERGY], NEGLIGIBLE * (w[abi.KINETIC] + abs(w[abi.POTENTIAL]))
+    excess, way = abs(error) - rounding, NO_WAY * length
+    if excess > limit * max(gauges[abi.ENERGY_SCALE], way * gauges[abi.FORCE]):
+        # large works cancel where a body stands still: the energy in motion is at least that over a way that is none
         gauges[abi.FORCE] = max(gauges[abi.FORCE], force(sizes, run, y, before))
-        if excess > way * gauges[abi.FORCE]:
+        if excess > limit * max(gauges[abi.ENERGY_SCALE], way * gauges[abi.FORCE]):
             return abi.ENERGY
     return abi.DONE
