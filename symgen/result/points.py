@@ -68,7 +68,8 @@ class Points:
     def size(self, q: Array) -> float:
         """Return the mechanism's size [m]: the longest body's own length.
 
-        Where all bodies are point masses it is the extent of what they do: the diagonal of the box that holds them.
+        Where all bodies are point masses it is the extent of what they do: the diagonal of the box that holds them. Of one
+        point at one place it is the distance from the origin.
 
         Parameters
         ----------
@@ -79,7 +80,8 @@ class Points:
         if longest > 0.0 or not self.bodies or not len(q):
             return longest
         places = np.concatenate([q[:, i : i + self.dimension] for i, _ in self.bodies])
-        return float(np.linalg.norm(np.ptp(places, axis=0)))
+        extent = float(np.linalg.norm(np.ptp(places, axis=0)))
+        return extent or float(np.linalg.norm(places[0]))
 
     def distance(self, a: Array, b: Array) -> float:
         """Return the largest distance [m] between corresponding points, over all bodies and times.
