@@ -59,7 +59,15 @@ def simulate(model: Model, method: str, step: float, until: float, repeat: int) 
     """Run with constant steps; only the end is kept, so that outputs cost nothing."""
     scheme = INTEGRATORS.get(constant_integrator(method))
     options = {"integrator.adaptive": "false"} if scheme.adaptive else {}
-    return model.simulate(method=method, integrator=constant_integrator(method), step=step, until=until, times=[until], repeat=repeat, options=options)
+    return model.simulate(
+        method=method,
+        integrator=constant_integrator(method),
+        step=step,
+        until=until,
+        times=[until],
+        repeat=repeat,
+        options=options,
+    )
 
 
 def row(name: str, method: str, step: float, until: float, repeat: int) -> Row:

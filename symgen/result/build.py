@@ -19,6 +19,7 @@ from symgen.result.tables import Measured
 from symgen.running.automatic import stiff_by_steps
 from symgen.running.continuation import made_of
 from symgen.running.tree import CarriedOutcome
+from symgen.running.undefined import undefined_at_end
 from symgen.runtime import abi
 from symgen.runtime.events import record_of, stopped
 from symgen.runtime.last_state import LastState
@@ -60,6 +61,8 @@ def build_result(
     forces = Forces(outcome, seats(mechanism, values))
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(run, outcome, verification)
+    if verdict.status == FAILED and (undefined := undefined_at_end(mechanism, outcome)):
+        verdict = replace(verdict, reason=f"{str(verdict.reason).partition('; ')[0]}: {undefined}")
     stiff = () if verdict.status == FAILED else stiff_by_steps(run, outcome)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome), *stiff)
     verdict = replace(verdict, notes=(*notes, *verdict.notes, *stopped(outcome)))

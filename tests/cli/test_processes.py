@@ -93,7 +93,19 @@ def integrating(process):
 def test_an_interrupted_run_writes_what_it_has(tmp_path):
     assert symgen(["run", "pendulum", "--integrator", "rk4", "--until", "0.1", "--json"]).returncode == 0
     saved = tmp_path / "run.csv"
-    arguments = ("run", "pendulum", "--integrator", "rk4", "--until", "1e5", "--output-step", "10", "--json", "--save", saved)
+    arguments = (
+        "run",
+        "pendulum",
+        "--integrator",
+        "rk4",
+        "--until",
+        "1e5",
+        "--output-step",
+        "10",
+        "--json",
+        "--save",
+        saved,
+    )
     code, out, err = interrupt(arguments, integrating, tmp_path)
     assert code == 130
     found = json.loads(out)

@@ -112,7 +112,19 @@ def test_generate_has_the_options_of_the_table():
 
 @pytest.mark.parametrize(("limit", "reason"), [("--max-violation", "max_violation"), ("--max-energy-error", "energy")])
 def test_limits_can_be_set_for_a_run(capsys, limit, reason):
-    words = ["run", "four-bar", "--method", "lagrange", "--integrator", "rk4", "--step", "0.01", "--until", "1", "--json"]
+    words = [
+        "run",
+        "four-bar",
+        "--method",
+        "lagrange",
+        "--integrator",
+        "rk4",
+        "--step",
+        "0.01",
+        "--until",
+        "1",
+        "--json",
+    ]
     assert main(words) == 0
     assert main([*words, limit, "1e-13"]) == 1
     assert reason in capsys.readouterr().err
@@ -140,7 +152,9 @@ def test_steps_are_bounded_by_every_command_that_runs(capsys):
         assert main([*words, "--until", "1", "--max-attempts", "5"]) == 1, words
         said = capsys.readouterr()
         assert "max_attempts" in said.out + said.err, words
-    assert main(["run", "four-bar", "--integrator", "rk4", "--step", "0.01", "--until", "1", "--max-attempts", "5"]) == 2
+    assert (
+        main(["run", "four-bar", "--integrator", "rk4", "--step", "0.01", "--until", "1", "--max-attempts", "5"]) == 2
+    )
     assert "step: expected at most max_attempts = 5 steps, got 100" in capsys.readouterr().err
 
 

@@ -18,7 +18,12 @@ from symgen.describe.builder import MechanismBuilder
 from symgen.ensemble.table import DONE, FolderTable, RowTable
 from symgen.errors import InputError
 
-FEW = {"vary": {"crank_mass": "lin(1, 3, 6)", "crank.omega": [0.0, 2.0]}, "until": 0.05, "quantities": ("q",), "integrator": "rk4"}
+FEW = {
+    "vary": {"crank_mass": "lin(1, 3, 6)", "crank.omega": [0.0, 2.0]},
+    "until": 0.05,
+    "quantities": ("q",),
+    "integrator": "rk4",
+}
 
 
 def test_a_netcdf_file_holds_everything(tmp_path):
@@ -369,7 +374,12 @@ def test_nothing_is_lost_or_doubled_by_a_kill_or_an_interruption(tmp_path, kill)
     assert [p.name for p in tmp_path.iterdir()] == ["long.nc"]
     with xr.open_dataset(path, engine="h5netcdf") as data:
         whole = symgen.sweep(
-            "four-bar", {"crank_mass": "lin(1,3,200)"}, integrator="rk4", until=5.0, step=1e-3, quantities=("crank.theta",)
+            "four-bar",
+            {"crank_mass": "lin(1,3,200)"},
+            integrator="rk4",
+            until=5.0,
+            step=1e-3,
+            quantities=("crank.theta",),
         )
         assert len(before) < -(-200 // whole.ensemble.chunk)
         np.testing.assert_array_equal(data["crank.theta"].values, whole["crank.theta"])

@@ -111,7 +111,9 @@ def test_a_state_that_is_not_finite_is_a_failure():
 
 def test_passages_are_events_that_hold_the_singular_times():
     """The window is flat where B0 crosses the ground line; times by interpolation of the run itself."""
-    outcome = run(load("n-four-bar:1"), method="direct-correction", integrator="rk4", step=1e-3, until=5.0, output_step=1e-3)
+    outcome = run(
+        load("n-four-bar:1"), method="direct-correction", integrator="rk4", step=1e-3, until=5.0, output_step=1e-3
+    )
     height = outcome.states[:, 1]
     crossings = outcome.times[:-1][np.sign(height[:-1]) != np.sign(height[1:])]
     assert len(crossings) == outcome.rank_event_count == len(outcome.rank_events) > 3
