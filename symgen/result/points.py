@@ -68,8 +68,8 @@ class Points:
     def size(self, q: Array) -> float:
         """Return the mechanism's size [m]: the longest body's own length.
 
-        Where all bodies are point masses it is the extent of what they do: the diagonal of the box that holds them. Of one
-        point at one place it is the distance from the origin.
+        Where all bodies are point masses it is the extent of what they do: the diagonal of the box that holds them; of
+        one point at one place the distance from the origin.
 
         Parameters
         ----------

@@ -16,8 +16,8 @@ from symgen.api import load
 from symgen.catalogue import raw
 from symgen.integrators import INTEGRATORS as SCHEMES
 from symgen.methods import METHODS as KNOWN
-from symgen.running.prepare import make_plan
 from symgen.running.automatic import constant_integrator
+from symgen.running.prepare import make_plan
 from symgen.runtime import abi
 from symgen.runtime.run import integrate
 from symgen.settings import Settings
