@@ -78,6 +78,7 @@ def build_result(
         step=plan.settings.step if spec.adaptive else spec.step,
         rtol=spec.rtol if spec.adaptive else None,
         atol=spec.atol if spec.adaptive else None,
+        relative_atol=spec.relative if spec.adaptive else None,
         until=spec.until,
         status=verdict.status,
         reason=verdict.reason,

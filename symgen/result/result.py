@@ -85,6 +85,9 @@ class Result(MotionTables):
         What was run.
     step, rtol, atol : float or None
         Constant (or asked first) step [s], and tolerances; None where they do not apply.
+    relative_atol : bool or None
+        Whether `atol` counts coordinates over the mechanism's length and velocities over its speed, as the default
+        does; else it is in the units of the state.
     until : float
         Asked end time [s].
     status : str
@@ -146,6 +149,7 @@ class Result(MotionTables):
     step: float | None
     rtol: float | None
     atol: float | None
+    relative_atol: bool | None
     until: float
     status: str
     reason: str | None

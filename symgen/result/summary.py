@@ -15,7 +15,11 @@ if TYPE_CHECKING:
 
 def lines(result: Result) -> list[tuple[str, str]]:
     """Return (label, text) pairs that say what was run and how it went."""
-    steps = f"step {result.step:g} s" if result.rtol is None else f"rtol {result.rtol:g}, atol {result.atol:g}"
+    if result.rtol is None:
+        steps = f"step {result.step:g} s"
+    else:
+        over = " of length and speed" if result.relative_atol else ""
+        steps = f"rtol {result.rtol:g}, atol {result.atol:g}{over}"
     rejected = f", {result.rejected} rejected" if result.rejected else ""
     s, rank = result.seconds, result.rank
     spread = f" (spread {s.run_spread:.2g} s)" if s.run_spread else ""
