@@ -114,7 +114,7 @@ SAME_TIME, RESOLVED_TIME = 1e-9, 4e-16
     SHORT_FALL,
     CHOSEN,  # largest value of the smallest pivot since rows were chosen that stand for all
     LAST_KINETIC,  # kinetic energy at the accepted state before
-    FORCE,  # largest change of the kinetic energy over its way, where the balance of energy was in doubt
+    FORCE,  # largest change of kinetic energy or work over its way, where the balance of energy was in doubt
 ) = range(21)
 N_GAUGES = 21
 

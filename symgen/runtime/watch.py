@@ -87,7 +87,7 @@ def stuck(span: Any, run: Any, t: float) -> bool:
 
 
 def force(sizes: Any, run: Any, y: Any, before: float) -> float:
-    """Return the force that a step shows [N]: its change of the kinetic energy over the largest way of a body.
+    """Return the force that a step shows [N]: its change of kinetic energy or of work over the largest way of a body.
 
     Parameters
     ----------
@@ -99,7 +99,9 @@ def force(sizes: Any, run: Any, y: Any, before: float) -> float:
     way = 0.0
     for i in range(sizes.nq):
         way = max(way, abs(y[i] - run.y[i]) * run.metric[i])
-    return abs(run.w[abi.KINETIC] - before) / way if way > 0.0 else 0.0
+    behind = sizes.nq + sizes.nv
+    change = max(abs(run.w[abi.KINETIC] - before), abs(y[behind] - run.y[behind]))
+    return change / way if way > 0.0 else 0.0
 
 
 def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
