@@ -56,7 +56,12 @@ def run_again(
     else:
         assert spec.step is not None, "a constant step is given"
         finer = run.with_spec(step=spec.step * HALF)
-    second = finer.integrate(start=replace(outcome.start, saved=None))  # another grid of steps begins there
+    start = outcome.start
+    if start.saved is not None:  # another grid of steps begins there, and with it another balance of energy
+        y = start.y.copy()
+        y[outcome.compiled.info.work] = 0.0
+        start = replace(start, saved=None, y=y)
+    second = finer.integrate(start=start)
     if second.code != abi.DONE:
         return finer, second, None
     a, b = _comparable(outcome, second)

@@ -140,6 +140,17 @@ def test_the_file_and_the_run_switch_it(monkeypatch, capsys):
     assert '"error_estimate": null' not in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_a_run_that_goes_on_is_checked_from_where_it_begins(monkeypatch, coordinates):
+    """A motor has done work until then."""
+    monkeypatch.setattr(points, "QUICK", math.inf)
+    wiper, settings = symgen.load("wiper"), {"coordinates": coordinates}
+    first = wiper.simulate(until=0.5, **settings)
+    second = wiper.simulate(until=1.0, start=first, **settings)
+    assert first.ok and abs(first.work[-1]) > 0.1 and second.t[0] == 0.5
+    assert (second.status, second.reason) == ("ok", None) and 0.0 < second.error_estimate < 1e-6
+
+
 def test_a_chaotic_motion_beyond_its_horizon_is_unverified(monkeypatch):
     monkeypatch.setattr(points, "QUICK", math.inf)
     found = symgen.simulate("chain:2", until=60.0)
