@@ -133,20 +133,18 @@ class Agreement:
         Largest distance between corresponding points at each output [m].
     limit : float
         Up to which they agree [m].
+    rounding : float
+        Of a point at the mechanism's size [m].
     """
 
     distances: Array
     limit: float
+    rounding: float = 0.0
 
     @property
     def apart(self) -> float:
         """Largest distance of all [m]; nan if a motion is not finite."""
         return float(self.distances.max(initial=0.0))
-
-    @property
-    def rounding(self) -> float:
-        """Rounding of a point of the mechanism [m]."""
-        return float(np.finfo(np.float64).eps * self.limit / AGREEMENT)
 
     @property
     def holds(self) -> bool:
@@ -171,7 +169,8 @@ def agreement(points: Points, a: Array, b: Array) -> Agreement:
         Coordinates at the same times.
     """
     with np.errstate(all="ignore"):
-        return Agreement(points.distances(a, b), AGREEMENT * points.size(a))
+        size = points.size(a)
+        return Agreement(points.distances(a, b), AGREEMENT * size, float(np.finfo(np.float64).eps) * size)
 
 
 @dataclass(frozen=True)
