@@ -12,7 +12,7 @@ from symgen.describe.kinks import restricted
 from symgen.runtime import abi
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Mechanism
+    from symgen.describe.mechanism import Force, Joint, Mechanism
     from symgen.runtime.outcome import Outcome
 
 #: How a run ends that a formula without a value may end.
@@ -38,7 +38,7 @@ def undefined_at_end(mechanism: Mechanism, outcome: Outcome) -> str:
     """
     if outcome.code not in _ENDS or not len(outcome.states):
         return ""
-    parts = [*(("joint", x) for x in mechanism.joints), *(("force", x) for x in mechanism.forces)]
+    parts: list[tuple[str, Joint | Force]] = [*(("joint", x) for x in mechanism.joints), *(("force", x) for x in mechanism.forces)]
     found = [(f"{kind} '{part.name}'", *pair) for kind, part in parts for pair in restricted(part)]
     if not found:
         return ""
