@@ -330,7 +330,8 @@ class Model(Analysed):
             (``"method.alpha": 5``), ``stop_when`` and ``record_when`` (conditions such as
             ``"crank.theta > 2*pi"``, one or several, at which the run ends or which are noted), ``events`` (tables as
             in ``[events]`` of a file, by name), ``strict`` (refuse an inconsistent start), ``verify`` (estimate
-            the error by a second run with finer steps, which also settles an `unverified` run), ``max_violation`` and
+            the error by a second run with finer steps, which also settles an `unverified` run; by default after an
+            adaptive run with default tolerances of less than 50 ms; False: never), ``max_violation`` and
             ``max_energy_error`` (what ends a run as failed), ``max_step`` [s] (the largest one of an adaptive run),
             ``max_attempts`` (attempts at steps after which a run has failed), ``repeat`` (warm up, then time that many
             runs and report the shortest), ``shape`` (``auto``, ``straight`` or ``looped``), ``coordinates``

@@ -38,7 +38,10 @@ def undefined_at_end(mechanism: Mechanism, outcome: Outcome) -> str:
     """
     if outcome.code not in _ENDS or not len(outcome.states):
         return ""
-    parts: list[tuple[str, Joint | Force]] = [*(("joint", x) for x in mechanism.joints), *(("force", x) for x in mechanism.forces)]
+    parts: list[tuple[str, Joint | Force]] = [
+        *(("joint", x) for x in mechanism.joints),
+        *(("force", x) for x in mechanism.forces),
+    ]
     found = [(f"{kind} '{part.name}'", *pair) for kind, part in parts for pair in restricted(part)]
     if not found:
         return ""
