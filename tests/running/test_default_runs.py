@@ -11,6 +11,7 @@ from support.emitted import mechanism_of
 import symgen
 from symgen import catalogue
 from symgen.cli import main
+from symgen.ensemble.sweep_plan import make_ensemble
 from symgen.errors import InputError
 from symgen.methods import METHODS
 from symgen.result import points
@@ -191,11 +192,12 @@ def test_a_row_is_the_default_run():
     assert_rows(found, four_bar, **settings, verify=False)
 
 
-def test_lanes_take_constant_steps():
-    lanes = symgen.sweep("four-bar", {"crank_mass": [1.0, 2.5]}, until=0.1, target="lanes", quantities=("q",))
-    cpu = symgen.sweep("four-bar", {"crank_mass": [1.0, 2.5]}, until=0.1, integrator="rk4", quantities=("q",))
-    assert lanes.ensemble.recipe.integrator == "rk4"
-    np.testing.assert_allclose(lanes["crank.theta"], cpu["crank.theta"], rtol=1e-12)
+@pytest.mark.parametrize("named", [None, "euler"])
+def test_lanes_take_constant_steps(named):
+    """Rows in lanes against rows one after another are in `tests/ensemble/test_lanes.py`."""
+    run = {"integrator": named} if named else None
+    many = make_ensemble(model("-block.x", run=run), Settings(until=0.1), {"block.x": [0.1, 0.2]}, {}, None, "lanes")
+    assert many.recipe.integrator == (named or "rk4") and not many.recipe.spec.adaptive
 
 
 def test_a_result_tells_how_its_absolute_tolerance_counts():
