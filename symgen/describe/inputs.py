@@ -24,6 +24,7 @@ from symgen.describe.readings import Readings
 from symgen.describe.scope import Context
 from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest, quoted
+from symgen.files import check_rows
 from symgen.vocabulary.expressions import BENT, ZERO, Call, Expr, Name, Number, call, names, table_of
 
 T = TypeVar("T")
@@ -338,6 +339,7 @@ def _read(where: str, file: str, column: str, how: str | None) -> Data:
     headings = [match["name"] if (match := _HEADING.fullmatch(cell)) else cell for cell in rows[0]] if rows else []
     if column not in headings:
         raise InputError(f"{where}: {path.name}", "a column of the file", quoted(column), nearest(column, headings))
+    check_rows(f"{where}: {path.name}", headings, rows[1:])
     times = next((headings.index(name) for name in ("t", "time") if name in headings), 0)
     place = headings.index(column)
     if place == times:
