@@ -104,7 +104,7 @@ def judged(rest: Settled) -> Equilibrium:
         not_unique=not_unique(subject.mechanism, info, share),
         y=y,
         lam=lam,
-        notes=edges(subject, y),
+        notes=(*subject.singular(d), *edges(subject, y)),
     )
 
 

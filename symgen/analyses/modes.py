@@ -148,7 +148,7 @@ def modes(subject: Subject, y: Array, states: Sequence[str] = (), bodies: Callab
             moved = x.free @ vectors[: x.positions]
             largest = np.sqrt(_work(moved, x.base.by("balance", "a") @ moved))
         shapes = shapes / np.maximum(largest, 1e-300)
-    tables, notes = _shares(x, vectors, bodies), edges(subject, y)
+    tables, notes = _shares(x, vectors, bodies), (*subject.singular(subject.rows(x.base)), *edges(subject, y))
     shapes = shapes.T.astype(np.complex128)
     return Modes(in_order(values), squares, x.velocities, names, shapes, *tables, about, x.t, notes)
 
