@@ -93,7 +93,12 @@ def _matrix(scope: Scope, key: str, entries: tuple[float | str | tuple[float | s
         return tuple(tuple(diagonal[i] if i == j else ZERO for j in range(6)) for i in range(6))
     if len(rows) != 6 or diagonal or any(len(row) != 6 for row in rows):
         raise scope.error(key, "six numbers or six rows of six", words_of(entries))
-    return scope.symmetric(key, rows)
+    matrix = tuple(tuple(scope.constant(key, e) for e in row) for row in rows)
+    for i in range(6):
+        for j in range(i):
+            if matrix[i][j] != matrix[j][i]:
+                raise scope.error(key, "a symmetric matrix", f"different entries {i + 1}{j + 1} and {j + 1}{i + 1}")
+    return matrix
 
 
 def _effort(label: str, measure: Measure, stiffness: Expr, damping: Expr) -> list[Effort]:
