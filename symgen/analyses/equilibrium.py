@@ -79,7 +79,7 @@ class Equilibrium:
     notes: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what JSON can express."""
+        """Return the fields in types of JSON."""
         return dict(plain(self))
 
 

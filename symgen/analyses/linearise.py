@@ -92,7 +92,7 @@ class LinearSystem:
         return control.ss(self.A, self.B, self.C, self.D, **names)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what JSON can express."""
+        """Return the fields in types of JSON."""
         return dict(plain(self))
 
 

@@ -252,7 +252,7 @@ def free_coordinates(run: PrescribedRun, count: int) -> list[str]:
 
 
 def _observed(compiled: CompiledModel, start: Start, y: Array) -> Array:
-    """Return what the model reports at a state: rows, then value and rate of each joint coordinate."""
+    """Return the numbers that the model reports at a state: rows, then value and rate of each joint coordinate."""
     out = np.zeros(compiled.info.observed)
     observe = Ready(compiled.model.observe, abi.OBSERVE)
     observe(start.t, y.copy(), start.p, start.w.copy(), np.zeros(compiled.info.ny), out)

@@ -132,7 +132,7 @@ def _rank(x: StateTangent, names: Sequence[str]) -> int:
 
 
 def _rate_of(subject: Subject, name: str) -> str | None:
-    """Return what the rate of a coordinate is called, None where it has no name or the quantity is a velocity."""
+    """Return the name of the rate of a coordinate, None where it has no name or the quantity is a velocity."""
     info = subject.compiled.info
     names = [q.name for q in info.coordinates]
     if name in names and names.index(name) not in subject.spun:

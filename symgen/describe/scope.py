@@ -44,7 +44,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
 
     @classmethod
     def of(cls, mechanism: Mechanism, source: str = "") -> Context:
-        """Return what is known of a mechanism that was read already, for formulas that come later."""
+        """Return the context of a mechanism that was read already, for formulas that come later."""
         joints = {joint.name: joint for joint in mechanism.joints}
         return cls(
             source or mechanism.name,

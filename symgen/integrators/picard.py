@@ -130,7 +130,7 @@ class Picard:
         return picard.adaptive if adaptive else picard.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
-        """Return what the loop is entered with."""
+        """Return the arguments of the loop."""
         from symgen.runtime.records import Nodes
         from symgen.runtime.right_hand_side import at_nodes
         from symgen.runtime.schemes import picard

@@ -85,7 +85,7 @@ class Recorded:
 
 
 def _read(option: str, path: Path, use: Callable[[Recorded], _Value]) -> _Value:
-    """Return what `use` makes of a file of a result; a `KeyError` means that something is missing in it."""
+    """Return the value of `use` for a file of a result; a `KeyError` means that something is missing in it."""
     ending = path.suffix.lower()
     if ending not in SAVED:
         raise InputError(option, f"a file ending in {', '.join(SAVED)}", f"'{path}'")
@@ -94,7 +94,7 @@ def _read(option: str, path: Path, use: Callable[[Recorded], _Value]) -> _Value:
 
 
 def checked(option: str, path: Path, read: Callable[[Path], _Value], libraries: Sequence[str]) -> _Value:
-    """Return what `read` makes of a file, with sentences about files that are missing or hold something else."""
+    """Return the value of `read` for a file, with sentences about files that are missing or hold something else."""
     need(option, *libraries)
     check_name(option, path)
     if not path.is_file():

@@ -178,7 +178,7 @@ def _alike(mass: Array, rows: Array) -> tuple[Array, Array]:
 
 
 def strike(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Array, bool]:
-    """Return what the smallest impulse along some rows C makes of velocities.
+    """Return the velocities after the smallest impulse along some rows C.
 
     An impulse i changes velocities by ``M (v+ - v-) = C^T i``. With ``C v+ = c`` this is the v+ for which the kinetic
     energy of the change, ``(v+ - v-)^T M (v+ - v-) / 2``, is smallest.
