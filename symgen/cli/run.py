@@ -82,7 +82,7 @@ def command(
 
     from symgen.api import load
     from symgen.cli._progress import Bar
-    from symgen.result.select import extremes
+    from symgen.result.summary import extremes
 
     loaded = load(model)
     if whence is not None:
@@ -115,14 +115,14 @@ def _prepare(model: Model, settings: Settings, quantities: tuple[str, ...]) -> N
     """Refuse quantities that no result will have."""
     if not quantities:
         return
-    from symgen.result.select import columns_of
-    from symgen.result.tables import choose
+    from symgen.result.signals import choose, of_run
     from symgen.running.plan import Purpose
     from symgen.running.prepare import make_plan
     from symgen.running.starts import compiled_for
 
     plan = make_plan(model.mechanism, settings, Purpose.ROWS)
-    choose(columns_of(plan.mechanism, compiled_for(plan.mechanism, plan.choice).info), quantities, model.name)
+    tables = of_run(plan.mechanism, compiled_for(plan.mechanism, plan.choice).info)
+    choose({s.name: table for table, signals in tables.items() for s in signals}, quantities, model.name, (*tables,))
 
 
 def _exit_code(result: Result) -> int:

@@ -79,8 +79,10 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
     data["motions"] = []
     for each in motions:
         shown, coarse = fitted(each, share, len(pins))
-        if shown is not each and not data["note"].endswith(BARE):
-            data["note"] = f"{data['note']}; {BARE}" if data["note"] else BARE
+        missing = [group.title for group in each.groups[len(shown.groups) :]]
+        notes = [BARE] if shown.pushed != each.pushed else []
+        notes += [f"no plots of {', '.join(dict.fromkeys(missing))}: the page would be too large"] if missing else []
+        data["note"] = "; ".join(dict.fromkeys([*filter(None, [data["note"]]), *notes]))
         keep = frames_within(shown, share, coarse, len(pins))
         data["motions"].append(packed(shown, keep, coarse) | _gaps(scene, shown.q[keep]))
     text = _web("page.html")

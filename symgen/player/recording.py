@@ -14,8 +14,8 @@ from symgen.drawing.scene import Array
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
 
-#: Fewest and most frames of a page.
-FEWEST, MOST = 60, 1500
+#: Fewest and most frames of a page, and those for which it holds fewer columns.
+FEWEST, MOST, SMOOTH = 60, 1500, 240
 #: Columns of one plot at most.
 LONGEST_KEY = 14
 
@@ -34,6 +34,8 @@ class PlottedGroup:
         One row an output.
     logarithmic : bool
         Whether they are plotted so.
+    places : tuple of int
+        Which coordinates of the recording they are; empty for other columns, which a page holds by themselves.
     """
 
     title: str
@@ -41,6 +43,7 @@ class PlottedGroup:
     names: tuple[str, ...]
     values: Array
     logarithmic: bool = False
+    places: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -81,6 +84,8 @@ class Recording:
         Of the run.
     groups : tuple of PlottedGroup
         What can be plotted.
+    kept : int
+        How many of them, the first ones, a page holds in any case.
     reactions : Array, shape (k, n, d)
         Force of each joint of `pushed` on its first body, ground axes [N].
     pushed : tuple of str
@@ -100,6 +105,7 @@ class Recording:
     facts: tuple[tuple[str, str], ...] = ()
     status: str = "ok"
     groups: tuple[PlottedGroup, ...] = ()
+    kept: int = 0
     reactions: Array | None = None
     pushed: tuple[str, ...] = ()
     pulls: Array | None = None
@@ -114,15 +120,17 @@ def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
     for title, unit, wanted in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
         chosen = [i for i, (_, c) in enumerate(names) if c in wanted][:LONGEST_KEY]
         if chosen:
-            groups.append(PlottedGroup(title, unit, tuple(names[i][0] for i in chosen), q[:, chosen]))
+            own = tuple(names[i][0] for i in chosen)
+            groups.append(PlottedGroup(title, unit, own, q[:, chosen], places=tuple(chosen)))
     return groups
 
 
 def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording, bool]:
     """Return what a page holds of a recording, and whether its coordinates have 16 bits.
 
-    Where `FEWEST` frames are too many characters, coordinates have 16 bits instead of 32 between the smallest and the
-    largest value, and where that is not enough, forces are left out.
+    The last groups are left out as long as there would be fewer than `SMOOTH` frames. Where `FEWEST` frames are too
+    many characters, coordinates have 16 bits instead of 32 between the smallest and the largest value, and where that
+    is not enough, forces are left out.
 
     Parameters
     ----------
@@ -133,6 +141,9 @@ def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording
     further : int
         Columns of 16 bits beside those of the recording.
     """
+    frames = min(SMOOTH, len(recording.t))
+    while len(recording.groups) > recording.kept and frames * _characters(recording, False, further) > room:
+        recording = replace(recording, groups=recording.groups[:-1])
     for candidate, coarse in ((recording, False), (recording, True)):
         if FEWEST * _characters(candidate, coarse, further) <= room:
             return candidate, coarse
@@ -170,7 +181,8 @@ def _parts(recording: Recording) -> Iterator[tuple[Array, bool]]:
     yield recording.t.reshape(k, 1), True
     yield recording.q, True
     for group in recording.groups:
-        yield group.values, False
+        if not group.places:
+            yield group.values, False
     for further in (recording.reactions, recording.pulls):
         if further is not None:
             yield further.reshape(k, -1), False
@@ -190,9 +202,7 @@ def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str,
                 "unit": group.unit,
                 "names": list(group.names),
                 "log": group.logarithmic,
-                **shorts(
-                    np.log10(np.maximum(np.abs(group.values[keep]), 1e-17)) if group.logarithmic else group.values[keep]
-                ),
+                **({"places": list(group.places)} if group.places else shorts(_plotted(group, keep))),
             }
             for group in recording.groups
         ],
@@ -205,6 +215,11 @@ def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str,
         if values is not None and len(owners):
             data[name] = {"names": list(owners), **shorts(values[keep].reshape(len(keep), -1))}
     return data
+
+
+def _plotted(group: PlottedGroup, keep: Array) -> Array:
+    values = group.values[keep]
+    return np.asarray(np.log10(np.maximum(np.abs(values), 1e-17))) if group.logarithmic else values
 
 
 def floats(values: Array) -> str:

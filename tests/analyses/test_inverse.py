@@ -304,7 +304,7 @@ def test_the_command(tmp_path, capsys):
     assert set(found["summary"]["motor"]) == {"unit", "max", "at", "rms", "peak_power", "energy"}
     assert found["summary"]["motor"]["max"] == max(map(abs, found["efforts"]["motor"]))
     header = (tmp_path / "i.csv").read_text().splitlines()[0]
-    assert header.startswith("t [s],effort.motor [N m],power.motor [W],rate.motor [rad/s]")
+    assert header.startswith("t [s],motor.effort [N m],motor.power [W],motor.rate [rad/s]")
     assert main(["inverse", "driven-four-bar", "--actuators", "A,D", "--weight", "D=2"]) == 0
     assert "minimum norm, weighted as asked" in capsys.readouterr().err
 

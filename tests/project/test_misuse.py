@@ -284,7 +284,7 @@ def rows():
     yield "select", lambda x: x.result.select(3), "quantities: expected a list of names, got 3"
     yield "select name", lambda x: x.result.select(["bob.z"]), "quantity 'bob.z': expected a quantity of"
     yield "plot what", lambda x: x.result.plot("a.png", 3), "plot: expected a list of names, got 3"
-    yield "plot panel", lambda x: x.result.plot("a.png", "energi"), "plot: expected the name of a panel, got 'energi'"
+    yield "plot panel", lambda x: x.result.plot("a.png", "energi"), "quantity 'energi': expected a quantity of"
     # studies
     lists = {"3": 3, "a dict of 0": {}, "the function len": len}
     for name in ("methods", "integrators"):

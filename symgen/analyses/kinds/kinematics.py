@@ -63,10 +63,10 @@ def command(
 
     For example: symgen kinematics driven-four-bar --times "lin(0, 1, 361)" --transmission C --save motion.csv
     """
-    from symgen.result.select import extremes
+    from symgen.result.summary import extremes
 
     result = kinematics(load(), times, settings, transmission)
-    shown = extremes(result.select(quantities or ("q",))) if len(result.t) else {}
+    shown = extremes(result.select(quantities) if quantities else result.whole(("q",))) if len(result.t) else {}
     return AnalysisOutput(
         result.to_json() | ({"quantities": shown} if quantities else {}),
         (f"{result.mechanism}: {len(result.t)} times, {result.steps} steps", shown),

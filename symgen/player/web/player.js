@@ -22,7 +22,7 @@ const plot = makePlot($("plot"), $("key"));
 function recorded(part) {
   const n = part.count, t = floatColumns(part.t, n)[0] || new Float32Array(0), columns = typeof part.q === "string" ? floatColumns(part.q, n) : shortColumns(part.q, n);
   const rows = Array.from({ length: n }, (_, k) => Float64Array.from(columns, (c) => c[k]));
-  const groups = part.groups.map((g) => ({ ...g, columns: shortColumns(g, n) }));
+  const groups = part.groups.map((g) => ({ ...g, columns: g.places ? g.places.map((i) => columns[i]) : shortColumns(g, n) }));
   for (const name of ["reactions", "pulls", "gaps"]) if (part[name]) part[name].columns = shortColumns(part[name], n);
   return { ...part, t: Float64Array.from(t), rows, groups, end: n ? t[n - 1] : 0, whole: true };
 }
