@@ -14,7 +14,7 @@ from symgen.arguments import words
 from symgen.describe.columns import column_name
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.describe.readings import TABLES as FORMULAS
-from symgen.errors import InputError, nearest
+from symgen.errors import InputError, nearest, quoted
 from symgen.result.labelled import Array, Labelled
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
@@ -174,6 +174,13 @@ def multiplier_unit(row_unit: str) -> str:
 def filled(values: Array, signals: Sequence[Signal]) -> Labelled:
     """Return `values` as the table with these columns."""
     return Labelled(values, tuple(s.key for s in signals), tuple(s.unit for s in signals))
+
+
+def check_single(name: str, columns: Iterable[str]) -> None:
+    """Refuse to draw over what is several columns."""
+    several = [*columns]
+    if len(several) != 1:
+        raise InputError("over", "one column", f"{quoted(name)}, which is {len(several)}", ", ".join(several[:6]))
 
 
 def choose(

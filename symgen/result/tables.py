@@ -23,7 +23,7 @@ from symgen.result.contract import series
 from symgen.result.export import COLUMNS, PLOTTED, data_frame, write_frame
 from symgen.result.labelled import Array, Labelled, labelled
 from symgen.result.plots import drawing, write_figure
-from symgen.result.signals import SignalTables, choose, of_formulas
+from symgen.result.signals import SignalTables, check_single, choose, of_formulas
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -282,8 +282,7 @@ class Tables(ABC):
         if over == "t":
             return Labelled(self.t[:, np.newaxis], ("t",), ("s",))
         axis = self.select([over])
-        if len(axis.names) != 1:
-            raise InputError("over", "one column", f"'{over}', which is {len(axis.names)}", ", ".join(axis.names[:6]))
+        check_single(over, axis.names)
         return axis
 
 

@@ -310,7 +310,7 @@ def test_without_compilation_the_numbers_are_the_same(tmp_path):
     script = (
         "import sys, numpy, symgen\n"
         "vary = {'crank_mass': [1.0, 2.0], 'crank.theta': [1.0, 1.2]}\n"
-        "found = symgen.sweep('four-bar', vary, until=0.005, quantities=('q', 'lam', 'joint'), jobs=1)\n"
+        "found = symgen.sweep('four-bar', vary, until=0.005, quantities=('q', 'lam', 'joint_coordinates'), jobs=1)\n"
         "assert found.counts['ok'] == 4\n"
         "numpy.save(sys.argv[1], found.values)\n"
     )
