@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.errors import InputError, nearest, quoted
-from symgen.result.plots import LONGEST_LEGEND, empty, label, style
+from symgen.result.plots import LONGEST_LEGEND, empty, label, legend, style
 from symgen.result.signals import TABLES, Signal, choose
 
 if TYPE_CHECKING:
@@ -46,10 +46,10 @@ def sweep_figure(sweep: Sweep, what: Sequence[str], over: str) -> Any:
             ax.plot(along, values, label=text, marker="." if len(along) < 2 else None, **_look(i, len(lines)))
         ax.set_ylabel(label(name, kept[name].unit))
         if 1 < len(lines) <= LONGEST_LEGEND:
-            ax.legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
+            legend(ax)
     if len(lines) > LONGEST_LEGEND:
-        ends = f"{lines[0][0]}\n(yellow: {lines[-1][0]})"
-        axes[0].set_title(f"from dark to light: {ends}", fontsize=8, loc="left")
+        ends = f"dark: {lines[0][0]}; light: {lines[-1][0]}"
+        axes[0].set_title(ends, fontsize=8, loc="left")
     units = {"t": "s"} | sweep.units() | {name: signal.unit for name, signal in kept.items()}
     axes[-1].set_xlabel(label(over, units[over]))
     return figure

@@ -14,8 +14,8 @@ from symgen.drawing.scene import Array
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
 
-#: Fewest and most frames of a page, and those for which it holds fewer columns.
-FEWEST, MOST, SMOOTH = 60, 1500, 240
+#: Fewest and most frames of a page, and most samples of a further group, which is plotted and not played.
+FEWEST, MOST, SAMPLES = 60, 1500, 300
 #: Columns of one plot at most.
 LONGEST_KEY = 14
 
@@ -36,6 +36,8 @@ class PlottedGroup:
         Whether they are plotted so.
     places : tuple of int
         Which coordinates of the recording they are; empty for other columns, which a page holds by themselves.
+    further : bool
+        Whether a page has them only where there is room.
     """
 
     title: str
@@ -44,6 +46,7 @@ class PlottedGroup:
     values: Array
     logarithmic: bool = False
     places: tuple[int, ...] = ()
+    further: bool = False
 
 
 @dataclass(frozen=True)
@@ -84,8 +87,6 @@ class Recording:
         Of the run.
     groups : tuple of PlottedGroup
         What can be plotted.
-    kept : int
-        How many of them, the first ones, a page holds in any case.
     reactions : Array, shape (k, n, d)
         Force of each joint of `pushed` on its first body, ground axes [N].
     pushed : tuple of str
@@ -105,7 +106,6 @@ class Recording:
     facts: tuple[tuple[str, str], ...] = ()
     status: str = "ok"
     groups: tuple[PlottedGroup, ...] = ()
-    kept: int = 0
     reactions: Array | None = None
     pushed: tuple[str, ...] = ()
     pulls: Array | None = None
@@ -128,9 +128,8 @@ def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
 def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording, bool]:
     """Return what a page holds of a recording, and whether its coordinates have 16 bits.
 
-    The last groups are left out as long as there would be fewer than `SMOOTH` frames. Where `FEWEST` frames are too
-    many characters, coordinates have 16 bits instead of 32 between the smallest and the largest value, and where that
-    is not enough, forces are left out.
+    Further groups are left out. Where `FEWEST` frames are too many characters, coordinates have 16 bits instead of 32
+    between the smallest and the largest value, and where that is not enough, forces are left out.
 
     Parameters
     ----------
@@ -141,9 +140,7 @@ def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording
     further : int
         Columns of 16 bits beside those of the recording.
     """
-    frames = min(SMOOTH, len(recording.t))
-    while len(recording.groups) > recording.kept and frames * _characters(recording, False, further) > room:
-        recording = replace(recording, groups=recording.groups[:-1])
+    recording = replace(recording, groups=tuple(group for group in recording.groups if not group.further))
     for candidate, coarse in ((recording, False), (recording, True)):
         if FEWEST * _characters(candidate, coarse, further) <= room:
             return candidate, coarse
@@ -154,6 +151,29 @@ def _characters(recording: Recording, coarse: bool, further: int) -> float:
     """Return the characters of a frame."""
     wide = sum((4 if exact and not coarse else 2) * int(part.shape[1]) for part, exact in _parts(recording))
     return (wide + 2 * further) * 4 / 3
+
+
+def with_further(recording: Recording, shown: Recording, frames: int, room: int) -> tuple[Recording, list[str]]:
+    """Return what a page holds with those further groups that there is room for, and the titles of the others.
+
+    Parameters
+    ----------
+    recording, shown : Recording
+        The motion, and what `fitted` makes of it.
+    frames : int
+        How many outputs the page holds.
+    room : int
+        Characters that further groups may take.
+    """
+    groups, missing = list[PlottedGroup](), list[str]()
+    for group in recording.groups:
+        taken = min(frames, SAMPLES) * 8 / 3 * group.values.shape[1] if group.further else 0.0
+        if taken <= room:
+            room -= int(taken)
+            groups.append(group)
+        else:
+            missing.append(group.title)
+    return replace(shown, groups=tuple(groups)), missing
 
 
 def frames_within(recording: Recording, room: int, coarse: bool = False, further: int = 0) -> Array:
@@ -202,7 +222,7 @@ def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str,
                 "unit": group.unit,
                 "names": list(group.names),
                 "log": group.logarithmic,
-                **({"places": list(group.places)} if group.places else shorts(_plotted(group, keep))),
+                **({"places": list(group.places)} if group.places else _plotted(group, keep)),
             }
             for group in recording.groups
         ],
@@ -217,9 +237,13 @@ def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str,
     return data
 
 
-def _plotted(group: PlottedGroup, keep: Array) -> Array:
-    values = group.values[keep]
-    return np.asarray(np.log10(np.maximum(np.abs(values), 1e-17))) if group.logarithmic else values
+def _plotted(group: PlottedGroup, keep: Array) -> dict[str, Any]:
+    """Return the columns of a group; of a further one every so many frames, and the last."""
+    every = -(-len(keep) // SAMPLES) if group.further else 1
+    values = group.values[keep[np.minimum(np.arange(0, len(keep) + every - 1, every), len(keep) - 1)]]
+    if group.logarithmic:
+        values = np.log10(np.maximum(np.abs(values), 1e-17))
+    return {"every": every, **shorts(values)}
 
 
 def floats(values: Array) -> str:

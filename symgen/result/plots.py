@@ -81,6 +81,7 @@ def empty(title: str, count: int) -> tuple[Any, Any]:
         ax.grid(True, alpha=0.3)
         ax.margins(x=0.01)
     figure.suptitle("\n".join(textwrap.wrap(title, 95)), fontsize=10)
+    figure.align_ylabels()
     return figure, axes
 
 
@@ -88,14 +89,17 @@ def paths(curves: Mapping[str, Any], title: str) -> Any:
     """Return a matplotlib figure of curves in the plane of x and y, arrays of shape (k, 2 or more) [m], by name."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(7.0, 6.0), layout="constrained")
+    figure = Figure(figsize=(8.5, 6.0), layout="constrained")
     ax = figure.subplots()
-    for i, (name, curve) in enumerate(_distinct({n: c[:, :2] for n, c in curves.items()}).items()):
-        ax.plot(curve[:, 0], curve[:, 1], label=name, **style(i))
-    ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
+    distinct = _distinct({name: curve[:, :2] for name, curve in curves.items()})
+    for i, (name, curve) in enumerate(distinct.items()):
+        still = np.ptp(curve, axis=0).max(initial=0.0) == 0.0  # a point that does not move
+        ax.plot(curve[:, 0], curve[:, 1], label=name, marker="o" if still else None, **style(i))
+    ax.set(xlabel="x [m]", ylabel="y [m]")
+    ax.set_aspect("equal", adjustable="datalim")
     ax.grid(True, alpha=0.3)
-    if 0 < len(curves) <= LONGEST_LEGEND:
-        ax.legend(fontsize=7)
+    if 0 < len(distinct) <= LONGEST_LEGEND:
+        legend(ax)
     figure.suptitle("\n".join(textwrap.wrap(title, 80)), fontsize=10)
     return figure
 
@@ -145,4 +149,9 @@ def _lines(ax: Any, along: Any, table: Labelled, logarithmic: bool) -> None:
     if logarithmic:
         ax.set_yscale("log")
     if len(table.names) > 1:
-        ax.legend(fontsize=7, ncols=1, loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
+        legend(ax)
+
+
+def legend(ax: Any) -> None:
+    """Put the legend of a panel to the right of it, where it hides nothing."""
+    ax.legend(fontsize=7, ncols=1, loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)

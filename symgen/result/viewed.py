@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -87,7 +87,6 @@ def _recording(
     ]
     moments += [Moment(e["t"], e["t"], "event", e["name"]) for e in run.get("events", [])]
     reactions, pushed = _reactions(mechanism, read("reactions"))
-    groups, kept = _groups(mechanism, q, read)
     elements = read("elements")
     pulls = [name for name in elements.names if name.endswith(".force")]
     pulling = tuple(name.removesuffix(".force") for name in pulls)
@@ -97,8 +96,7 @@ def _recording(
         *(t, q),
         facts=tuple(facts),
         status=run["status"],
-        groups=groups,
-        kept=kept,
+        groups=tuple(_groups(mechanism, q, read)),
         reactions=reactions,
         pushed=pushed,
         pulls=np.stack([elements[name] for name in pulls], axis=1) if pulls else None,
@@ -116,32 +114,32 @@ def _reactions(mechanism: Mechanism, table: Labelled) -> tuple[Array | None, tup
     return np.stack([[table[f"{name}.{label}"] for label in labels] for name in owners]).transpose(2, 0, 1), owners
 
 
-#: Tables that a page plots, each with what stands before the meaning of its units: those that it has in any case, and
-#: those that it has if there is room.
-_KEPT = {"outputs": "outputs", "elements": "element", "q": "", "energy": "", "violations": ""}
-_FURTHER = {
-    **{"magnitudes": "reaction", "reactions": "reaction component", "joint_coordinates": "joint"},
-    **{"points": "point", "v": "", "a": "", "lam": "multiplier", "body_reactions": "reaction in body axes"},
+#: Tables that a page plots, each with what stands before the meaning of its units, and those that it has in any case.
+_PLOTTED = {
+    **{"outputs": "outputs", "elements": "element", "q": "", "energy": "", "violations": ""},
+    **{"magnitudes": "reaction", "reactions": "reaction component", "joint_coordinates": "joint", "points": "point"},
+    **{"v": "", "a": "", "lam": "multiplier", "body_reactions": "reaction in body axes"},
 }
+_ALWAYS = ("outputs", "q", "energy", "violations")
 #: Columns of one table with one unit that a page plots at most.
 MOST_OF_UNIT = 8 * LONGEST_KEY
 
 
-def _groups(mechanism: Mechanism, q: Array, read: Callable[[str], Labelled]) -> tuple[tuple[PlottedGroup, ...], int]:
-    """Return what a page plots, most wanted first, and how many groups it has in any case."""
-    groups, kept = list[PlottedGroup](), 0
-    for table, head in (_KEPT | _FURTHER).items():
+def _groups(mechanism: Mechanism, q: Array, read: Callable[[str], Labelled]) -> Iterator[PlottedGroup]:
+    """Yield what a page plots, most wanted first."""
+    for table, head in _PLOTTED.items():
         if table == "q":
-            groups += position_groups(mechanism, q)
+            yield from position_groups(mechanism, q)
             continue
         for meaning, unit, logarithmic, part in panels(read(table)):
             title = head if table == "outputs" else f"{head} {meaning}".strip()
             for i in range(0, min(len(part.names), MOST_OF_UNIT), LONGEST_KEY):
                 some = slice(i, i + LONGEST_KEY)
                 numbered = title if i == 0 else f"{title} {1 + i // LONGEST_KEY}"
-                groups.append(PlottedGroup(numbered, unit, part.names[some], part.values[:, some], logarithmic))
-        kept = len(groups) if table in _KEPT else kept
-    return tuple(groups), kept
+                further = table not in _ALWAYS
+                yield PlottedGroup(
+                    *(numbered, unit, part.names[some], part.values[:, some], logarithmic), further=further
+                )
 
 
 def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, str]:

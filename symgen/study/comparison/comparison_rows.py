@@ -348,7 +348,7 @@ def check_columns_of_rows(what: Sequence[str], over: str) -> tuple[str, ...]:
 
 def plot_rows(studies: Sequence[Study], path: Path, what: Sequence[str], over: str) -> Path:
     """Draw columns of the rows of studies over another one, a panel for each study and column; see `Study.plot`."""
-    from symgen.result.plots import empty, label, style, write_figure
+    from symgen.result.plots import empty, label, legend, style, write_figure
 
     names = check_columns_of_rows(what, over)
     check_path("plot", path, PLOTTED, "plot")
@@ -361,11 +361,11 @@ def plot_rows(studies: Sequence[Study], path: Path, what: Sequence[str], over: s
             if row.ended and x and y:  # a logarithm has no zero
                 lines.setdefault(f"{row.label}, {row.integrator}", []).append((x, y))
         for i, (text, points) in enumerate(lines.items()):
-            ax.plot(*zip(*sorted(points), strict=True), label=text, marker="o", markersize=3.5, **style(i))
+            ax.plot(*zip(*points, strict=True), label=text, marker="o", markersize=3.5, **style(i))
         ax.set(xscale="log", yscale="log", ylabel=label(name.replace("_", " "), UNITS.get(name, "")))
         ax.set_title(study.mechanism if len(studies) > 1 else "", fontsize=8, loc="left")
         if lines:
-            ax.legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
+            legend(ax)
     axes[-1].set_xlabel(label(over.replace("_", " "), UNITS.get(over, "")))
     return write_figure(figure, path)
 
