@@ -30,7 +30,7 @@ LARGEST = {False: 145_000, True: 480_000}
 #: Characters for data at most.
 MOST_DATA = {False: 60_000, True: 150_000}
 #: Characters for plots of what a page need not have, beside these.
-MOST_PLOTS = {False: 100_000, True: 200_000}
+MOST_PLOTS = {False: 120_000, True: 200_000}
 #: How a page says that it has no forces.
 BARE = "forces are left out, as the page would be too large with them"
 SCRIPTS = {False: ("draw.js", "plots.js", "player.js"), True: ("solid.js", "draw.js", "plots.js", "player.js")}

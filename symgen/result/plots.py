@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from symgen.errors import fitting
 from symgen.files import write_whole
 from symgen.result.labelled import Labelled
 
@@ -128,11 +129,12 @@ def _distinct(curves: Mapping[str, Any]) -> dict[str, Any]:
 
 def _most_moving(table: Labelled) -> tuple[Labelled, int]:
     """Return the columns that change most, in their own order, as many as a key holds, and how many are left out."""
-    left = len(table.names) - LONGEST_LEGEND
-    if left <= 0 or not len(table.values):
+    first = fitting(len(table.names), LONGEST_LEGEND)
+    left = len(table.names) - first
+    if not left or not len(table.values):
         return table, 0
     change = np.nan_to_num(np.ptp(table.values, axis=0))
-    chosen = sorted(np.argsort(-change, kind="stable")[:LONGEST_LEGEND].tolist())
+    chosen = sorted(np.argsort(-change, kind="stable")[:first].tolist())
     names, units = (tuple(of[i] for i in chosen) for of in (table.names, table.units))
     return Labelled(table.values[:, chosen], names, units), left
 

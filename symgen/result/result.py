@@ -219,7 +219,7 @@ class Result(MotionTables):
         """Whether the status is ``"ok"``."""
         return self.status == OK
 
-    @property
+    @cached_property
     def energy(self) -> Labelled:
         """Energies as one table: ``kinetic``, ``potential``, ``work``, ``total`` (T + V), ``error`` [J]."""
         parts = {"kinetic": self.kinetic, "potential": self.potential, "work": self.work}

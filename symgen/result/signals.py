@@ -216,6 +216,6 @@ def choose(
             groups |= dict.fromkeys(column.partition(".")[0] for column in columns)
             candidates = [*columns, *groups] if len(columns) <= 60 or "." in name else [*groups]
             expected = f"a quantity of {mechanism}"
-            raise InputError(f"quantity '{name}'", expected, "none of that name", nearest(name, candidates))
+            raise InputError(f"quantity {quoted(name)}", expected, "none of that name", nearest(name, candidates))
         chosen |= matches
     return chosen

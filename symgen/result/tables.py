@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.arguments import one_of, shown, switch, words
+from symgen.arguments import one_of, shown, switch, text, words
 from symgen.arguments import path as argument_path
 from symgen.compiling.side import compile_side
 from symgen.describe.columns import column_name
@@ -279,7 +279,7 @@ class Tables(ABC):
 
     def along(self, over: str) -> Labelled:
         """Return the one column that other quantities are drawn over."""
-        if over == "t":
+        if text("over", over) == "t":
             return Labelled(self.t[:, np.newaxis], ("t",), ("s",))
         axis = self.select([over])
         check_single(over, axis.names)
