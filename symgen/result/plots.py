@@ -35,6 +35,8 @@ def panel_of(name: str, unit: str) -> tuple[str, str, bool]:
         return "violation", "m, m/s, m/s^2", True
     if name == "energy.error":
         return "|energy error|", unit, True
+    if unit == "m" and name.endswith((".x", ".y", ".z")):
+        return "position", unit, False
     return MEANINGS.get(unit, ""), "" if unit == "1" else unit, False
 
 

@@ -72,7 +72,7 @@ def test_violations_are_drawn_on_a_logarithmic_axis(result):
 
     figure = drawing(result.along("t"), result.select(["q", "violations"]), "")
     labels = {ax.get_ylabel(): ax.get_yscale() for ax in figure.axes}
-    assert labels == {"length [m]": "linear", "angle [rad]": "linear", "violation [m, m/s, m/s$^2$]": "log"}
+    assert labels == {"position [m]": "linear", "angle [rad]": "linear", "violation [m, m/s, m/s$^2$]": "log"}
     assert figure.axes[-1].get_xlabel() == "t [s]"
 
 
