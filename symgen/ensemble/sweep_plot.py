@@ -43,7 +43,7 @@ def sweep_figure(sweep: Sweep, what: Sequence[str], over: str) -> Any:
         place = [*kept].index(name)
         for i, (text, along, runs) in enumerate(lines):
             values = sweep.values[runs, place, -1] if over in varied else sweep.values[runs[0], place]
-            ax.plot(along, values, label=text, marker="." if len(along) < 2 else None, **_look(i, len(lines)))
+            ax.plot(along, values, label=text, marker="." if len(along) < 2 else None, **style(i, len(lines)))
         ax.set_ylabel(label(name, kept[name].unit))
         if 1 < len(lines) <= LONGEST_LEGEND:
             legend(ax)
@@ -76,12 +76,3 @@ def _lines(
             times = sweep.ensemble.recipe.spec.times
             along = times if over == "t" else sweep.values[runs[0], [*kept].index(over)]
         yield text, np.asarray(along), runs
-
-
-def _look(i: int, count: int) -> dict[str, Any]:
-    """Return the look of a line: one of few has a colour of its own, one of many a shade of one scale."""
-    if count <= LONGEST_LEGEND:
-        return style(i)
-    from matplotlib import colormaps
-
-    return {"color": colormaps["viridis"](i / (count - 1)), "linewidth": 0.7}

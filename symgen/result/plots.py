@@ -107,8 +107,12 @@ def paths(curves: Mapping[str, Any], title: str) -> Any:
     return figure
 
 
-def style(index: int) -> dict[str, Any]:
-    """Return colour and dashes of the line with a number."""
+def style(index: int, count: int = 1) -> dict[str, Any]:
+    """Return colour and dashes of the line with a number; lines that are too many for a legend shade one scale."""
+    if count > LONGEST_LEGEND:
+        from matplotlib import colormaps
+
+        return {"color": colormaps["viridis"](index / (count - 1)), "linewidth": 0.7}
     dashes = DASHES[index // len(COLOURS) % len(DASHES)]
     return {"color": COLOURS[index % len(COLOURS)], "linestyle": dashes, "linewidth": 1.2}
 
