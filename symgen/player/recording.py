@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 #: Fewest and most frames of a page, and most samples of a further group, which is plotted and not played.
 FEWEST, MOST, SAMPLES = 60, 1500, 300
-#: Columns of one plot at most.
-LONGEST_KEY = 14
+#: Columns of one plot at most, and those of one unit that pages plot of one table.
+LONGEST_KEY, MOST_OF_UNIT = 14, 112
 
 
 @dataclass(frozen=True)
@@ -113,13 +113,20 @@ class Recording:
     moments: tuple[Moment, ...] = ()
 
 
+def parts_of(title: str, count: int) -> Iterator[tuple[str, slice]]:
+    """Yield titles and columns of the groups that so many columns of one unit make."""
+    for i in range(0, min(count, MOST_OF_UNIT), LONGEST_KEY):
+        yield title if i == 0 else f"{title} {1 + i // LONGEST_KEY}", slice(i, i + LONGEST_KEY)
+
+
 def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
-    """Return positions and angles of the first bodies over time."""
+    """Return positions and angles of bodies over time."""
     groups = []
     names = [(f"{b.name}.{c}", c) for b in mechanism.bodies for c in b.coordinates]
-    for title, unit, wanted in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
-        chosen = [i for i, (_, c) in enumerate(names) if c in wanted][:LONGEST_KEY]
-        if chosen:
+    for meaning, unit, wanted in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
+        columns = [i for i, (_, c) in enumerate(names) if c in wanted]
+        for title, some in parts_of(meaning, len(columns)):
+            chosen = columns[some]
             own = tuple(names[i][0] for i in chosen)
             groups.append(PlottedGroup(title, unit, own, q[:, chosen], places=tuple(chosen)))
     return groups

@@ -16,7 +16,7 @@ from symgen.describe.inputs import are_words_of_data
 from symgen.errors import AssemblyError, InputError
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.motion_page import Page, page
-from symgen.player.recording import LONGEST_KEY, Moment, PlottedGroup, Recording, position_groups
+from symgen.player.recording import Moment, PlottedGroup, Recording, parts_of, position_groups
 from symgen.result.export import SAVED
 from symgen.result.labelled import Array, Labelled
 from symgen.result.plots import panels
@@ -121,8 +121,6 @@ _PLOTTED = {
     **{"v": "", "a": "", "lam": "multiplier", "body_reactions": "reaction in body axes"},
 }
 _ALWAYS = ("outputs", "q", "energy", "violations")
-#: Columns of one table with one unit that a page plots at most.
-MOST_OF_UNIT = 8 * LONGEST_KEY
 
 
 def _groups(mechanism: Mechanism, q: Array, read: Callable[[str], Labelled]) -> Iterator[PlottedGroup]:
@@ -133,9 +131,7 @@ def _groups(mechanism: Mechanism, q: Array, read: Callable[[str], Labelled]) -> 
             continue
         for meaning, unit, logarithmic, part in panels(read(table)):
             title = head if table == "outputs" else f"{head} {meaning}".strip()
-            for i in range(0, min(len(part.names), MOST_OF_UNIT), LONGEST_KEY):
-                some = slice(i, i + LONGEST_KEY)
-                numbered = title if i == 0 else f"{title} {1 + i // LONGEST_KEY}"
+            for numbered, some in parts_of(title, len(part.names)):
                 further = table not in _ALWAYS
                 yield PlottedGroup(
                     *(numbered, unit, part.names[some], part.values[:, some], logarithmic), further=further
