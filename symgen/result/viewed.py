@@ -20,7 +20,7 @@ from symgen.player.recording import Moment, PlottedGroup, Recording, parts_of, p
 from symgen.result.export import SAVED
 from symgen.result.labelled import Array, Labelled
 from symgen.result.plots import panels
-from symgen.result.saved import check_names, checked
+from symgen.result.saved import check_names, checked, dataset_of
 from symgen.result.signals import TABLES
 
 if TYPE_CHECKING:
@@ -255,9 +255,7 @@ def mechanism_name(option: str, path: Path) -> str:
 
 def _dataset(option: str, path: Path) -> xr.Dataset:
     def read(path: Path) -> xr.Dataset:
-        import xarray as xr
-
-        dataset = xr.load_dataset(path, engine="h5netcdf")
+        dataset = dataset_of(path)
         if not {"q", "energy", "violations", "reactions"} <= set(dataset.data_vars) or "mechanism" not in dataset.attrs:
             raise ValueError("it has not the tables of a result")
         if not {"parameters", "inputs", "start", "watched", "until"} <= set(json.loads(dataset.attrs["run"])):
