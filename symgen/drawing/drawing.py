@@ -19,6 +19,7 @@ from symgen.drawing.paper import Drawn, View, axes, on_paper
 from symgen.drawing.paper import Path as Stroke
 from symgen.drawing.pictures import svg, write_pixels
 from symgen.drawing.scene import COLOURS, Array, Item, Look, Point, Scene
+from symgen.drawing.viewpoint import USUAL, viewpoint
 from symgen.files import check_path, write_whole
 
 if TYPE_CHECKING:
@@ -28,8 +29,6 @@ if TYPE_CHECKING:
 PICTURES: Mapping[str, tuple[str, ...]] = {".svg": (), ".png": ("matplotlib",), ".pdf": ("matplotlib",)}
 #: Positions in a picture of a motion, and points of a way.
 POSES, PATH = 4, 300
-#: From where scenes in space are seen.
-ABOVE = View()
 
 
 @dataclass(frozen=True, repr=False)
@@ -56,7 +55,7 @@ class Drawing:
 
     scene: Scene
     q: tuple[float, ...]
-    view: View = ABOVE
+    view: View = USUAL
     ghosts: tuple[tuple[float, ...], ...] = ()
     paths: tuple[tuple[Point, ...], ...] = ()
     labels: bool | None = None
@@ -81,7 +80,7 @@ class Drawing:
         scene = build_scene(mechanism, q, values, open_joints)
         where = tuple(float(x) for x in np.asarray(q, dtype=np.float64).ravel())
         behind = tuple(tuple(map(float, ghost)) for ghost in ghosts)
-        return cls(scene, where, view or ABOVE, behind, (), labels, caption)
+        return cls(scene, where, view or viewpoint(scene, np.array(where)), behind, (), labels, caption)
 
     @classmethod
     def of_motion(
@@ -106,7 +105,7 @@ class Drawing:
         rows = [scene.poses(row).centres for row in q[:: max(1, len(q) // PATH)]]
         ways = np.stack(rows)[:, : len(scene.frames)].transpose(1, 0, 2)
         paths = tuple(tuple((float(x), float(y), float(z)) for x, y, z in way) for way in ways)
-        return cls(scene, tuple(q[0].tolist()), view or ABOVE, ghosts, paths, labels=False)
+        return cls(scene, tuple(q[0].tolist()), view or viewpoint(scene, q[0]), ghosts, paths, labels=False)
 
     @cached_property
     def svg(self) -> str:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.digits import cleaned, scale_of
 from symgen.drawing.scene import Array
 
 if TYPE_CHECKING:
@@ -118,11 +119,10 @@ def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
     return groups
 
 
-def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording, bool]:
-    """Return what a page holds of a recording, and whether its coordinates have 16 bits.
+def is_coarse(recording: Recording, room: int, further: int = 0) -> bool:
+    """Whether the coordinates of a page have 16 bits, between the smallest and the largest value, instead of 32.
 
-    Where `FEWEST` frames are too many characters, coordinates have 16 bits instead of 32 between the smallest and the
-    largest value, and where that is not enough, forces are left out.
+    They have where `FEWEST` frames would be too many characters otherwise.
 
     Parameters
     ----------
@@ -133,10 +133,7 @@ def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording
     further : int
         Columns of 16 bits beside those of the recording.
     """
-    for candidate, coarse in ((recording, False), (recording, True)):
-        if FEWEST * _characters(candidate, coarse, further) <= room:
-            return candidate, coarse
-    return replace(recording, reactions=None, pushed=(), pulls=None, pulling=()), True
+    return FEWEST * _characters(recording, False, further) > room
 
 
 def _characters(recording: Recording, coarse: bool, further: int) -> float:
@@ -191,7 +188,9 @@ def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str,
                 "names": list(group.names),
                 "log": group.logarithmic,
                 **shorts(
-                    np.log10(np.maximum(np.abs(group.values[keep]), 1e-17)) if group.logarithmic else group.values[keep]
+                    np.log10(np.maximum(np.abs(group.values[keep]), 1e-17))
+                    if group.logarithmic
+                    else cleaned(group.values[keep], scale_of(group.values.ravel(), group.unit))
                 ),
             }
             for group in recording.groups

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import Any, Protocol
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.arguments import shown, whole
+from symgen.digits import digits, scale_of
 from symgen.errors import InputError, nearest, quoted
 
 Array = NDArray[np.float64]
@@ -77,6 +78,20 @@ class Labelled:
         index = whole("row", index, -count, count - 1)
         return {name: float(x) for name, x in zip(self.names, self.values[index], strict=True)}
 
+    def texts(self, of: Callable[[Array], float] = lambda column: float(column[-1])) -> dict[str, str]:
+        """Return a number of each column as people read it, the last one by default; empty where there are no rows.
+
+        Parameters
+        ----------
+        of : callable
+            The number of a column. What rounding leaves beside the largest number of all columns of its unit is 0.
+        """
+        if not len(self.values):
+            return {}
+        scales = {unit: scale_of(self.values[:, [u == unit for u in self.units]].ravel(), unit) for unit in self.units}
+        columns = zip(self.names, self.units, self.values.T, strict=True)
+        return {name: digits(of(values), scales[unit]) for name, unit, values in columns}
+
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         if copy is False:
             return np.asarray(self.values, dtype=dtype)
@@ -92,11 +107,8 @@ class Labelled:
         return len(self.names)
 
     def _repr_html_(self) -> str:
-        def extremes(i: int) -> tuple[str, str, str]:
-            column = self.values[:, i]
-            return (f"{column.min():.6g}", f"{column.max():.6g}", f"{column[-1]:.6g}") if len(column) else ("", "", "")
-
-        rows = [(name, self.units[i], *extremes(i)) for i, name in enumerate(self.names)]
+        ends = (self.texts(np.min), self.texts(np.max), self.texts())
+        rows = [(name, self.units[i], *(texts.get(name, "") for texts in ends)) for i, name in enumerate(self.names)]
         return html_table(("", "unit", "smallest", "largest", "last"), rows, most=60)
 
     def __repr__(self) -> str:
