@@ -122,7 +122,9 @@ def _shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
     for title, values in (("coordinate", result.q), ("multiplier", result.multipliers)):
         if values:
             kinds = {name: _kind(name) if title == "coordinate" else "" for name in values}
-            scales = {kind: scale_of((x for n, x in values.items() if kinds[n] == kind), kind) for kind in kinds.values()}
+            scales = {
+                kind: scale_of((x for n, x in values.items() if kinds[n] == kind), kind) for kind in kinds.values()
+            }
             rows = [(n, digits(x, scales[kinds[n]], 9)) for n, x in list(values.items())[:MOST]]
             yield AnalysisTable((title, "value"), rows, left=(title,))
         if len(values) > MOST:

@@ -190,7 +190,10 @@ def _complex(x: complex) -> str:
 def _shown_locus(result: Locus) -> Iterator[str | AnalysisTable]:
     headings = (result.name, *(f"eigenvalue {k + 1} [1/s]" for k in range(result.branches.shape[1])))
     rows = [
-        (f"{value:g}", *("".join((real, imaginary, "i" * bool(imaginary))) for real, imaginary in map(complex_digits, row)))
+        (
+            f"{value:g}",
+            *("".join((real, imaginary, "i" * bool(imaginary))) for real, imaginary in map(complex_digits, row)),
+        )
         for value, row in zip(result.values, result.branches, strict=True)
     ]
     yield AnalysisTable(headings, rows)

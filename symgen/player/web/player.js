@@ -188,7 +188,7 @@ function tick(now) {
   const passed = Math.min((now - last) / 1000, 0.1);
   last = now;
   if (!motion.whole) compute(8);
-  else if (ranges) measure(6);
+  else if (ranges) workOutRanges(6);
   if (playing) {
     const end = motion.t[motion.t.length - 1] || 0;
     let to = time + passed * speed;
@@ -378,7 +378,7 @@ function* ranging(but = null) {
   }
 }
 
-function measure(budget) {
+function workOutRanges(budget) {
   const began = performance.now();
   while (ranges && performance.now() - began < budget) if (ranges.next().done) ranges = null;
 }
@@ -572,6 +572,11 @@ window.symgen = {
   gaps(share) {
     const t = motion.t[0] + share * (motion.end - motion.t[0]), told = motions[0].gaps;
     return told ? Object.fromEntries(told.names.map((name, k) => [name, columnAt(told.columns[k], motions[0].t, t)])) : null;
+  },
+  // Between which values the slider of each parameter goes, by name.
+  limits() {
+    workOutRanges(Infinity);
+    return Object.fromEntries(rows.map((row) => [row.name, [row.low, row.high]]));
   },
   // Seconds of motion that the live part works out in one second.
   pace(milliseconds = 300) {
