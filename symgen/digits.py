@@ -1,4 +1,4 @@
-"""Numbers as people read them: what rounding leaves of a zero is shown as 0. Saved data, JSON and CSV keep all digits."""
+"""Numbers as people read them: what rounding leaves of a zero is 0. Saved data, JSON and CSV keep all digits."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import Any
 
 #: A number below this part of the largest one beside it is what rounding leaves.
 NOTHING = 1e-12
+#: The scale of a column of a matrix, at least, as a part of the largest number of the matrix.
+BESIDE = 1e-2
 #: What numbers of these units are measured by at least, however small all of them are.
 OWN_SIZE = {"rad": 1.0, "deg": 1.0}
 
@@ -41,7 +43,14 @@ def complex_digits(x: complex, count: int = 6) -> tuple[str, str]:
     return f"{real:.{count}g}", f"{imaginary:+.{count}g}" if imaginary else ""
 
 
-def column(values: Sequence[float], unit: str = "", count: int = 6) -> list[str]:
-    """Return the texts of a column of one unit."""
-    scale = scale_of(values, unit)
+def column(values: Sequence[float], unit: str = "", count: int = 6, least: float = 0.0) -> list[str]:
+    """Return the texts of a column of one unit, whose scale is at least a given one."""
+    scale = max(scale_of(values, unit), least)
     return [digits(x, scale, count) for x in values]
+
+
+def table(rows: Sequence[Sequence[float]]) -> list[list[str]]:
+    """Return the texts of a matrix by rows; a column that is nothing beside the others may be rounding throughout."""
+    least = BESIDE * scale_of(x for row in rows for x in row)
+    columns = [column(values, least=least) for values in zip(*rows, strict=True)]
+    return [list(row) for row in zip(*columns, strict=True)]

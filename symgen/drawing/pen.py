@@ -126,7 +126,7 @@ class PlacedMechanism:
         return min(places), max(places)
 
     def travel(self, a: BodyPoint, b: BodyPoint, along: Array) -> tuple[float, float]:
-        """Return the smallest and the largest displacement of b from a along a direction, which a's body carries [m]."""
+        """Return the ends of b's displacement from a along a direction that a's body carries [m]."""
         own, places = self.now.turns[a.body].T @ along, list[float]()
         for poses in self.all:
             d = poses.out(b.body, [b.at])[0] - poses.out(a.body, [a.at])[0]

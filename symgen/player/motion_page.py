@@ -121,7 +121,7 @@ def rates_script(live: Live) -> str:
 
 
 def scene_data(scene: Scene, view: View) -> dict[str, Any]:
-    """Return a scene and its view as JSON has it: marks by letters, looks by number, points to a two-hundredth of a symbol."""
+    """Return a scene and its view for JSON: marks by letters, looks by number, points to 1/200 of a symbol."""
     looks: dict[Look, int] = {}
     size = 3 if scene.spatial else 2
     grid = 10.0 ** math.floor(math.log10(scene.unit / 200.0))
@@ -174,7 +174,7 @@ def scene_data(scene: Scene, view: View) -> dict[str, Any]:
 
 
 def _points(recording: Recording) -> list[list[Any]]:
-    """Return the points whose traces a page can draw: centres of mass, and those with names, with whether they are free.
+    """Return the points whose traces a page can draw: centres of mass, and points with names and whether they are free.
 
     A point is free that no joint ties, such as the foot of a leg.
     """

@@ -17,8 +17,8 @@ from symgen.analyses.kinds import (
     of_tables,
     settings_of,
 )
-from symgen.errors import InputError
 from symgen.digits import digits, scale_of
+from symgen.errors import InputError
 from symgen.settings import Settings, flag, is_given
 
 if TYPE_CHECKING:
