@@ -35,8 +35,10 @@ def test_columns_of_a_matrix_that_are_rounding_throughout() -> None:
 
 @pytest.mark.parametrize(
     "command",
-    ["linearise cart-pole", "linearise bicycle --at start --states lean,steer", "equilibrium slider-crank"]
-    + ["run slider-crank --until 0.5", "run bicycle --until 0.3"],
+    [
+        *("linearise cart-pole", "linearise bicycle --at start --states lean,steer", "equilibrium slider-crank"),
+        *("run slider-crank --until 0.5", "run bicycle --until 0.3"),
+    ],
 )
 def test_tables_of_the_command_show_no_rounding(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     """The same numbers are in the JSON with all their digits."""
