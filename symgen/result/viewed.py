@@ -163,15 +163,14 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, st
     names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
     names += [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
     begin = np.array([state[n] for n in names]) if set(names) <= set(state) else None
-    if prepared.tree is None:
-        live, note = live_part(mechanism, prepared.compiled, prepared.start, step, begin)
-        if live is not None or run["coordinates"] == "joint":
-            return live, note
-        on_tree = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
-        if on_tree.tree is None:
-            return None, note
-        prepared = on_tree
-    return _live_on_tree(prepared, prepared.tree, step, begin)
+    if prepared.tree is not None:
+        return _live_on_tree(prepared, prepared.tree, step, begin)
+    live, note = live_part(mechanism, prepared.compiled, prepared.start, step, begin)
+    if live is None and run["coordinates"] == "absolute":  # a tree has a tenth of the operations, or less
+        prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
+        if prepared.tree is not None:
+            return _live_on_tree(prepared, prepared.tree, step, begin)
+    return live, note
 
 
 def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None) -> tuple[Live | None, str]:
