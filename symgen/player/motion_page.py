@@ -15,17 +15,14 @@ from typing import Any
 import numpy as np
 
 from symgen.arguments import path as argument_path
-from symgen.describe.evaluate import evaluate
-from symgen.describe.mechanism import AnyBody
 from symgen.drawing.mechanism_scene import build_scene
 from symgen.drawing.paper import View
-from symgen.drawing.pen import parts
 from symgen.drawing.scene import Array, Disc, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
+from symgen.drawing.traced import traced_points
 from symgen.drawing.viewpoint import viewpoint
 from symgen.files import check_path, write_whole
 from symgen.player.live import Live
 from symgen.player.recording import Recording, frames_within, is_coarse, packed, shorts
-from symgen.vocabulary.measures import Marker
 
 #: The ending of pages, which need no library.
 PAGES: Mapping[str, tuple[str, ...]] = {".html": ()}
@@ -174,23 +171,12 @@ def scene_data(scene: Scene, view: View) -> dict[str, Any]:
 
 
 def _points(recording: Recording) -> list[list[Any]]:
-    """Return the points whose traces a page can draw: centres of mass, and points with names and whether they are free.
-
-    A point is free that no joint ties, such as the foot of a leg.
-    """
-    points: list[list[Any]] = []
+    """Return the points whose traces a page can draw."""
     size = 3 if recording.mechanism.space == "spatial" else 2
-    bodies: tuple[AnyBody, ...] = recording.mechanism.bodies
-    markers = [m for joint in recording.mechanism.joints for m in parts(joint.rows) if isinstance(m, Marker)]
-    tied = {(m.body, tuple(round(evaluate(e, recording.values), 9) for e in m.point)) for m in markers}
-    for i, body in enumerate(bodies):
-        points.append([f"{body.name}.centre", i, [0.0] * size])
-        centre = np.array([evaluate(e, recording.values) for e in body.centre_of_mass])
-        for name, p in body.points:
-            place = [evaluate(e, recording.values) for e in p]
-            at, free = np.array(place) - centre, (body.name, tuple(round(x, 9) for x in place)) not in tied
-            points.append([f"{body.name}.{name}", i, [float(f"{x:.6g}") for x in at], int(free)])
-    return points
+    return [
+        [p.name, p.body, [float(f"{x:.6g}") for x in p.at[:size]], *([1] if p.free else [])]
+        for p in traced_points(recording.mechanism, recording.values)
+    ]
 
 
 @dataclass(frozen=True, repr=False)
