@@ -49,16 +49,22 @@ def _coordinates(model: Model) -> list[str]:
     return [f"{body.name}.{c}" for body in model.mechanism.bodies for c in body.coordinates]
 
 
-def _press() -> str:
-    """Return the press of the tutorial, as its page describes it."""
-    text = (DOCS / "tutorial.md").read_text(encoding="utf-8")
-    found = re.search(r"```toml\n(\[mechanism\]\nname = \"press\".*?)```", text, re.DOTALL)
-    assert found is not None, "the tutorial describes its press"
-    return Model(validate(parse_toml(found[1], "tutorial"), "tutorial")).draw().svg
+def _described(page: str, name: str) -> str:
+    """Return a mechanism as a page of docs describes it."""
+    text = (DOCS / page).read_text(encoding="utf-8")
+    found = re.search(rf"```toml\n(\[mechanism\]\nname = \"{name}\".*?)```", text, re.DOTALL)
+    assert found is not None, f"{page} describes '{name}'"
+    return Model(validate(parse_toml(found[1], page), page)).draw().svg
 
 
 #: Name of the file -> what draws it.
-DRAWN: Mapping[str, Callable[[], str]] = {"leg": _leg, "coupler-paths": _path, "mode": _mode, "press": _press}
+DRAWN: Mapping[str, Callable[[], str]] = {
+    "leg": _leg,
+    "coupler-paths": _path,
+    "mode": _mode,
+    "press": lambda: _described("tutorial.md", "press"),
+    "crane": lambda: _described("tutorials/modes.md", "crane"),
+}
 
 
 def main() -> None:

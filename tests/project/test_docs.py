@@ -15,7 +15,6 @@ from support.processes import COMMAND, python
 import symgen
 from benchmarks import gallery
 from symgen.api import load
-from symgen.catalogue import entries
 from symgen.describe.digest import digest
 from symgen.describe.events import EventSection
 from symgen.describe.load import parse_toml
