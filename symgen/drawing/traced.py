@@ -58,8 +58,8 @@ def traced_points(mechanism: Mechanism, values: Mapping[str, float]) -> list[Tra
 
     markers = [m for joint in mechanism.joints for m in parts(joint.rows) if isinstance(m, Marker)]
     tied = {(m.body, rounded(m.point)) for m in markers}
-    points, bodies = list[TracedPoint](), mechanism.bodies
-    body: AnyBody
+    points = list[TracedPoint]()
+    bodies: tuple[AnyBody, ...] = mechanism.bodies
     for i, body in enumerate(bodies):
         points.append(TracedPoint(f"{body.name}.centre", i, (0.0, 0.0, 0.0), free=False))
         centre = numbers(body.centre_of_mass)
