@@ -174,7 +174,7 @@ def _parts(recording: Recording) -> Iterator[tuple[Array, bool]]:
 
 
 def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str, Any]:
-    """Return what a page reads of a recording; arrays are columns behind each other in base 64."""
+    """Return the part of a recording that a page reads; arrays are columns behind each other in base 64."""
     data: dict[str, Any] = {
         "t": floats(recording.t[keep, None]),
         "q": shorts(recording.q[keep]) if coarse else floats(recording.q[keep]),
