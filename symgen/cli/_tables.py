@@ -113,9 +113,11 @@ def show_quantities(quantities: Mapping[str, Mapping[str, Any]]) -> None:
 
 def _final(result: Result, most: int = 12) -> tuple[list[str], list[tuple[str, ...]]]:
     """Return the last positions and velocities, of the first bodies where there are many."""
+    from symgen.result.labelled import column_texts
+
     bodies = dict[str, dict[str, str]]()
     for table in (result.q, result.v):
-        for name, text in table.texts().items():
+        for name, text in column_texts(table).items():
             body, _, label = name.rpartition(".")
             bodies.setdefault(body, {})[label] = text
     labels = sorted({label for row in bodies.values() for label in row}, key=_LABELS.index)

@@ -78,20 +78,6 @@ class Labelled:
         index = whole("row", index, -count, count - 1)
         return {name: float(x) for name, x in zip(self.names, self.values[index], strict=True)}
 
-    def texts(self, of: Callable[[Array], float] = lambda column: float(column[-1])) -> dict[str, str]:
-        """Return a number of each column as people read it, the last one by default; empty where there are no rows.
-
-        Parameters
-        ----------
-        of : callable
-            The number of a column. What rounding leaves beside the largest number of all columns of its unit is 0.
-        """
-        if not len(self.values):
-            return {}
-        scales = {unit: scale_of(self.values[:, [u == unit for u in self.units]].ravel(), unit) for unit in self.units}
-        columns = zip(self.names, self.units, self.values.T, strict=True)
-        return {name: digits(of(values), scales[unit]) for name, unit, values in columns}
-
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         if copy is False:
             return np.asarray(self.values, dtype=dtype)
@@ -107,13 +93,33 @@ class Labelled:
         return len(self.names)
 
     def _repr_html_(self) -> str:
-        ends = (self.texts(np.min), self.texts(np.max), self.texts())
+        ends = (column_texts(self, np.min), column_texts(self, np.max), column_texts(self))
         rows = [(name, self.units[i], *(texts.get(name, "") for texts in ends)) for i, name in enumerate(self.names)]
         return html_table(("", "unit", "smallest", "largest", "last"), rows, most=60)
 
     def __repr__(self) -> str:
         shown = ", ".join(self.names[:6]) + (", ..." if len(self.names) > 6 else "")
         return f"Labelled({self.values.shape[0]} outputs of {len(self.names)}: {shown})"
+
+
+def column_texts(table: Labelled, of: Callable[[Array], float] = lambda column: float(column[-1])) -> dict[str, str]:
+    """Return a number of each column as people read it, by the names; empty where there are no rows.
+
+    What rounding leaves beside the largest number of all columns of its unit is 0.
+
+    Parameters
+    ----------
+    table : Labelled
+        The columns.
+    of : callable
+        The number of a column, the last one by default.
+    """
+    if not len(table.values):
+        return {}
+    units = np.array(table.units)
+    scales = {unit: scale_of(table.values[:, units == unit].ravel(), unit) for unit in set(table.units)}
+    columns = zip(table.names, table.units, table.values.T, strict=True)
+    return {name: digits(of(values), scales[unit]) for name, unit, values in columns}
 
 
 def html_table(headings: Sequence[str], rows: Sequence[Sequence[str]], most: int = 200) -> str:

@@ -9,7 +9,7 @@ import pytest
 from symgen.api import load
 from symgen.cli import main
 from symgen.digits import cleaned, column, complex_digits, digits, scale_of, table
-from symgen.result.labelled import Labelled
+from symgen.result.labelled import Labelled, column_texts
 
 #: A number below 1e-13 as text.
 ROUNDING = re.compile(r"\de-(1[3-9]|[2-9]\d)")
@@ -57,7 +57,7 @@ def test_tables_of_the_command_show_no_rounding(command: str, capsys: pytest.Cap
 def test_notebooks_show_no_rounding_and_the_table_keeps_it() -> None:
     values = np.array([[1.0, 2e-17, 5e-18], [2.0, -1e-16, 1e-17]])
     shown = Labelled(values, ("a.x", "a.y", "a.theta"), ("m", "m", "rad"))
-    assert shown.texts() == {"a.x": "2", "a.y": "0", "a.theta": "0"} and "e-1" not in shown._repr_html_()
+    assert column_texts(shown) == {"a.x": "2", "a.y": "0", "a.theta": "0"} and "e-1" not in shown._repr_html_()
     assert shown.row()["a.y"] == -1e-16
     result = load("slider-crank").simulate(until=0.5)
     assert ROUNDING.search(str(result.q.row())) and not ROUNDING.search(result.q._repr_html_())
