@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from symgen.analyses.kinds import STATE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_of
+from symgen.digits import digits, scale_of
 from symgen.errors import InputError, fitting
 from symgen.settings import Settings
 
@@ -121,11 +122,19 @@ def _shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
     for title, values in (("coordinate", result.q), ("multiplier", result.multipliers)):
         first = fitting(len(values), MOST)
         if values:
-            yield AnalysisTable(
-                (title, "value"), [(n, f"{x:.9g}") for n, x in list(values.items())[:first]], left=(title,)
-            )
+            kinds = {name: _kind(name) if title == "coordinate" else "" for name in values}
+            scales = {
+                kind: scale_of((x for n, x in values.items() if kinds[n] == kind), kind) for kind in kinds.values()
+            }
+            rows = [(n, digits(x, scales[kinds[n]], 9)) for n, x in list(values.items())[:first]]
+            yield AnalysisTable((title, "value"), rows, left=(title,))
         if len(values) > first:
             yield f"... and {len(values) - first} more; --json has all"
+
+
+def _kind(coordinate: str) -> str:
+    """Return what a coordinate is compared with: lengths with lengths, angles with a radian."""
+    return "m" if coordinate.rpartition(".")[2] in ("x", "y", "z", "displacement") else "rad"
 
 
 KIND = Analysis(

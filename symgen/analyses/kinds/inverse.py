@@ -18,6 +18,7 @@ from symgen.analyses.kinds import (
     of_tables,
     settings_of,
 )
+from symgen.digits import digits, scale_of
 from symgen.errors import InputError
 from symgen.settings import Settings, flag, is_given
 
@@ -114,9 +115,11 @@ def _shown(result: Inverse) -> Iterator[str | AnalysisTable]:
     yield f"{result.mechanism}: efforts at {len(result.t)} times"
     columns = {"largest": "max", "rms": "rms", "unit": "unit", "at [s]": "at"}
     columns |= {"peak power [W]": "peak_power", "energy [J]": "energy"}
+    entries = result.summary()
+    scales = {key: scale_of(e[key] for e in entries.values() if key in e) for key in columns.values() if key != "unit"}
     rows = [
-        (name, *(x if isinstance(x := entry.get(key, ""), str) else f"{x:.6g}" for key in columns.values()))
-        for name, entry in result.summary().items()
+        (name, *(x if isinstance(x := entry.get(key, ""), str) else digits(x, scales[key]) for key in columns.values()))
+        for name, entry in entries.items()
     ]
     yield AnalysisTable(("effort", *columns), rows, left=("effort", "unit"))
 

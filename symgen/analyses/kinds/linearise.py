@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
+from symgen.digits import table
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -75,7 +76,7 @@ def _shown(system: LinearSystem) -> Iterator[str | AnalysisTable]:
     )
     for title, rows, columns, values in matrices:
         if values.size:
-            cells = [(name, *(f"{x:.6g}" for x in row)) for name, row in zip(rows, values, strict=True)]
+            cells = [(name, *row) for name, row in zip(rows, table(values.tolist()), strict=True)]
             yield AnalysisTable((title, *columns), cells, left=(title,))
     if system.left_out:
         yield f"outputs left out, as they depend on more than the states: {', '.join(system.left_out)}"

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from symgen import arguments
 from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
+from symgen.digits import complex_digits, digits
 from symgen.errors import InputError, fitting
 from symgen.settings import Settings
 
@@ -167,7 +168,7 @@ def _shown(result: Modes) -> Iterator[str | AnalysisTable]:
     tables = {heading: parts for heading, parts in tables.items() if parts}
     rows = [
         (
-            *(str(k + 1), _complex(value), f"{result.frequencies[k]:.6g}", f"{result.damping[k]:.4g}"),
+            *(str(k + 1), _complex(value), f"{result.frequencies[k]:.6g}", digits(result.damping[k], 1.0, 4)),
             *(_shares(parts, k) for parts in tables.values()),
         )
         for k, value in enumerate(result.of_shapes[:first])
@@ -186,13 +187,17 @@ def _shares(parts: Mapping[str, Any], k: int, most: int = 4) -> str:
 
 
 def _complex(x: complex) -> str:
-    return f"{x.real:.6g}" + (f" +- {abs(x.imag):.6g}i" if x.imag else "")
+    real, imaginary = complex_digits(x)
+    return real + (f" +- {imaginary[1:]}i" if imaginary else "")
 
 
 def _shown_locus(result: Locus) -> Iterator[str | AnalysisTable]:
     headings = (result.name, *(f"eigenvalue {k + 1} [1/s]" for k in range(result.branches.shape[1])))
     rows = [
-        (f"{value:g}", *(f"{x.real:.5g}{x.imag:+.5g}i" if x.imag else f"{x.real:.5g}" for x in row))
+        (
+            f"{value:g}",
+            *("".join((real, imaginary, "i" * bool(imaginary))) for real, imaginary in map(complex_digits, row)),
+        )
         for value, row in zip(result.values, result.branches, strict=True)
     ]
     yield AnalysisTable(headings, rows)
