@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from symgen.describe.load import load as load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
 from symgen.errors import AssemblyError, InputError, nearest
+from symgen.keywords import RunKeywords, takes
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
 from symgen.running.starts import start_of
@@ -52,9 +53,25 @@ def load(model: str | Path | Mechanism | Model) -> Model:
     return Model(model if isinstance(model, Mechanism) else load_mechanism(model))
 
 
-def simulate(model: str | Path | Mechanism | Model, settings: Settings | None = None, **changes: object) -> Result:
-    """Load and run a model in one go; see `load` and `Model.simulate`."""
-    return load(model).simulate(settings, **changes)  # type: ignore[arg-type]  # names are checked by changed
+@takes
+def simulate(
+    model: str | Path | Mechanism | Model,
+    settings: Settings | None = None,
+    progress: Callable[[float], None] | None = None,
+    **changes: Unpack[RunKeywords],
+) -> Result:
+    """Load and run a model in one go.
+
+    Parameters
+    ----------
+    model
+        As for `load`.
+    settings, progress
+        As for `Model.simulate`.
+    **changes
+        Single settings by name, as listed above.
+    """
+    return load(model).simulate(settings, progress, **changes)
 
 
 @dataclass(frozen=True, repr=False)
@@ -310,8 +327,12 @@ class Model(Analysed):
             arguments.one_of("target", target, TARGETS),
         )
 
+    @takes
     def simulate(
-        self, settings: Settings | None = None, progress: Callable[[float], None] | None = None, **changes: object
+        self,
+        settings: Settings | None = None,
+        progress: Callable[[float], None] | None = None,
+        **changes: Unpack[RunKeywords],
     ) -> Result:
         """Run the model.
 
@@ -322,19 +343,7 @@ class Model(Analysed):
         progress : callable, optional
             Called about ten times a second with the time reached.
         **changes
-            Single settings: ``method``, ``integrator``, ``step`` [s] (constant, or first of an adaptive run),
-            ``rtol``, ``atol``, ``until`` [s], ``output_step`` [s] or ``times`` [s], ``parameters`` (values by name),
-            ``inputs`` (by name a number, a formula of t, parameters and state, a pair of times and values, or a mapping
-            with ``t`` and ``u``, or ``file`` and ``column``, and ``interpolation``), ``start`` (values of coordinates
-            and velocities that the start keeps, by name, or a result that is gone on from), ``options``
-            (``"method.alpha": 5``), ``stop_when`` and ``record_when`` (conditions such as
-            ``"crank.theta > 2*pi"``, one or several, at which the run ends or which are noted), ``events`` (tables as
-            in ``[events]`` of a file, by name), ``strict`` (refuse an inconsistent start), ``verify`` (estimate
-            the error by a second run with finer steps, which also settles an `unverified` run), ``max_violation`` and
-            ``max_energy_error`` (what ends a run as failed), ``max_step`` [s] (the largest one of an adaptive run),
-            ``max_attempts`` (attempts at steps after which a run has failed), ``repeat`` (warm up, then time that many
-            runs and report the shortest), ``shape`` (``auto``, ``straight`` or ``looped``), ``coordinates``
-            (``absolute``, ``joint`` or ``auto``: those of bodies, or of the joints of a tree).
+            Single settings by name, as listed above.
 
         Returns
         -------
@@ -359,7 +368,8 @@ class Model(Analysed):
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
         return build_result(run, outcome, runs.spread, verification)
 
-    def start(self, settings: Settings | None = None, **changes: object) -> SteppedRun:
+    @takes
+    def start(self, settings: Settings | None = None, **changes: Unpack[RunKeywords]) -> SteppedRun:
         """Return a run that goes on step by step, at its start.
 
         Parameters
@@ -367,7 +377,7 @@ class Model(Analysed):
         settings : Settings, optional
             All settings at once.
         **changes
-            Single settings, as for `simulate`. ``until`` is no end, but says in which time a motion that begins at rest
+            Single settings by name, as listed above. ``until`` is no end, but says in which time a motion that begins at rest
             may be expected to cross the mechanism. In joint coordinates the state is that of the joints of the tree, by
             their names, and `SteppedRun.bodies` says where bodies are. Where an integrator with constant steps is given
             no ``step``, each call of `SteppedRun.step` is one step. Settings of outputs, of repetitions and of second

@@ -12,16 +12,15 @@ from pathlib import Path
 from typing import Any, Literal
 
 from symgen.errors import InputError
+from symgen.keywords import DrivenKeywords, PlaceKeywords, StateKeywords
+from symgen.keywords import names as names_of
 from symgen.registry import Registry
 from symgen.settings import Settings, changed
 
 #: Settings that count for analyses about a state, and for motions that drivers prescribe.
-OF_STATES = ("parameters", "inputs", "start", "coordinates", "shape")
-OF_MOTIONS = ("parameters", "inputs", "start", "strict", "shape")
+OF_STATES, OF_MOTIONS = names_of(StateKeywords), names_of(DrivenKeywords)
 #: Those of them that count where drivers say the motion, not where it was recorded.
 OF_DRIVEN = ("start", "strict")
-#: And beside those of states for a run that leads to one.
-OF_RUNS = (*OF_STATES, "options", "events", "strict", "max_violation", "max_energy_error", "max_step", "max_attempts")
 
 Kind = Literal["text", "texts", "whole", "switch", "words", "numbers", "range", "times", "plot", "tables"]
 
@@ -182,7 +181,7 @@ def settings_of(
 
 def settings_at(where: str, settings: Settings | None, changes: Mapping[str, object], at: str | float) -> Settings:
     """Return settings of an analysis about a place; those of a run count where one leads there."""
-    return settings_of(where, settings, changes, OF_STATES if isinstance(at, str) else OF_RUNS)
+    return settings_of(where, settings, changes, OF_STATES if isinstance(at, str) else names_of(PlaceKeywords))
 
 
 ANALYSES: Registry[Analysis] = Registry(__name__, "analysis")

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 from symgen.analyses.kinds import STATE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_of
 from symgen.errors import InputError
+from symgen.keywords import StateKeywords
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 MOST = 40
 
 
-def equilibrium(model: Analysed, settings: Settings | None = None, **changes: object) -> Equilibrium:
+def equilibrium(model: Analysed, settings: Settings | None = None, **changes: Unpack[StateKeywords]) -> Equilibrium:
     """Return the equilibrium that the start leads to: the one it is near to, or a stable one further away.
 
     Parameters
@@ -31,7 +32,7 @@ def equilibrium(model: Analysed, settings: Settings | None = None, **changes: ob
         All settings at once; ``parameters``, ``inputs``, ``start``, ``coordinates`` and ``shape`` are looked at:
         looped code, and any mechanism with more than 300 coordinates, is searched with sparse matrices.
     **changes
-        Single settings among these; others are refused. Drivers hold what they drive where it is at the time 0.
+        Other settings are refused. Drivers hold what they drive where it is at the time 0.
 
     Raises
     ------
@@ -44,7 +45,7 @@ def equilibrium(model: Analysed, settings: Settings | None = None, **changes: ob
 
 
 def equilibria(
-    model: Analysed, scan: tuple[str, Sequence[float] | Array], settings: Settings | None = None, **changes: object
+    model: Analysed, scan: tuple[str, Sequence[float] | Array], settings: Settings | None = None, **changes: Unpack[StateKeywords]
 ) -> tuple[Equilibrium, ...]:
     """Return all equilibria that are found over a range of a coordinate.
 
@@ -52,8 +53,10 @@ def equilibria(
     ----------
     scan : (str, sequence of float)
         The coordinate and its values, such as ``("crank.theta", numpy.linspace(0, 6.28, 25))``.
-    settings, **changes
+    settings : Settings, optional
         As for `equilibrium`.
+    **changes
+        Other settings are refused.
 
     Raises
     ------
@@ -66,17 +69,19 @@ def equilibria(
 
 
 def steady(
-    model: Analysed, settings: Settings | None = None, *, cyclic: Sequence[str] = (), **changes: object
+    model: Analysed, settings: Settings | None = None, *, cyclic: Sequence[str] = (), **changes: Unpack[StateKeywords]
 ) -> Equilibrium:
     """Return the steady motion that the start leads to: cyclic coordinates turn on, everything else stays.
 
     Parameters
     ----------
-    settings, **changes
+    settings : Settings, optional
         As for `equilibrium`; coordinates are those of joints. Cyclic coordinates keep their speeds of the start,
         and drivers move.
     cyclic : sequence of str
         Coordinates of joints that turn on; those that nothing depends on by default.
+    **changes
+        Other settings are refused.
 
     Raises
     ------

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
+from symgen.keywords import PlaceKeywords
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -22,13 +23,13 @@ def linearise(
     cyclic: Sequence[str] = (),
     instantaneous: bool = False,
     by: Sequence[str] = (),
-    **changes: object,
+    **changes: Unpack[PlaceKeywords],
 ) -> LinearSystem:
     """Return the linear system x' = A x + B u, y = C x + D u about a state of rest or of steady motion.
 
     Parameters
     ----------
-    settings, at, **changes
+    settings, at
         As for `modes`.
     states : sequence of str
         Which quantities are the states: coordinates of bodies and joints, velocities, outputs of the file, and
@@ -39,6 +40,8 @@ def linearise(
         Whether a motion that is not steady has the system of the instant.
     by : sequence of str
         Parameters that are inputs as well: constants, changed once and for all while the states stay.
+    **changes
+        Other settings are refused; those from ``options`` on count where `at` is a time of a run.
 
     Raises
     ------

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 from symgen import arguments
 from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
 from symgen.errors import InputError
+from symgen.keywords import PlaceKeywords
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ def modes(
     states: Sequence[str] = (),
     cyclic: Sequence[str] = (),
     count: int | None = None,
-    **changes: object,
+    **changes: Unpack[PlaceKeywords],
 ) -> Modes:
     """Return eigenvalues, frequencies, damping and shapes about a state of rest or of steady motion.
 
@@ -51,9 +52,7 @@ def modes(
         Only that many of the lowest modes, without dampers, about the equilibrium near the start: by sparse
         matrices from looped code, for mechanisms of any size.
     **changes
-        Single settings among these; with a time also those that a run to it has: ``options``, ``events``,
-        ``strict``, ``max_violation``, ``max_energy_error``, ``max_step``,
-        ``max_attempts``.
+        Other settings are refused; those of a run count where `at` is a time.
 
     Raises
     ------
@@ -74,7 +73,7 @@ def view_mode(
     settings: Settings | None = None,
     *,
     at: str | float = "equilibrium",
-    **changes: object,
+    **changes: Unpack[PlaceKeywords],
 ) -> Page:
     """Return a page that plays a mode shape, with the state that it is about drawn faintly behind.
 
@@ -87,9 +86,7 @@ def view_mode(
     at : {"equilibrium", "start"} or float
         As for `modes`; in a steady motion shapes are not those of bodies.
     **changes
-        Single settings among these; with a time also those that a run to it has: ``options``, ``events``,
-        ``strict``, ``max_violation``, ``max_energy_error``, ``max_step``,
-        ``max_attempts``.
+        Other settings are refused; those of a run count where `at` is a time.
 
     Raises
     ------
@@ -113,7 +110,7 @@ def locus(
     at: str | float = "equilibrium",
     states: Sequence[str] = (),
     cyclic: Sequence[str] = (),
-    **changes: object,
+    **changes: Unpack[PlaceKeywords],
 ) -> Locus:
     """Return how the eigenvalues move with a parameter.
 
@@ -121,8 +118,10 @@ def locus(
     ----------
     over : (str, sequence of float)
         The parameter and its values.
-    settings, at, states, cyclic, **changes
+    settings, at, states, cyclic
         As for `modes`.
+    **changes
+        Other settings are refused; those of a run count where `at` is a time.
     """
     from symgen.analyses.locus import locus as locus_of
     from symgen.analyses.places import NamedPlace
