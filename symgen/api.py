@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
@@ -18,9 +18,9 @@ from symgen.describe.holds import holds_of
 from symgen.describe.load import load as load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
-from symgen.errors import AssemblyError, InputError, nearest
+from symgen.errors import InputError, nearest
 from symgen.keywords import RunKeywords, takes
-from symgen.running.plan import Purpose
+from symgen.reading.model_views import Shown
 from symgen.running.prepare import prepare
 from symgen.running.starts import start_of
 from symgen.runtime.compiled import CompiledModel
@@ -28,9 +28,9 @@ from symgen.runtime.run import Array
 from symgen.settings import COORDINATES, SHAPES, Settings, changed, is_given
 
 if TYPE_CHECKING:
+    from symgen import compare as _compare
+    from symgen import sweep as _sweep
     from symgen.compiling.pipeline import MethodChoice
-    from symgen.drawing import Drawing, View
-    from symgen.reading.symbolic_equations import SymbolicEquations
     from symgen.result.result import Result
     from symgen.running.package import Package
     from symgen.runtime.assembly import Start
@@ -74,8 +74,19 @@ def simulate(
     return load(model).simulate(settings, progress, **changes)
 
 
+class _OfPackage:
+    """A function of the package as a method; its module stands above this one and is imported when it is used."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __get__(self, model: object, owner: type) -> Any:
+        setattr(owner, self.name, getattr(import_module("symgen"), self.name))
+        return getattr(owner if model is None else model, self.name)
+
+
 @dataclass(frozen=True, repr=False)
-class Model(Analysed):
+class Model(Analysed, Shown):
     """A mechanism that can be compiled and run.
 
     Attributes
@@ -103,30 +114,6 @@ class Model(Analysed):
             If a name is not a parameter or a value is not finite.
         """
         return parameter_values(self.mechanism, changed)
-
-    @cached_property
-    def equations(self) -> SymbolicEquations:
-        """The derived equations in coordinates of bodies as SymPy matrices and symbols: exactly what is compiled."""
-        return self.equations_in("absolute")
-
-    def equations_in(self, coordinates: str) -> SymbolicEquations:
-        """Return the derived equations in some coordinates as SymPy matrices and symbols.
-
-        Parameters
-        ----------
-        coordinates : {"absolute", "joint"}
-            Those of bodies, or of the joints of a tree.
-
-        Raises
-        ------
-        InputError
-            If there are no such coordinates.
-        """
-        from symgen.compiling.choices import on_tree
-        from symgen.reading.symbolic_equations import SymbolicEquations
-
-        kind = arguments.one_of("coordinates", coordinates, ("absolute", "joint"))
-        return SymbolicEquations(on_tree(self.mechanism) if kind == "joint" else self.mechanism)
 
     def compile(
         self, method: str = "direct-correction", options: Mapping[str, str] | None = None, shape: str = "straight"
@@ -207,69 +194,6 @@ class Model(Analysed):
             held = holds_of(self.mechanism, "start", settings)  # type: ignore[assignment]  # of names, by index later
         return start_of(self.mechanism, compiled, parameters, method_parameters, strict, held, ask_light)  # type: ignore[arg-type]
 
-    def draw(
-        self,
-        parameters: Mapping[str, float] | None = None,
-        start: Mapping[str, float] | None = None,
-        *,
-        at: str = "start",
-        q: Sequence[float] | Array | None = None,
-        view: View | None = None,
-    ) -> Drawing:
-        """Return a picture of the mechanism, which notebooks show and ``.save("x.svg")`` writes.
-
-        Where the mechanism cannot be assembled the picture shows where that stopped, with the joints that stay open
-        marked and the reason below it.
-
-        Parameters
-        ----------
-        parameters : mapping, optional
-            Values of parameters that differ from the described ones.
-        start : mapping, optional
-            Values of coordinates that the start keeps, as for `simulate`.
-        at : {"start", "described"}
-            The assembled start, or the one that the description has, which may be open.
-        q : array, shape (nq,), optional
-            Coordinates of all bodies, in place of a start.
-        view : View, optional
-            From where a mechanism in space is seen.
-        """
-        from symgen.drawing.drawing import Drawing
-        from symgen.drawing.paper import View
-
-        if view is not None:
-            arguments.of_kind("view", view, View, "a symgen.drawing.View")
-        values = self.parameters(parameters)
-        described = self.initial_state(values)[0]
-        placed = arguments.one_of("at", at, ("start", "described")) == "described" or q is not None
-        if placed and start:
-            raise InputError("start", "a picture of the start", "one of other coordinates, which are kept as they are")
-        if q is None and placed:
-            q = described
-        if q is not None:
-            q = arguments.numbers("q", list(q) if isinstance(q, np.ndarray) else q)
-            return Drawing.of(self.mechanism, q, values, view=view)
-        try:
-            settings = Settings(start=start or {}, parameters=parameters or {})
-            closed_start = prepare(self.mechanism, settings, Purpose.STATE).start
-        except AssemblyError as error:
-            q = error.q or described
-            scene = Drawing.of(self.mechanism, q, values).scene
-            limit = 1e-3 * scene.unit
-            wide = [item.name for item, gap in zip(scene.pins, scene.gaps(q), strict=True) if gap > limit]
-            return Drawing.of(
-                *(self.mechanism, q, values),
-                open_joints=tuple(dict.fromkeys((*error.joints, *wide))),
-                view=view,
-                caption=str(error),
-            )
-        closed, words = closed_start.y[: len(described)], closed_start.warnings
-        ghosts = [described.tolist()] if words else []
-        return Drawing.of(self.mechanism, closed, values, view=view, ghosts=ghosts, caption="; ".join(words))
-
-    def _repr_svg_(self) -> str:
-        return self.draw().svg
-
     def __repr__(self) -> str:
         return repr(self.mechanism).replace("<Mechanism", "<Model", 1)
 
@@ -327,6 +251,12 @@ class Model(Analysed):
             arguments.one_of("target", target, TARGETS),
         )
 
+    # editors and type checkers see the functions, which are imported when they are first called
+    if TYPE_CHECKING:
+        compare, sweep = _compare, _sweep
+    else:
+        compare, sweep = _OfPackage("compare"), _OfPackage("sweep")
+
     @takes
     def simulate(
         self,
@@ -377,11 +307,11 @@ class Model(Analysed):
         settings : Settings, optional
             All settings at once.
         **changes
-            Single settings by name, as listed above. ``until`` is no end, but says in which time a motion that begins at rest
-            may be expected to cross the mechanism. In joint coordinates the state is that of the joints of the tree, by
-            their names, and `SteppedRun.bodies` says where bodies are. Where an integrator with constant steps is given
-            no ``step``, each call of `SteppedRun.step` is one step. Settings of outputs, of repetitions and of second
-            runs mean nothing here and are refused.
+            Single settings by name, as listed above. ``until`` is no end, but the time in which a motion that begins
+            at rest may be expected to cross the mechanism. In joint coordinates the state is that of the joints of the
+            tree, by their names, and `SteppedRun.bodies` has the places of bodies. Where an integrator with constant
+            steps is given no ``step``, each call of `SteppedRun.step` is one step. Settings of outputs, of repetitions
+            and of second runs mean nothing here and are refused.
 
         Raises
         ------

@@ -138,6 +138,11 @@ def quoted(text: object, longest: int = LONGEST_QUOTE) -> str:
     return shown if len(shown) <= longest else shown[: longest - 4] + "...'"
 
 
+def counted(n: int, one: str, many: str = "") -> str:
+    """Return a number of things: 1 run, 3 runs."""
+    return f"{n} {one if n == 1 else many or one + 's'}"
+
+
 def nearest(word: str, candidates: Iterable[str]) -> str:
     """Return the hint ``did you mean 'x'?`` for the closest known word, or the list of known words."""
     names = sorted(set(candidates))

@@ -1,19 +1,15 @@
 """Settings as keyword arguments: their types for editors and type checkers, and the signatures that notebooks show.
 
-Names, defaults and sentences are those of the table in `symgen.settings`; a test compares the names and types here.
+Names, defaults and sentences are those of the table in `symgen.settings`; a test compares names and types with it.
 """
 
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Protocol, TypedDict, TypeVar
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, Protocol, TypedDict, TypeVar
 
 from symgen import settings as table
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -68,7 +64,7 @@ class RunKeywords(PlaceKeywords, total=False):
     atol: float | None
     until: float | None
     output_step: float | None
-    times: Sequence[float] | NDArray[np.float64] | None
+    times: Iterable[float] | None
     stop_when: str | Sequence[str]
     record_when: str | Sequence[str]
     verify: bool
@@ -81,9 +77,11 @@ def names(keywords: type) -> tuple[str, ...]:
 
 
 def takes(function: F) -> F:
-    """Have signature and docstring of a function list the settings that its ``**changes`` unpack."""
+    """Have signature and docstring of a function list the settings that its ``**changes`` unpack, if it has such."""
     *_, last = inspect.signature(function).parameters.values()
-    keywords: type = globals()[str(last.annotation).removeprefix("Unpack[").removesuffix("]")]
+    keywords = globals().get(str(last.annotation).removeprefix("Unpack[").removesuffix("]"))
+    if last.kind is not last.VAR_KEYWORD or keywords is None:
+        return function
     listed = {name: table.default(name) for name in names(keywords)}
     explicit(function, keywords, listed)
     lines = [f"{name} : {_kind(name)}\n    {table.about(name).help}{_otherwise(name)}\n" for name in listed]
@@ -92,7 +90,7 @@ def takes(function: F) -> F:
     return function
 
 
-def explicit(function: Callable[..., Any], keywords: type, defaults: Mapping[str, Any]) -> None:
+def explicit(function: Callable[..., Any], keywords: type, defaults: Mapping[str, Any], others: bool = False) -> None:
     """Give a function a signature with names in place of its ``**`` parameter.
 
     Parameters
@@ -102,15 +100,18 @@ def explicit(function: Callable[..., Any], keywords: type, defaults: Mapping[str
     keywords : type
         The typed dictionary of the names.
     defaults : mapping
-        What each name is by default: `inspect.Parameter.empty` where it has to be there.
+        What each name is by default.
+    others : bool
+        Whether it takes other names as well.
     """
     kinds = {name: getattr(kind, "__forward_arg__", kind) for name, kind in keywords.__annotations__.items()}
     usual = inspect.signature(function)
-    own = [p for p in usual.parameters.values() if p.kind is not p.VAR_KEYWORD]
+    *own, rest = usual.parameters.values()
     own += [
         inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=value, annotation=kinds[name])
         for name, value in defaults.items()
     ]
+    own += [rest] * others
     function.__signature__ = usual.replace(parameters=own)  # type: ignore[attr-defined]  # what inspect looks for
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from html import escape
 from pathlib import Path
 from typing import Any, Literal
 
@@ -22,7 +23,7 @@ OF_STATES, OF_MOTIONS = names_of(StateKeywords), names_of(DrivenKeywords)
 #: Those of them that count where drivers say the motion, not where it was recorded.
 OF_DRIVEN = ("start", "strict")
 
-Kind = Literal["text", "texts", "whole", "switch", "words", "numbers", "range", "times", "plot", "tables"]
+Kind = Literal["text", "texts", "whole", "switch", "words", "numbers", "range", "times", "place", "plot", "tables"]
 
 
 @dataclass(frozen=True)
@@ -37,8 +38,8 @@ class Option:
         What the help says of it; for a setting, by default what the table of settings says.
     kind : str
         Of its value: ``text``, ``texts`` (given several times), ``whole``, ``switch``, ``words`` (``A,B``), ``numbers``
-        (``A=1``, given several times), ``range`` (``A=lin(0,1,5)``), ``times``, or a file to write: ``plot``,
-        ``tables``.
+        (``A=1``, given several times), ``range`` (``A=lin(0,1,5)``), ``times``, ``place`` (a word or ``A=0,B=1``), or a
+        file to write: ``plot``, ``tables``.
     metavar : str
         What stands for a value in the help.
     argument : str
@@ -71,8 +72,9 @@ PLACE = (
     *STATE,
     Option(
         "--at",
-        "About what: equilibrium, start, steady, or a time of a run [s].",
-        metavar="PLACE",
+        "About what: equilibrium, start, steady, a time of a run [s], or an equilibrium by coordinates: A=0,B=1.",
+        "place",
+        "PLACE",
         default="equilibrium",
     ),
     Option("--states", "Quantities that are the states. [default: found]", "words", "NAME,NAME"),
@@ -112,6 +114,16 @@ class AnalysisTable:
     headings: Sequence[str]
     rows: Sequence[Sequence[str]]
     left: Sequence[str] = ()
+
+
+def in_notebook(items: Iterable[str | AnalysisTable], notes: Iterable[str] = ()) -> str:
+    """Return as HTML what a command shows of a result."""
+    from symgen.result.labelled import html_table
+
+    lines = [*items, *(f"note: {note}" for note in notes)]
+    return "\n".join(
+        f"<p>{escape(x)}</p>" if isinstance(x, str) else html_table(x.headings, x.rows, most=40) for x in lines
+    )
 
 
 @dataclass(frozen=True)
@@ -179,9 +191,10 @@ def settings_of(
     return whole
 
 
-def settings_at(where: str, settings: Settings | None, changes: Mapping[str, object], at: str | float) -> Settings:
+def settings_at(where: str, settings: Settings | None, changes: Mapping[str, object], at: object) -> Settings:
     """Return settings of an analysis about a place; those of a run count where one leads there."""
-    return settings_of(where, settings, changes, OF_STATES if isinstance(at, str) else names_of(PlaceKeywords))
+    counting = OF_STATES if isinstance(at, str | Mapping) else names_of(PlaceKeywords)
+    return settings_of(where, settings, changes, counting)
 
 
 ANALYSES: Registry[Analysis] = Registry(__name__, "analysis")

@@ -45,7 +45,10 @@ def equilibrium(model: Analysed, settings: Settings | None = None, **changes: Un
 
 
 def equilibria(
-    model: Analysed, scan: tuple[str, Sequence[float] | Array], settings: Settings | None = None, **changes: Unpack[StateKeywords]
+    model: Analysed,
+    scan: tuple[str, Sequence[float] | Array],
+    settings: Settings | None = None,
+    **changes: Unpack[StateKeywords],
 ) -> tuple[Equilibrium, ...]:
     """Return all equilibria that are found over a range of a coordinate.
 
@@ -112,12 +115,13 @@ def command(
         results = (steady(model, settings) if moving else equilibrium(model, settings),)
     return AnalysisOutput(
         {"mechanism": model.mechanism.name, "equilibria": [one.to_dict() for one in results]},
-        (item for one in results for item in _shown(one)),
+        (item for one in results for item in shown(one)),
         dict.fromkeys(note for one in results for note in one.notes),
     )
 
 
-def _shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
+def shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
+    """Yield what there is to show of an equilibrium."""
     squares = ", ".join([f"{x:.6g}" for x in result.omega_squared[:8]] + ["..."] * (len(result.omega_squared) > 8))
     yield f"{result.stability}; omega^2 [1/s^2]: {squares or 'nothing can move'}"
     yield f"  {result.iterations} steps, largest force that is not balanced {result.residual:.3g}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Unpack
 
 from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
@@ -18,7 +18,7 @@ def linearise(
     model: Analysed,
     settings: Settings | None = None,
     *,
-    at: str | float = "equilibrium",
+    at: str | float | Mapping[str, float] = "equilibrium",
     states: Sequence[str] = (),
     cyclic: Sequence[str] = (),
     instantaneous: bool = False,
@@ -64,10 +64,11 @@ def command(load: Callable[[], Analysed], settings: Settings, **further: Any) ->
     """
     model = load()
     system = linearise(model, settings, **further)
-    return AnalysisOutput({"mechanism": model.mechanism.name, **system.to_dict()}, _shown(system), system.notes)
+    return AnalysisOutput({"mechanism": model.mechanism.name, **system.to_dict()}, shown(system), system.notes)
 
 
-def _shown(system: LinearSystem) -> Iterator[str | AnalysisTable]:
+def shown(system: LinearSystem) -> Iterator[str | AnalysisTable]:
+    """Yield what there is to show of a linear system."""
     matrices = (
         ("x' = A x", system.states, system.states, system.A),
         ("+ B u", system.states, system.inputs, system.B),

@@ -31,7 +31,7 @@ def modes(
     model: Analysed,
     settings: Settings | None = None,
     *,
-    at: str | float = "equilibrium",
+    at: str | float | Mapping[str, float] = "equilibrium",
     states: Sequence[str] = (),
     cyclic: Sequence[str] = (),
     count: int | None = None,
@@ -43,9 +43,10 @@ def modes(
     ----------
     settings : Settings, optional
         As for `equilibrium`.
-    at : {"equilibrium", "start", "steady"} or float
+    at : {"equilibrium", "start", "steady"}, float or mapping
         About what: the equilibrium that the start leads to, the start itself, the steady motion that the start
-        leads to, or the state at a time of a run [s].
+        leads to, the state at a time of a run [s], or the equilibrium with values of coordinates by name, such
+        as ``{"pole.theta": 0}``.
     states, cyclic
         As for `linearise`.
     count : int, optional
@@ -72,7 +73,7 @@ def view_mode(
     number: int,
     settings: Settings | None = None,
     *,
-    at: str | float = "equilibrium",
+    at: str | float | Mapping[str, float] = "equilibrium",
     **changes: Unpack[PlaceKeywords],
 ) -> Page:
     """Return a page that plays a mode shape, with the state that it is about drawn faintly behind.
@@ -83,7 +84,7 @@ def view_mode(
         Which shape of `modes`, from 1 on.
     settings : Settings, optional
         As for `modes`.
-    at : {"equilibrium", "start"} or float
+    at : {"equilibrium", "start"}, float or mapping
         As for `modes`; in a steady motion shapes are not those of bodies.
     **changes
         Other settings are refused; those of a run count where `at` is a time.
@@ -107,7 +108,7 @@ def locus(
     over: tuple[str, Sequence[float] | Array],
     settings: Settings | None = None,
     *,
-    at: str | float = "equilibrium",
+    at: str | float | Mapping[str, float] = "equilibrium",
     states: Sequence[str] = (),
     cyclic: Sequence[str] = (),
     **changes: Unpack[PlaceKeywords],
@@ -147,12 +148,13 @@ def command(
     name = model.mechanism.name
     if over is None:
         result = modes(model, settings, count=count, **place)
-        return AnalysisOutput({"mechanism": name, **result.to_dict()}, _shown(result), result.notes)
+        return AnalysisOutput({"mechanism": name, **result.to_dict()}, shown(result), result.notes)
     roots = locus(model, over, settings, **place)
-    return AnalysisOutput({"mechanism": name, **roots.to_dict()}, _shown_locus(roots), files={plot: roots.plot})
+    return AnalysisOutput({"mechanism": name, **roots.to_dict()}, shown_locus(roots), files={plot: roots.plot})
 
 
-def _shown(result: Modes) -> Iterator[str | AnalysisTable]:
+def shown(result: Modes) -> Iterator[str | AnalysisTable]:
+    """Yield what there is to show of modes."""
     freedom, many = result.degrees_of_freedom, len(result.eigenvalues)
     yield (
         f"{freedom} {'degree' if freedom == 1 else 'degrees'} of freedom; "
@@ -184,7 +186,8 @@ def _complex(x: complex) -> str:
     return f"{x.real:.6g}" + (f" +- {abs(x.imag):.6g}i" if x.imag else "")
 
 
-def _shown_locus(result: Locus) -> Iterator[str | AnalysisTable]:
+def shown_locus(result: Locus) -> Iterator[str | AnalysisTable]:
+    """Yield what there is to show of a root locus."""
     headings = (result.name, *(f"eigenvalue {k + 1} [1/s]" for k in range(result.branches.shape[1])))
     rows = [
         (f"{value:g}", *(f"{x.real:.5g}{x.imag:+.5g}i" if x.imag else f"{x.real:.5g}" for x in row))
