@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from symgen.errors import AssemblyError, InputError, SimulationError, StepError, SymgenError
     from symgen.integrators import list_integrators
     from symgen.methods import list_methods
+    from symgen.plugins import load_plugin
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
     from symgen.settings import Settings
@@ -51,6 +52,7 @@ _WHERE = {
     "list_integrators": "symgen.integrators",
     "list_methods": "symgen.methods",
     "load": "symgen.api",
+    "load_plugin": "symgen.plugins",
     "simulate": "symgen.api",
     "sweep": "symgen.ensemble.sweep",
 }
@@ -75,6 +77,7 @@ __all__ = [
     "list_integrators",
     "list_methods",
     "load",
+    "load_plugin",
     "simulate",
     "sweep",
 ]

@@ -16,6 +16,7 @@ from typing import Generic, TypeVar, cast
 
 from symgen.arguments import text
 from symgen.errors import InputError, nearest, quoted
+from symgen.plugins import load_installed
 
 T = TypeVar("T")
 
@@ -94,6 +95,8 @@ class Registry(Generic[T]):
         article = "an" if self.what[0] in "aeiou" else "a"
         text(where or self.what, name, f"{article} {self.what}")
         resolved = self.aliases.get(name, name)
+        if resolved not in self:
+            load_installed()
         if resolved not in self._loaded and resolved not in self._scan():
             names = (*self.names, *self.aliases)
             hint = nearest(name, names)
@@ -122,7 +125,8 @@ class Registry(Generic[T]):
             return file.readline().strip('"\n')
 
     def listing(self) -> Listing:
-        """Return every name with its line."""
+        """Return every name with its line, those of installed packages among them."""
+        load_installed()
         return Listing((name, self.summary(name).rstrip(".")) for name in self.names)
 
     def items(self) -> Iterator[tuple[str, T]]:

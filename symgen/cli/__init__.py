@@ -21,6 +21,7 @@ import click
 
 from symgen.analyses.kinds import ANALYSES
 from symgen.errors import SymgenError, nearest, printable
+from symgen.plugins import load_plugins
 from symgen.registry import Registry
 from symgen.version import __version__
 
@@ -34,6 +35,9 @@ ORDER = (
     *("equilibrium", "modes", "linearise", "kinematics", "inverse"),
     *("compare", "stress", "sweep", "schema", "cache", "completion"),
 )
+
+#: Commands that know no kinds of joints, forces, methods or integrators.
+WITHOUT_PLUGINS = ("cache", "completion")
 
 #: Commands that are files of this folder; every analysis is one as well.
 OWN: Registry[click.Command] = Registry(__name__, "command", attribute="command")
@@ -58,6 +62,8 @@ class LazyGroup(click.Group):
 
             command = command_of(cmd_name)
         command.short_help = summary(cmd_name)
+        if cmd_name not in WITHOUT_PLUGINS and not any(p.name == "plugin" for p in command.params):
+            command.params.append(_plugin_option())
         return command
 
     def resolve_command(
@@ -72,6 +78,19 @@ class LazyGroup(click.Group):
         """Write the table without importing anything."""
         with formatter.section("Commands"):
             formatter.write_dl([(name, summary(name)) for name in COMMANDS])
+
+
+def _plugin_option() -> click.Option:
+    """Return the option that loads files before anything else of a command is looked at."""
+    return click.Option(
+        ["--plugin"],
+        multiple=True,
+        metavar="FILE.py",
+        is_eager=True,
+        expose_value=False,
+        callback=lambda context, parameter, paths: load_plugins(paths),
+        help="Run a Python file that registers methods, integrators, joints or forces of your own.",
+    )
 
 
 def summary(name: str) -> str:

@@ -32,6 +32,7 @@ from symgen.ensemble.row_quantities import choose_quantities
 from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import LANES
+from symgen.plugins import loaded_files
 from symgen.running.automatic import AUTO, EXPLICIT
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import make_plan
@@ -279,6 +280,7 @@ def make_ensemble(
         watch=watch,
         sides=tuple(side for side in sides_of(mechanism) if side.held),
         stops=driving.jumps,
+        plugins=loaded_files(),
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first
