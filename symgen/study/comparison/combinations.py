@@ -69,9 +69,14 @@ class Combinations:
             If there is no such method or integrator, or none of these solves a form of a method.
         """
         for state in tuple(dict.fromkeys(self.coordinates)) or COORDINATES[:1]:
-            for method in _named(self.methods, DEFAULT_METHODS, METHODS.names):
+            for words in _named(self.methods, DEFAULT_METHODS, METHODS.names):
+                method, variant = variant_of(words)
+                methods = [variant_of(other)[0] for other in self.methods]
                 for integrator in _suitable(method, self.integrators):
-                    options = _options_for(base.options, method, self.methods, integrator, self.integrators)
+                    options = _options_for(base.options, method, methods, integrator, self.integrators)
+                    both = {f"{owner}.{name}" for owner in ("method", method) for name in variant}
+                    options = {k: x for k, x in options.items() if k not in both}
+                    options |= {f"method.{name}": x for name, x in variant.items()}
                     one = replace(base, coordinates=state, method=method, integrator=integrator, options=options)
                     yield from self._steps(one, own)
 
@@ -86,6 +91,30 @@ class Combinations:
                 self.steps or [h for h in (own * f for f in STEP_FACTORS) if h <= common.until] or [common.until]
             ):
                 yield replace(common, step=step)
+
+
+def variant_of(words: str) -> tuple[str, dict[str, str]]:
+    """Return the method and the options of ``baumgarte:alpha=5:beta=5``, one line of a study.
+
+    Raises
+    ------
+    InputError
+        If it has another form.
+    """
+    method, *parts = words.split(":")
+    options = dict[str, str]()
+    for part in parts:
+        name, equals, value = part.partition("=")
+        if not equals or not name or not value or name in options:
+            raise InputError("methods", "NAME, or NAME:OPTION=VALUE with each option once", f"'{words}'")
+        options[name] = value
+    return method, options
+
+
+def words_of_variant(settings: Settings, common: Settings) -> str:
+    """Return the options of a method that other runs of a study have not, such as ``alpha=5, beta=5``."""
+    own = (x for x in settings.options.items() if x[0].startswith("method.") and x not in common.options.items())
+    return ", ".join(f"{name.removeprefix('method.')}={value}" for name, value in own)
 
 
 def _named(names: Sequence[str], default: Sequence[str], everything: Sequence[str]) -> tuple[str, ...]:
