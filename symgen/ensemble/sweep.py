@@ -68,7 +68,7 @@ def sweep(
         Name -> values: an array, or a text such as ``"lin(1, 3, 21)"``, ``"log(0.1, 10, 21)"``, ``"values(1, 2, 5)"``
         or ``"uniform(0, 1, 100, 7)"``. Names are parameters, and coordinates and velocities of bodies and joints at
         the start (``crank.theta``, ``crank.omega``, ``motor.angle``): a coordinate that varies is held while
-        the others are closed. Each name is a dimension of the grid.
+        the others are closed; and parameters of the method (``method.alpha``). Each name is a dimension of the grid.
     runs : mapping, optional
         The same for names that vary together, all with as many values: one dimension, ``run``.
     quantities : sequence of str, optional

@@ -26,7 +26,7 @@ from symgen.ensemble.driving import Driving, read_by_motions
 from symgen.ensemble.kernel import kernel_of
 from symgen.ensemble.loop_runs import PLAIN
 from symgen.ensemble.measures import integrated, make_measures, measurable
-from symgen.ensemble.names import Names, Targets, targets_of
+from symgen.ensemble.names import METHOD, Names, Targets, targets_of
 from symgen.ensemble.recipe import Code, Module, Recipe, Watch, code_identity
 from symgen.ensemble.row_quantities import choose_quantities
 from symgen.errors import InputError, nearest
@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Event, Mechanism
     from symgen.ensemble.row_quantities import RowQuantity
+    from symgen.methods import Method
     from symgen.runtime.compiled import CompiledModel
 
 #: A chunk should take about so many seconds, and its arrays no more than so many bytes.
@@ -146,7 +147,9 @@ class Ensemble:
         """Return the same without the stops of runs."""
         varied, targets, settled = self.grid.values(first, last), self.targets, self.plan.settings.parameters
         held = targets.names, targets.velocities, settled, targets.constant
-        return make_rows(self.model.mechanism, self.parameters, varied, *held)
+        rows = make_rows(self.model.mechanism, self.parameters, varied, *held)
+        options = {name.removeprefix(METHOD): x for name, x in varied.items() if name.startswith(METHOD)}
+        return replace(rows, method=options) if options else rows
 
     @cached_property
     def description(self) -> dict[str, Any]:
@@ -215,9 +218,11 @@ def make_ensemble(
         refuse_events(f"target '{target}'", model.mechanism, settings)
     plan = make_plan(model.mechanism, settings, Purpose.ROWS)
     mechanism, spec = plan.mechanism, plan.spec
-    names = Names.of(mechanism)
-    names.check((*vary, *runs), taken)
+    options = tuple(METHOD + parameter.name for parameter in plan.choice.method.parameters)
+    names = replace(Names.of(mechanism), options=options)
+    names.check((*vary, *runs), (*taken, *(METHOD + name for name in plan.method_parameters)))
     grid = make_grid(vary, runs, names.starts)
+    _check_method(plan.choice.method, grid)
     moving = read_by_motions(mechanism, grid.names)
     if not moving:  # before anything is derived; where it depends on what varies, rows fail one by one
         refuse_jumps(mechanism, plan.parameters, spec.until)
@@ -341,6 +346,15 @@ def _check_settings(settings: Settings, target: str) -> None:
         raise InputError("shape", "straight code for an ensemble", "looped")
     if settings.coordinates == "joint" and target != "cpu":
         raise InputError(f"target '{target}'", "absolute coordinates", "joint", "leave --target out")
+
+
+def _check_method(method: Method, grid: Grid) -> None:
+    """Refuse values of the method's parameters that single runs refuse."""
+    values = {name: x for axis in grid.axes for name, x in axis.values.items()}
+    for parameter in method.parameters:
+        least = values[name].min() if (name := METHOD + parameter.name) in values else parameter.minimum
+        if least < parameter.minimum:
+            raise InputError(f"vary '{name}'", f"at least {parameter.minimum:g}", f"{least:g}")
 
 
 def _check_target(target: str, jumps: bool, passed: bool, events: bool) -> None:
