@@ -328,4 +328,7 @@ class Model(Analysed, Shown):
         for name in ("output_step", "times", "verify", "repeat"):
             if is_given(settings, name):
                 raise InputError(f"start: {name}", "settings of a run without outputs", f"one with {name}")
-        return SteppedRun(prepare(self.mechanism, replace(settings, times=())))
+        settings = replace(settings, times=())
+        return SteppedRun(
+            prepare(self.mechanism, settings), lambda start: prepare(self.mechanism, replace(settings, start=start))
+        )

@@ -20,8 +20,8 @@ from symgen.runtime.array_formulas import Columns
 from symgen.vocabulary.expressions import Expr
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import LawInfo
     from symgen.runtime.stops import Stop
+    from symgen.vocabulary.infos import LawInfo
 
 Array = NDArray[np.float64]
 

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Event, Mechanism
     from symgen.ensemble.row_quantities import RowQuantity
-    from symgen.methods import Method
+    from symgen.methods._base import Method
     from symgen.runtime.compiled import CompiledModel
 
 #: A chunk should take about so many seconds, and its arrays no more than so many bytes.

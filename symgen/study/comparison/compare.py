@@ -269,8 +269,7 @@ class _Work:
             runs = timed(run.integrate, settings.repeat, AT_LEAST)
             if runs.outcome.interrupted:
                 raise KeyboardInterrupt
-            done, trace = measured(run, runs, reference_motion, points)
-            return to_entry(replace(done, variant=words_of_variant(settings, self.common)), trace)
+            return to_entry(*measured(run, runs, reference_motion, points, words_of_variant(settings, self.common)))
 
         return self.study(run_cells(self.rows, row, self.journal)[1])
 
