@@ -21,7 +21,7 @@ from symgen.describe.start import described_start
 from symgen.errors import InputError, nearest
 from symgen.keywords import RunKeywords, takes
 from symgen.reading.model_views import Shown
-from symgen.running.prepare import prepare
+from symgen.running.prepare import Prepared, prepare
 from symgen.running.starts import start_of
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.run import Array
@@ -329,6 +329,8 @@ class Model(Analysed, Shown):
             if is_given(settings, name):
                 raise InputError(f"start: {name}", "settings of a run without outputs", f"one with {name}")
         settings = replace(settings, times=())
-        return SteppedRun(
-            prepare(self.mechanism, settings), lambda start: prepare(self.mechanism, replace(settings, start=start))
-        )
+
+        def begun(start: Any) -> Prepared:
+            return prepare(self.mechanism, replace(settings, start=start))
+
+        return SteppedRun(begun(settings.start), begun)

@@ -39,7 +39,7 @@ def connect(address: str) -> Client:
     """
     from symgen.files import need
 
-    need("--scheduler", "distributed", extra="dask")
+    need("scheduler", "distributed", extra="dask")
     from distributed import Client
 
     try:
@@ -47,7 +47,7 @@ def connect(address: str) -> Client:
     except (OSError, ValueError, TimeoutError) as error:
         why = str(error).splitlines()[0] if str(error) else "nothing there"
         raise InputError(
-            "--scheduler", "the address of a running Dask scheduler, such as tcp://host:8786", f"'{address}' ({why})"
+            "scheduler", "the address of a running Dask scheduler, such as tcp://host:8786", f"'{address}' ({why})"
         ) from None
 
 

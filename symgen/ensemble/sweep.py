@@ -195,7 +195,7 @@ def folder_of(path: Path, resume: bool) -> Path:
     check_path("output", path, SAVED, "data")
     parts = path.with_name(path.name + PARTS)
     if resume and path.exists() and not parts.exists():
-        hint = "leave --resume out to compute it again"
+        hint = "leave `resume` out to compute it again"
         raise InputError(f"output '{path}'", "one that is not finished", "a finished one", hint)
     check_folder(parts, resume)
     return parts

@@ -243,13 +243,13 @@ def make_ensemble(
         expected = "one with a loop over many runs" + f" on target '{target}'" * (target != "cpu")
         raise InputError(f"integrator '{name}'", expected, "one without", f"{others} have one")
     if target == "lanes" and spec.adaptive:  # runs side by side take the same steps
-        got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with --step, or rk4"
+        got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with `step`, or rk4"
         raise InputError("target 'lanes'", "a constant step", got, hint)
     kept = choose_quantities(compiled.info, kept_names, partial(measurable, mechanism, compiled.info))
     integral = integrated(mechanism, kept)
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
-        raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave --target out, or name others")
+        raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave `target` out, or name others")
     resets = any(event.action == RESET for event in events)
     late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in kept)
     # what Python does something between; and measures behind the loops know the inputs of one part
@@ -345,7 +345,7 @@ def _check_settings(settings: Settings, target: str) -> None:
     if settings.shape == "looped":
         raise InputError("shape", "straight code for an ensemble", "looped")
     if settings.coordinates == "joint" and target != "cpu":
-        raise InputError(f"target '{target}'", "absolute coordinates", "joint", "leave --target out")
+        raise InputError(f"target '{target}'", "absolute coordinates", "joint", "leave `target` out")
 
 
 def _check_method(method: Method, grid: Grid) -> None:
@@ -359,11 +359,11 @@ def _check_method(method: Method, grid: Grid) -> None:
 
 def _check_target(target: str, jumps: bool, passed: bool, events: bool) -> None:
     """Refuse what needs something to be done between two parts of a run, where nothing but loops can run."""
-    constant = "leave --target out, or take constant steps: integrator.adaptive=false with --step"
+    constant = "leave `target` out, or take constant steps: integrator.adaptive=false with `step`"
     for what, there, hint in (
-        ("inputs that jump", jumps, "leave --target out"),
+        ("inputs that jump", jumps, "leave `target` out"),
         ("jumps and kinks of formulas, at which adaptive steps end", passed, constant),
-        ("events", events, "leave --target out"),
+        ("events", events, "leave `target` out"),
     ):
         if there:
             raise InputError(f"target '{target}'", f"no {what}", "some", hint)

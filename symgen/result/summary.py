@@ -62,8 +62,8 @@ def status_in_words(result: Result) -> str:
     if result.error_estimate is not None:
         return f"{text} ({local}error about {result.error_estimate:.2g} m, from a run with {other})"
     if not local:
-        return f"{text} (error not estimated: --verify runs again with half the step)"
-    return f"{text} ({local}global error not estimated: --verify runs again with a tenth of it)"
+        return f"{text} (error not estimated: `verify` runs again with half the step)"
+    return f"{text} ({local}global error not estimated: `verify` runs again with a tenth of it)"
 
 
 def html(result: Result) -> str:

@@ -139,7 +139,7 @@ def trial_of(mechanism: Mechanism, settings: Settings) -> Settings:
         if method == "direct-correction" and not mechanism.has_massless:
             options.setdefault("method.weight", "mass")
     if integrator == AUTO:
-        explicit = set(METHODS.get(method, "--method").forms) & set(INTEGRATORS.get(EXPLICIT).forms)
+        explicit = set(METHODS.get(method, "method").forms) & set(INTEGRATORS.get(EXPLICIT).forms)
         integrator = EXPLICIT if explicit else METHODS.get(method).default_integrator
     return replace(settings, method=method, integrator=integrator, options=options)
 

@@ -165,8 +165,8 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     mechanism = inputs.mechanism
     if purpose is not Purpose.STATE:
         refuse_weightless(mechanism)
-    method = METHODS.get(s.method, "--method")
-    integrator = INTEGRATORS.get(s.integrator or method.default_integrator, "--integrator")
+    method = METHODS.get(s.method, "method")
+    integrator = INTEGRATORS.get(s.integrator or method.default_integrator, "integrator")
     _refuse_pair(method, integrator)
     choice, method_parameters, integrator_options = split_options(s, integrator)
     last = None if isinstance(s.start, Mapping) else s.start.last_state

@@ -84,7 +84,7 @@ class History:
         outcome = outcome_of(loop, loop.outputs(np.zeros(0)), abi.DONE)
         kept = {"p": loop.state.p.copy(), "w": loop.state.w.copy(), "held": held, "end": end}
         states = y[:, : info.ny].copy()
-        outcome = replace(outcome, times=times, states=states, status_columns=status, **kept)  # type: ignore[arg-type]  # of their fields
+        outcome = replace(outcome, times=times, states=states, status_columns=status, **kept)
         run = replace(run, spec=replace(loop.spec, until=end, step=run.spec.step or loop.span.step, times=times))
         return build_result(run, outcome)
 

@@ -82,7 +82,7 @@ class Combinations:
 
     def _steps(self, common: Settings, own: float) -> Iterator[Settings]:
         name = str(common.integrator)
-        if INTEGRATORS.get(name, "--integrators").adaptive and not told_constant(common.options, name):
+        if INTEGRATORS.get(name, "integrators").adaptive and not told_constant(common.options, name):
             for rtol in self.rtols or RTOLS:
                 yield replace(common, rtol=rtol, atol=rtol * ATOL_SHARE)
         else:
@@ -131,13 +131,13 @@ def _suitable(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
     InputError
         If integrators were named and none of them does.
     """
-    chosen = METHODS.get(method, "--methods")
+    chosen = METHODS.get(method, "methods")
     named = _named(integrators, DEFAULT_INTEGRATORS, INTEGRATORS.names)
-    fit = tuple(n for n in named if set(INTEGRATORS.get(n, "--integrators").forms) & set(chosen.forms))
+    fit = tuple(n for n in named if set(INTEGRATORS.get(n, "integrators").forms) & set(chosen.forms))
     if fit or not integrators:
         return fit or (chosen.default_integrator,)
     forms = ", ".join(chosen.forms)
-    raise InputError("--integrators", f"one that solves a form of {method} ({forms})", f"'{', '.join(integrators)}'")
+    raise InputError("integrators", f"one that solves a form of {method} ({forms})", f"'{', '.join(integrators)}'")
 
 
 def _options_for(
