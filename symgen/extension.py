@@ -18,7 +18,7 @@ from symgen.describe.fields import (
     TimeFunction,
     Vector,
 )
-from symgen.describe.mechanism import Force, Joint
+from symgen.describe.mechanism import Articulation, Force, Joint
 from symgen.describe.scope import Scope
 from symgen.forces import FORCES
 from symgen.integrators import INTEGRATORS
@@ -37,14 +37,19 @@ from symgen.methods._base import (
     augmented_iteration,
     multiplier_law,
 )
+from symgen.methods._formula import Matrix as FormulaMatrix
+from symgen.methods._formula import Scalar as FormulaScalar
 from symgen.methods._formula import System
+from symgen.methods._formula import Vector as FormulaVector
 from symgen.native import types
 from symgen.plugins import load_plugin
+from symgen.registry import Registry
 from symgen.runtime import abi
 from symgen.runtime.bare import part
 from symgen.runtime.frame import evaluate, loop
-from symgen.runtime.integrator import IntegratorParameter, Setup, law_functions
+from symgen.runtime.integrator import Integrator, IntegratorParameter, Setup, law_functions
 from symgen.runtime.padding import padded
+from symgen.runtime.records import Sizes, Span, State
 from symgen.runtime.vectors import copied
 from symgen.vocabulary.expressions import ONE, ZERO, call, number
 from symgen.vocabulary.measures import (
@@ -72,18 +77,12 @@ from symgen.vocabulary.measures import (
 
 __all__ = [
     "ANALYSES",
-    "FORCES",
-    "GROUND",
-    "INTEGRATORS",
-    "JOINTS",
-    "METHODS",
-    "ONE",
-    "ZERO",
     "Acceleration",
     "Analysis",
     "AnalysisOutput",
     "AnalysisTable",
     "Angle",
+    "Articulation",
     "Axis",
     "AxisPair",
     "Bearing",
@@ -97,28 +96,42 @@ __all__ = [
     "Distance",
     "Dot",
     "Effort",
+    "FORCES",
     "Force",
+    "FormulaMatrix",
+    "FormulaScalar",
+    "FormulaVector",
+    "GROUND",
     "Holonomic",
+    "INTEGRATORS",
+    "Integrator",
     "IntegratorParameter",
     "Iteration",
+    "JOINTS",
     "Joint",
     "LinkStretch",
+    "METHODS",
     "Marker",
     "Method",
     "MethodOption",
     "MethodParameter",
     "MultiplierMethod",
     "Nonholonomic",
+    "ONE",
     "Option",
     "Point",
     "PointPair",
     "PointSpeed",
+    "Registry",
     "RimHeight",
     "RollingSpeed",
     "Scalar",
     "Scope",
     "Setup",
+    "Sizes",
+    "Span",
     "Spin",
+    "State",
     "StateFunction",
     "Sum",
     "System",
@@ -127,6 +140,7 @@ __all__ = [
     "TimeFunction",
     "Turn",
     "Vector",
+    "ZERO",
     "abi",
     "augmented_iteration",
     "axes",

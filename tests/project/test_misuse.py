@@ -394,6 +394,19 @@ def rows():
     yield from each("set", NO_MAPPING, lambda x, v: x.sim.set(v), numbers)
     yield from each("step u", NO_MAPPING, lambda x, v: x.sim.step(0.01, v), "parameters, got {}")
     yield from each("restore", NO_MAPPING, lambda x, v: x.sim.restore(v), "expected what `save` returned, got {}")
+    starts = {"3": 3, "[1.0]": [1.0]}
+    yield from each("reset", starts, lambda x, v: x.sim.reset(v), "start: expected values by the names of coordinates")
+    yield "reset name", lambda x: x.sim.reset({"crank.thet": 1.0}), "did you mean 'crank.theta'?"
+    yield "column", lambda x: x.sim["crank.thet"], "result: expected the name of a column, got 'crank.thet'"
+    yield "inspect method", lambda x: x.model.inspect("lagrang"), "method: expected a method, got 'lagrang'"
+    yield "inspect options", lambda x: x.model.inspect("lagrange", 3), "options: expected texts by name, got 3"
+    yield "inspect coordinates", lambda x: x.model.inspect(coordinates="joints"), "did you mean 'joint'?"
+    yield "view live", lambda x: x.model.view(live=3, until=0.01), "live: expected True or False, got 3"
+    yield "view until", lambda x: x.model.view(until=-1), "until: expected a finite number above 0, got -1"
+    yield "model sweep", lambda x: x.model.sweep({"crank_mas": [1.0]}), "did you mean 'crank_mass'?"
+    yield "model compare", lambda x: x.model.compare(["lagrang"]), "methods: expected a method, got 'lagrang'"
+    yield "variant", lambda x: x.model.compare(["baumgarte:alpha"]), "methods: expected NAME, or NAME:OPTION=VALUE"
+    yield "plugin", lambda x: symgen.load_plugin(3), "plugin: expected a path, got 3"
     functions = {"3": 3, "None": None, "'f'": "f"}
     yield from each(
         "controller", functions, lambda x, v: x.sim.every(0.1, v), "controller: expected a function, got {}"
@@ -449,10 +462,12 @@ def test_no_function_with_arguments_is_left_out():
     """Every public name that can be called, and every method of a public class that takes something, has rows."""
     tested = {
         *"load simulate compare sweep Model Settings MechanismBuilder Mechanism.body Mechanism.joint_named".split(),
+        *"list_methods list_integrators load_plugin".split(),
         *(f"Model.{n}" for n in "parameters compile equations_in generate draw assemble simulate start".split()),
+        *(f"Model.{n}" for n in "inspect view sweep compare".split()),
         *(f"Result.{n}" for n in "save plot reaction columns select series view".split()),
         *"Labelled.row Labelled.unit Study.save Sweep.save Sweep.reasons".split(),
-        *(f"SteppedRun.{n}" for n in "step run every set restore".split()),
+        *(f"SteppedRun.{n}" for n in "step run every set restore reset".split()),
         *(f"MechanismBuilder.{n}" for n in "run parameter input table body joint force output event".split()),
     }
     tested |= {f"Model.{method.__name__}" for method in ANALYSIS_METHODS}
