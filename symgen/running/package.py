@@ -87,7 +87,7 @@ def write_package(
     """
     # outputs belong to the runtime: on a tree, integrals would keep the rows of drivers whose efforts they read
     mechanism = msgspec.structs.replace(mechanism, outputs=())
-    names = tuple(dict.fromkeys(METHODS.canonical(name, "methods") for name in methods or METHODS.names))
+    names = tuple(dict.fromkeys(METHODS.canonical(name, "method") for name in methods or METHODS.names))
     own = _options_of(names, options)
     chosen = [choose_method(name, values) for name, values in own.items()]
     if not methods and mechanism.has_massless:
