@@ -156,6 +156,9 @@ def command(
 def shown(result: Modes) -> Iterator[str | AnalysisTable]:
     """Yield what there is to show of modes."""
     freedom, many = result.degrees_of_freedom, len(result.eigenvalues)
+    if not many:
+        yield "no degree of freedom is left: there are no modes"
+        return
     yield (
         f"{freedom} {'degree' if freedom == 1 else 'degrees'} of freedom; "
         f"{many} {'eigenvalue' if many == 1 else 'eigenvalues'}"
