@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import sys
 from collections.abc import Iterable
-from importlib.metadata import entry_points
 from importlib.util import module_from_spec, spec_from_file_location
 from os import PathLike
 from types import ModuleType
@@ -84,6 +83,8 @@ def load_installed() -> bool:
     """
     global _installed
     if _installed is None:
+        from importlib.metadata import entry_points  # which imports much, and is seldom needed
+
         _installed = []
         for entry in entry_points(group=GROUP):
             try:

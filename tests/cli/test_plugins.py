@@ -167,7 +167,7 @@ def test_packages_are_plugins_by_an_entry_point(monkeypatch: pytest.MonkeyPatch)
         load = lambda: METHODS.register("of-a-package", Installed())  # noqa: E731
         return [SimpleNamespace(name="mine", value="my_package.methods", dist=None, load=load)]
 
-    monkeypatch.setattr(plugins, "entry_points", entry_points)
+    monkeypatch.setattr("importlib.metadata.entry_points", entry_points)
     monkeypatch.setattr(plugins, "_installed", None)
     assert METHODS.get("lagrange").name == "lagrange" and not asked
     try:
