@@ -280,7 +280,7 @@ class Model(Analysed, Shown):
         Result
             Also of a failed or interrupted run, with status and reason.
         """
-        from symgen.reruns.verification import verified
+        from symgen.reruns.verification import is_verified, verified
         from symgen.result.build import build_result
         from symgen.runtime.timing import timed
         from symgen.store.stats import seconds_in_cache
@@ -291,7 +291,7 @@ class Model(Analysed, Shown):
         run = prepare(self.mechanism, settings)
         runs = timed(lambda: run.integrate(progress), settings.repeat)
         outcome, verification = runs.outcome, None
-        if run.plan.notes or settings.verify:  # something was chosen automatically, or the error is asked for
+        if is_verified(run, outcome.run_seconds):
             free = bool(run.plan.notes) and settings.rtol is None and settings.atol is None
             run, outcome, verification = verified(run, outcome, free)
         # assembly calls emitted functions too: compiling them belongs to the run

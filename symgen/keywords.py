@@ -67,7 +67,7 @@ class RunKeywords(PlaceKeywords, total=False):
     times: Iterable[float] | None
     stop_when: str | Sequence[str]
     record_when: str | Sequence[str]
-    verify: bool
+    verify: bool | None
     repeat: int
 
 

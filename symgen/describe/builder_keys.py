@@ -21,13 +21,15 @@ class MechanismKeys(TypedDict, total=False):
 
 
 class RunKeys(TypedDict, total=False):
-    """Keys of ``[run]`` [s]."""
+    """Keys of ``[run]``, times in seconds."""
 
+    integrator: str
     until: float
     step: float
     output_step: float
     max_step: float
     predictable_until: float
+    verify: bool
 
 
 class TableKeys(TypedDict, total=False):
