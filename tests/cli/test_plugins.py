@@ -41,7 +41,19 @@ def run(*words: object, cwd: Path) -> dict:
 def test_a_method_runs_and_is_compared_with_three_gains(tmp_path: Path) -> None:
     guide("own-method", tmp_path)
     own = ("pendulum", "--plugin", "velocity_feedback.py")
-    result = run("run", *own, "--method", "velocity-feedback", "--step", "5e-3", "--until", "1", cwd=tmp_path)
+    result = run(
+        "run",
+        *own,
+        "--method",
+        "velocity-feedback",
+        "--integrator",
+        "rk4",
+        "--step",
+        "5e-3",
+        "--until",
+        "1",
+        cwd=tmp_path,
+    )
     assert result["status"] == "ok" and result["method"] == "velocity-feedback"
     names = ["lagrange", *(f"velocity-feedback:k={k}" for k in (1, 5, 20))]
     words = ("--integrators", "rk4", "--steps", "5e-3", "--until", "1", "--repeat", "1", "--jobs", "2")

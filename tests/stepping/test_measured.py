@@ -26,10 +26,10 @@ def model():
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_result_is_that_of_the_run_in_one_go(model, coordinates):
-    sim = model.start(step=1e-3, coordinates=coordinates)
+    sim = model.start(integrator="rk4", step=1e-3, coordinates=coordinates)
     for _ in range(50):
         sim.step(2e-3)
-    whole = model.simulate(until=0.1, step=1e-3, output_step=2e-3, coordinates=coordinates)
+    whole = model.simulate(until=0.1, integrator="rk4", step=1e-3, output_step=2e-3, coordinates=coordinates)
     result = sim.result()
     assert result.ok and result.end == sim.t and np.array_equal(result.t, whole.t)
     for table in TABLES:
@@ -40,8 +40,8 @@ def test_a_result_is_that_of_the_run_in_one_go(model, coordinates):
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_what_is_measured_is_that_of_results(model, coordinates):
-    sim = model.start(step=1e-3, coordinates=coordinates)
-    whole = model.simulate(until=0.02, step=1e-3, coordinates=coordinates)
+    sim = model.start(integrator="rk4", step=1e-3, coordinates=coordinates)
+    whole = model.simulate(until=0.02, integrator="rk4", step=1e-3, coordinates=coordinates)
     for k in (0, 7, 20):
         sim.run(whole.t[k])
         for name in ("outputs", "points", "elements", "reactions"):
@@ -52,7 +52,7 @@ def test_what_is_measured_is_that_of_results(model, coordinates):
 
 
 def test_a_sensor_sees_what_was_set(model):
-    sim = model.start(step=1e-3)
+    sim = model.start(integrator="rk4", step=1e-3)
     before = sim["arm.alpha"]
     sim.set(push=2.0)
     hinge = 0.05 + 1.2 * 0.3**2
@@ -60,11 +60,11 @@ def test_a_sensor_sees_what_was_set(model):
 
 
 def test_pieces_have_the_parameters_of_their_time(model):
-    sim = model.start(step=1e-3)
+    sim = model.start(integrator="rk4", step=1e-3)
     sim.step(0.01)
     sim.step(0.01, {"push": 3.0})
     result = sim.result()
-    first, second = (model.simulate(until=0.01, step=1e-3, inputs={"push": u}) for u in (0.5, 3.0))
+    first, second = (model.simulate(until=0.01, integrator="rk4", step=1e-3, inputs={"push": u}) for u in (0.5, 3.0))
     del second
     assert result["arm.alpha"][1] == first["arm.alpha"][-1]  # before the input changed
     assert result["arm.alpha"][2] == sim["arm.alpha"]
@@ -72,7 +72,7 @@ def test_pieces_have_the_parameters_of_their_time(model):
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_beginning_anew(model, coordinates):
-    sim = model.start(step=1e-3, coordinates=coordinates)
+    sim = model.start(integrator="rk4", step=1e-3, coordinates=coordinates)
     sim.run(0.05)
     first = sim.bodies
     sim.set(push=4.0)
@@ -83,7 +83,7 @@ def test_beginning_anew(model, coordinates):
     assert sim.bodies == first
     sim.reset({"arm.theta": 0.4})
     sim.run(0.05)
-    other = model.simulate(until=0.05, step=1e-3, start={"arm.theta": 0.4}, coordinates=coordinates)
+    other = model.simulate(until=0.05, integrator="rk4", step=1e-3, start={"arm.theta": 0.4}, coordinates=coordinates)
     assert sim.bodies["arm.theta"] == other["arm.theta"][-1]
     assert sim.result().start["q"]["arm.theta"] == 0.4
     sim.reset(other)
@@ -94,7 +94,7 @@ def test_beginning_anew(model, coordinates):
 
 def test_controllers_begin_anew(model):
     beats = []
-    sim = model.start(step=1e-3)
+    sim = model.start(integrator="rk4", step=1e-3)
     sim.every(0.01, lambda t, run: beats.append(t))
     sim.run(0.03)
     sim.reset()
@@ -106,7 +106,7 @@ def test_memory_is_bounded(model, monkeypatch):
     """Every second state is kept where there are too many, and always the present one."""
     monkeypatch.setattr(history, "MOST", 16)
     monkeypatch.setattr(history, "BYTES", 1.0)
-    sim = model.start(step=1e-3)
+    sim = model.start(integrator="rk4", step=1e-3)
     for _ in range(1000):
         sim.step(1e-3)
     result = sim.result()
