@@ -92,10 +92,11 @@ def show_facts(out: Console, facts: Iterable[tuple[str, str]]) -> None:
 
 def show_result(result: Result) -> None:
     """Print what a run gave."""
+    from symgen.cli import in_options
     from symgen.result.summary import lines
 
     out = console()
-    show_facts(out, lines(result))
+    show_facts(out, [(label, in_options(text)) for label, text in lines(result)])
     if len(result.t):
         labels, rows = _final(result)
         show_rows(out, ("body", *labels), rows, left=("body",), title="final state")

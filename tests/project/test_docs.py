@@ -119,7 +119,8 @@ def test_every_snippet_runs(page: Path, tmp_path: Path, monkeypatch: pytest.Monk
     names: dict[str, object] = {"__name__": "__main__"}
     for file, text in files(page).items():
         (tmp_path / file).write_text(text, encoding="utf-8")
-    scripts = {text for file, text in files(page).items() if f"\n$ python {file}\n" in page.read_text(encoding="utf-8")}
+    shown = page.read_text(encoding="utf-8")
+    scripts = {x for file, x in files(page).items() if f"\n$ python {file}\n" in shown or f"--plugin {file}" in shown}
     for block in fenced(page, "python"):
         if block.text in scripts:
             continue  # run as a command

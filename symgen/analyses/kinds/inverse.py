@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 from symgen.analyses.kinds import (
     OF_DRIVEN,
@@ -20,6 +20,7 @@ from symgen.analyses.kinds import (
 )
 from symgen.digits import digits, scale_of
 from symgen.errors import InputError
+from symgen.keywords import DrivenKeywords
 from symgen.settings import Settings, flag, is_given
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def inverse(
     times: ArrayLike | None = None,
     actuators: Sequence[str] = (),
     weights: Mapping[str, float] | None = None,
-    **changes: object,
+    **changes: Unpack[DrivenKeywords],
 ) -> Inverse:
     """Return the efforts that a motion needs; see `docs/inverse.md`.
 
@@ -56,7 +57,7 @@ def inverse(
         Of efforts that are not unique: the sum of (weight effort)^2 is smallest. 1 / N, or 1 / (N m) times the
         length of the mechanism, by default.
     **changes
-        Single settings that mean something here: ``parameters``, ``inputs``, ``strict``, ``shape``.
+        Other settings are refused; ``start`` and ``strict`` belong to a motion that drivers prescribe.
 
     Raises
     ------
