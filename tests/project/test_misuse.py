@@ -406,7 +406,7 @@ def rows():
     starts = {"3": 3, "[1.0]": [1.0]}
     yield from each("reset", starts, lambda x, v: x.sim.reset(v), "start: expected values by the names of coordinates")
     yield "reset name", lambda x: x.sim.reset({"bob.vxx": 1.0}), "did you mean 'bob.vx'?"
-    yield "column", lambda x: x.sim["crank.thet"], "result: expected the name of a column, got 'crank.thet'"
+    yield "column", lambda x: x.sim["crank.thet"], "quantity 'crank.thet': expected a quantity of pendulum"
     yield "inspect method", lambda x: x.model.inspect("lagrang"), "method: expected a method, got 'lagrang'"
     yield "inspect options", lambda x: x.model.inspect("lagrange", 3), "options: expected texts by name, got 3"
     yield "inspect coordinates", lambda x: x.model.inspect(coordinates="joints"), "did you mean 'joint'?"
