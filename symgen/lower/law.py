@@ -69,6 +69,7 @@ def lower_law(
         hoisted=len(hoister.slots) - hoister.reserved,
         position_correction=correction.position != "none",
         velocity_correction=correction.velocity,
+        energy_correction=correction.energy,
         nw=layout.nw,
         unknowns=unknowns,
         level=level,
@@ -120,7 +121,7 @@ def _sections(
     layout: ModelLayout, record: RecordedLaw, blocks: list[Block], degrees: int
 ) -> dict[str, tuple[int, int]]:
     """Return the sections of ``w``: those of the model, and the law's own behind them."""
-    sizes = {"nv": layout.nv, "m": layout.m, "degrees": degrees}
+    sizes = {"one": 1, "nv": layout.nv, "m": layout.m, "degrees": degrees}
     sections, offset = dict(layout.sections), layout.nw
     for name, factors in record.sections:
         size = 1

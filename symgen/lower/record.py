@@ -81,7 +81,10 @@ def record_law(method: Method, options: Mapping[str, str], driven: bool = False)
     correction = method.correction(options)
     recording.role = "metric"
     if correction.any and correction.metric != "scaled":  # which is the model's own
+        recording.share = correction.share
         getattr(recording, f"{correction.metric}_metric")()
+    if correction.energy:
+        recording.balance(method.name)
     return recording.record()
 
 
@@ -91,7 +94,7 @@ class _Law:
         self.system = System()
         self.parts: list[Part] = []
         self.sections: dict[str, tuple[str, ...]] = {}
-        self.form, self.role = "", "acceleration"
+        self.form, self.role, self.share = "", "acceleration", ""
 
     def record(self) -> RecordedLaw:
         return RecordedLaw(
@@ -105,7 +108,8 @@ class _Law:
     def law(self, law: Law) -> None:
         if isinstance(law, Acceleration):
             self.form, flag = "direct", self.system.flag()
-            outputs = [*self.rates(law.acceleration, law.multipliers), ("multipliers", law.multipliers)]
+            rates = self.rates(law.acceleration, law.multipliers, law.position)
+            outputs = [*rates, ("multipliers", law.multipliers)]
             self.add("rhs", "q', v', power and multipliers", *outputs, flag=flag)
         elif isinstance(law, Iteration):
             self.iterated(law)
@@ -219,7 +223,16 @@ class _Law:
         purpose = f"the factorisation of {matrix} from D, without the rows that depend on others"
         self.metric("refactor", purpose, ("law_", factor))
 
+    def balance(self, method: str) -> None:
+        """Add where the energy is kept that velocities are scaled to, which T being quadratic in v allows."""
+        if self.driven:
+            expected = f"coordinates in which no driver prescribes one of the state, for '{method}'"
+            raise InputError("--coordinates", expected, "those of joints that are driven", "--coordinates absolute")
+        self.sections["balance"] = ("one",)
+
     def spread(self, change: Vector) -> None:
+        if self.share:
+            change = self.system.parameter(self.share) * change
         self.add("spread", "the correction -D^+ times the section `residual`, of v, or of q by N", ("change", change))
 
     def identity_metric(self) -> None:
