@@ -9,7 +9,7 @@ from symgen.methods._base import SOLVER, MethodOption, MethodParameter, Multipli
 from symgen.methods._formula import System, Vector
 
 #: The zero of the stability function of `rk4`, z^4 + 4 z^3 + 12 z^2 + 24 z + 24, that is nearest to the real axis.
-_ZERO = (1.7294442631, 0.8889743761)
+_ZERO = (1.729444231067705, 0.8889743761218646)
 
 
 class AdaptiveBaumgarte(MultiplierMethod):

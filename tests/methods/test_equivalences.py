@@ -1,20 +1,16 @@
 """Which methods of the literature are one: their formulas, written here with NumPy, beside the emitted laws."""
 
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 import scipy.linalg
 from support.checks import close
 from support.emitted import Emitted, mechanism_of
-from support.laws_at import LawAt
+from support.laws_at import LawAt, described
 from support.models import parallelogram
 
-import symgen.catalogue
-from symgen.describe.load import parse_toml
-
-FOUR_BAR = parse_toml((Path(symgen.catalogue.__file__).parent / "four-bar.toml").read_text(encoding="utf-8"), "test")
+FOUR_BAR = described("four-bar")
 #: Of a direct solution; the augmented iteration leaves what its penalty, 1e5 times the masses, costs in digits.
 TOLERANCE, ITERATED = 1e-11, 1e-9
 

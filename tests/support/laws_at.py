@@ -1,12 +1,34 @@
 """Laws and corrections of a planar mechanism at any state, beside M, D, f and gamma of the plain description."""
 
+from pathlib import Path
+
 import numpy as np
 
+import symgen.catalogue
 from support import reference
 from support.plain import Plain
 from symgen.api import Model
+from symgen.describe.load import parse_toml
 from symgen.describe.validate import validate
 from symgen.ir.program import COUNTERS, STATUS
+
+
+def described(name: str) -> dict:
+    """The raw description of a mechanism of the catalogue."""
+    file = Path(symgen.catalogue.__file__).parent / f"{name}.toml"
+    return parse_toml(file.read_text(encoding="utf-8"), name)
+
+
+def on_rails() -> dict:
+    """A block that drivers hold at x = 0 and at an angle of 0, beside nothing else: D is constant, Phi linear."""
+    return {
+        "mechanism": {"name": "on-rails", "gravity": [0.0, 0.0]},
+        "bodies": {"block": {"mass": 2.0, "inertia": 0.5}},
+        "joints": {
+            "x": {"type": "driver", "body": "block", "coordinate": "x", "value": 0.0},
+            "turn": {"type": "driver", "body": "block", "coordinate": "theta", "value": 0.0},
+        },
+    }
 
 
 class StateEquations:
@@ -72,3 +94,18 @@ class LawAt:
         bits = self.compiled.law_module.accept(t, y, self.start.p, self.w, self.iw)
         assert bits & 1 == 0
         return y[: self.nq].copy(), y[self.nq : self.nq + self.nv].copy()
+
+    def moved(self, q, v, h, steps, correct=False) -> tuple[np.ndarray, np.ndarray]:
+        """q and v after steps of the classical Runge-Kutta scheme, with the correction or without."""
+        self.w[STATUS.index("step")] = h
+        q, v = np.array(q, dtype=float), np.array(v, dtype=float)
+        for k in range(steps):
+            rates = [np.zeros(len(q) + len(v))]
+            for part in (0.0, 0.5, 0.5, 1.0):
+                y = np.concatenate([q, v]) + part * h * rates[-1]
+                rates.append(np.concatenate(self.rates(y[: len(q)], y[len(q) :], (k + part) * h)[:2]))
+            change = h / 6.0 * (rates[1] + 2.0 * rates[2] + 2.0 * rates[3] + rates[4])
+            q, v = q + change[: len(q)], v + change[len(q) :]
+            if correct:
+                q, v = self.accepted(q, v, (k + 1) * h)
+        return q, v
