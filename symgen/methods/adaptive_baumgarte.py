@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from symgen.errors import InputError
+from symgen.methods._augmented import SOURCE
 from symgen.methods._base import SOLVER, MethodOption, MethodParameter, MultiplierMethod
 from symgen.methods._formula import System, Vector
 
@@ -34,7 +35,7 @@ class AdaptiveBaumgarte(MultiplierMethod):
         "Lin, Huang, J. Mech. Des. 124 (2002) 633-640, doi 10.1115/1.1519277 (pole-placed)"
     )
     parameters = (
-        MethodParameter("gain", 20.0, "1/s", "rule=gain: largest gain alpha = beta"),
+        MethodParameter("gain", 5.0, "1/s", f"rule=gain: largest gain alpha = beta; for `baumgarte` {SOURCE}"),
         MethodParameter("a", 1.0, "1", "rule=gain: largest gain times the step"),
         MethodParameter("decay", _ZERO[0], "1", "rule=pole-placed: minus the real part of the root times the step"),
         MethodParameter("frequency", _ZERO[1], "1", "rule=pole-placed: the imaginary part of the same"),

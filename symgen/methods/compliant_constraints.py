@@ -20,7 +20,7 @@ class CompliantConstraints(Method):
 
     name = "compliant-constraints"
     summary = "constraints that give way in proportion to their force; regular at singular positions"
-    reference = "Eich, Hanke, Appl. Numer. Math. 19 (1995) 345-360"
+    reference = "Eich, Hanke, Z. Angew. Math. Mech. 75 (1995) 761-773"
     forms = ("ode", "index-1")
     parameters = (
         MethodParameter("compliance", 1e-9, "1/kg", "e, one over the default factor of `penalty`", 1e-300),
