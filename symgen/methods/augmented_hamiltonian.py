@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import ClassVar
 
 from symgen.ir.program import Correction
 from symgen.methods._augmented import ITERATION_TOLERANCE, PENALTY
-from symgen.methods._base import Iteration, IterationState, Method, Rates, multiplier_law
+from symgen.methods._base import Iteration, IterationState, Method, MethodParameter, Rates, multiplier_law
 from symgen.methods._formula import System, Vector
 
 
@@ -26,7 +27,7 @@ class AugmentedHamiltonian(Method):
     summary = "momenta are integrated; velocities satisfy their constraint in every evaluation"
     reference = "Bayo, Avello, Nonlinear Dyn. 5 (1994) 209-231, doi 10.1007/BF00045677"
     forms = ("one-step",)
-    parameters = (PENALTY, ITERATION_TOLERANCE)
+    parameters: ClassVar[tuple[MethodParameter, ...]] = (PENALTY, ITERATION_TOLERANCE)
 
     def needs_regular_mass(self, options: Mapping[str, str]) -> bool:
         """Return True: M is inverted."""

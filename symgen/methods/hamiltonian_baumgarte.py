@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import ClassVar
 
 from symgen.methods._augmented import ITERATION_TOLERANCE, PENALTY, SOURCE
 from symgen.methods._base import MethodParameter
@@ -21,7 +22,7 @@ class HamiltonianBaumgarte(AugmentedHamiltonian):
     name = "hamiltonian-baumgarte"
     summary = "momenta are integrated; velocities let violations of positions decay in every evaluation"
     reference = "Baumgarte, J. Appl. Mech. 50 (1983) 869-870"
-    parameters = (
+    parameters: ClassVar[tuple[MethodParameter, ...]] = (
         MethodParameter("alpha", 5.0, "1/s", f"rate at which Phi decays; for `baumgarte` {SOURCE}"),
         PENALTY,
         ITERATION_TOLERANCE,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import ClassVar
 
 from symgen.methods._base import Acceleration, Method, MethodParameter
 from symgen.methods._formula import Scalar, System
@@ -23,7 +24,7 @@ class InvariantStabilization(Method):
         "Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; "
         "Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157"
     )
-    parameters: tuple[MethodParameter, ...] = (
+    parameters: ClassVar[tuple[MethodParameter, ...]] = (
         MethodParameter("kappa", 10.0, "1/s", "rate at which violations decay; chosen here, as omega of `penalty`"),
     )
 
