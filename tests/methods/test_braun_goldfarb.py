@@ -4,6 +4,7 @@ import numpy as np
 from support.laws_at import LawAt, described
 
 from benchmarks import all_orders
+from symgen.api import load
 
 
 def test_a_start_that_is_off_closes_by_the_stability_function_at_minus_one():
@@ -21,3 +22,10 @@ def test_a_start_that_is_off_closes_by_the_stability_function_at_minus_one():
 def test_the_order_of_rk4_is_lost():
     found = all_orders.observe("braun-goldfarb", "rk4")
     assert found.slope is not None and 1.8 < found.slope < 3.0, found
+
+
+def test_adaptive_runs_begin_before_there_is_a_step():
+    found = load("four-bar").simulate(method="braun-goldfarb", integrator="dop853", until=1.0)
+    assert found.status == "ok", found.reason
+    usual = load("four-bar").simulate(integrator="dop853", until=1.0)
+    np.testing.assert_allclose(np.asarray(found.q), np.asarray(usual.q), rtol=0.0, atol=1e-6)
