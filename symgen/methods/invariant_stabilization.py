@@ -19,6 +19,7 @@ class InvariantStabilization(Method):
     """
 
     name = "invariant-stabilization"
+    dense = "which needs rates of positions at other velocities than the state's"
     summary = "violations decay with one rate, positions by a change of q'"
     reference = (
         "Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; "

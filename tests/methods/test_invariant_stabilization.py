@@ -54,7 +54,7 @@ def test_braun_goldfarb_is_the_same_at_one_over_the_step():
 
 def test_loops_refuse_it_in_a_sentence(cli):
     code, _, said = cli("run", "four-bar", "--method", "invariant-stabilization", "--shape", "looped")
-    assert code == 2 and "whose formula asks for 'at_velocity'" in said
+    assert code == 2 and "which needs rates of positions at other velocities" in said
 
 
 def test_in_space_and_in_joint_coordinates():
