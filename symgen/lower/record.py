@@ -84,7 +84,7 @@ def record_law(method: Method, options: Mapping[str, str], driven: bool = False)
         recording.share = correction.share
         getattr(recording, f"{correction.metric}_metric")()
     if correction.energy:
-        recording.balance(method.name)
+        recording.sections["balance"] = ("one",)  # the energy that velocities are scaled to
     return recording.record()
 
 
@@ -222,13 +222,6 @@ class _Law:
         """Add ``refactor``, which the law's own ``geometry`` calls behind that of the model."""
         purpose = f"the factorisation of {matrix} from D, without the rows that depend on others"
         self.metric("refactor", purpose, ("law_", factor))
-
-    def balance(self, method: str) -> None:
-        """Add where the energy is kept that velocities are scaled to, which T being quadratic in v allows."""
-        if self.driven:
-            expected = f"coordinates in which no driver prescribes one of the state, for '{method}'"
-            raise InputError("--coordinates", expected, "those of joints that are driven", "--coordinates absolute")
-        self.sections["balance"] = ("one",)
 
     def spread(self, change: Vector) -> None:
         if self.share:
