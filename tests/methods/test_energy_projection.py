@@ -68,6 +68,11 @@ def test_the_energy_of_a_run(keys):
     assert found.position_violation_max < 1e-11 and found.velocity_violation_max < 1e-13
 
 
+def test_the_work_of_drivers_is_part_of_the_balance():
+    found = Model(validate(swing_on_a_cart(), "test")).simulate(method=METHOD, step=2e-3, until=1.0)
+    assert np.abs(np.asarray(found.work)).max() > 0.1 and found.energy_drift_max < 1e-11
+
+
 def gain(raw, until):
     """Error of the motion without scaling over that with it."""
     model, times = Model(validate(raw, "test")), np.linspace(0.0, until, 11)
