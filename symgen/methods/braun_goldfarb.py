@@ -19,6 +19,7 @@ class BraunGoldfarb(InvariantStabilization):
     name = "braun-goldfarb"
     summary = "as `invariant-stabilization` at one over the step: violations vanish within a few steps"
     reference = "Braun, Goldfarb, Comput. Methods Appl. Mech. Eng. 198 (2009) 3151-3160"
+    default_integrator = "rk4"
     parameters = ()
 
     def rate(self, system: System) -> Scalar:

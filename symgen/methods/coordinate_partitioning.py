@@ -26,6 +26,7 @@ class CoordinatePartitioning(MultiplierMethod):
         "Nikravesh, Haug, J. Mech. Trans. Autom. Des. 105 (1983) 379-384"
     )
     forms = ("ode",)
+    default_integrator = "dop853"
     integrates = "independent"
     parameters = (TOLERANCE,)
 

@@ -28,6 +28,7 @@ class NullSpace(Method):
         "Kim, Vanderploeg, J. Mech. Trans. Autom. Des. 108 (1986) 183-188; "
         "Blajer, Comput. Methods Appl. Mech. Eng. 121 (1995) 45-57"
     )
+    default_integrator = "dop853"
     parameters = (TOLERANCE,)
 
     def law(self, system: System, options: Mapping[str, str]) -> Tangent:

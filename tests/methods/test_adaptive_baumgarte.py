@@ -54,7 +54,13 @@ def test_gains_from_the_step_leave_order_two(rule):
     for step in (4e-3, 2e-3, 1e-3):
         options = {"method.rule": rule}
         found = model.simulate(
-            method="adaptive-baumgarte", step=step, until=UNTIL, times=times, options=options, **UNWATCHED
+            method="adaptive-baumgarte",
+            integrator="rk4",
+            step=step,
+            until=UNTIL,
+            times=times,
+            options=options,
+            **UNWATCHED,
         )
         assert found.status == "ok", found.reason
         errors.append(np.abs(np.asarray(found.q) - np.asarray(exact.q)).max())

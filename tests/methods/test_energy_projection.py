@@ -62,14 +62,16 @@ def test_velocities_stay_where_no_factor_gives_the_energy():
 @pytest.mark.parametrize("keys", [{}, {"shape": "looped"}, {"coordinates": "joint"}], ids=str)
 def test_the_energy_of_a_run(keys):
     model = load("four-bar")
-    found = model.simulate(method=METHOD, step=4e-3, until=2.0, **keys)
-    usual = model.simulate(method="direct-correction", options={"method.weight": "mass"}, step=4e-3, until=2.0, **keys)
+    found = model.simulate(method=METHOD, integrator="rk4", step=4e-3, until=2.0, **keys)
+    usual = model.simulate(
+        method="direct-correction", options={"method.weight": "mass"}, integrator="rk4", step=4e-3, until=2.0, **keys
+    )
     assert found.energy_drift_max < 1e-11 < 1e-7 < usual.energy_drift_max
     assert found.position_violation_max < 1e-11 and found.velocity_violation_max < 1e-13
 
 
 def test_the_work_of_drivers_is_part_of_the_balance():
-    found = Model(validate(swing_on_a_cart(), "test")).simulate(method=METHOD, step=2e-3, until=1.0)
+    found = Model(validate(swing_on_a_cart(), "test")).simulate(method=METHOD, integrator="rk4", step=2e-3, until=1.0)
     assert np.abs(np.asarray(found.work)).max() > 0.1 and found.energy_drift_max < 1e-11
 
 
@@ -79,7 +81,7 @@ def gain(raw, until):
     exact = model.simulate(integrator="dop853", rtol=1e-12, atol=1e-13, until=until, times=times)
     found = []
     for method, options in ((METHOD, {}), ("direct-correction", {"method.weight": "mass"})):
-        run = model.simulate(method=method, options=options, step=1e-2, until=until, times=times)
+        run = model.simulate(method=method, options=options, integrator="rk4", step=1e-2, until=until, times=times)
         found.append(np.abs(np.asarray(run.q) - np.asarray(exact.q)).max())
     return found[1] / found[0]
 
@@ -93,10 +95,10 @@ def test_energy_fixes_the_motion_of_one_degree_of_freedom_only():
 
 def test_such_runs_are_not_judged_by_their_energy():
     model = load("four-bar")
-    found = model.simulate(method=METHOD, step=1e-3, until=1.0, max_energy_error=1e-30)
+    found = model.simulate(method=METHOD, integrator="rk4", step=1e-3, until=1.0, max_energy_error=1e-30)
     assert found.status == "unverified" and "velocities are scaled to the energy" in found.reason
-    assert model.simulate(method=METHOD, step=1e-3, until=1.0, verify=True).status == "ok"
-    rows = symgen.sweep(model, {"coupler_mass": [7.0, 8.0, 9.0]}, method=METHOD, step=1e-3, until=0.2)
+    assert model.simulate(method=METHOD, integrator="rk4", step=1e-3, until=1.0, verify=True).status == "ok"
+    rows = symgen.sweep(model, {"coupler_mass": [7.0, 8.0, 9.0]}, method=METHOD, integrator="rk4", step=1e-3, until=0.2)
     assert set(rows.status) == {"unverified"}
 
 
@@ -104,7 +106,7 @@ def test_the_balance_goes_on_after_parameters_change():
     """Twice the mass of the coupler adds to the energy; velocities follow the new balance, not the old one."""
     ends = []
     for method, options in ((METHOD, {}), ("direct-correction", {"method.weight": "mass"})):
-        run = load("four-bar").start(method=method, options=options, step=1e-3)
+        run = load("four-bar").start(method=method, options=options, integrator="rk4", step=1e-3)
         run.run(0.5)
         run.set({"coupler_mass": 16.0})
         run.run(1.0)
@@ -121,5 +123,11 @@ def test_what_it_refuses(cli):
     assert code == 2 and "expected coordinates in which no driver prescribes one of the state" in said
     with pytest.raises(InputError, match="scales velocities to the energy"):
         symgen.sweep(
-            load("four-bar"), {"coupler_mass": [7.0, 8.0]}, method=METHOD, step=1e-3, until=0.1, target="lanes"
+            load("four-bar"),
+            {"coupler_mass": [7.0, 8.0]},
+            method=METHOD,
+            integrator="rk4",
+            step=1e-3,
+            until=0.1,
+            target="lanes",
         )
