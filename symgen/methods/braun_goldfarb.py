@@ -19,7 +19,7 @@ class BraunGoldfarb(InvariantStabilization):
     name = "braun-goldfarb"
     summary = "as `invariant-stabilization` at one over the step: violations vanish within a few steps"
     reference = "Braun, Goldfarb, Comput. Methods Appl. Mech. Eng. 198 (2009) 3151-3160"
-    default_integrator = "rk4"
+    default_integrator = "dop853"
     parameters = ()
 
     def rate(self, system: System) -> Scalar:
@@ -27,8 +27,8 @@ class BraunGoldfarb(InvariantStabilization):
         return system.inverse_step
 
     def largest_step(self, parameters: Mapping[str, float], boundary: float) -> float | None:
-        """Return None: the rate follows the step."""
-        return None
+        """Return 0 where minus one is outside the region of stability, else None: the rate follows the step."""
+        return None if boundary >= 1.0 else 0.0
 
 
 KIND = BraunGoldfarb()
