@@ -19,7 +19,6 @@ class BraunGoldfarb(InvariantStabilization):
     name = "braun-goldfarb"
     summary = "as `invariant-stabilization` at one over the step: violations vanish within a few steps"
     reference = "Braun, Goldfarb, Comput. Methods Appl. Mech. Eng. 198 (2009) 3151-3160"
-    default_integrator = "dop853"
     parameters = ()
 
     def rate(self, system: System) -> Scalar:

@@ -22,7 +22,6 @@ class DependentCorrection(MultiplierMethod):
     summary = "dependent coordinates are corrected after each step, independent ones are left"
     reference = "Terze, Naudet, Multibody Syst. Dyn. 20 (2008) 85-106; Terze, Lefeber, Muftic, ibid. 6 (2001) 229-243"
     forms = ("ode",)
-    default_integrator = "dop853"
     parameters = (TOLERANCE,)
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
