@@ -75,7 +75,7 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     layout, correction, info, made = program.layout, program.correction, program.info, versions(model.digest)
     simple = correction.metric in ("identity", "scaled", "mass") and not correction.energy
     if program.form != "direct" or program.closed or not simple:
-        expected = "a method that is a formula with at most one correction (--target lanes)"
+        expected = "a method that is a formula with at most one correction (target lanes)"
         got = "one that iterates, chooses coordinates, or scales velocities to the energy"
         raise InputError(f"method '{info.method}'", expected, got)
     n_p = info.parameter_offset + len(info.parameters) + info.hoisted
