@@ -191,6 +191,9 @@ class CModel:
                 for q, x in zip(info.parameters, start.p, strict=False)
             ],
             "given": [i for i, p in enumerate(self.mechanism.parameters) if p.formula is not None and p.name in own],
+            "tolerances": [
+                law.parameter_offset + i for i, (name, _) in enumerate(law.parameters) if name.endswith("tolerance")
+            ],
             "p0": _list(map(c_number, start.p)),
             "y0": _list(map(c_number, start.y)),
             "w0": _list(f"{{{i}, {c_number(scratch[i])}}}" for i in np.flatnonzero(scratch)) or "{-1, 0.0}",
