@@ -37,7 +37,7 @@ _PLATFORMS = {
     "darwin": ("darwin64", "darwin", ".dylib"),
 }
 _CROSS = "x86_64-w64-mingw32-gcc"
-_OPTIONS = ("-std=c99", "-O2", "-shared")
+_OPTIONS = ("-std=c99", "-O2", "-shared", "-s")
 #: Smallest of the singular values, over the largest, that count for the rank of rows.
 _RANK = 1e-9
 
@@ -150,9 +150,9 @@ def _variables(model: CModel, values: dict[str, Any], fmi: int) -> dict[str, Any
         Variable(f"der(state.{i + 1})", _RATE + i, "local", "continuous", initial="calculated", derivative=state)
         for i, state in enumerate(states)
     ]
+    marks = [*(f"event.{event.name}" for event in mechanism.events), "event.choice_of_states"] if fmi == 3 else []
     indicators = [
-        Variable(f"event.{event.name}", _EVENT + i, "local", "continuous", initial="calculated")
-        for i, event in enumerate(mechanism.events if fmi == 3 else ())
+        Variable(name, _EVENT + i, "local", "continuous", initial="calculated") for i, name in enumerate(marks)
     ]
     variables += [*outputs_at, *states, *rates, *indicators]
     for i, variable in enumerate(variables, 1):
