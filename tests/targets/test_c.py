@@ -1,6 +1,7 @@
 """C code beside what Numba and symgen's own compiler make of the same functions, and its runs beside `simulate`."""
 
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,11 +12,12 @@ from symgen.errors import InputError
 from symgen.native.c99 import c_functions
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
+from symgen.targets import TARGETS, Request
 from tests.targets.compilers import called, compiled, written
 
 STATES = 1000
 NAMES = [entry.name for entry in (*entries(), *entries(MACHINES)) if not entry.sized] + ["chain:4", "n-four-bar:2"]
-QUICK = [("four-bar", "absolute"), ("bicycle", "joint"), ("wiper", "absolute"), ("rolling-disc", "absolute")]
+QUICK = [("four-bar", "absolute"), ("bricard", "joint"), ("wiper", "absolute"), ("rolling-disc", "absolute")]
 
 
 def agree(name, coordinates, folder):
@@ -172,3 +174,18 @@ def test_long_functions_are_divided(tmp_path):
     text = c_functions(checked(run.compiled, ("rhs",)))
     assert "rhs_part1(" in text
     assert max(map(len, text.split("\n\n"))) < 60_000
+
+
+def test_the_loop_of_the_guide_compiles(tmp_path):
+    guide = (Path(__file__).parents[2] / "docs" / "howto" / "c-and-fmu.md").read_text(encoding="utf-8")
+    loop = guide.split("```c\n")[1].split("```")[0]
+    folder = written(load("cart-pole").mechanism, tmp_path)
+    (folder / "main.c").write_text(loop + "int main(void) { setup(); for (int i = 0; i < 10; i++) loop(); }")
+    assert compiled(folder, "-DCART_POLE_SINGLE", "-fsingle-precision-constant").exists()
+
+
+def test_javascript_is_a_module(tmp_path):
+    TARGETS.get("javascript").write(Request(load("four-bar").mechanism, tmp_path))
+    text = (tmp_path / "four-bar.mjs").read_text()
+    assert "export const model = makeLive(" in text
+    assert "function rhs(t, y, p, w, iw, ydot)" in text

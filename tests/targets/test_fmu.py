@@ -1,5 +1,7 @@
 """FMUs as importers run them: FMPy validates them, steps them and integrates them by CVode."""
 
+import zipfile
+
 import numpy as np
 import pytest
 from fmpy import read_model_description, simulate_fmu
@@ -34,6 +36,12 @@ def simulated(path, kind, until, tolerance=1e-9, step=None, outputs=None, **keys
     return {name: rows[name] for name in ("time", *names)}
 
 
+def size_of(path):
+    """Return the bytes of an FMU without the library of another system."""
+    with zipfile.ZipFile(path) as archive:
+        return sum(entry.compress_size for entry in archive.infolist() if "win" not in entry.filename)
+
+
 @pytest.fixture(scope="module", params=[2, 3])
 def four_bar(request, tmp_path_factory):
     return fmu_of(load("four-bar"), tmp_path_factory.mktemp("fmu") / "four-bar.fmu", fmi=request.param)
@@ -41,7 +49,7 @@ def four_bar(request, tmp_path_factory):
 
 def test_it_is_valid_and_small(four_bar):
     assert validate_fmu(str(four_bar)) == []
-    assert four_bar.stat().st_size < 200_000
+    assert size_of(four_bar) < 200_000
     description = read_model_description(str(four_bar))
     names = {v.name: v for v in description.modelVariables}
     assert names["crank_mass"].unit == "kg"
@@ -101,12 +109,12 @@ def test_events_change_velocities_and_end_the_motion(kind, fmi, tmp_path):
     assert over["time"][-1] == pytest.approx(1.5, abs=0.051)
 
 
-@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("coordinates", ["joint", pytest.param("absolute", marks=pytest.mark.slow)])
 def test_a_mechanism_in_space_has_one_degree_of_freedom(coordinates, tmp_path):
     model = load("bricard")
     path = fmu_of(model, tmp_path / "bricard.fmu", coordinates=coordinates)
     assert validate_fmu(str(path)) == []
-    assert path.stat().st_size < 200_000
+    assert size_of(path) < 200_000
     rows = simulated(path, "ModelExchange", 1.0)
     own = model.simulate(method="direct-correction", integrator="dop853", rtol=1e-12, until=1.0, output_step=0.1)
     for name in own.q.names:
