@@ -79,7 +79,7 @@ class Equilibrium:
     notes: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what JSON can express."""
+        """Return the fields in types of JSON."""
         return dict(plain(self))
 
 
@@ -104,7 +104,7 @@ def judged(rest: Settled) -> Equilibrium:
         not_unique=not_unique(subject.mechanism, info, share),
         y=y,
         lam=lam,
-        notes=edges(subject, y),
+        notes=(*subject.singular(d), *edges(subject, y)),
     )
 
 

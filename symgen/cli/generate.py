@@ -34,7 +34,7 @@ _LISTED = [f"  {name:<12}{_TARGETS.summary(name)}" for name in _TARGETS.names]
 )
 @click.option(
     "--target",
-    metavar="TARGET",
+    type=click.Choice(_TARGETS.names),
     default="cpu",
     show_default=True,
     help="What the code is for: see the list below.",

@@ -32,7 +32,7 @@ from symgen.ensemble.row_quantities import choose_quantities
 from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import LANES
-from symgen.running.automatic import AUTO, EXPLICIT
+from symgen.running.automatic import AUTO, CONSTANT, EXPLICIT
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import make_plan
 from symgen.running.tree import tree_code
@@ -138,7 +138,7 @@ class Ensemble:
         return size if self.target == "cpu" else LANES * math.ceil(size / LANES)
 
     def rows(self, first: int, last: int) -> Rows:
-        """Return what distinguishes the runs from `first` to `last` (exclusive)."""
+        """Return the values that distinguish the runs from `first` to `last` (exclusive)."""
         return self.driving.put(self.settled(first, last), tuple(self.parameters))
 
     def settled(self, first: int, last: int) -> Rows:
@@ -209,7 +209,8 @@ def make_ensemble(
         end = model.mechanism.defaults.until if settings.until is None else settings.until
         settings = replace(settings, times=(end,))
     if target != "cpu":
-        explicit = EXPLICIT if settings.integrator == AUTO else settings.integrator
+        named = settings.integrator or model.mechanism.defaults.integrator
+        explicit = EXPLICIT if named == AUTO else named or CONSTANT  # others have no loop there
         settings = replace(settings, coordinates="absolute", integrator=explicit)
         refuse_events(f"target '{target}'", model.mechanism, settings)
     plan = make_plan(model.mechanism, settings, Purpose.ROWS)
@@ -306,7 +307,7 @@ def _code(
     joint: bool,
     kept: Sequence[RowQuantity],
 ) -> Code:
-    """Return what runs take of code for one solver, with how quantities behind the loops are worked out."""
+    """Return the code that runs use for one solver, with how quantities behind the loops are worked out."""
     return Code(
         Module.of(compiled),
         Module.of(compile_model(mechanism, choice, target=target)) if target != "cpu" else None,

@@ -42,7 +42,7 @@ _LIBRARY = (
     "printf memcpy memset div labs atoi atof system time clock signal index double_t float_t"
 )
 #: Words that are no names: keywords, names of the library, and names of the files' own.
-RESERVED = frozenset((*_KEYWORDS.split(), *_LIBRARY.split(), *HELPERS, "real", "M", "I", "EOF", "NULL", "NAN"))
+RESERVED = frozenset((*_KEYWORDS.split(), *_LIBRARY.split(), *HELPERS, "real", "M", "I", "EOF", "NULL", "NAN", "SMALL", "LARGE"))
 
 _CALLED = {"floordiv": "floored", "mod": "rest", "min": "least", "max": "greatest", "abs": "fabs"}
 _CALLED |= {"math.fabs": "fabs", "pow": "pow"}
@@ -81,9 +81,11 @@ def broken(line: str) -> str:
 
 
 def c_number(value: float) -> str:
-    """Return a number of 64 bits as C has it."""
+    """Return a number of 64 bits as C has it; what 32 bits do not hold is within a macro."""
     if math.isfinite(value):
-        return repr(float(value))
+        size = abs(value)
+        text = repr(float(value))
+        return f"SMALL({text})" if 0.0 < size < 1e-37 else f"LARGE({text})" if size > 1e38 else text
     return "NAN" if math.isnan(value) else "INFINITY" if value > 0 else "-INFINITY"
 
 

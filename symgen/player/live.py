@@ -125,7 +125,7 @@ def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]
 
 
 def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
-    """Return what follows from parameters: derived ones, and the start, described or begun with."""
+    """Return the values that follow from parameters: derived ones, and the start, described or begun with."""
     places = {p.name: f"p[{i}]" for i, p in enumerate(mechanism.parameters)}
     formulas = []
     for name, expression in derived(mechanism.parameters):
