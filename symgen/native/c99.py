@@ -42,7 +42,9 @@ _LIBRARY = (
     "printf memcpy memset div labs atoi atof system time clock signal index double_t float_t"
 )
 #: Words that are no names: keywords, names of the library, and names of the files' own.
-RESERVED = frozenset((*_KEYWORDS.split(), *_LIBRARY.split(), *HELPERS, "real", "M", "I", "EOF", "NULL", "NAN", "SMALL", "LARGE"))
+RESERVED = frozenset(
+    (*_KEYWORDS.split(), *_LIBRARY.split(), *HELPERS, "real", "M", "I", "EOF", "NULL", "NAN", "SMALL", "LARGE")
+)
 
 _CALLED = {"floordiv": "floored", "mod": "rest", "min": "least", "max": "greatest", "abs": "fabs"}
 _CALLED |= {"math.fabs": "fabs", "pow": "pow"}
