@@ -39,13 +39,11 @@ _LIBRARY = (
     "fmax fmin fmod frexp gamma hypot ilogb j0 j1 jn ldexp lgamma llrint llround log log10 log1p log2 logb lrint "
     "lround modf nan nearbyint nextafter nexttoward pow remainder remquo rint round scalbln scalbn scalb signgam sin "
     "sincos sinh sqrt tan tanh tgamma trunc y0 y1 yn significand drem finite isinf isnan isfinite abs abort exit main "
-    "printf memcpy memset div labs atoi atof system time clock signal index double_t float_t real M I EOF NULL NAN SMALL "
-    "LARGE"
+    "printf memcpy memset div labs atoi atof system time clock signal index double_t float_t"
 )
+_OWN = ("real", "M", "I", "EOF", "NULL", "NAN", "SMALL", "LARGE")
 #: Words that are no names: keywords, names of the library, and names of the files' own.
-RESERVED = frozenset(
-    (*_KEYWORDS.split(), *_LIBRARY.split(), *HELPERS, "real", "M", "I", "EOF", "NULL", "NAN", "SMALL", "LARGE")
-)
+RESERVED = frozenset((*_KEYWORDS.split(), *_LIBRARY.split(), *HELPERS, *_OWN))
 
 _CALLED = {"floordiv": "floored", "mod": "rest", "min": "least", "max": "greatest", "abs": "fabs"}
 _CALLED |= {"math.fabs": "fabs", "pow": "pow"}
