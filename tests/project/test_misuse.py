@@ -244,7 +244,11 @@ def rows():
         ({"options": {"weight": "mass"}}, "option weight: expected METHOD.NAME with one of direct-correction"),
         ({"coordinates": "polar"}, "coordinates: expected one of absolute, joint, auto, got 'polar'"),
         ({"shape": "auto"}, "shape: expected one of straight, looped, got 'auto'"),
-        ({"target": "c"}, "target: expected one of cpu, lanes, cuda, got 'c'"),
+        (
+            {"target": "cc"},
+            "target: expected a target, got 'cc'; did you mean 'c'? (known: c, cpu, cuda, fmu, javascript, lanes)",
+        ),
+        ({"target": "fmu", "fmi": 4}, "fmi: expected 2 or 3, got 4"),
     ):
         yield f"generate {changes}", lambda x, c=changes: x.model.generate(**c), sentence
     yield "assemble what", lambda x: x.model.assemble(3), "compiled: expected what Model.compile returned, got 3"
