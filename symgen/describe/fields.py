@@ -92,6 +92,11 @@ Condition = Annotated[
 NewVelocities = Annotated[
     dict[str, StateFunction], Meta(description='a table of new velocities, such as "ball.vy" = "-0.7*ball.vy"')
 ]
+Rows = Annotated[
+    tuple[dict[str, float | str], ...],
+    Meta(description="a list of rows, { position = EXPRESSION } or { velocity = EXPRESSION }", min_length=1),
+]
+BodyNames = Annotated[tuple[str, ...], Meta(description="names of bodies", min_length=1)]
 PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
 
 T = TypeVar("T")

@@ -27,6 +27,13 @@ ACCELERATIONS = {
     "wz": "alphaz",
 }
 
+
+
+def is_speed(name: str) -> bool:
+    """Whether a coordinate or velocity of a body, such as ``rod.vx``, is a velocity."""
+    return name.rpartition(".")[2] in ACCELERATIONS
+
+
 #: Components of a vector: two in the plane, three in space.
 Vec = tuple[Expr, ...]
 

@@ -5,6 +5,8 @@
 | ``arm.tip.x``, ``.y``, in space ``.z`` | a point's coordinate in the ground frame [m] | everywhere |
 | ``arm.tip.vx``, ``.vy``, ``.vz`` | its velocity [m/s] | everywhere |
 | ``arm.tip.ax``, ``.ay``, ``.az`` | its acceleration [m/s^2] | outputs |
+| ``arm.ex.x`` ..., ``arm.ez.z`` | in space, component of an axis of a body's frame in the ground frame | everywhere |
+| ``arm.ex.vx`` ..., ``arm.ez.vz`` | its rate [1/s] | everywhere |
 | ``motor.angle``, ``slide.displacement``, ... | a coordinate that a joint reports, or a driver drives | everywhere |
 | ``motor.angle.rate``, ``motor.rate`` | its rate; the short form where there is one coordinate | everywhere |
 | ``motor.effort``, ``motor.power`` | what a driver exerts along its coordinate | outputs |
@@ -26,6 +28,7 @@ from symgen.vocabulary.measures import (
     GROUND,
     AnyAngle,
     Component,
+    Direction,
     Distance,
     Dot,
     Driven,
@@ -49,6 +52,9 @@ ORDERS = {"": "m", "v": "m/s", "a": "m/s^2"}
 #: Largest order that functions of state may read, and outputs, which know v' and what is exerted.
 STATE, OUTPUT = 1, 2
 
+#: Axes of a body's frame in space.
+AXES = ("ex", "ey", "ez")
+
 #: Names behind an owner's -> what is read, and its unit.
 Table = dict[str, tuple[Reading, str]]
 
@@ -60,6 +66,15 @@ def of_point(name: str, marker: Marker, dimension: int, order: int) -> Table:
         for axis, direction in zip("xyz", axes(GROUND, dimension), strict=False):
             label = f"{letter}{axis}"
             table[label] = Reading(f"{name}.{label}", Component(origin, marker, direction), derivative), unit
+    return table
+
+
+def of_axis(name: str, axis: Direction) -> Table:
+    """Return the components of an axis of a body in the ground frame, and their rates; `name` is the axis' own."""
+    table = Table()
+    for letter, direction in zip("xyz", axes(GROUND, 3), strict=True):
+        table[letter] = Reading(f"{name}.{letter}", Dot(direction, axis)), ""
+        table[f"v{letter}"] = Reading(f"{name}.v{letter}", Dot(direction, axis), 1), "1/s"
     return table
 
 
@@ -172,6 +187,9 @@ class Readings:
             entry = self._of_element(owner, where).get(".".join(words))
         elif len(words) == 2 and words[0] in self._context.points[owner]:
             entry = self._of_point(owner, words[0]).get(words[1])
+        elif len(words) == 2 and words[0] in AXES and self._dimension == 3 and not self._context.bodies[owner].is_point:
+            axis = axes(owner, 3)[AXES.index(words[0])]
+            entry = of_axis(f"{owner}.{words[0]}", axis).get(words[1])
         else:
             entry = None
         return None if entry is None else entry[0]

@@ -17,7 +17,7 @@ from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import OUTPUT, Readings
 from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest, quoted
-from symgen.vocabulary.expressions import ZERO, Expr, Number, call
+from symgen.vocabulary.expressions import ZERO, Expr, Number, call, moving, readings
 from symgen.vocabulary.measures import GROUND, Direction, Marker, Measure
 
 #: The name by which a file means a body's centre of mass.
@@ -282,6 +282,30 @@ class Scope:
     def of_time(self, key: str, value: float | str) -> Expr:
         """Return a number or an expression of t and parameters, with smooth tables: it must have two derivatives."""
         return self._expression(key, value, self.context.times)
+
+    def of_row(self, key: str, value: float | str, speeds: bool) -> Expr:
+        """Return an expression of t, parameters and positions, and with `speeds` velocities, with smooth tables.
+
+        Two derivatives of it are wanted, so that inputs and Euler parameters have no place in it.
+        """
+        times, what = self.context.times, "positions and velocities" if speeds else "positions"
+        coordinates = {
+            name: tuple(c for c in (*body.coordinates, *(body.speeds if speeds else ())) if c[0] != "e")
+            for name, body in self.context.bodies.items()
+        }
+        names = FormulaNames(
+            f"an expression of t, parameters and {what}",
+            *(times.plain, coordinates, times.tables, times.elsewhere),
+            readings=Readings(self.context),
+            hints=times.hints,
+        )
+        expression = self._expression(key, value, names)
+        for reading in readings(expression):
+            if reading.order and not speeds:
+                raise self.error(key, names.what, f"'{reading.name}', a velocity", "a row of velocities is { velocity = ... }")
+        if not moving(expression):
+            raise self.error(key, names.what, "one in which nothing moves")
+        return expression
 
     def of_state(
         self, key: str, value: float | str, words: Mapping[str, str] | None = None, *, conditions: bool = False

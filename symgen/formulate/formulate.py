@@ -129,7 +129,7 @@ def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
             measure = model.speed(row.speed)
             phi, nu, curvature = None, value, slope
         entries, bias, drift = model.pulled(measure.row, measure.bias)
-        gamma, nu = g.sub(curvature, bias), g.sub(nu, drift)
+        gamma, nu = g.sub(curvature, bias), g.sub(g.sub(nu, drift), measure.drift)
         ordered, size = tuple(sorted(entries.items())), _size(model, row, measure.row)
     return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, size)
 

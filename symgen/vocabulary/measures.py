@@ -126,11 +126,17 @@ class Sum(msgspec.Struct, frozen=True, tag="sum"):
     terms: tuple[tuple[Expr, Measure], ...]
 
 
+class FormulaMeasure(msgspec.Struct, frozen=True, tag="formula"):
+    """s = a formula of t, parameters, coordinates of bodies and values of measures."""
+
+    of: Expr
+
+
 #: Angles that come back to themselves in a turn, so that somebody has to count.
 Turning = Turn | Bearing
 #: All angles.
 AnyAngle = Angle | Turn | Bearing
-Measure = Component | Distance | LinkStretch | Angle | Dot | Turn | Bearing | Spin | RimHeight | Sum
+Measure = Component | Distance | LinkStretch | Angle | Dot | Turn | Bearing | Spin | RimHeight | Sum | FormulaMeasure
 
 
 class PointSpeed(msgspec.Struct, frozen=True, tag="point-speed"):
@@ -166,7 +172,13 @@ class BladeSpeed(msgspec.Struct, frozen=True, tag="blade-speed"):
     blade: Direction
 
 
-Speed = PointSpeed | RollingSpeed | BladeSpeed
+class FormulaSpeed(msgspec.Struct, frozen=True, tag="formula-speed"):
+    """A formula of t, parameters, coordinates and velocities of bodies, and measures and their rates; linear in rates."""
+
+    of: Expr
+
+
+Speed = PointSpeed | RollingSpeed | BladeSpeed | FormulaSpeed
 
 
 class Holonomic(msgspec.Struct, frozen=True, tag="holonomic"):
@@ -179,7 +191,7 @@ class Holonomic(msgspec.Struct, frozen=True, tag="holonomic"):
 
 
 class Nonholonomic(msgspec.Struct, frozen=True, tag="nonholonomic"):
-    """One row u = value(t, parameters) on a velocity u = J v that is no rate of a measure [m/s]."""
+    """One row u = value(t, parameters) on a velocity u = J v that is no rate of a measure."""
 
     label: str
     speed: Speed
