@@ -73,7 +73,7 @@ class DenseStatics:
 
     def _parts(self, y: Array, lam: Array) -> tuple[Array, Array, Array, Array, Array]:
         subject = self.subject
-        e = subject.evaluated(y, lam=lam[: subject.m])
+        e, by_position = subject.at_balance(y, lam[: subject.m])
         motion, active = e.by("motion", "v"), ~subject.redundant
         rows, gaps = [e.by("velocities", "v")[active]], [e.value("positions")[active]]
         force = e.value("balance")
@@ -87,7 +87,7 @@ class DenseStatics:
             rows.append(row[np.newaxis])
             gaps.append(np.array([now - value]))
         spans, units = subject.spans, self._units()[self._active]
-        stiffness = spans[:, np.newaxis] * (e.by("balance", "q") @ motion) * spans
+        stiffness = spans[:, np.newaxis] * (by_position @ motion) * spans
         return (
             spans * force,
             np.concatenate(gaps) / units,

@@ -17,12 +17,12 @@ from symgen.compiling.side import compile_side
 from symgen.describe.evaluate import evaluate, parameter_values, scalars
 from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
-from symgen.errors import AssemblyError, InputError, nearest
+from symgen.errors import AnalysisError, AssemblyError, InputError, nearest
 from symgen.lower.windings import winding_order
 from symgen.running.inputs import Inputs, put_inputs
 from symgen.running.plan import Purpose
 from symgen.running.prepare import make_plan, prepare
-from symgen.running.starts import held_of
+from symgen.running.starts import held_of, states_at_start
 from symgen.runtime import abi
 from symgen.runtime.assembly import Start
 from symgen.runtime.model_arrays import lengths_of
@@ -43,6 +43,8 @@ LARGE = 300
 NO_ROW = 1e-11
 #: Jumps of inputs are looked for up to so far behind a time, and are at it as near as this, both parts of it.
 BEYOND, HERE = 1e-9, 1e-13
+#: Most iterations of Newton's method for states of the file at rest.
+MOST_ITERATIONS = 50
 #: What a name of a rate ends in.
 RATE = ".rate"
 
@@ -162,6 +164,16 @@ class Subject(Yardsticks):
         return self.compiled.info.m
 
     @property
+    def states(self) -> int:
+        """Number of states of the file's own."""
+        return len(self.compiled.info.states)
+
+    def extents(self, y: Array) -> Array:
+        """Return what changes of the states of the file's own are compared with: their values, 1 where these are 0."""
+        values = np.abs(y[self.compiled.info.own_states])
+        return np.where(values > 0.0, values, 1.0)
+
+    @property
     def spun(self) -> set[int]:
         """Coordinates that are Euler parameters."""
         return {first + k for first, _ in self.compiled.info.spins for k in range(4)}
@@ -190,6 +202,39 @@ class Subject(Yardsticks):
         self.compiled.section(w, "multipliers")[:] = 0.0 if lam is None else lam
         rates = np.zeros(self.nv) if a is None else a
         return self.form.at(self.t if t is None else t, y, rates, self.p, w)
+
+    def at_balance(self, y: Array, lam: Array | None = None) -> tuple[Evaluated, Array]:
+        """Evaluate where the states of the file have come to rest, which are set in `y`; their stiffness is included.
+
+        Returns
+        -------
+        e : Evaluated
+            The descriptor form there.
+        stiffness : Array, shape (nv, nq)
+            Derivatives of the balance by q, states of the file following.
+
+        Raises
+        ------
+        AnalysisError
+            If their rates do not determine them.
+        """
+        e = self.evaluated(y, lam=lam)
+        if not self.states:
+            return e, e.by("balance", "q")
+        own = self.compiled.info.own_states
+        for _ in range(MOST_ITERATIONS):
+            try:
+                change = np.linalg.solve(e.by("states", "z"), e.value("states"))
+            except np.linalg.LinAlgError:
+                names = ", ".join(x.name for x in self.compiled.info.states)
+                raise AnalysisError(f"no equilibrium: the rates of the states {names} do not determine them") from None
+            size = float(np.abs(change / self.extents(y)).max())
+            y[own] -= change
+            e = self.evaluated(y, lam=lam)
+            if not size > 1e-14:
+                break
+        following = np.linalg.solve(e.by("states", "z"), e.by("states", "q"))
+        return e, e.by("balance", "q") - e.by("balance", "z") @ following
 
     def motion(self, y: Array) -> Array:
         """Return N at a state, over lengths of the mechanism and radians; shape (nq, nv)."""
@@ -360,6 +405,7 @@ def at_start(mechanism: Mechanism, settings: Settings) -> tuple[Mechanism, Compi
     q, v = described_start(mechanism, numbers)
     y, w = np.zeros(info.ny), compiled.scratch()
     y[: info.nq] = q
+    y[info.own_states] = states_at_start(mechanism, numbers, plan.holds or ())
     for i, value in held_of(info, plan.holds or holds_of(mechanism), numbers, v).coordinates.items():
         y[i] = value
     # the largest coordinate that is a length, or of a point in its body

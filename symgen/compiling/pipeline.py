@@ -343,6 +343,7 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
         operations={b.name: b.operations for b in program.blocks},
         inputs=equations.inputs,
         alone=_alone(program, len(equations.rows)),
+        states=equations.states,
     )
 
 

@@ -268,6 +268,15 @@ class Force(msgspec.Struct, frozen=True):
     efforts: tuple[Effort, ...]
 
 
+class StateVariable(msgspec.Struct, frozen=True):
+    """A state of the file's own, x' = `rate`, a formula of t, parameters, inputs, the motion and all such states."""
+
+    name: str
+    start: Expr
+    rate: Expr
+    unit: str = ""
+
+
 class Output(msgspec.Struct, frozen=True):
     """A formula that results report; it may read what is known at outputs only (`symgen.describe.readings`)."""
 
@@ -344,6 +353,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     shapes: tuple[tuple[str, Shape], ...] = ()  # body -> what it looks like, several entries for several shapes
     topology: Topology | None = None  # where joint coordinates are the state; joints of the tree have no rows then
     input_formulas: tuple[tuple[str, Expr], ...] = ()  # input -> the formula that a run has put in its place
+    states: tuple[StateVariable, ...] = ()
 
     def __repr__(self) -> str:
         counted = (

@@ -23,7 +23,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from symgen.describe.mechanism import Force, Joint, Mechanism
-from symgen.vocabulary.expressions import ZERO, Expr, Reading, readings
+from symgen.vocabulary.expressions import ZERO, Expr, Name, Reading, readings
 from symgen.vocabulary.measures import (
     GROUND,
     AnyAngle,
@@ -231,8 +231,9 @@ def elements(mechanism: Mechanism) -> tuple[Column, ...]:
 
 
 def outputs(mechanism: Mechanism) -> tuple[Column, ...]:
-    """Return the formulas of ``[outputs]``."""
-    return tuple(Column(o.name, o.unit, o.value) for o in mechanism.outputs)
+    """Return the states of the file's own, and the formulas of ``[outputs]``."""
+    states = (Column(x.name, x.unit, Name(x.name)) for x in mechanism.states)
+    return (*states, *(Column(o.name, o.unit, o.value) for o in mechanism.outputs))
 
 
 def integrals(mechanism: Mechanism) -> dict[Integral, int]:
@@ -242,8 +243,9 @@ def integrals(mechanism: Mechanism) -> dict[Integral, int]:
 
 
 def integrated(mechanism: Mechanism) -> tuple[Any, ...]:
-    """Return what a run integrates: joints, forces, and the formulas of integrals."""
-    return mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
+    """Return what a run integrates: joints, forces, and the rates of states with the formulas of integrals."""
+    rates = *(x.rate for x in mechanism.states), *(integral.of for integral in integrals(mechanism))
+    return mechanism.joints, mechanism.forces, rates
 
 
 def _columns(table: Table) -> Iterator[Column]:

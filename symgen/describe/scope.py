@@ -39,6 +39,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
     joint_names: frozenset[str] = frozenset()
     forces: Mapping[str, Force] = {}  # empty while forces are resolved
     inputs: tuple[str, ...] = ()
+    state_names: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, mechanism: Mechanism, source: str = "") -> Context:
@@ -54,6 +55,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
             frozenset(joints),
             {force.name: force for force in mechanism.forces},
             mechanism.inputs,
+            tuple(state.name for state in mechanism.states),
         )
 
     @cached_property
@@ -70,9 +72,9 @@ class Context(msgspec.Struct, frozen=True, dict=True):
     def constants(self) -> FormulaNames:
         """Names of a formula of parameters."""
         plain = {name: name for name in self.values}
-        elsewhere = frozenset({"t", *self.tables, *self.inputs})
+        elsewhere = frozenset({"t", *self.tables, *self._changing})
         return FormulaNames(
-            "a number or an expression of parameters", plain, elsewhere=elsewhere, hints=self._of_inputs
+            "a number or an expression of parameters", plain, elsewhere=elsewhere, hints=self._changing
         )
 
     @cached_property
@@ -83,18 +85,19 @@ class Context(msgspec.Struct, frozen=True, dict=True):
         others = frozenset(self.tables) - frozenset(smooth)
         hints = dict.fromkeys(others, "a motion needs two continuous derivatives, which interpolation = 'cubic' has")
         what = "a number or an expression of t and parameters"
-        elsewhere = others | frozenset(self.inputs)
-        return FormulaNames(what, plain, tables=smooth, elsewhere=elsewhere, hints=hints | self._of_inputs)
+        elsewhere = others | frozenset(self._changing)
+        return FormulaNames(what, plain, tables=smooth, elsewhere=elsewhere, hints=hints | self._changing)
 
     @cached_property
     def states(self) -> dict[str, str]:
         """Names of a formula of t, parameters, inputs and state, coordinates apart."""
-        return {name: name for name in (*self.values, *self.inputs, "t")}
+        return {name: name for name in (*self.values, *self.inputs, *self.state_names, "t")}
 
     @property
-    def _of_inputs(self) -> dict[str, str]:
-        """What is said of inputs where they may not stand."""
-        return dict.fromkeys(self.inputs, "an input may stand in forces, torques and actuators")
+    def _changing(self) -> dict[str, str]:
+        """Hints on inputs and states where they may not stand."""
+        hints = dict.fromkeys(self.state_names, "a state may stand in forces, torques, rates of states and outputs")
+        return hints | dict.fromkeys(self.inputs, "an input may stand in forces, torques and actuators")
 
     @cached_property
     def functions(self) -> dict[str, str]:
@@ -353,7 +356,8 @@ class Scope:
         own = dict(words or {})
         for word in own:
             if word in self.context.states and isinstance(value, str) and _mentions(value, word):
-                what = "input" if word in self.context.inputs else "parameter"
+                kinds = {"input": self.context.inputs, "state": self.context.state_names}
+                what = next((kind for kind, names in kinds.items() if word in names), "parameter")
                 got = f"'{word}', which is {'an' if what == 'input' else 'a'} {what} too"
                 raise self.error(key, f"'{word}' to mean the element's own", got, f"rename the {what}")
         return own

@@ -15,7 +15,7 @@ from symgen.describe.events import read_event
 from symgen.describe.fields import Flag, JointStart, OutputFunction, Scalar, read, read_value, words_of
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.kinds import FORCES, JOINTS
-from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter
+from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter, StateVariable
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.scope import Context, Scope
@@ -27,6 +27,7 @@ from symgen.describe.sections import (
     OutputSection,
     ParameterSection,
     RunSection,
+    StateSection,
     TableSection,
 )
 from symgen.describe.tables import Table
@@ -94,6 +95,7 @@ class _Validator:
             head.space,
             frozenset(name for name, _ in self.entries("joints")),
             inputs=tuple(p.name for p in parameters if p.input),
+            state_names=tuple(name for name, _ in self.entries("states")),
         )
         scope = Scope(self.context, "mechanism")
         gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
@@ -119,6 +121,7 @@ class _Validator:
             joints=joints,
             forces=forces,
             defaults=self.defaults(line(head.source)),
+            states=tuple(self.state(name, value) for name, value in self.entries("states")),
             outputs=tuple(self.output(name, value) for name, value in self.entries("outputs")),
             seats=tuple(self._seats.items()),
             cuts=tuple(self._cuts),
@@ -142,7 +145,7 @@ class _Validator:
 
     def unique(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
-        for group in (("bodies", "joints", "forces"), ("parameters", "inputs", "tables")):
+        for group in (("bodies", "joints", "forces"), ("parameters", "inputs", "states", "tables")):
             sections: dict[str, str] = {}
             for section in group:
                 for name, _ in self.entries(section):
@@ -239,6 +242,12 @@ class _Validator:
         if not finite:
             raise InputError(where, "points between which curves have finite coefficients", "points too close or far")
         return table
+
+    def state(self, name: str, raw: object) -> StateVariable:
+        where, scope = self.where(f"states.{name}"), self.scope("states", name)
+        section = read(StateSection, raw, where)
+        start, rate = scope.constant("start", section.start), scope.of_state("rate", section.rate)
+        return StateVariable(name, start, rate, check_unit(section.unit, f"{where}.unit"))
 
     def output(self, name: str, raw: object) -> Output:
         where = self.where(f"outputs.{name}")

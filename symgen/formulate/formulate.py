@@ -52,6 +52,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         kinetic, gravity_potential = energies_on_tree(model, forces)
         mass, forces, driving = model.tree.dynamics(forces)
     joint_coordinates = _joint_coordinates(model)
+    rates = tuple(model.expression(x.rate) for x in mechanism.states)
     coordinates, velocities = quantities(mechanism)
     read = {of_table(o.payload)[0] for o in model.graph.nodes if o.op == "table"}
     return Equations(
@@ -80,6 +81,8 @@ def formulate(mechanism: Mechanism) -> Equations:
         bodies=_bodies(model),
         driving=driving,
         metric=() if model.tree is None else model.tree.metric(),
+        states=tuple(Quantity(x.name, x.unit) for x in mechanism.states),
+        state_rates=rates,
     )
 
 

@@ -1,0 +1,167 @@
+"""States of a file's own: closed forms and SciPy, every integrator, both coordinates, analyses and what is refused."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.linalg import expm
+
+from symgen import MechanismBuilder
+from symgen.api import Model
+from symgen.errors import InputError
+
+TIGHT = {"integrator": "dop853", "rtol": 1e-12, "atol": 1e-13}
+IMPLICIT = {"integrator": "radau5", "rtol": 1e-11, "atol": 1e-12}
+RUNS = [TIGHT, {**TIGHT, "coordinates": "joint"}, IMPLICIT, {**IMPLICIT, "coordinates": "joint"}]
+
+
+def motor(inductance=0.02):
+    """A motor with its inductance on a wheel with a bearing that damps."""
+    return (
+        MechanismBuilder("motor-with-current")
+        .parameter("K", 0.7)
+        .parameter("R", 1.2)
+        .parameter("L", inductance)
+        .parameter("U", 3.0)
+        .body("wheel", mass=1.0, inertia=0.04, angular_velocity=0.5)
+        .joint("pin", "revolute", between=["ground", "wheel"], at=[[0.0, 0.0], [0.0, 0.0]])
+        .force("drive", "torque", body="wheel", torque="K*i - 0.05*wheel.omega")
+        .state("i", "(U - R*i - K*pin.rate)/L", 0.1, unit="A")
+        .build()
+    )
+
+
+@pytest.mark.parametrize("settings", RUNS, ids=str)
+def test_a_motor_with_its_current(settings):
+    result = Model(motor()).simulate(until=1.0, **settings)
+    matrix = np.array([[-0.05 / 0.04, 0.7 / 0.04, 0.0], [-0.7 / 0.02, -1.2 / 0.02, 3.0 / 0.02], [0.0, 0.0, 0.0]])
+    omega, current, _ = expm(matrix) @ [0.5, 0.1, 1.0]
+    print(abs(result.v["wheel.omega"][-1] - omega), abs(result.outputs["i"][-1] - current))
+    assert result.v["wheel.omega"][-1] == pytest.approx(omega, abs=1e-10)
+    assert result.outputs["i"][-1] == pytest.approx(current, abs=1e-10)
+
+
+@pytest.mark.parametrize("settings", RUNS, ids=str)
+def test_a_first_order_lag(settings):
+    """T x' = sin(w t) - x, which no force reads."""
+    mechanism = (
+        MechanismBuilder("lag")
+        .parameter("T", 0.3)
+        .body("ball", type="point", mass=1.0, velocity=[1.0, 0.0])
+        .state("x", "(sin(4*t) - x)/T", "2*T")
+        .build()
+    )
+    result, t, scale = Model(mechanism).simulate(until=1.0, **settings), 1.0, 0.3
+    steady = lambda t: (np.sin(4 * t) - 4 * scale * np.cos(4 * t)) / (1 + (4 * scale) ** 2)  # noqa: E731
+    wanted = steady(t) + (2 * scale - steady(0.0)) * np.exp(-t / scale)
+    assert result.outputs["x"][-1] == pytest.approx(wanted, abs=1e-10)
+
+
+def on_rail(name, force, **states):
+    builder = MechanismBuilder(name).body("mass", mass=2.0, inertia=1.0, position=[0.1, 0.0])
+    builder.joint("rail", "translational", between=["ground", "mass"], at=[[0, 0], [0, 0]], axis=[1, 0])
+    builder.force("push", "force", body="mass", force=[force, 0.0])
+    for state, (rate, start) in states.items():
+        builder.state(state, rate, start)
+    return builder.build()
+
+
+def cylinder():
+    """A cylinder with two chambers, in bar and cm so that pressures are not far from 1."""
+    return on_rail(
+        "cylinder",
+        "20*(a - b) - 3*mass.vx",
+        a=("(2.0*sqrt(9 - a) - 20*mass.vx)/(0.2 + mass.x)", 2.0),
+        b=("(-2.5*sqrt(b) + 20*mass.vx)/(1.2 - mass.x)", 3.0),
+    )
+
+
+def by_cylinder(t, y):
+    x, v, a, b = y
+    return [
+        v,
+        (20 * (a - b) - 3 * v) / 2,
+        (2 * np.sqrt(9 - a) - 20 * v) / (0.2 + x),
+        (-2.5 * np.sqrt(b) + 20 * v) / (1.2 - x),
+    ]
+
+
+def controller():
+    """A PI controller whose integral is led back where the actuator is at its limit."""
+    demand, out = "8*(1 - mass.x) - 3*mass.vx + e", "min(max(8*(1 - mass.x) - 3*mass.vx + e, -2), 2)"
+    return on_rail("controller", out, e=(f"5*(1 - mass.x) + ({out} - ({demand}))/0.2", 0.0))
+
+
+def by_controller(t, y):
+    x, v, e = y
+    demand = 8 * (1 - x) - 3 * v + e
+    out = min(max(demand, -2.0), 2.0)
+    return [v, out / 2, 5 * (1 - x) + (out - demand) / 0.2]
+
+
+@pytest.mark.parametrize("settings", RUNS, ids=str)
+@pytest.mark.parametrize(
+    ("mechanism", "rates", "start"),
+    [(cylinder(), by_cylinder, [0.1, 0.0, 2.0, 3.0]), (controller(), by_controller, [0.1, 0.0, 0.0])],
+    ids=["cylinder", "controller"],
+)
+def test_against_scipy(mechanism, rates, start, settings):
+    result = Model(mechanism).simulate(until=1.0, **settings)
+    wanted = solve_ivp(rates, (0.0, 1.0), start, "DOP853", rtol=1e-13, atol=1e-13, max_step=0.002).y[:, -1]
+    own = [result.q["mass.x"][-1], result.v["mass.vx"][-1], *result.outputs.values[-1]]
+    print(abs(own - wanted).max())
+    np.testing.assert_allclose(own, wanted, rtol=0.0, atol=1e-10)
+
+
+def driven_four_bar():
+    """A four-bar whose crank a motor holds up: its current is a state."""
+    return (
+        MechanismBuilder("four-bar-with-motor", gravity=[0.0, -9.81])
+        .parameter("U", 40.0)
+        .body("crank", mass=1.0, inertia=0.1, position=[0.0, 0.5], angle=np.pi / 2)
+        .body("coupler", mass=1.5, inertia=0.5, position=[1.0, 1.3], angle=0.3)
+        .body("rocker", mass=1.2, inertia=0.4, position=[2.2, 0.8], angle=1.3)
+        .joint("A", "revolute", between=["ground", "crank"], at=[[0.0, 0.0], [-0.5, 0.0]])
+        .joint("B", "revolute", between=["crank", "coupler"], at=[[0.5, 0.0], [-1.0, 0.0]])
+        .joint("C", "revolute", between=["coupler", "rocker"], at=[[1.0, 0.0], [0.8, 0.0]])
+        .joint("D", "revolute", between=["ground", "rocker"], at=[[2.0, 0.0], [-0.8, 0.0]])
+        .force("drive", "torque", body="crank", torque="2*i")
+        .state("i", "(U - 8*i - 2*A.rate)/0.05", unit="A")
+        .build()
+    )
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_eigenvalues_of_a_four_bar_with_its_motor(coordinates):
+    model = Model(driven_four_bar())
+    rest = model.equilibrium(coordinates=coordinates)
+    found = model.modes(at="equilibrium", coordinates=coordinates).eigenvalues
+    angle, current = rest.q["crank.theta"], 40.0 / 8.0
+    assert rest.stability == "stable"
+
+    def rates(angle, omega, i):
+        run = model.simulate(
+            until=1e-9, step=1e-9, integrator="rk4", start={"crank.theta": angle, "crank.omega": omega, "i": i}
+        )
+        return np.array([omega, run.a["crank.alpha"][0], (40.0 - 8.0 * i - 2.0 * omega) / 0.05])
+
+    here, h = np.array([angle, 0.0, current]), 1e-3
+    steps = [h * row for row in np.eye(3)]
+    differences = [
+        (8 * (rates(*(here + e)) - rates(*(here - e))) - (rates(*(here + 2 * e)) - rates(*(here - 2 * e)))) / (12 * h)
+        for e in steps
+    ]
+    wanted = np.linalg.eigvals(np.array(differences).T)
+    print(found, wanted)
+    np.testing.assert_allclose(np.sort_complex(found), np.sort_complex(wanted), rtol=1e-7)
+
+
+def test_sweeps_steps_and_saved_runs():
+    model, settings = Model(motor()), {"integrator": "rk4", "step": 1e-3}
+    whole = model.simulate(until=0.4, **settings)
+    run = model.start(until=0.4, **settings)
+    run.step(0.15)
+    saved = run.save()
+    run.step(0.25)
+    run.restore(saved)
+    run.step(0.25)
+    print(run.state)
