@@ -310,7 +310,9 @@ def _later(subject: Subject, x: StateTangent) -> StateTangent:
     fastest = np.abs(np.linalg.eigvals(x.matrix)).max(initial=0.0)
     speed = max(pace(x), APART * fastest / FARTHEST)
     end = x.t + APART / speed
-    large: Any = np.concatenate([subject.lengths, speed * subject.spans, subject.extents(x.y)])  # SciPy's types do not know arrays of tolerances
+    large: Any = np.concatenate(
+        [subject.lengths, speed * subject.spans, subject.extents(x.y)]
+    )  # SciPy's types do not know arrays of tolerances
     run = solve_ivp(slope, (x.t, end), x.y[followed], "Radau", rtol=1e-8, atol=1e-10 * large)
     if not run.success:
         raise AnalysisError(f"the motion cannot be followed beyond t = {run.t[-1]:.4g} s: {run.message}")

@@ -67,7 +67,12 @@ def identity(mechanism: Mechanism) -> str:
 
     plain = msgspec.structs.replace(mechanism, shapes=(), input_formulas=())
     # the text of structs, which older folders of sweeps and journals were named by
-    text = msgspec.Struct.__repr__(plain).replace(", shapes=()", "").replace(", input_formulas=()", "").replace(", states=()", "")
+    text = (
+        msgspec.Struct.__repr__(plain)
+        .replace(", shapes=()", "")
+        .replace(", input_formulas=()", "")
+        .replace(", states=()", "")
+    )
     return hashlib.sha256(text.encode()).hexdigest()
 
 

@@ -28,7 +28,6 @@ ACCELERATIONS = {
 }
 
 
-
 def is_speed(name: str) -> bool:
     """Whether a coordinate or velocity of a body, such as ``rod.vx``, is a velocity."""
     return name.rpartition(".")[2] in ACCELERATIONS

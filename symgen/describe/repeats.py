@@ -10,7 +10,18 @@ from symgen.describe.formulas import Formulas
 from symgen.describe.mechanism import Joint, Mechanism
 from symgen.describe.remembered import remembered
 from symgen.vocabulary.expressions import Call, Name, Number
-from symgen.vocabulary.measures import GROUND, Angle, Component, Direction, Dot, FormulaMeasure, FormulaSpeed, Marker, RimHeight, Sum
+from symgen.vocabulary.measures import (
+    GROUND,
+    Angle,
+    Component,
+    Direction,
+    Dot,
+    FormulaMeasure,
+    FormulaSpeed,
+    Marker,
+    RimHeight,
+    Sum,
+)
 
 
 def without_repeats(mechanism: Mechanism) -> tuple[Mechanism, tuple[tuple[str, str], ...]]:

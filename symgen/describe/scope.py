@@ -73,9 +73,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
         """Names of a formula of parameters."""
         plain = {name: name for name in self.values}
         elsewhere = frozenset({"t", *self.tables, *self._changing})
-        return FormulaNames(
-            "a number or an expression of parameters", plain, elsewhere=elsewhere, hints=self._changing
-        )
+        return FormulaNames("a number or an expression of parameters", plain, elsewhere=elsewhere, hints=self._changing)
 
     @cached_property
     def times(self) -> FormulaNames:
@@ -305,7 +303,9 @@ class Scope:
         expression = self._expression(key, value, names)
         for reading in readings(expression):
             if reading.order and not speeds:
-                raise self.error(key, names.what, f"'{reading.name}', a velocity", "a row of velocities is { velocity = ... }")
+                raise self.error(
+                    key, names.what, f"'{reading.name}', a velocity", "a row of velocities is { velocity = ... }"
+                )
         if not moving(expression):
             raise self.error(key, names.what, "one in which nothing moves")
         return expression

@@ -145,7 +145,11 @@ class _Validator:
 
     def unique(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
-        for group in (("bodies", "joints", "forces"), ("parameters", "inputs", "states", "tables")):
+        for group in (
+            ("bodies", "joints", "forces"),
+            ("parameters", "inputs", "states", "tables"),
+            ("states", "outputs"),
+        ):
             sections: dict[str, str] = {}
             for section in group:
                 for name, _ in self.entries(section):

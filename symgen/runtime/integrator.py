@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.errors import InputError
+
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.run import RunSpec

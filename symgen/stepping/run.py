@@ -50,6 +50,8 @@ class SteppedRun:
     q, v, state : Named
         Coordinates, velocities, and both: read-only views of what the run holds at present, without copies. In joint
         coordinates those of the joints of the tree.
+    states : Named
+        The same of the states of the file's own.
     warnings, notes : tuple of str
         What there is to say of the start and the settings.
     """
@@ -78,6 +80,7 @@ class SteppedRun:
         self.q = _view(state.y, 0, info.coordinates)
         self.v = _view(state.y, info.nq, info.velocities)
         self.state = _view(state.y, 0, both)
+        self.states = _view(state.y, info.work + 1, info.states)
         self.warnings, self.notes = (*plan.all_warnings, *start.warnings), start.notes
         if not self._free:  # else the first step says how long it is
             self._advance.begin()

@@ -2,11 +2,14 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import simpson, solve_ivp
 from scipy.linalg import expm
 
+import symgen
 from symgen import MechanismBuilder
 from symgen.api import Model
+from symgen.compiling.pipeline import choose_method
+from symgen.describe.validate import validate
 from symgen.errors import InputError
 
 TIGHT = {"integrator": "dop853", "rtol": 1e-12, "atol": 1e-13}
@@ -14,20 +17,21 @@ IMPLICIT = {"integrator": "radau5", "rtol": 1e-11, "atol": 1e-12}
 RUNS = [TIGHT, {**TIGHT, "coordinates": "joint"}, IMPLICIT, {**IMPLICIT, "coordinates": "joint"}]
 
 
-def motor(inductance=0.02):
+def motor_file(inductance=0.02):
     """A motor with its inductance on a wheel with a bearing that damps."""
-    return (
-        MechanismBuilder("motor-with-current")
-        .parameter("K", 0.7)
-        .parameter("R", 1.2)
-        .parameter("L", inductance)
-        .parameter("U", 3.0)
-        .body("wheel", mass=1.0, inertia=0.04, angular_velocity=0.5)
-        .joint("pin", "revolute", between=["ground", "wheel"], at=[[0.0, 0.0], [0.0, 0.0]])
-        .force("drive", "torque", body="wheel", torque="K*i - 0.05*wheel.omega")
-        .state("i", "(U - R*i - K*pin.rate)/L", 0.1, unit="A")
-        .build()
-    )
+    pin = {"type": "revolute", "between": ["ground", "wheel"], "at": [[0.0, 0.0], [0.0, 0.0]]}
+    return {
+        "mechanism": {"name": "motor-with-current"},
+        "parameters": {"K": 0.7, "R": 1.2, "L": inductance, "U": 3.0},
+        "bodies": {"wheel": {"mass": 1.0, "inertia": 0.04, "angular_velocity": 0.5}},
+        "joints": {"pin": pin},
+        "forces": {"drive": {"type": "torque", "body": "wheel", "torque": "K*i - 0.05*wheel.omega"}},
+        "states": {"i": {"rate": "(U - R*i - K*pin.rate)/L", "start": 0.1, "unit": "A"}},
+    }
+
+
+def motor(inductance=0.02):
+    return validate(motor_file(inductance), "motor")
 
 
 @pytest.mark.parametrize("settings", RUNS, ids=str)
@@ -35,7 +39,6 @@ def test_a_motor_with_its_current(settings):
     result = Model(motor()).simulate(until=1.0, **settings)
     matrix = np.array([[-0.05 / 0.04, 0.7 / 0.04, 0.0], [-0.7 / 0.02, -1.2 / 0.02, 3.0 / 0.02], [0.0, 0.0, 0.0]])
     omega, current, _ = expm(matrix) @ [0.5, 0.1, 1.0]
-    print(abs(result.v["wheel.omega"][-1] - omega), abs(result.outputs["i"][-1] - current))
     assert result.v["wheel.omega"][-1] == pytest.approx(omega, abs=1e-10)
     assert result.outputs["i"][-1] == pytest.approx(current, abs=1e-10)
 
@@ -108,7 +111,6 @@ def test_against_scipy(mechanism, rates, start, settings):
     result = Model(mechanism).simulate(until=1.0, **settings)
     wanted = solve_ivp(rates, (0.0, 1.0), start, "DOP853", rtol=1e-13, atol=1e-13, max_step=0.002).y[:, -1]
     own = [result.q["mass.x"][-1], result.v["mass.vx"][-1], *result.outputs.values[-1]]
-    print(abs(own - wanted).max())
     np.testing.assert_allclose(own, wanted, rtol=0.0, atol=1e-10)
 
 
@@ -151,17 +153,120 @@ def test_eigenvalues_of_a_four_bar_with_its_motor(coordinates):
         for e in steps
     ]
     wanted = np.linalg.eigvals(np.array(differences).T)
-    print(found, wanted)
     np.testing.assert_allclose(np.sort_complex(found), np.sort_complex(wanted), rtol=1e-7)
 
 
-def test_sweeps_steps_and_saved_runs():
+def test_steps_saved_runs_and_runs_that_go_on():
     model, settings = Model(motor()), {"integrator": "rk4", "step": 1e-3}
     whole = model.simulate(until=0.4, **settings)
     run = model.start(until=0.4, **settings)
     run.step(0.15)
-    saved = run.save()
+    saved, here = run.save(), float(run.states["i"])
     run.step(0.25)
+    end = float(run.states["i"])
     run.restore(saved)
+    assert float(run.states["i"]) == here
     run.step(0.25)
-    print(run.state)
+    assert float(run.states["i"]) == end == whole.outputs["i"][-1]
+    half = model.simulate(until=0.2, **settings)
+    # the same making takes up all arrays, another one time, coordinates, velocities and states
+    assert model.simulate(until=0.4, start=half, **settings).outputs["i"][-1] == end
+    other = model.simulate(until=0.4, start=half, **TIGHT).outputs["i"][-1]
+    assert other == pytest.approx(end, abs=1e-7)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_rows_of_sweeps_are_single_runs(coordinates):
+    settings = {"integrator": "rk4", "step": 1e-3, "until": 0.3, "coordinates": coordinates}
+    swept = symgen.sweep(motor(), {"R": [1.2, 2.0], "i": [0.1, 0.4]}, quantities=["i", "wheel.omega"], **settings)
+    for k, resistance in enumerate((1.2, 2.0)):
+        for j, current in enumerate((0.1, 0.4)):
+            one = Model(motor()).simulate(parameters={"R": resistance}, start={"i": current}, **settings)
+            assert swept["i"][k, j, -1] == pytest.approx(one.outputs["i"][-1], rel=1e-13)
+            assert swept["wheel.omega"][k, j, -1] == pytest.approx(one.v["wheel.omega"][-1], rel=1e-13)
+
+
+def test_a_stiff_state_costs_an_implicit_scheme_few_steps():
+    """The time constant of the current is 1e-6 s: an explicit scheme takes 3e5 steps, and Newton's method sees it."""
+    result = Model(motor(1.2e-6)).simulate(until=1.0, integrator="radau5", rtol=1e-8)
+    gain = (0.7**2 / 1.2 + 0.05) / 0.04
+    omega = 0.7 * 3.0 / 1.2 / 0.04 / gain
+    assert result.v["wheel.omega"][-1] == pytest.approx(omega + (0.5 - omega) * np.exp(-gain), rel=1e-5)
+    assert result.steps < 300
+
+
+def test_integrals_and_states_stand_side_by_side():
+    raw = motor_file()
+    raw["outputs"] = {"charge": {"value": "integral(i)"}, "twice": {"value": "2*i"}}
+    for settings in (TIGHT, IMPLICIT, {**IMPLICIT, "coordinates": "joint"}):
+        result = Model(validate(raw, "motor")).simulate(until=1.0, output_step=1e-3, **settings)
+        assert result.outputs["twice"][-1] == 2.0 * result.outputs["i"][-1]
+        charge = simpson(result.outputs["i"], x=result.t)
+        assert result.outputs["charge"][-1] == pytest.approx(charge, rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"states": {"i": {"start": 1.0}}}, "states.i.rate: expected a number or an expression"),
+        (
+            {"states": {"i": {"rate": "U", "begin": 1.0}}},
+            "states.i: expected the keys rate, start, unit, got .*'begin'",
+        ),
+        (
+            {"states": {"i": {"rate": "U", "start": "wheel.omega"}}},
+            "states.i.start: expected a number or an expression",
+        ),
+        ({"states": {"i": {"rate": "U", "start": "i"}}}, "'i', which has no meaning here; a state may stand in forces"),
+        ({"states": {"i": {"rate": "wheel.alpha"}}}, "states.i.rate: expected .*'alpha', which body 'wheel' has not"),
+        (
+            {"states": {"R": {"rate": "1"}}},
+            "states.R: expected a name used once, got 'R', which is a parameter already",
+        ),
+        ({"states": {"t": {"rate": "1"}}}, "a state name that has no meaning of its own"),
+        ({"states": {"i": 3}}, "states.i: expected a table, got 3"),
+        ({"outputs": {"i": "1"}}, "'i'"),
+        ({"joints": {"d": {"type": "driver", "joint": "pin", "value": "i*t"}}}, "a state may stand in forces"),
+    ],
+)
+def test_bad_input_is_one_sentence(change, words):
+    raw = motor_file()
+    for section, entries in change.items():
+        raw[section] = {**raw.get(section, {}), **entries}
+    with pytest.raises(InputError, match=words) as error:
+        validate(raw, "motor")
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"integrator": "newmark", "step": 1e-3}, "integrator 'newmark': expected one of first order for the states i"),
+        (
+            {"integrator": "generalized-alpha", "step": 1e-3, "method": "lagrange"},
+            "integrator 'generalized-alpha': expected",
+        ),
+        ({"shape": "looped"}, "shape: expected straight code where a file has states of its own, got looped"),
+        ({"start": {"j": 1.0}}, "start 'j': expected a coordinate or velocity of a body or joint, or a state"),
+    ],
+)
+def test_what_does_not_fit_is_refused(settings, words):
+    with pytest.raises(InputError, match=words):
+        Model(motor()).simulate(until=0.1, **settings)
+
+
+def test_sweeps_on_other_targets_are_refused():
+    with pytest.raises(InputError, match="target 'lanes': expected cpu, where a file has states, got i"):
+        symgen.sweep(motor(), {"R": [1.2, 2.0]}, target="lanes", integrator="rk4", step=1e-3, until=0.1)
+
+
+def test_what_a_file_does_not_use_costs_nothing():
+    """A state that no force reads adds the operations of its own rate, and none without states."""
+    raw = motor_file()
+    del raw["states"]
+    raw["forces"]["drive"]["torque"] = "K*U - 0.05*wheel.omega"
+    without = Model(validate(raw, "motor")).compiled(choose_method("lagrange")).law.operations["rhs"]
+    raw["states"] = {"x": {"rate": "U"}}
+    assert Model(validate(raw, "motor")).compiled(choose_method("lagrange")).law.operations["rhs"] == without
+    raw["states"] = {"x": {"rate": "wheel.omega - x"}}
+    assert Model(validate(raw, "motor")).compiled(choose_method("lagrange")).law.operations["rhs"] == without + 1
