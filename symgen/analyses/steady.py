@@ -180,8 +180,8 @@ def _determining(subject: Subject, x: StateTangent) -> tuple[str, ...]:
     for i, q in enumerate(info.coordinates):
         weights[q.name] = 0.2 if i in subject.spun else 1.0 / subject.length if q.unit == "m" else 1.0
     joints = {name: unit for name, unit in subject.form.units.items() if functions[name][1] == 3}
-    outputs = {x.name for x in (*subject.mechanism.outputs, *subject.mechanism.states)}
     states = tuple(x.name for x in subject.mechanism.states)
+    outputs = {*(o.name for o in subject.mechanism.outputs), *states}
     weights |= {n: 0.9 / subject.length if unit == "m" else 0.9 for n, unit in joints.items() if n not in outputs}
     positions = _independent(x, weights, x.positions, slice(0, x.positions))
     rates = [_rate_of(subject, name) for name in positions]

@@ -138,10 +138,11 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
     InputError
         If there is no such shape, or the method cannot have it at this size.
     """
-    if mechanism.states:
-        if shape == "looped":
-            raise InputError("shape", "straight code where a file has states of its own", "looped")
-        return Taken("straight", "states of a file exist as straight code only")
+    for what, some in (("states of its own", mechanism.states), ("rotors on joints", mechanism.rotors)):
+        if some and shape == "looped":
+            raise InputError("shape", f"straight code where a file has {what}", "looped")
+        if some:
+            return Taken("straight", f"loops have no {what.partition(' ')[0]}")
     coordinates, choice = mechanism.body_coordinates, for_coordinates(mechanism, choice)
     size = f"{coordinates} coordinates, about {evaluations:.2g} evaluations"
     faster = Taken("straight", f"faster runs outweigh compilation ({size})")

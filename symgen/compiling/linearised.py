@@ -45,7 +45,7 @@ class Evaluated:
         return self.out[first : first + size]
 
     def by(self, group: str, space: str) -> Array:
-        """Return the derivatives of a group by ``t``, ``q``, ``v``, ``a``, ``lam``, ``p`` or ``z``, shape (values, size)."""
+        """Return the derivatives of a group by one of `symgen.vocabulary.infos.BY`, shape (values, size)."""
         first, size = self.form.places[group]
         derivatives = np.zeros((size, self.form.widths[space]))
         entries, rows, columns = self.form.entries(group, space)

@@ -45,6 +45,8 @@ def canonical(mechanism: Mechanism) -> str:
     ]
     if mechanism.states:
         parts.append(["states", [[x.name, x.unit, _text(x.rate)] for x in mechanism.states]])
+    if mechanism.rotors:
+        parts.append(["rotors", [_text(rotor) for rotor in mechanism.rotors]])
     if mechanism.topology is not None:
         parts.append(["topology", _text(mechanism.topology)])
     return "\n".join(_text(part) for part in parts)
@@ -72,6 +74,7 @@ def identity(mechanism: Mechanism) -> str:
         .replace(", shapes=()", "")
         .replace(", input_formulas=()", "")
         .replace(", states=()", "")
+        .replace(", rotors=()", "")
     )
     return hashlib.sha256(text.encode()).hexdigest()
 

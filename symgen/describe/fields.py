@@ -70,9 +70,13 @@ Tensor = Annotated[
         description="[Ixx, Iyy, Izz], [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] or three rows of three", min_length=3, max_length=6
     ),
 ]
-SixBySix = Annotated[
+SquareMatrix = Annotated[
     tuple[float | str | tuple[float | str, ...], ...],
-    Meta(description="six numbers or expressions of parameters, or six rows of six", min_length=6, max_length=6),
+    Meta(
+        description="six numbers or expressions of parameters, or six rows of six; in the plane three",
+        min_length=3,
+        max_length=6,
+    ),
 ]
 Points = Annotated[
     dict[str, Vector], Meta(description="a table of points, name = [x, y] or [x, y, z] in the body's frame")
@@ -95,6 +99,13 @@ NewVelocities = Annotated[
 Rows = Annotated[
     tuple[dict[str, float | str], ...],
     Meta(description="a list of rows, { position = EXPRESSION } or { velocity = EXPRESSION }", min_length=1),
+]
+Weights = Annotated[
+    dict[str, float | str],
+    Meta(description="a table of factors of joint coordinates, such as { left = 1.0, right = -1.0 }", min_length=1),
+]
+Scalars = Annotated[
+    tuple[float | str, ...], Meta(description="a list of numbers or expressions of parameters", min_length=2)
 ]
 BodyNames = Annotated[tuple[str, ...], Meta(description="names of bodies", min_length=1)]
 PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]

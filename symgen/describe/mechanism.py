@@ -258,6 +258,14 @@ class Joint(msgspec.Struct, frozen=True):
         return "rad" if label.startswith("angle") else "m"
 
 
+class Rotor(msgspec.Struct, frozen=True):
+    """A rotor that turns with the angle of a joint: its energy is half of `inertia` times the square of that rate."""
+
+    joint: str
+    angle: Measure
+    inertia: Expr
+
+
 class Force(msgspec.Struct, frozen=True):
     """A force element of any kind, resolved to efforts along measures."""
 
@@ -353,6 +361,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     topology: Topology | None = None  # where joint coordinates are the state; joints of the tree have no rows then
     input_formulas: tuple[tuple[str, Expr], ...] = ()  # input -> the formula that a run has put in its place
     states: tuple[StateVariable, ...] = ()
+    rotors: tuple[Rotor, ...] = ()
 
     def __repr__(self) -> str:
         counted = (

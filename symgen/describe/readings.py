@@ -23,7 +23,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from symgen.describe.mechanism import Force, Joint, Mechanism
-from symgen.vocabulary.expressions import ZERO, Expr, Name, Reading, readings
+from symgen.vocabulary.expressions import ZERO, Call, Expr, Name, Reading, call, number, readings
 from symgen.vocabulary.measures import (
     GROUND,
     AnyAngle,
@@ -34,6 +34,8 @@ from symgen.vocabulary.measures import (
     Driven,
     Effort,
     Exerted,
+    FormulaMeasure,
+    HalfSquare,
     Holonomic,
     Integral,
     Marker,
@@ -100,21 +102,22 @@ def of_joint(joint: Joint, order: int) -> Table:
 def of_force(force: Force, order: int) -> Table:
     """Return the measure of a force along one measure, and at outputs what a force exerts."""
     table, name = Table(), force.name
-    single = force.efforts[0] if len(force.efforts) == 1 else None
+    efforts = tuple(map(_along_length, force.efforts))
+    single = efforts[0] if len(efforts) == 1 else None
     word = "" if single is None else _extent(single.measure)
     if single is not None and word:
         unit = "m" if word == "length" else "rad"
         table[word] = Reading(f"{name}.{word}", single.measure), unit
         table["rate"] = Reading(f"{name}.rate", single.measure, 1), f"{unit}/s"
-    if order == OUTPUT and force.efforts:
+    if order == OUTPUT and efforts:
         components: dict[str, list[Effort]] = {}
-        for effort in force.efforts:
+        for effort in efforts:
             for component in _components(effort, word):
                 components.setdefault(component, []).append(effort)
-        for component, efforts in components.items():
-            unit = "N m" if is_turning(efforts[0].measure) else "N"
-            table[component] = Reading(f"{name}.{component}", Exerted(tuple(efforts))), unit
-        table["power"] = Reading(f"{name}.power", Exerted(force.efforts, power=True)), "W"
+        for component, parts in components.items():
+            unit = "N m" if is_turning(parts[0].measure) else "N"
+            table[component] = Reading(f"{name}.{component}", Exerted(tuple(parts))), unit
+        table["power"] = Reading(f"{name}.power", Exerted(efforts, power=True)), "W"
     return table
 
 
@@ -123,13 +126,27 @@ def _with_rate(owner: str, label: str, measure: Source, unit: str) -> Table:
     return {label: (Reading(name, measure), unit), f"{label}.rate": (Reading(f"{name}.rate", measure, 1), f"{unit}/s")}
 
 
+def _along_length(effort: Effort) -> Effort:
+    """Return an effort along half the square of a length, U = k s, as one along the length, U = k s^2 / 2."""
+    if not isinstance(effort.measure, HalfSquare) or not isinstance(effort.potential, Call):
+        return effort
+    half, stiffness = Reading("half", effort.measure), effort.potential.arguments[0]
+    length = FormulaMeasure(call("sqrt", call("mul", number(2.0), half)))
+    squared = call("pow", Name("s"), number(2.0))
+    return Effort(effort.label, length, potential=call("mul", call("div", stiffness, number(2.0)), squared))
+
+
 def _extent(measure: Source) -> str:
     """Return what the measure of a force is called, nothing where it has no name."""
-    return "length" if isinstance(measure, Distance) else "angle" if isinstance(measure, AnyAngle) else ""
+    return (
+        "length" if isinstance(measure, Distance | FormulaMeasure) else "angle" if isinstance(measure, AnyAngle) else ""
+    )
 
 
 def _components(effort: Effort, extent: str) -> list[str]:
     """Return what an effort is part of: the force or torque along a measure, or components along axes."""
+    if not effort.label:
+        return []
     if extent:
         return ["force" if extent == "length" else "torque"]
     kind = "M" if is_turning(effort.measure) else "F"
@@ -141,6 +158,8 @@ def is_turning(measure: Source) -> bool:
     """Whether what works along a measure is a torque."""
     if isinstance(measure, Sum):
         return is_turning(measure.terms[0][1])
+    if isinstance(measure, FormulaMeasure):
+        return all(is_turning(r.source) for r in readings(measure.of))
     return isinstance(measure, AnyAngle | Spin | Dot)
 
 

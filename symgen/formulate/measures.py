@@ -34,7 +34,6 @@ from symgen.vocabulary.measures import (
     Marker,
     Measure,
     PointSpeed,
-    RollingSpeed,
     Speed,
     Spin,
     Sum,

@@ -127,7 +127,7 @@ def _followed(
 
 
 def can_decay(mechanism: Mechanism, beside: Beside) -> bool:
-    """Whether a force depends on velocities, a joint is a condition on them, or a file has states: else nothing decays."""
+    """Whether a force depends on velocities, a joint is a condition on them, or a file has states."""
     if mechanism.states or any(not isinstance(row, Holonomic) for joint in mechanism.joints for row in joint.rows):
         return True
     model = SideModel(mechanism, beside=beside)

@@ -69,6 +69,7 @@ def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
     coordinates = {} if mechanism.topology is None else known_coordinates(mechanism, mechanism.topology)
     distinct, _ = without_repeats(mechanism)
     efforts = [m for force in distinct.forces for m in measures_of(force)]
+    efforts += [rotor.angle for rotor in distinct.rotors]
     if shape == "looped":
         return turns([m for joint in distinct.joints for m in turns(measures_of(joint))] + efforts)
     rows = [m for joint in distinct.joints for m in _held(joint)]

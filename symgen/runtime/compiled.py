@@ -39,8 +39,9 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     `sections` maps each section of the scratch array ``w`` to (offset, size); `jacobian` lists (row, column, constant
     or None, slot or None) of D's structural entries; `windings` counts the angles whose turns are counted; `spins` says
     for each body with Euler parameters where these begin in q and its angular velocity in v; `inputs` are those
-    parameters that may change during a run; `integrals` counts auxiliary states behind the work and the `states` of a file; `alone` are rows that
-    are eliminated before all that have to do with them: they are never left out, so nothing reads their mask.
+    parameters that may change during a run; `states` are those of the file's own, behind the work, and `integrals`
+    counts auxiliary states behind these; `alone` are rows that are eliminated before all that have to do with them:
+    they are never left out, so nothing reads their mask.
     """
 
     name: str

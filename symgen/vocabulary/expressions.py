@@ -125,7 +125,7 @@ def _leaves(expression: Expr) -> Iterator[Number | Name | Reading]:
 def moving(expression: Expr) -> tuple[Name | Reading, ...]:
     """Return the coordinates, velocities and readings in `expression`, each once, in order of appearance."""
     leaves = (e for e in _leaves(expression) if isinstance(e, Reading) or (isinstance(e, Name) and "." in e.name))
-    return tuple(dict.fromkeys(leaves))  # type: ignore[arg-type]  # numbers are none of these
+    return tuple(dict.fromkeys(leaves))
 
 
 def with_names(expression: Expr, of: Mapping[Name | Reading, str]) -> Expr:

@@ -49,6 +49,13 @@ class Distance(msgspec.Struct, frozen=True, tag="distance"):
     b: Marker
 
 
+class HalfSquare(msgspec.Struct, frozen=True, tag="half-square"):
+    """``s = |r_b - r_a|^2 / 2`` [m^2]: smooth where the markers meet."""
+
+    a: Marker
+    b: Marker
+
+
 class LinkStretch(msgspec.Struct, frozen=True, tag="link-stretch"):
     """``s = (|r_b - r_a|^2 - L^2) / (2 L)`` [m]: zero, with unit gradient, where the distance is `length`."""
 
@@ -136,7 +143,20 @@ class FormulaMeasure(msgspec.Struct, frozen=True, tag="formula"):
 Turning = Turn | Bearing
 #: All angles.
 AnyAngle = Angle | Turn | Bearing
-Measure = Component | Distance | LinkStretch | Angle | Dot | Turn | Bearing | Spin | RimHeight | Sum | FormulaMeasure
+Measure = (
+    Component
+    | Distance
+    | HalfSquare
+    | LinkStretch
+    | Angle
+    | Dot
+    | Turn
+    | Bearing
+    | Spin
+    | RimHeight
+    | Sum
+    | FormulaMeasure
+)
 
 
 class PointSpeed(msgspec.Struct, frozen=True, tag="point-speed"):
@@ -173,7 +193,7 @@ class BladeSpeed(msgspec.Struct, frozen=True, tag="blade-speed"):
 
 
 class FormulaSpeed(msgspec.Struct, frozen=True, tag="formula-speed"):
-    """A formula of t, parameters, coordinates and velocities of bodies, and measures and their rates; linear in rates."""
+    """A formula of t, parameters, coordinates of bodies, measures, and rates of these, in which it is linear."""
 
     of: Expr
 

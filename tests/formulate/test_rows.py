@@ -1,5 +1,8 @@
 """Rows of one's own: those that copy joints, those that no joint has, and what is refused of them."""
 
+import re
+
+import msgspec
 import numpy as np
 import pytest
 import sympy as sp
@@ -8,7 +11,9 @@ from scipy.integrate import solve_ivp
 from symgen import MechanismBuilder
 from symgen.api import Model
 from symgen.compiling.choices import operations
+from symgen.describe.validate import validate
 from symgen.errors import InputError
+from symgen.methods import METHODS
 
 POINT = {"type": "point", "mass": 1.5}
 
@@ -208,3 +213,124 @@ def test_a_knife_edge_on_an_arm():
         picked = [[row[i] for i in (0, 1, 2, 5)] for row in (result.q.values[0], result.v.values[0])]
         wanted = by_lagrange(lagrangian, (x, y, a, b), *picked, nonholonomic=[edge])
         np.testing.assert_allclose(result.q.values[-1, [0, 1, 2, 5]], wanted, rtol=0.0, atol=1e-10)
+
+
+# -- what rows share with joints ---------------------------------------------------------------------------------------
+
+
+def test_rows_that_depend_on_each_other_are_found():
+    """The second row of a parabola is twice the first one, written otherwise."""
+    rows = [{"position": "rod.tip.y - 0.8*rod.tip.x**2"}, {"position": "1.6*rod.tip.x*rod.tip.x - 2*rod.tip.y"}]
+    mechanism = (
+        MechanismBuilder("twice")
+        .body("rod", mass=2.0, inertia=0.3, points={"tip": [-0.5, 0.0]}, position=[1.0, 0.2], angular_velocity=1.0)
+        .joint("guide", "rows", rows=rows)
+        .build()
+    )
+    alone = msgspec.structs.replace(
+        mechanism, joints=(msgspec.structs.replace(mechanism.joints[0], rows=mechanism.joints[0].rows[:1]),)
+    )
+    settings = {"until": 1.0, "rtol": 1e-12, "integrator": "dop853"}
+    result, one = (Model(m).simulate(**settings) for m in (mechanism, alone))
+    assert result.status == "ok"
+    assert any("1 constraint row depends on the others" in note and "guide.row" in note for note in result.notes)
+    np.testing.assert_allclose(result.q.values[-1], one.q.values[-1], rtol=0.0, atol=1e-10)
+
+
+def test_every_method_and_analysis_takes_rows():
+    model = Model(on_parabola())
+    wanted = model.simulate(until=0.3, rtol=1e-11, integrator="dop853").q.values[-1]
+    for name in METHODS.names:
+        method = METHODS.get(name)
+        if name in ("penalty", "augmented-lagrangian"):
+            continue  # these follow constraints only nearly: their own tests bound by how much
+        result = model.simulate(method=name, until=0.3, step=1e-3, integrator=method.default_integrator)
+        np.testing.assert_allclose(result.q.values[-1], wanted, rtol=0.0, atol=2e-6, err_msg=name)
+    driven = model.simulate(until=0.3, rtol=1e-11, integrator="dop853")
+    assert driven.energy_drift_max < 1e-8  # what moves the parabola works
+
+
+def test_linear_systems_drawings_and_pages_have_rows():
+    still = (
+        MechanismBuilder("resting", gravity=[0.0, -9.81])
+        .body("rod", mass=2.0, inertia=0.3, points={"tip": [-0.5, 0.0]}, position=[0.0, -0.5], angle=-np.pi / 2)
+        .joint("guide", "rows", rows=[{"position": "rod.tip.y - 0.8*rod.tip.x**2"}])
+        .build()
+    )
+    model = Model(still)
+    # the tip in its valley: m (x'' + a''/2) = -1.6 m g x, J a'' = -m g a/2 + 1.6 m g x/2
+    mass = np.array([[2.0, 1.0], [1.0, 0.3 + 0.5]])
+    stiffness = 2.0 * 9.81 * np.array([[1.6, 0.0], [0.0, 0.5]])
+    squares = np.sort(np.linalg.eigvals(np.linalg.solve(mass, stiffness)).real)
+    np.testing.assert_allclose(model.modes(at="start").omega_squared, squares, rtol=1e-10)
+    assert "guide" in model.draw().svg
+    assert "0.8" in str(model.equations.Phi)
+
+
+BAD = [
+    ([], "joints.guide.rows: expected a list of rows"),
+    ([{}], "joints.guide.rows[0]: expected either the key position or the key velocity, got neither"),
+    (
+        [{"position": "rod.x", "velocity": "rod.vx"}],
+        "rows[0]: expected either the key position or the key velocity, got both",
+    ),
+    (
+        [{"place": "rod.x"}],
+        "joints.guide.rows[0]: expected the keys position, velocity, label, unit, got the unknown key 'place'",
+    ),
+    ([{"position": "rod.x + rod.vx"}], "rows[0].position: expected an expression of t, parameters and positions"),
+    ([{"position": "rod.x + rod.tip.vy"}], "got 'rod.tip.vy', a velocity; a row of velocities is { velocity = ... }"),
+    (
+        [{"position": "3*c"}],
+        "rows[0].position: expected an expression of t, parameters and positions, got one in which nothing moves",
+    ),
+    ([{"position": "rod.x + flat(rod.y)"}], "a motion needs two continuous derivatives"),
+    ([{"position": "rod.x + push"}], "an input may stand in forces, torques and actuators"),
+    (
+        [{"velocity": "rod.vx*rod.omega"}],
+        "rows[0].velocity: expected a formula that is linear in velocities, got the term 'rod.vx*rod.omega'",
+    ),
+    ([{"velocity": "rod.y + sin(rod.vx)"}], "linear in velocities, got the term 'sin(rod.vx)'"),
+    ([{"velocity": "rod.x"}], "expected a formula that is linear in velocities, got a formula without velocities"),
+    ([{"position": "rod.x", "unit": "mm"}], "rows[0].unit: expected 'm' or 'rad', got 'mm'"),
+    ([{"velocity": "rod.vx", "unit": "m"}], "rows[0].unit: expected 'm/s' or 'rad/s', got 'm'"),
+    ([{"position": "rod.x", "label": "a b"}], "rows[0].label: expected a row name of letters, digits and _"),
+    (
+        [{"position": "rod.x", "label": "u"}, {"position": "rod.y", "label": "u"}],
+        "joints.guide.rows: expected labels used once",
+    ),
+    ([{"position": "rod.tp.x"}], "joints.guide.rows[0].position: expected"),
+]
+
+
+@pytest.mark.parametrize(("rows", "words"), BAD, ids=range(len(BAD)))
+def test_bad_rows_are_one_sentence(rows, words):
+    raw = {
+        "mechanism": {"name": "bad"},
+        "parameters": {"c": 0.8},
+        "inputs": {"push": 0.0},
+        "tables": {"flat": {"x": [0.0, 1.0], "y": [0.0, 1.0]}},
+        "bodies": {
+            "rod": {"mass": 1.0, "inertia": 1.0, "points": {"tip": [0.5, 0.0]}},
+            "other": {"mass": 1.0, "inertia": 1.0},
+        },
+        "joints": {"guide": {"type": "rows", "rows": rows}},
+    }
+    with pytest.raises(InputError, match=re.escape(words)) as error:
+        validate(raw, "file")
+    assert "\n" not in str(error.value)
+
+
+def test_bodies_of_rows():
+    rows = [{"position": "rod.tip.x - other.x"}, {"position": "rod.theta - 2*other.theta"}]
+
+    def joint(**keys):
+        builder = MechanismBuilder("two").body("rod", mass=1.0, inertia=1.0, points={"tip": [0.5, 0.0]})
+        return builder.body("other", mass=1.0, inertia=1.0).joint("tie", "rows", rows=rows, **keys).build().joints[0]
+
+    assert joint().bodies == ("rod", "other")
+    assert [row.unit for row in joint().rows] == ["m", "rad"]
+    assert joint(between=["other", "rod"]).bodies == ("other", "rod")
+    words = "joints.tie.between: expected all bodies of the rows, rod, other, got none of 'other'"
+    with pytest.raises(InputError, match=words):
+        joint(between=["rod"])

@@ -31,6 +31,7 @@ from symgen.vocabulary.measures import (
     Exerted,
     FormulaMeasure,
     FormulaSpeed,
+    HalfSquare,
     Holonomic,
     Integral,
     LinkStretch,
@@ -214,12 +215,14 @@ class ReferenceFormulas:
         if isinstance(m, Angle):
             a, b = (sp.S.Zero if body == GROUND else self.q[self.first[body] + 2] for body in (m.a, m.b))
             return b - a
-        if isinstance(m, Component | Distance | LinkStretch):
+        if isinstance(m, Component | Distance | HalfSquare | LinkStretch):
             away = self._place(m.b) - self._place(m.a)
             if isinstance(m, Component):
                 return self._pointing(m.along).dot(away)
             if isinstance(m, Distance):
                 return sp.sqrt(away.dot(away))
+            if isinstance(m, HalfSquare):
+                return away.dot(away) / 2
             length = self._expression(m.length)
             return (away.dot(away) - length**2) / (2 * length)
         if isinstance(m, Dot):
