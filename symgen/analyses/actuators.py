@@ -203,7 +203,7 @@ def balance(
     record: Recorded,
     weights: Mapping[str, float] | None,
 ) -> Balanced:
-    """Return what actuators exert in a recorded motion.
+    """Return the efforts of actuators in a recorded motion.
 
     Parameters
     ----------

@@ -80,7 +80,7 @@ class Equilibrium:
     notes: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what JSON can express."""
+        """Return the fields in types of JSON."""
         return dict(plain(self))
 
 
@@ -107,7 +107,7 @@ def judged(rest: Settled) -> Equilibrium:
         not_unique=not_unique(subject.mechanism, info, share),
         y=y,
         lam=lam,
-        notes=edges(subject, y),
+        notes=(*subject.singular(d), *edges(subject, y)),
     )
 
 

@@ -92,7 +92,7 @@ class LinearSystem:
         return control.ss(self.A, self.B, self.C, self.D, **names)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what JSON can express."""
+        """Return the fields in types of JSON."""
         return dict(plain(self))
 
 
@@ -150,7 +150,7 @@ def linear_system(subject: Subject, y: Array, states: Sequence[str] = (), instan
         x.t,
         tuple(left_out),
         subject.by,
-        edges(subject, y, x.a, outputs),
+        (*subject.singular(subject.rows(x.base)), *edges(subject, y, x.a, outputs)),
         tuple(eigenvectors(x, names, vibration(x))[0].tolist()),
     )
 

@@ -75,7 +75,7 @@ class Locus:
     crossings: tuple[Crossing, ...]
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what JSON can express."""
+        """Return the fields in types of JSON."""
         return dict(plain(self))
 
     def plot(self, path: str | Path) -> Path:

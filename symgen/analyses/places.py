@@ -158,6 +158,8 @@ def rest_from(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     except AssemblyError:  # a tree is put together from bodies that close
         settings = replace(settings, coordinates="absolute")
         subject = subject_of(mechanism, settings)
+        if subject.closed:  # it is the tree that cannot start there, as in a run
+            raise
     return _of_bodies(mechanism, settings, subject, (judged(rest_of(subject)),))[0]
 
 

@@ -75,7 +75,7 @@ class LazyGroup(click.Group):
 
 
 def summary(name: str) -> str:
-    """Return what ``symgen --help`` says of a command: the first line of its file."""
+    """Return the line of a command in ``symgen --help``: the first one of its file."""
     return (OWN if name in OWN else ANALYSES).summary(name)
 
 

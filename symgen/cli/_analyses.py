@@ -80,7 +80,7 @@ def _option(option: Option) -> Callable[[Callable[..., int]], Callable[..., int]
 
 
 def _read(option: Option, value: Any) -> Any:
-    """Return what an analysis takes of what was typed for an option."""
+    """Return the value of an option for an analysis, from its text."""
     flag, kind = option.name, option.kind
     if kind == "words":
         return words(flag, value)

@@ -21,7 +21,7 @@ MOST_JOBS = 4096
 
 
 def examples(*lines: str) -> str:
-    """Return what the help of a command ends with: lines that can be typed as they stand."""
+    """Return the examples at the end of a command's help: lines that can be typed as they stand."""
     return "\n".join(["\b", "Examples:", *(f"  {line}" for line in lines)])
 
 

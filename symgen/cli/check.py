@@ -65,7 +65,7 @@ def command(
 
 
 def _facts(model: str, parameters: dict[str, float], held: dict[str, float], strict: bool) -> dict[str, Any]:
-    """Return what assembling a mechanism shows: sizes, rank, degrees of freedom, redundant rows and notes."""
+    """Return the facts of an assembled mechanism: sizes, rank, degrees of freedom, redundant rows and notes."""
     from symgen.api import load
 
     loaded = load(model)

@@ -139,7 +139,7 @@ def command(
 
 
 def _ranges(steps: tuple[float, ...], rtols: tuple[float, ...]) -> dict[str, tuple[str, str]]:
-    """Return what was asked for by --steps and --rtols: a label and words."""
+    """Return the settings of --steps and --rtols: a label and words."""
     from symgen.report.words import exact
     from symgen.study.comparison.combinations import ATOL_SHARE, RTOLS, STEP_FACTORS
 

@@ -256,7 +256,7 @@ def _method(mechanism: Mechanism, equations: Equations, choice: Any) -> dict[str
 
 
 def as_text(facts: dict[str, Any]) -> str:
-    """Return what ``symgen inspect`` shows as text."""
+    """Return the text of ``symgen inspect``."""
     sizes, lines = facts["sizes"], list[str]()
 
     def section(title: str) -> None:

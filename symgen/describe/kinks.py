@@ -120,7 +120,7 @@ def compares_state(mechanism: Mechanism) -> bool:
 
 
 def changes_of(formula: Expr) -> tuple[Jump, ...]:
-    """Return what a formula of the time compares with zero and what depends on t, each once, without a switch."""
+    """Return the comparisons with zero in a formula of the time, and what depends on t, each once, without a switch."""
     compares = (e for e, _ in _calls(formula) if e.function in _COMPARED and "t" in set(names(e)))
     return tuple(dict.fromkeys(Jump(compared(e)) for e in compares))
 

@@ -194,7 +194,7 @@ class Pen:
         return Tube(body, ends[0], ends[1], radius * self.unit, look)
 
     def stretch(self, kind: str, a: BodyPoint, b: BodyPoint, look: Look) -> Stretch:
-        """Return what reaches from one point to another."""
+        """Return the line from one point to another."""
         return Stretch(kind, a.body, a.at, b.body, b.at, self.unit, look)
 
     def ring(self, body: int, at: Array, axis: Array, radius: float, look: Look = PLAIN) -> Line:

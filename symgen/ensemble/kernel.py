@@ -161,7 +161,7 @@ class RowKernel:
         return compiled.parameter_array({q.name: 0.0 for q in compiled.info.parameters}, self.recipe.method_parameters)
 
     def _runs(self, code: Code, compiled: CompiledModel) -> Runs:
-        """Return what runs rows from starts of bodies."""
+        """Return the function that runs rows from starts of bodies."""
         recipe, watch, spec = self.recipe, self.recipe.watch, self.recipe.spec
         integrator: Integrator = INTEGRATORS.get(recipe.integrator)
         other, tree = (None if module is None else module.load() for module in (code.other, code.tree))

@@ -123,7 +123,7 @@ class Targets:
 
 
 def targets_of(names: Names, varied: Sequence[str], holds: Sequence[Hold], info: ModelInfo) -> Targets:
-    """Return what starts hold.
+    """Return the quantities that starts hold.
 
     Parameters
     ----------

@@ -135,12 +135,12 @@ _TAKEN = {"run", "time", "status", "reason", "warnings", *NUMBERS, *_NUMBER.valu
 
 
 def of_number(name: str) -> str:
-    """Return what one of `NUMBERS` is called."""
+    """Return the name of one of `NUMBERS`."""
     return _NUMBER.get(name, name)
 
 
 def of_quantities(names: Sequence[str], axes: Iterable[Axis]) -> tuple[str, ...]:
-    """Return what quantities are called: an output may have a name that is taken, or that of what varies."""
+    """Return the names of quantities: an output may have a name that is taken, or that of what varies."""
     taken = _TAKEN.difference(_NUMBER).union(of_varied(name, axis) for axis in axes for name in axis.values)
     labels = list[str]()
     for name in names:
@@ -152,13 +152,13 @@ def of_quantities(names: Sequence[str], axes: Iterable[Axis]) -> tuple[str, ...]
 
 
 def of_varied(name: str, axis: Axis) -> str:
-    """Return what a name that varies is called: that of its dimension, or where names vary together one like it."""
+    """Return the label of a name that varies: that of its dimension, or where names vary together one like it."""
     label = axis.dimension if not axis.together else f"{name}(0)" if "." in name else name
     return f"parameter.{label}" if label in _TAKEN else label
 
 
 def of_dimension(axis: Axis) -> str:
-    """Return what a dimension is called."""
+    """Return the name of a dimension."""
     return axis.dimension if axis.together else of_varied(next(iter(axis.values)), axis)
 
 

@@ -169,7 +169,7 @@ class SingleRuns:
         return replace(self._watched, masses=masses_of(self._run_of[0], dict(values)))
 
     def _columns(self, outcome: Outcome, unique: bool) -> Array:
-        """Return what loops would leave of a run at its outputs, shape (columns, outputs).
+        """Return the state of a run at its outputs, as loops leave it, shape (columns, outputs).
 
         Parameters
         ----------
@@ -194,7 +194,7 @@ class SingleRuns:
         return np.array(columns_of_run).reshape(len(columns_of_run), len(outcome.times))
 
     def _behind(self, measures: Measures, outcome: Outcome, columns: Array) -> Array:
-        """Return what is worked out behind loops, shape (quantities, outputs), with the parameters of each part."""
+        """Return the quantities computed after loops, shape (quantities, outputs), with the parameters of each part."""
         quantities, one = self.recipe.behind, np.zeros(1, dtype=np.int64)
         values = np.empty((len(quantities), len(outcome.times)))
         for first, last, p in outcome.parameters:

@@ -138,7 +138,7 @@ class Ensemble:
         return size if self.target == "cpu" else LANES * math.ceil(size / LANES)
 
     def rows(self, first: int, last: int) -> Rows:
-        """Return what distinguishes the runs from `first` to `last` (exclusive)."""
+        """Return the values that distinguish the runs from `first` to `last` (exclusive)."""
         return self.driving.put(self.settled(first, last), tuple(self.parameters))
 
     def settled(self, first: int, last: int) -> Rows:
@@ -309,7 +309,7 @@ def _code(
     joint: bool,
     kept: Sequence[RowQuantity],
 ) -> Code:
-    """Return what runs take of code for one solver, with how quantities behind the loops are worked out."""
+    """Return the code that runs use for one solver, with how quantities behind the loops are worked out."""
     return Code(
         Module.of(compiled),
         Module.of(compile_model(mechanism, choice, target=target)) if target != "cpu" else None,

@@ -81,7 +81,7 @@ def judge_all(
 
 
 def warnings_all(summary: Array, done: NDArray[np.bool_], law: LawInfo, spec: RunSpec) -> dict[int, tuple[str, ...]]:
-    """Return what there is to say of runs by what their loops saw, by run.
+    """Return the verdicts on runs by what their loops saw, by run.
 
     Parameters
     ----------

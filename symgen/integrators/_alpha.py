@@ -57,7 +57,7 @@ class AlphaFamily:
         return alpha.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
-        """Return what the loop is entered with."""
+        """Return the arguments of the loop."""
         refuse_states(self, compiled)
         from symgen.runtime.newton import Pattern, alpha_plan
         from symgen.runtime.records import Alpha

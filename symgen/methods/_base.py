@@ -263,7 +263,7 @@ class Method(ABC):
 
 @lru_cache(maxsize=32)
 def _version(kind: type[Method]) -> tuple[str, ...]:
-    """Return what tells versions of a method registered by hand apart: the cache knows symgen's sources only."""
+    """Return the digest of a method registered by hand: the cache knows symgen's sources only."""
     outside = [base for base in kind.__mro__ if base.__module__.partition(".")[0] not in ("symgen", "builtins", "abc")]
     if not outside:
         return ()

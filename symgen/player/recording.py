@@ -119,7 +119,7 @@ def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
 
 
 def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording, bool]:
-    """Return what a page holds of a recording, and whether its coordinates have 16 bits.
+    """Return the part of a recording that a page holds, and whether its coordinates have 16 bits.
 
     Where `FEWEST` frames are too many characters, coordinates have 16 bits instead of 32 between the smallest and the
     largest value, and where that is not enough, forces are left out.
@@ -177,7 +177,7 @@ def _parts(recording: Recording) -> Iterator[tuple[Array, bool]]:
 
 
 def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str, Any]:
-    """Return what a page reads of a recording; arrays are columns behind each other in base 64."""
+    """Return the part of a recording that a page reads; arrays are columns behind each other in base 64."""
     data: dict[str, Any] = {
         "t": floats(recording.t[keep, None]),
         "q": shorts(recording.q[keep]) if coarse else floats(recording.q[keep]),

@@ -54,7 +54,7 @@ DIMENSIONS = {
 
 
 def netcdf(dataset: xr.Dataset) -> Callable[[io.BytesIO], object]:
-    """Return what writes a dataset to an open file as NetCDF, with a checksum for every block of numbers."""
+    """Return the writer of a dataset to an open file as NetCDF, with a checksum for every block of numbers."""
     summed = {
         str(name): {"fletcher32": True} for name, v in dataset.variables.items() if v.dtype.kind in "fi" and v.size
     }

@@ -7,17 +7,20 @@ import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from symgen.describe.columns import PREFIX
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, quoted
-from symgen.files import check_name, need, unheaded
+from symgen.files import check_name, check_rows, need, unheaded
 from symgen.result.export import DIMENSIONS, LAST_HEADER, LAST_PREFIX, SAVED
 from symgen.result.labelled import Array
 from symgen.runtime.last_state import LastState
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _Value = TypeVar("_Value")
 #: Tables of a NetCDF file that are read.
@@ -82,7 +85,7 @@ class Recorded:
 
 
 def _read(option: str, path: Path, use: Callable[[Recorded], _Value]) -> _Value:
-    """Return what `use` makes of a file of a result; a `KeyError` means that something is missing in it."""
+    """Return the value of `use` for a file of a result; a `KeyError` means that something is missing in it."""
     ending = path.suffix.lower()
     if ending not in SAVED:
         raise InputError(option, f"a file ending in {', '.join(SAVED)}", f"'{path}'")
@@ -91,7 +94,7 @@ def _read(option: str, path: Path, use: Callable[[Recorded], _Value]) -> _Value:
 
 
 def checked(option: str, path: Path, read: Callable[[Path], _Value], libraries: Sequence[str]) -> _Value:
-    """Return what `read` makes of a file, with sentences about files that are missing or hold something else."""
+    """Return the value of `read` for a file, with sentences about files that are missing or hold something else."""
     need(option, *libraries)
     check_name(option, path)
     if not path.is_file():
@@ -100,15 +103,23 @@ def checked(option: str, path: Path, read: Callable[[Path], _Value], libraries: 
         return read(path)
     except InputError:
         raise
-    except (OSError, ValueError, KeyError, IndexError, TypeError, StopIteration, csv.Error) as error:
+    except (OSError, ValueError, KeyError, IndexError, TypeError, StopIteration, RuntimeError, csv.Error) as error:
         why = " ".join(str(error).split())[:80]
         raise InputError(option, "a file of a result", f"'{path}', which cannot be read as one ({why})") from None
 
 
-def _of_dataset(path: Path, whence: str) -> Recorded:
+def dataset_of(path: Path) -> xr.Dataset:
+    """Return the content of a NetCDF file; libraries raise errors of many types where it is damaged."""
+    import h5py
     import xarray as xr
 
-    dataset, columns = xr.load_dataset(path, engine="h5netcdf"), dict[str, Array]()
+    with h5py.File(path) as file:
+        file["/"]  # without it, h5netcdf leaves an object that prints a traceback when it is deleted
+    return xr.load_dataset(path, engine="h5netcdf")
+
+
+def _of_dataset(path: Path, whence: str) -> Recorded:
+    dataset, columns = dataset_of(path), dict[str, Array]()
     for table in _TABLES:
         values = np.asarray(dataset[table].values, dtype=np.float64)
         columns |= {f"{PREFIX[table]}{name}": values[:, i] for i, name in enumerate(dataset[DIMENSIONS[table]].values)}
@@ -124,8 +135,9 @@ def _of_dataset(path: Path, whence: str) -> Recorded:
 def _of_csv(path: Path, whence: str) -> Recorded:
     with path.open(encoding="utf-8", newline="") as file:
         rows = csv.reader(file)
-        names = [unheaded(name) for name in next(rows)]
-        values = np.array([[float(x or "nan") for x in row] for row in rows])
+        names, cells = [unheaded(name) for name in next(rows)], list(rows)
+    check_rows(whence, names, cells)
+    values = np.array([[float(x or "nan") for x in row] for row in cells])
     if not len(values):
         raise ValueError("it has no rows")
     columns = {name: values[:, i] for i, name in enumerate(names)}

@@ -19,7 +19,7 @@ from symgen.player.motion_page import Page, page
 from symgen.player.recording import LONGEST_KEY, Moment, PlottedGroup, Recording, position_groups
 from symgen.result.export import DIMENSIONS, SAVED
 from symgen.result.labelled import Array, Labelled
-from symgen.result.saved import checked
+from symgen.result.saved import checked, dataset_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -252,9 +252,7 @@ def mechanism_name(option: str, path: Path) -> str:
 
 def _dataset(option: str, path: Path) -> xr.Dataset:
     def read(path: Path) -> xr.Dataset:
-        import xarray as xr
-
-        dataset = xr.load_dataset(path, engine="h5netcdf")
+        dataset = dataset_of(path)
         if not {"q", "energy", "violations", "reactions"} <= set(dataset.data_vars) or "mechanism" not in dataset.attrs:
             raise ValueError("it has not the tables of a result")
         if not {"parameters", "inputs", "start", "watched", "until"} <= set(json.loads(dataset.attrs["run"])):

@@ -207,7 +207,7 @@ def _finite(number: float) -> float | str:
 
 
 def _metadata(modules: Modules, laws: Sequence[str], run: Mapping[str, Any] | None) -> str:
-    """Return what programs have to know of modules, and the start of a run, as JSON with short lists in one line."""
+    """Return the facts of modules that programs need, and the start of a run, as JSON with short lists in one line."""
     others = {stem: info for stem, (_, info) in modules.items() if stem not in laws and info}
     model = next((others.pop(stem) for stem in list(others) if stem.startswith("model")), {"kernels": others})
     content = {**model, "methods": {stem: modules[stem][1] for stem in laws}, **({"run": run} if run else {})}

@@ -164,7 +164,8 @@ def refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> Assemb
 
 
 def _stays_open(info: ModelInfo, held: Held, joint: str, size: float) -> AssemblyError:
-    """Return why there is no start where a joint stays open by a size [m or rad]."""
+    """Return why there is no start where a joint stays open by a size, in the units of its rows."""
+    units = " or ".join(dict.fromkeys(row.unit for row in info.rows if row.joint == joint))
     described = held.described(info)
     holds = [words for words in (held.positions(info), f"{described} as described" if described else "") if words]
     what = f" with {' and '.join(holds)} held" if holds else ""
@@ -172,7 +173,8 @@ def _stays_open(info: ModelInfo, held: Held, joint: str, size: float) -> Assembl
     ways = f"; {OTHER_WAYS}" if holds and info.m >= info.nv else ""
     return AssemblyError(
         f"{info.name}: the mechanism cannot be assembled from this start{what}: joint '{joint}' stays open by "
-        f"{size:.3g} m or rad; check its points and the positions of the bodies it joins{ways}",
+        f"{size:.3g} {units}; check its points, the positions of the bodies it joins, and whether the links are long "
+        f"enough to meet at all{ways}",
         (joint,),
     )
 

@@ -11,7 +11,7 @@ from scipy.special import ellipkinc
 from support.emitted import mechanism_of
 
 import symgen
-from symgen.describe.builder import to_toml
+from symgen.describe.builder import MechanismBuilder, to_toml
 from symgen.describe.validate import validate
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
@@ -527,13 +527,29 @@ def test_rows_that_are_rounding_take_no_impulse():
     assert not contradictory and not impulses[:2].any()
 
 
-def test_contradictory_velocities_are_refused_with_amounts():
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_contradictory_velocities_are_refused_with_the_nearest_that_joints_allow(coordinates):
+    """Those of a four-bar are on a line through 0: the foot of the perpendicular on it is nearest."""
     event = {"when": "t > 0.2", "reset": {"crank.omega": "2", "rocker.omega": "50"}}
     with pytest.raises(InputError) as caught:
-        four_bar(blow=event).simulate()
+        four_bar(blow=event).simulate(coordinates=coordinates)
     said = str(caught.value)
     assert said.startswith("event 'blow': reset: expected velocities that the joints and each other allow, got ")
     assert "crank.omega = 2, rocker.omega = 50 at t = 0.2 s; the nearest are crank.omega = " in said
+    before = four_bar().simulate(until=0.2)
+    line = np.array([before[name][-1] for name in ("crank.omega", "rocker.omega")])
+    nearest = line * (line @ [2.0, 50.0]) / (line @ line)
+    numbers = [float(word.split(" = ")[1]) for word in said.partition("nearest are ")[2].split(", ")]
+    np.testing.assert_allclose(numbers, nearest, rtol=1e-5)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_what_joints_hold_at_rest_has_no_other_velocity_nearby(coordinates):
+    built = MechanismBuilder("slide", gravity=(0.0, -9.81)).body("a", mass=1.0, inertia=0.1, velocity=[1.0, 0.0])
+    built = built.joint("guide", "translational", between=["ground", "a"], at=[[0.0, 0.0], "centre"], axis=[1.0, 0.0])
+    with pytest.raises(InputError, match=r"got a.omega = 0.3 at t = 0.2 s; the nearest are a.omega = 0$"):
+        event = {"when": "t > 0.2", "reset": {"a.omega": 0.3}}
+        symgen.load(built.build()).simulate(until=0.5, events={"hit": event}, coordinates=coordinates)
 
 
 # -- runs with events --------------------------------------------------------------------------------------------------

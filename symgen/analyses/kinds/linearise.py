@@ -65,6 +65,8 @@ def command(load: Callable[[], Analysed], settings: Settings, **further: Any) ->
 
 
 def _shown(system: LinearSystem) -> Iterator[str | AnalysisTable]:
+    if not system.states:
+        yield "no degree of freedom is left: there is nothing to linearise"
     matrices = (
         ("x' = A x", system.states, system.states, system.A),
         ("+ B u", system.states, system.inputs, system.B),

@@ -155,6 +155,9 @@ def command(
 
 def _shown(result: Modes) -> Iterator[str | AnalysisTable]:
     freedom, many = result.degrees_of_freedom, len(result.eigenvalues)
+    if not many:
+        yield "no degree of freedom is left: there are no modes"
+        return
     yield (
         f"{freedom} {'degree' if freedom == 1 else 'degrees'} of freedom; "
         f"{many} {'eigenvalue' if many == 1 else 'eigenvalues'}"

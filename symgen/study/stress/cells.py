@@ -181,7 +181,7 @@ def _shaped(mechanism: Mechanism, settings: Settings) -> Settings:
 
 
 def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, motion: Fields) -> Run:
-    """Return what classification asks for."""
+    """Return the facts that classification uses."""
     values = parameter_values(level.mechanism, parameters)
     points = Points.of(level.mechanism, values)
     nq, count = outcome.compiled.info.nq, len(outcome.times)
