@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from symgen.analyses.algebra import ZERO, Complex, apart, eigenvalues_of, plain, split, squares_along, symmetric
 from symgen.analyses.edges import edges
 from symgen.analyses.reduced import tangent
-from symgen.analyses.settle import Settled, settle
+from symgen.analyses.settle import Settled, at_balance, settle
 from symgen.analyses.subject import Subject
 from symgen.errors import AnalysisError, InputError
 
@@ -91,7 +91,7 @@ def judged(rest: Settled) -> Equilibrium:
     d = subject.rows(e)
     inverse, dependent = split(d, subject.loads)[1:]
     lam = -inverse.T @ e.value("balance")
-    e, by_position = subject.at_balance(y, lam)
+    e, by_position = at_balance(subject, y, lam)
     stiffness = by_position @ e.by("motion", "v")
     squares = reduced_squares(e.by("balance", "a"), stiffness, subject.split(d)[0])
     share = np.linalg.norm(dependent, axis=1) if dependent.size else np.zeros(info.m)

@@ -17,7 +17,7 @@ from symgen.compiling.side import compile_side
 from symgen.describe.evaluate import evaluate, parameter_values, scalars
 from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
-from symgen.errors import AnalysisError, AssemblyError, InputError, nearest
+from symgen.errors import AssemblyError, InputError, nearest
 from symgen.lower.windings import winding_order
 from symgen.running.inputs import Inputs, put_inputs
 from symgen.running.plan import Purpose
@@ -44,8 +44,6 @@ LARGE = 300
 NO_ROW = 1e-11
 #: Jumps of inputs are looked for up to so far behind a time, and are at it as near as this, both parts of it.
 BEYOND, HERE = 1e-9, 1e-13
-#: Most iterations of Newton's method for states of the file at rest.
-MOST_ITERATIONS = 50
 #: What a name of a rate ends in.
 RATE = ".rate"
 
@@ -204,39 +202,6 @@ class Subject(Yardsticks):
         rates = np.zeros(self.nv) if a is None else a
         return self.form.at(self.t if t is None else t, y, rates, self.p, w)
 
-    def at_balance(self, y: Array, lam: Array | None = None) -> tuple[Evaluated, Array]:
-        """Evaluate where the states of the file have come to rest, which are set in `y`; their stiffness is included.
-
-        Returns
-        -------
-        e : Evaluated
-            The descriptor form there.
-        stiffness : Array, shape (nv, nq)
-            Derivatives of the balance by q, states of the file following.
-
-        Raises
-        ------
-        AnalysisError
-            If their rates do not determine them.
-        """
-        e = self.evaluated(y, lam=lam)
-        if not self.states:
-            return e, e.by("balance", "q")
-        own = self.compiled.info.own_states
-        for _ in range(MOST_ITERATIONS):
-            try:
-                change = np.linalg.solve(e.by("states", "z"), e.value("states"))
-            except np.linalg.LinAlgError:
-                names = ", ".join(x.name for x in self.compiled.info.states)
-                raise AnalysisError(f"no equilibrium: the rates of the states {names} do not determine them") from None
-            size = float(np.abs(change / self.extents(y)).max())
-            y[own] -= change
-            e = self.evaluated(y, lam=lam)
-            if not size > 1e-14:
-                break
-        following = np.linalg.solve(e.by("states", "z"), e.by("states", "q"))
-        return e, e.by("balance", "q") - e.by("balance", "z") @ following
-
     def motion(self, y: Array) -> Array:
         """Return N at a state, over lengths of the mechanism and radians; shape (nq, nv)."""
         return self.evaluated(y).by("motion", "v") * self.spans
@@ -366,7 +331,8 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
     by = tuple(name for name in dict.fromkeys(by) if name not in mechanism.inputs)
     varied = mechanism
     if placed.driven is not None and mechanism.input_formulas:  # what stands in an input's slot is added to its formula
-        varied = replaced(mechanism, forces=placed.driven.varied.forces, outputs=placed.driven.varied.outputs)
+        whole = placed.driven.varied
+        varied = replaced(mechanism, forces=whole.forces, states=whole.states, outputs=whole.outputs)
     if any(q.formula is not None and q.name in settings.parameters for q in varied.parameters):
         plain = (replaced(q, formula=None) if q.name in settings.parameters else q for q in varied.parameters)
         varied = replaced(varied, parameters=tuple(plain))

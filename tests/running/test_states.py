@@ -11,6 +11,7 @@ from symgen.api import Model
 from symgen.compiling.pipeline import choose_method
 from symgen.describe.validate import validate
 from symgen.errors import InputError
+from symgen.result.saved import read_last_state
 
 TIGHT = {"integrator": "dop853", "rtol": 1e-12, "atol": 1e-13}
 IMPLICIT = {"integrator": "radau5", "rtol": 1e-11, "atol": 1e-12}
@@ -184,6 +185,37 @@ def test_rows_of_sweeps_are_single_runs(coordinates):
             one = Model(motor()).simulate(parameters={"R": resistance}, start={"i": current}, **settings)
             assert swept["i"][k, j, -1] == pytest.approx(one.outputs["i"][-1], rel=1e-13)
             assert swept["wheel.omega"][k, j, -1] == pytest.approx(one.v["wheel.omega"][-1], rel=1e-13)
+
+
+def test_inputs_and_events_read_states():
+    raw = motor_file()
+    del raw["parameters"]["U"]
+    raw["inputs"] = {"U": 3.0}
+    raw["events"] = {"high": {"when": "i > 0.6", "action": "stop"}}
+    result = Model(validate(raw, "motor")).simulate(until=1.0, inputs={"U": "3*cos(5*t) - 0.5*i"}, **TIGHT)
+
+    def rates(t, y):
+        return [(0.7 * y[1] - 0.05 * y[0]) / 0.04, (3 * np.cos(5 * t) - 1.7 * y[1] - 0.7 * y[0]) / 0.02]
+
+    at = solve_ivp(rates, (0.0, result.t[-1]), [0.5, 0.1], "DOP853", rtol=1e-13, atol=1e-13).y[:, -1]
+    assert 0.001 < result.t[-1] < 0.2
+    assert result.outputs["i"][-1] == pytest.approx(0.6, abs=1e-10)
+    np.testing.assert_allclose([result.v["wheel.omega"][-1], result.outputs["i"][-1]], at, atol=1e-10)
+
+
+@pytest.mark.parametrize("ending", ["nc", "csv"])
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_saved_runs_go_on(tmp_path, ending, coordinates):
+    settings = {**TIGHT, "coordinates": coordinates}
+    model, path = Model(motor()), tmp_path / f"half.{ending}"
+    model.simulate(until=0.2, **settings).save(path)
+    whole = model.simulate(until=0.4, **settings)
+    on = model.simulate(until=0.4, start=read_last_state("start", path), **settings)
+    assert on.outputs["i"][-1] == pytest.approx(whole.outputs["i"][-1], abs=1e-11)
+
+
+def test_auto_sees_a_stiff_state():
+    assert Model(motor(1.2e-6)).simulate(until=0.1, integrator="auto").integrator == "radau5"
 
 
 def test_a_stiff_state_costs_an_implicit_scheme_few_steps():
