@@ -112,6 +112,9 @@ Scalars = Annotated[
 BodyNames = Annotated[tuple[str, ...], Meta(description="names of bodies", min_length=1)]
 PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
 
+#: Keys that joints of any kind may have beside their own, and their types.
+OF_ANY_JOINT: Mapping[str, Any] = {"start": JointStart, "cut": Flag, "rotor_inertia": Scalar, "gear_ratio": Scalar}
+
 T = TypeVar("T")
 
 _AT = re.compile(r" - at `\$(.*)`$")

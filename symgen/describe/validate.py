@@ -12,7 +12,7 @@ from symgen.describe.bodies import planar_body, shapes_of, spatial_body
 from symgen.describe.columns import check_columns
 from symgen.describe.evaluate import evaluate, in_order
 from symgen.describe.events import read_event
-from symgen.describe.fields import Flag, JointStart, OutputFunction, Scalar, read, read_value, words_of
+from symgen.describe.fields import OF_ANY_JOINT, Flag, JointStart, OutputFunction, Scalar, read, read_value, words_of
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter, Rotor, StateVariable
@@ -39,8 +39,6 @@ from symgen.vocabulary.measures import Marker
 Raw = Mapping[str, Any]
 #: Levels of tables in a file, and joints in a chain of references.
 DEEPEST = 20
-#: Keys that joints of any kind may have beside their own.
-OF_ANY_JOINT = ("start", "cut", "rotor_inertia", "gear_ratio")
 
 
 def validate(raw: Raw, source: str) -> Mechanism:
