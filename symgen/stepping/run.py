@@ -364,5 +364,6 @@ class SteppedRun:
 
 def _view(y: np.ndarray, first: int, quantities: Iterable[Quantity]) -> Named:
     """Return a named view of a part of the state."""
-    names, units = zip(*((q.name, q.unit) for q in quantities), strict=True)
+    quantities = tuple(quantities)
+    names, units = tuple(q.name for q in quantities), tuple(q.unit for q in quantities)
     return Named.of(y[first : first + len(names)], names, units)
