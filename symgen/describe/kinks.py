@@ -19,6 +19,7 @@ from symgen.describe.readings import integrated
 from symgen.describe.remembered import remembered
 from symgen.describe.tables import Table
 from symgen.vocabulary.expressions import BENT, Call, Expr, Name, Number, Reading, names, readings, table_of
+from symgen.vocabulary.functions import ELEMENTARY
 from symgen.vocabulary.measures import Effort
 
 #: What may jump, and what compares something with zero, or two values with each other.
@@ -132,6 +133,14 @@ def changing(part: Any) -> Iterator[Expr]:
             yield formula if effort is None else _of_a_run(formula, effort)
 
 
+def restricted(part: Any) -> Iterator[tuple[Expr, Expr]]:
+    """Yield formulas in a part of a mechanism, each with a call in it that is no number everywhere, as of a run."""
+    for whole, effort in _calls(part, enters=lambda e: False):
+        for e, _ in _calls(whole):
+            if e.function in ("div", "pow") or (e.function in ELEMENTARY and not ELEMENTARY[e.function].everywhere):
+                yield (whole, e) if effort is None else (_of_a_run(whole, effort), _of_a_run(e, effort))
+
+
 def _of_a_run(e: Expr, effort: Effort) -> Expr:
     """Return a formula of an effort with what it calls its measure and that one's rate as readings."""
     own = {name: Reading(name, effort.measure, order) for order, name in enumerate(("s", "rate"))}
@@ -186,7 +195,7 @@ def longest_step(
     longest = length / PARTS
     return longest, (
         f"formulas of t in {' and '.join(groups)} may pass something short: adaptive steps are at most {longest:.3g} s,"
-        f" a thousandth of the run; what is shorter needs --max-step"
+        f" a thousandth of the run; what is shorter needs a smaller `max_step`"
     )
 
 

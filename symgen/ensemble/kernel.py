@@ -117,6 +117,7 @@ class RowKernel:
         )
         now.p[:k, : len(info.parameters)], now.y[:k, : info.nq] = rows.parameters, rows.q
         now.y[:k, info.own_states] = rows.states
+        rows.put_method(model.compiled.law, now.p)
         return now
 
     def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:
