@@ -190,6 +190,7 @@ class CModel:
                 {"name": q.name, "unit": harmless(q.unit), "value": c_number(float(x)), "input": q.name in info.inputs}
                 for q, x in zip(info.parameters, start.p, strict=False)
             ],
+            "inputs": _list(str(int(q.name in info.inputs)) for q in info.parameters) or "0",
             "given": [i for i, p in enumerate(self.mechanism.parameters) if p.formula is not None and p.name in own],
             "tolerances": [
                 law.parameter_offset + i for i, (name, _) in enumerate(law.parameters) if name.endswith("tolerance")
@@ -270,24 +271,27 @@ class CModel:
         return not self.joint and all(hold.name in columns for hold in holds_of(self.mechanism))
 
     def _described(self) -> str:
-        """Return lines that write the described coordinates and velocities."""
-        info, lines = self.compiled.info, FormulaLines(self._places, C)
-        if not self._is_described:
-            return "    (void)q;\n    (void)v;\n    (void)is_free;"
+        """Return lines that write the described coordinates, velocities and states."""
+        info, lines, written = self.compiled.info, FormulaLines(self._places, C), list[str]()
         try:
-            q, v = described_start(self.mechanism, lines)
-            kept = {h.name: h.value for h in holds_of(self.mechanism) if h.value is not None}
-            for names, numbers in ((self.columns[: info.nq], q), (self.columns[info.nq :], v)):
-                for i, name in enumerate(names):
-                    if name in kept:
-                        numbers[i] = lines.value(kept[name], name)
+            if self._is_described:
+                q, v = described_start(self.mechanism, lines)
+                kept = {h.name: h.value for h in holds_of(self.mechanism) if h.value is not None}
+                for names, numbers in ((self.columns[: info.nq], q), (self.columns[info.nq :], v)):
+                    for i, name in enumerate(names):
+                        if name in kept:
+                            numbers[i] = lines.value(kept[name], name)
+                written += [f"q[{i}] = {lines.result(x)};" for i, x in enumerate(q)]
+                for j, x in enumerate(v):
+                    value = "0.0" if x is None else lines.result(x)
+                    written += [f"v[{j}] = {value};", *([f"is_free[{j}] = 1;"] if x is None else [])]
+            for i, state in enumerate(self.mechanism.states):
+                written.append(f"own[{i}] = {lines.result(lines.value(state.start, f'states.{state.name}.start'))};")
         except NotInLines as error:
             raise InputError(f"--target {self.target}", "a start by formulas that C has", str(error)) from None
-        written = [f"q[{i}] = {lines.result(x)};" for i, x in enumerate(q)]
-        for j, x in enumerate(v):
-            written += [f"v[{j}] = 0.0;", f"is_free[{j}] = 1;"] if x is None else [f"v[{j}] = {lines.result(x)};"]
-        rest = [] if any(x is None for x in v) else ["(void)is_free;"]
-        return "\n".join(f"    {line}" for line in (*lines.lines_of(written), *written, *rest))
+        text = " ".join(written)
+        unused = [f"(void){name};" for name in ("q", "v", "own", "is_free") if f"{name}[" not in text]
+        return "\n".join(f"    {line}" for line in (*unused, *lines.lines_of(written), *written))
 
 
 def _products(body: Any) -> Iterable[Any]:

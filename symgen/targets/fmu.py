@@ -87,7 +87,6 @@ def _files(model: CModel, fmi: int) -> dict[str, bytes]:
         "version": __version__,
         **{"at_column": _COLUMN, "at_output": _OUTPUT, "at_state": _STATE, "at_rate": _RATE, "at_event": _EVENT},
         "at_time": _TIME,
-        "inputs": ", ".join(str(int(p["input"])) for p in values["parameters"]) or "0",
     }
     texts = sources(model)
     source = render("c/fmu.c.j2", values)
@@ -112,7 +111,7 @@ def _partition(model: CModel) -> dict[str, Any]:
         "spins": [f"{{{first}, {turning}}}" for first, turning in info.spins],
         "rank_q": ranks[0] + len(info.spins),
         "rank_v": ranks[1],
-        "rest": info.integrals,
+        "rest": len(info.states) + info.integrals,
         "windings": info.windings,
     }
 
@@ -140,8 +139,8 @@ def _variables(model: CModel, values: dict[str, Any], fmi: int) -> dict[str, Any
     for i, output in enumerate(mechanism.outputs):
         outputs.append((f"output.{output.name}" if output.name in names else output.name, _OUTPUT + i, output.unit))
     outputs_at = [Variable(n, r, "output", "continuous", unit=u, initial="calculated") for n, r, u in outputs]
-    count = info.nq - values["rank_q"] + info.nv - values["rank_v"] + info.integrals
-    what = "independent coordinate, velocity or integral"
+    count = info.nq - values["rank_q"] + info.nv - values["rank_v"] + values["rest"]
+    what = "independent coordinate or velocity, state or integral"
     states = [
         Variable(f"state.{i + 1}", _STATE + i, "local", "continuous", initial="calculated", description=what)
         for i in range(count)

@@ -158,8 +158,11 @@ ki = 0.2
 [bodies.clock]
 type = "point"
 mass = 1.0
+[states.total]
+start = "0*kp"
+rate = "4.0 - speed"
 [outputs]
-command = { value = "kp*(4.0 - speed) + ki*integral(4.0 - speed)" }
+command = { value = "kp*(4.0 - speed) + ki*total" }
 [run]
 until = 1.0
 step = 1e-3
