@@ -14,6 +14,8 @@ from symgen.describe.tables import Table
 
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
+#: Fields that are younger than the form: one that is empty is left out.
+_LATER = ("flexures",)
 
 
 def canonical(mechanism: Mechanism) -> str:
@@ -78,7 +80,8 @@ def _table(table: Table) -> list[str]:
 def _text(value: object) -> str:
     """Return `value` as text that differs wherever values differ: strings quoted, floats to the last digit."""
     if isinstance(value, msgspec.Struct):
-        inner = " ".join(f"{field}={_text(getattr(value, field))}" for field in value.__struct_fields__)
+        fields = [field for field in value.__struct_fields__ if field not in _LATER or getattr(value, field)]
+        inner = " ".join(f"{field}={_text(getattr(value, field))}" for field in fields)
         return f"{type(value).__name__}({inner})"
     if isinstance(value, list | tuple):
         return "[" + " ".join(_text(item) for item in value) + "]"

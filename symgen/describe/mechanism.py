@@ -11,7 +11,7 @@ from symgen.arguments import shown
 from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import ZERO, Expr
-from symgen.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Row
+from symgen.vocabulary.measures import GROUND, Direction, Effort, Flexure, Marker, Measure, Row
 from symgen.vocabulary.rotations import IDENTITY, Orientation
 
 T = TypeVar("T")
@@ -252,13 +252,14 @@ class Joint(msgspec.Struct, frozen=True):
         return "rad" if label.startswith("angle") else "m"
 
 
-class Force(msgspec.Struct, frozen=True):
-    """A force element of any kind, resolved to efforts along measures."""
+class Force(msgspec.Struct, frozen=True, omit_defaults=True, repr_omit_defaults=True):
+    """A force element of any kind, resolved to efforts along measures and to beam elements."""
 
     name: str
     kind: str
     bodies: tuple[str, ...]
     efforts: tuple[Effort, ...]
+    flexures: tuple[Flexure, ...] = ()  # texts of what has none stay what they were
 
 
 class Output(msgspec.Struct, frozen=True):

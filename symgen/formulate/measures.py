@@ -26,6 +26,7 @@ from symgen.vocabulary.measures import (
     Driven,
     Effort,
     Exerted,
+    Flexed,
     Integral,
     Marker,
     Measure,
@@ -131,6 +132,10 @@ class ModelNodes(Formulas):
 
     def reading(self, r: Reading) -> int:
         """Return the node of a measure's value, rate, or second derivative, which needs v'."""
+        if isinstance(r.source, Flexed):
+            from symgen.formulate.flexure import flexed
+
+            return flexed(self, r.source)
         assert not isinstance(r.source, Exerted | Driven | Integral), "what is exerted is read at outputs only"
         derived, g = self.motion(r.source), self.graph
         if r.order == 0:
@@ -311,8 +316,8 @@ class Exertion:
         s'.
     total : int
         -dU/ds + F.
-    magnitude : int
-        F, the part without potential.
+    power : int
+        F s', the power of the part without potential.
     energy : int
         U.
     """
@@ -320,7 +325,7 @@ class Exertion:
     row: Mapping[int, int]
     rate: int
     total: int
-    magnitude: int
+    power: int
     energy: int
 
 
@@ -333,4 +338,5 @@ def exertion(model: ModelNodes, effort: Effort) -> Exertion:
         (zero, zero) if effort.potential == ZERO else potential_of(model, effort.potential, measure.value)
     )
     magnitude = model.expression(effort.magnitude, s=measure.value, rate=rate)
-    return Exertion(measure.row, rate, model.graph.add(conservative, magnitude), magnitude, energy)
+    total, power = model.graph.add(conservative, magnitude), model.graph.mul(magnitude, rate)
+    return Exertion(measure.row, rate, total, power, energy)

@@ -119,7 +119,7 @@ class _Rewriting:
             )
             content = Joint("e", "", (), rows, coordinates)
         else:
-            content = Force("e", "", (), tuple(self.walk(e) for e in element.efforts))
+            content = Force("e", "", (), *(tuple(self.walk(e) for e in part) for part in (element.efforts, element.flexures)))
         frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
         nothing = (ZERO,) * len(self.mechanism.gravity)
         instance = self.instance(kind, element.name, element.kind, nothing, frames, content)
