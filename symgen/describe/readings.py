@@ -9,6 +9,8 @@
 | ``motor.angle.rate``, ``motor.rate`` | its rate; the short form where there is one coordinate | everywhere |
 | ``motor.effort``, ``motor.power`` | what a driver exerts along its coordinate | outputs |
 | ``spring.length``, ``.angle``, ``.rate`` | of a force along one measure | outputs, events |
+| ``rod.e3.strain``, ``.shear``, ``.curvature`` | of a beam element in its middle | everywhere |
+| ``rod.e3.N``, ``.Q``, ``.M`` | force and moment of the section there | everywhere |
 | ``spring.force``, ``.torque``, ``.Fx`` ..., ``.power`` | what a force exerts | outputs |
 
 `symgen.describe.readings` makes columns of results from the same table.
@@ -31,6 +33,8 @@ from symgen.vocabulary.measures import (
     Driven,
     Effort,
     Exerted,
+    Flexed,
+    Flexure,
     Holonomic,
     Integral,
     Marker,
@@ -48,6 +52,13 @@ if TYPE_CHECKING:
 ORDERS = {"": "m", "v": "m/s", "a": "m/s^2"}
 #: Largest order that functions of state may read, and outputs, which know v' and what is exerted.
 STATE, OUTPUT = 1, 2
+
+#: Components of the strain of a beam element, and of force and moment, in the plane and in space.
+PLANE = ("strain", "shear", "curvature"), ("N", "Q", "M")
+SPACE = (
+    ("strain", "shear_y", "shear_z", "twist", "curvature_y", "curvature_z"),
+    ("N", "Qy", "Qz", "T", "My", "Mz"),
+)
 
 #: Names behind an owner's -> what is read, and its unit.
 Table = dict[str, tuple[Reading, str]]
@@ -91,7 +102,9 @@ def of_force(force: Force, order: int) -> Table:
         unit = "m" if word == "length" else "rad"
         table[word] = Reading(f"{name}.{word}", single.measure), unit
         table["rate"] = Reading(f"{name}.rate", single.measure, 1), f"{unit}/s"
-    if order == OUTPUT and force.efforts:
+    for flexure in force.flexures:
+        table |= _of_flexure(name, flexure)
+    if order == OUTPUT and (force.efforts or force.flexures):
         components: dict[str, list[Effort]] = {}
         for effort in force.efforts:
             for component in _components(effort, word):
@@ -99,7 +112,19 @@ def of_force(force: Force, order: int) -> Table:
         for component, efforts in components.items():
             unit = "N m" if is_turning(efforts[0].measure) else "N"
             table[component] = Reading(f"{name}.{component}", Exerted(tuple(efforts))), unit
-        table["power"] = Reading(f"{name}.power", Exerted(force.efforts, power=True)), "W"
+        table["power"] = Reading(f"{name}.power", Exerted(force.efforts, True, force.flexures)), "W"
+    return table
+
+
+def _of_flexure(name: str, flexure: Flexure) -> Table:
+    """Return the strain in the middle of a beam element, and the force and moment of the section there."""
+    strains, stresses = PLANE if len(flexure.compliances) == 3 else SPACE
+    bends = len(strains) // 2
+    table = Table()
+    for stress, labels, units in ((False, strains, ("", "1/m")), (True, stresses, ("N", "N m"))):
+        for i, label in enumerate(labels):
+            unit = units[i > bends] if len(labels) == 3 else units[i >= bends]
+            table[label] = Reading(f"{name}.{label}", Flexed(flexure, i, stress)), unit
     return table
 
 
@@ -149,6 +174,10 @@ class Readings:
         yield from self._context.bodies
         yield from self._context.joint_names
         yield from self._context.forces
+
+    def has(self, name: str) -> bool:
+        """Return whether a force is called so."""
+        return name in self._context.forces
 
     def names_of(self, owner: str, where: str) -> tuple[str, ...]:
         """Return what can be read of a body, joint or force beside a body's own coordinates."""

@@ -280,6 +280,7 @@ NAMED = {
     "inputs": "input",
     "tables": "table",
     "bodies": "body",
+    "beams": "beam",
     "joints": "joint",
     "forces": "force",
     "outputs": "output",

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -15,7 +15,7 @@ from symgen.describe.events import read_event
 from symgen.describe.fields import Flag, JointStart, OutputFunction, Scalar, read, read_value, words_of
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.kinds import FORCES, JOINTS
-from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter
+from symgen.describe.mechanism import AnyBody, Defaults, Force, Hold, Joint, Mechanism, Output, Parameter
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.scope import Context, Scope
@@ -34,6 +34,9 @@ from symgen.describe.topology import articulation_of
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import names
 from symgen.vocabulary.measures import Marker
+
+if TYPE_CHECKING:
+    from symgen.describe.beams import Beams
 
 Raw = Mapping[str, Any]
 #: Levels of tables in a file, and joints in a chain of references.
@@ -66,6 +69,7 @@ class _Validator:
         self._open = 0  # joints being resolved, each because the one before refers to it
         self._cuts: list[str] = []
         self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
+        self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams
 
     def where(self, path: str) -> str:
         return f"{self.source}: {path}"
@@ -96,11 +100,13 @@ class _Validator:
             inputs=tuple(p.name for p in parameters if p.input),
         )
         scope = Scope(self.context, "mechanism")
-        gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
         read_body = spatial_body if head.space == "spatial" else planar_body
+        beams = self.beams(read_body)
+        gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
         bodies = tuple(read_body(self.scope("bodies", name), value) for name, value in self.entries("bodies"))
         if not bodies:
             raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
+        bodies = bodies if beams is None else tuple(map(beams.clamped, bodies))
         self.context = msgspec.structs.replace(self.context, bodies={body.name: body for body in bodies})
         joints = tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints"))
         forces = tuple(self.force(name, value) for name, value in self.entries("forces"))
@@ -138,11 +144,13 @@ class _Validator:
         if not isinstance(content, Mapping):
             raise InputError(self.where(section), f"a table of {section}, one entry a name", words_of(content))
         for name, value in content.items():
-            yield check_identifier(name, self.where(section), NAMED[section]), value
+            if name not in self._parts:
+                check_identifier(name, self.where(section), NAMED[section])
+            yield name, value
 
     def unique(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
-        for group in (("bodies", "joints", "forces"), ("parameters", "inputs", "tables")):
+        for group in (("bodies", "beams", "joints", "forces"), ("parameters", "inputs", "tables")):
             sections: dict[str, str] = {}
             for section in group:
                 for name, _ in self.entries(section):
@@ -150,6 +158,18 @@ class _Validator:
                         got = f"'{name}', which is a {NAMED[sections[name]]} already"
                         raise InputError(self.where(f"{section}.{name}"), "a name used once", got)
                     sections[name] = section
+
+    def beams(self, read_body: Callable[[Scope, object], AnyBody]) -> Beams | None:
+        """Put the nodes and elements of beams into the description; return the beams, None where there are none."""
+        if not any(self.entries("beams")):
+            return None
+        from symgen.describe.beams import Beams
+
+        for section in ("bodies", "joints", "forces"):
+            any(self.entries(section))
+        beams = Beams(self.raw, self.scope, read_body)
+        self.raw, self._parts = beams.expanded(), frozenset((*beams.bodies, *beams.forces))
+        return beams
 
     # Sections ------------------------------------------------------------------------------------------------------
 

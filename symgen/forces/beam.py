@@ -12,7 +12,7 @@ from symgen.describe.mechanism import Body, Force
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
 from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, number, total
-from symgen.vocabulary.measures import GROUND, Angle, Component, Direction, Dot, Flexure, Marker, Measure, Sum
+from symgen.vocabulary.measures import Angle, Component, Direction, Dot, Flexure, Marker, Measure, Sum
 
 
 class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

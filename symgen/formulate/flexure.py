@@ -26,7 +26,6 @@ from functools import cached_property
 from symgen.describe.mechanism import Force
 from symgen.formulate.measures import Exertion, ModelNodes, exertion
 from symgen.formulate.vector_algebra import Triple, Vectors
-from symgen.ir.graph import Graph
 from symgen.vocabulary.measures import Exerted, Flexed, Flexure
 
 #: (phi / (2 sin(phi)) - 1/2) / X as polynomials: of X = phi^2, and of X = 4 sin(phi/2)^2.
@@ -100,7 +99,7 @@ class Flexing:
 
     @cached_property
     def series(self) -> tuple[int, int, int, int]:
-        """c and (c - 1/2) / X with their derivatives by X."""
+        """C and (c - 1/2) / X with their derivatives by X."""
         g, x = self.graph, self.argument
         value = slope = g.zero
         for coefficient in reversed(SPACE if self.spatial else PLANE):
@@ -116,7 +115,7 @@ class Flexing:
 
     @cached_property
     def across(self) -> tuple[int, int]:
-        """k and its derivative by X: k = (c - 1/2) / X / (4 - X)."""
+        """K and its derivative by X: k = (c - 1/2) / X / (4 - X)."""
         g, (_, _, value, slope) = self.graph, self.series
         rest = g.sub(g.constant(4.0), self.argument)
         k = g.div(value, rest)
@@ -130,7 +129,7 @@ class Flexing:
 
     @cached_property
     def deformation(self) -> list[int]:
-        """psi."""
+        """Psi."""
         g, v, c = self.graph, self.algebra, self.series[0]
         if not self.spatial:
             return [g.mul(c, self.values[0]), g.mul(c, self.values[1]), self.values[2]]
@@ -140,7 +139,7 @@ class Flexing:
 
     @cached_property
     def rate(self) -> list[int]:
-        """psi' along the motion."""
+        """Psi' along the motion."""
         g, v, (c, slope, _, _) = self.graph, self.algebra, self.series
         rates = [m.rate(g, self.model.velocities) for m in self.measures]
         if not self.spatial:
@@ -157,7 +156,7 @@ class Flexing:
 
     @cached_property
     def excess(self) -> list[int]:
-        """d = psi - psi_0."""
+        """D = psi - psi_0."""
         rest = [self.model.expression(e) for e in self.flexure.rest]
         return [self.graph.sub(p, r) for p, r in zip(self.deformation, rest, strict=True)]
 
@@ -262,7 +261,6 @@ class Flexing:
     def exertions(self) -> list[Exertion]:
         """Return what the element exerts along its measures; the first one has all of its energy and power."""
         g, force = self.graph, self.gradient
-        damping = self.flexure.damping
         energy = g.mul(g.constant(0.5), g.dot(self.excess, self.stress))
         power = g.zero
         if any(x != g.zero for x in self.damped):

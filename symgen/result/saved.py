@@ -207,7 +207,15 @@ def read_last_state(option: str, path: Path) -> LastState:
 
 def _of_columns(saved: Recorded) -> LastState:
     def row(labels: Iterable[str]) -> dict[str, float]:
-        own = (name for name in saved.columns if name.count(".") == 1 and name.partition(".")[2] in labels)
+        parts = ((name, *name.rpartition(".")) for name in saved.columns)
+        # of two dots the first is in the name of a beam's node, unless what stands before it is a body with a point
+        own = (
+            name
+            for name, owner, _, label in parts
+            if owner
+            and label in labels
+            and ("." not in owner or f"{owner.partition('.')[0]}.{label}" not in saved.columns)
+        )
         return {name: float(saved.columns[name][-1]) for name in own}
 
     work = 0.0 if saved.mechanism else float(saved.columns["energy.work"][-1])
