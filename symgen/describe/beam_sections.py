@@ -76,7 +76,7 @@ class BeamSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     damping : scalar
         Time of a Kelvin-Voigt material [s]; 0 by default.
     load : vector of functions of state
-        Force by length in ground axes [N/m].
+        Force by length in ground axes [N/m], where ``x``, ``y`` and ``z`` are the coordinates of the place.
     clamp : body name, or two
         Bodies that the start, or start and end are part of, as all is described; ``""`` for a free end.
     velocity, angular_velocity : vector, scalar

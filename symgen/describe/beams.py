@@ -34,6 +34,8 @@ START, END, ELEMENT, LOAD = "start", "end", "e", "load"
 #: Elements of a beam at most.
 MOST_ELEMENTS = 100_000
 _PLACE = re.compile(r"at\(\s*([0-9.eE+-]+)\s*\)")
+#: Coordinates of the place in a load by length.
+_OWN = re.compile(r"(?<![A-Za-z0-9_.])([xyz])(?![A-Za-z0-9_.])")
 #: Weights of few nodes: trapezoid, Simpson, 3/8, Boole; and those at the ends of many nodes.
 _FEW = {1: (0.5,), 2: (1 / 3, 4 / 3), 3: (3 / 8, 9 / 8), 4: (14 / 45, 64 / 45, 24 / 45)}
 _MANY = (3 / 8, 7 / 6, 23 / 24)
@@ -113,16 +115,18 @@ class Beams:
         n = beam.elements
         if not 1 <= n <= MOST_ELEMENTS:
             raise scope.error("elements", f"a number of elements, 1 to {MOST_ELEMENTS}", str(n))
+        if beam.load is not None and any(x in scope.context.states for x in "xyz"):
+            raise scope.error("load", "x, y and z to mean the place", "a parameter or an input of that name")
         shape, properties = _shape(scope, beam), properties_of(scope, beam)
         clamps = [beam.clamp, ""] if isinstance(beam.clamp, str) else list(beam.clamp)
         if len(clamps) != 2:
             raise scope.error("clamp", "one body, or two: that of the start and that of the end", words_of(beam.clamp))
         names = [f"{name}.{START}", *(f"{name}.{k}" for k in range(1, n)), f"{name}.{END}"]
-        length, part = total(shape.length), call("div", shape.length, number(n))
+        length, step = total(shape.length), call("div", shape.length, number(n))
         ends: list[tuple[str, Any, Any, Any]] = []
         self._nodes[name] = []
         for k, (node, weight) in enumerate(zip(names, weights(n), strict=True)):
-            pose, size = shape.pose(k / n), _times(number(weight), part)
+            pose, size = shape.pose(k / n), _times(number(weight), step)
             mass = _times(size, properties.mass)
             rotary = tuple(_times(size, e) for e in properties.rotary)
             clamp = clamps[0] if k == 0 else clamps[1] if k == n else ""
@@ -133,12 +137,12 @@ class Beams:
                 units = [[float(i == j) for j in range(scope.dimension)] for i in range(2)]
                 ends.append((node, CENTRE, *units))
                 if beam.load is not None:
-                    load = [f"({to_text(size)})*({component})" for component in beam.load]
+                    load = [_times_text(size, part, node) for part in beam.load]
                     self.forces[f"{name}.{LOAD}{k}"] = {"type": "force", "body": node, "force": load}
             self._nodes[name].append("" if clamp else node)
         element: dict[str, Any] = {
             "type": "beam",
-            "length": _raw(part),
+            "length": _raw(step),
             "damping": beam.damping,
             **properties.stiffness,
         }
@@ -369,6 +373,12 @@ def _with_mass(body: AnyBody, clamp: _Clamp) -> AnyBody:
 def _raw(e: Expr) -> float | str:
     """Return a formula as a file gives it."""
     return e.value if isinstance(e, Number) else to_text(e)
+
+
+def _times_text(size: Expr, part: float | str, node: str) -> str:
+    """Return a load by length, times the length of beam that a node has, at that node."""
+    own = _OWN.sub(lambda match: f"{node}.{match.group()}", str(part))
+    return f"({to_text(size)})*({own})"
 
 
 def _times(a: Expr, b: Expr) -> Expr:
