@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import msgspec
@@ -149,7 +150,7 @@ class Beams:
         if shape.bend != ZERO:
             bend = _raw(call("div", shape.bend, length))
             element["curvature"] = [0.0, 0.0, bend] if scope.spatial else bend
-        for k, (a, b) in enumerate(zip(ends, ends[1:], strict=False)):
+        for k, (a, b) in enumerate(pairwise(ends)):
             keys = {"between": [a[0], b[0]], "at": [a[1], b[1]], "axis": [a[2], b[2]]}
             if scope.spatial:
                 keys["reference"] = [a[3], b[3]]

@@ -12,6 +12,7 @@ from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.memory import require
 from symgen.methods import METHODS
+from symgen.runtime.integrator import adapts
 from symgen.runtime.run import Array
 
 if TYPE_CHECKING:
@@ -112,7 +113,7 @@ def check_saving(mechanism: Mechanism, s: Settings) -> None:
 def _has_constant_steps(s: Settings) -> bool:
     """Whether settings name, or a method has by itself, an integrator with constant steps."""
     name = s.integrator or (METHODS.get(s.method).default_integrator if s.method in METHODS else "")
-    return name in INTEGRATORS and not INTEGRATORS.get(name).adaptive
+    return name in INTEGRATORS and not adapts(INTEGRATORS.get(name), s.options)
 
 
 def multiples(every: float, until: float, size: float) -> Array:

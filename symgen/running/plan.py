@@ -22,10 +22,11 @@ from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 from symgen.running.options import split_options
 from symgen.running.outputs import output_times
+from symgen.runtime.integrator import adapts
 from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.run import MAX_ATTEMPTS, RunSpec
 from symgen.runtime.stops import Stop, foreseen, merged
-from symgen.settings import Settings, told_constant
+from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Event, Hold, Mechanism
@@ -174,7 +175,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         _refuse_other(mechanism, last)
     begin = 0.0 if last is None else last.t
     until = mechanism.defaults.until if s.until is None else s.until
-    adaptive = integrator.adaptive and not told_constant(s.options, integrator.name)
+    adaptive = adapts(integrator, s.options)
     step = s.step if adaptive or s.step is not None else mechanism.defaults.step
     _check_steps(s, step, begin, until, adaptive)
     own = method.largest_step(
