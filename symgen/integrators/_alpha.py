@@ -34,6 +34,8 @@ class AlphaFamily:
         Gives (alpha_m, alpha_f, gamma, beta) for values of the parameters.
     estimates : bool
         Whether it can choose its steps, which it does where that is asked for.
+    rtol : float
+        Its relative tolerance by default.
     """
 
     row_targets: ClassVar[tuple[str, ...]] = ()
@@ -46,6 +48,7 @@ class AlphaFamily:
     coefficients: Callable[[Mapping[str, float]], tuple[float, float, float, float]]
     adaptive: bool = False
     estimates: bool = False
+    rtol: float = 1e-4
     real_boundary: float = np.inf
 
     @property

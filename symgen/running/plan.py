@@ -190,13 +190,14 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     longest, why = longest_step(mechanism, until - begin, events, inputs.driven.jumps if inputs.driven else ())
     times = foreseen(mechanism, events)
     values = parameter_values(mechanism, s.parameters) if times else {}
+    rtol = getattr(integrator, "rtol", RTOL)  # schemes of low order have larger ones by default
     spec = RunSpec(
         until=until,
         step=step,
         adaptive=adaptive,
         times=output_times(s, mechanism, (begin, until), step, adaptive),
-        rtol=RTOL if s.rtol is None else s.rtol,
-        atol=ATOL if s.atol is None else s.atol,
+        rtol=rtol if s.rtol is None else s.rtol,
+        atol=ATOL / RTOL * rtol if s.atol is None else s.atol,
         relative=s.atol is None,
         largest_step=min(own or np.inf, longest),
         max_violation=s.max_violation,
