@@ -65,9 +65,10 @@ def identity(mechanism: Mechanism) -> str:
     """
     import hashlib
 
-    plain = msgspec.structs.replace(mechanism, shapes=(), input_formulas=())
+    plain = msgspec.structs.replace(mechanism, shapes=(), input_formulas=(), beams=b"")
     # the text of structs, which older folders of sweeps and journals were named by
     text = msgspec.Struct.__repr__(plain).replace(", shapes=()", "").replace(", input_formulas=()", "")
+    text = text.replace(", beams=b''", "")
     return hashlib.sha256(text.encode()).hexdigest()
 
 

@@ -338,6 +338,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     shapes: tuple[tuple[str, Shape], ...] = ()  # body -> what it looks like, several entries for several shapes
     topology: Topology | None = None  # where joint coordinates are the state; joints of the tree have no rows then
     input_formulas: tuple[tuple[str, Expr], ...] = ()  # input -> the formula that a run has put in its place
+    beams: bytes = b""  # the description as JSON where it has beams, so that these can have other elements
 
     def __repr__(self) -> str:
         counted = (

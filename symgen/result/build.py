@@ -14,7 +14,7 @@ from symgen.describe.evaluate import parameter_values
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
 from symgen.result.reactions import Forces, seats
-from symgen.result.result import FAILED, Rank, Result, Seconds
+from symgen.result.result import FAILED, UNVERIFIED, Rank, Result, Seconds
 from symgen.result.tables import Measured
 from symgen.running.continuation import made_of
 from symgen.running.tree import CarriedOutcome
@@ -59,6 +59,11 @@ def build_result(
     forces = Forces(outcome, seats(mechanism, values))
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(run, outcome, verification)
+    if verdict.status != FAILED and any(force.flexures for force in mechanism.forces):
+        from symgen.result.bending import overbent
+
+        doubt = overbent(mechanism, values, outcome.states[:, : info.nq])
+        verdict = verdict if doubt is None else replace(verdict, status=UNVERIFIED, reason=doubt)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome), *_slow(outcome))
     verdict = replace(verdict, notes=(*notes, *verdict.notes, *stopped(outcome)))
     derived = (compiled,) if run.tree is None else (compiled, run.compiled)
