@@ -299,4 +299,4 @@ def test_all_kinds_are_there():
         "point-on-plane", "rack-and-pinion", "revolute", "revolute-spherical", "rigid", "rolling", "rolling-disc",
         "rolling-sphere", "screw", "spherical", "translational", "universal",
     }  # fmt: skip
-    assert set(FORCES) == {"bushing", "force", "spring-damper", "torque", "torsional-spring-damper"}
+    assert set(FORCES) == {"beam", "bushing", "force", "spring-damper", "torque", "torsional-spring-damper"}
