@@ -10,12 +10,13 @@ the equations of motion and the constraints, at position or acceleration level, 
 Bruls 2007). Unknowns of the Newton iteration are v1' and lambda. Auxiliary states follow by the trapezoidal rule.
 
 The memory of a run holds k = (v, v', lambda) as the next iteration begins with it, a0, and the rates of the state; with
-adaptive steps also the rate of a in the step before, that step, and the one that a0 is meant for.
+adaptive steps also how a changed in the step before, that step, and the one that a0 is meant for.
 
 With theta = alpha_m - alpha_f, a0 is v' at the time t + theta h, so that a0 - v0' changes as steps do. A step of
-positions is off by (1/6 - theta/2 - beta) h^2 (a1 - a0), one of velocities by (theta^2/2 - 1/12) h^3 times the second
-derivative of a, from two steps. In the estimate J^-1 M (a1 - a0), with Newton's matrix J, takes the place of a1 - a0:
-what vibrates faster than steps can follow counts by how far it moves.
+positions is off by (1/6 - theta/2 - beta) h^2 (a1 - a0) (Zienkiewicz, Xie 1991), one of velocities by
+(theta^2/2 - 1/12) h^3 times the second derivative of a, from two steps. The estimate takes J^-1 M (a1 - a0) in place of
+a1 - a0 with Newton's matrix J, for velocities twice: what vibrates faster than steps can follow counts by how far it
+moves.
 """
 
 from __future__ import annotations
@@ -155,40 +156,50 @@ def step_error(system: Any, scheme: Any, span: Any, run: Any, following: float, 
     """Return the error estimate of a step that was just solved over the tolerance."""
     sizes = system.sizes
     nq, nv, n, width = sizes.nq, sizes.nv, sizes.unknowns, sizes.width
-    first, size = nq + nv, n - nq
-    k, right, change = part(run.room, 0, n), part(run.room, n, n), part(run.room, 2 * n, n)
+    right, change = part(run.room, n, n), part(run.room, 2 * n, n)
     a1, a0 = part(run.room, 3 * n, nv), part(run.room, 3 * n + nv, nv)
-    moved = part(run.room, 3 * n + 2 * nv + 4 + sizes.ny - first, width)
-    jerk, steps = part(run.memory, n + nv + width, nv), part(run.memory, n + 2 * nv + width, 2)
+    at = 3 * n + 2 * nv + 4 + sizes.ny - nq - nv
+    moved, turn = part(run.room, at, width), part(run.room, at + width, nv)
+    before, steps = part(run.memory, n + nv + width, nv), part(run.memory, n + 2 * nv + width, 2)
     theta = scheme.alpha_m - scheme.alpha_f
     by_position, by_velocity = 1.0 / 6.0 - 0.5 * theta - scheme.beta, 0.5 * theta * theta - 1.0 / 12.0
     run.control[abi.ORDER] = 3
-    # residuals are linear in v': that of v' + a1 - a0 beside that of v' is M (a1 - a0)
-    system.residual(following, run.trial, k, run.p, run.w, right)
-    for i in range(nq, n):
-        change[i] = right[i]
     for i in range(nv):
-        k[nq + i] += a1[i] - a0[i]
-    system.residual(following, run.trial, k, run.p, run.w, right)
-    run.control[abi.EVALUATIONS] += 2
+        change[i] = a1[i] - a0[i]
+    filtered(system, scheme, run, following)
     for i in range(nv):
-        k[nq + i] -= a1[i] - a0[i]
-        right[nq + i] -= change[nq + i]
-    for i in range(first, n):
-        right[i] = 0.0
-    solve(scheme.plan, scheme.numbers, part(right, nq, size), change)
-    for i in range(nv):
-        right[i] = h * h * by_position * change[i]
+        turn[i] = change[i]
         moved[nq + i] = 0.0
-        if steps[1] > 0.0:
-            moved[nq + i] = h * h * by_velocity * (change[i] - h * jerk[i]) * 2.0 / (h + steps[1])
+        change[i] = change[i] - h / steps[1] * before[i] if steps[1] > 0.0 else 0.0
+    if steps[1] > 0.0:
+        filtered(system, scheme, run, following)
+        for i in range(nv):
+            moved[nq + i] = h * h * by_velocity * change[i] * 2.0 / (h + steps[1])
+    for i in range(nv):
+        right[i] = h * h * by_position * turn[i]
     shifted(system, scheme, run, h, right, moved)
     for i in range(nq):
         moved[i] -= run.trial[i]
-    for i in range(first, width):
+    for i in range(nq + nv, width):
         moved[i] = 0.0
     share = weights_of(span, run)
     return math.sqrt(weigh(width, moved, share, run.y, run.trial, span.rtol, span.atol) / sizes.controlled)
+
+
+@called
+def filtered(system: Any, scheme: Any, run: Any, following: float) -> None:
+    """Replace a change of v' by J^-1 M times it: residuals, which are 0 at the end of a step, are linear in v'."""
+    nq, nv, n = system.sizes.nq, system.sizes.nv, system.sizes.unknowns
+    k, right, change = part(run.room, 0, n), part(run.room, n, n), part(run.room, 2 * n, n)
+    for i in range(nv):
+        k[nq + i] += change[i]
+    system.residual(following, run.trial, k, run.p, run.w, right)
+    run.control[abi.EVALUATIONS] += 1
+    for i in range(nv):
+        k[nq + i] -= change[i]
+    for i in range(nq + nv, n):
+        right[i] = 0.0
+    solve(scheme.plan, scheme.numbers, part(right, nq, n - nq), change)
 
 
 @called
@@ -211,11 +222,11 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
     for i in range(nq, n):
         run.memory[i] = k[i]
     if ADAPTIVE:
-        change, h = part(run.room, 2 * n, n), run.clock[abi.STEP]  # as the error estimate left it
-        jerk, steps = part(run.memory, n + nv + sizes.width, nv), part(run.memory, n + 2 * nv + sizes.width, 2)
+        turn = part(run.room, 3 * n + 2 * nv + 4 + sizes.ny - first + sizes.width, nv)
+        before, steps = part(run.memory, n + nv + sizes.width, nv), part(run.memory, n + 2 * nv + sizes.width, 2)
         for i in range(nv):
-            jerk[i] = change[i] / h
-        steps[0], steps[1] = h, h
+            before[i] = turn[i]
+        steps[0] = steps[1] = run.clock[abi.STEP]
     for i in range(nv):
         a0[i], begun[nq + i] = a1[i], k[nq + i]
     for i in range(sizes.ny - first):
@@ -224,10 +235,10 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
 
 def memory(width: int, nv: int, unknowns: int) -> tuple[int, int]:
     """Return the numbers that a run keeps, and the working memory of a step behind the state that is tried."""
-    return unknowns + 2 * nv + width + 2, 3 * unknowns + 2 * nv + 4 + 2 * width
+    return unknowns + 2 * nv + width + 2, 3 * unknowns + 3 * nv + 4 + 2 * width
 
 
 _FUNCTIONS = "turn", "residual", "tangent"
 _PARTS: dict[str, Any] = {"prepare": prepare, "attempt": attempt, "renew": renew}
 constant = loop(__name__, "constant", ALPHA, *_FUNCTIONS, **_PARTS)
-adaptive = loop(__name__, "adaptive", ALPHA, *_FUNCTIONS, **_PARTS, ADAPTIVE=True)
+adaptive = loop(__name__, "adaptive", ALPHA, *_FUNCTIONS, **_PARTS, ADAPTIVE=True, ROUGH=True)
