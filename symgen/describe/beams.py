@@ -78,6 +78,7 @@ class Beams:
         self.raw, self.scope_of, self.body_of = raw, scope_of, body_of
         self._nodes: dict[str, list[str]] = {}  # beam -> its nodes, "" for an end that is clamped
         self._clamps: list[_Clamp] = []
+        self._centres: dict[object, Any] = {}  # of bodies that ends are clamped to, in their frames
         self.bodies: dict[str, Any] = {}
         self.forces: dict[str, Any] = {}
 
@@ -203,13 +204,22 @@ class Beams:
             place = tuple(_dot(arm, axis) for axis in frame)
             axes = tuple(tuple(_dot(v, axis) for axis in frame) for v in axes)
             self._clamps.append(_Clamp(name, place, axes, mass, rotary))
+            self._centres[name] = [_raw(e) for e in body.centre_of_mass]
         return name, [_raw(e) for e in place], *([_raw(e) for e in axis] for axis in axes[:2])  # type: ignore[return-value]
 
     # -- names of nodes ----------------------------------------------------------------------------------------------
 
     def _on_nodes(self, scope: Scope, table: dict[str, Any], section: str) -> dict[str, Any]:
-        """Return the table of a joint or force with beams and places on them replaced by nodes."""
+        """Return the table of a joint or force with beams and places on them replaced by nodes.
+
+        The centre of a body that ends of beams are clamped to is that of the body as it is described.
+        """
+        if _is(table.get("body"), self._centres) and table.get("at", CENTRE) == CENTRE and table.get("type") == "force":
+            table["at"] = self._centres[table["body"]]
         at = table.get("at")
+        if isinstance(table.get("between"), list | tuple) and isinstance(at, list | tuple):
+            places = zip(table["between"], at, strict=False)
+            table["at"] = at = [self._centres[b] if x == CENTRE and _is(b, self._centres) else x for b, x in places]
         if isinstance(table.get("body"), str) and table["body"] in self._nodes:
             table["body"] = self._node_at(scope, table["body"], at)
             at = CENTRE
