@@ -9,8 +9,8 @@
 | ``motor.angle.rate``, ``motor.rate`` | its rate; the short form where there is one coordinate | everywhere |
 | ``motor.effort``, ``motor.power`` | what a driver exerts along its coordinate | outputs |
 | ``spring.length``, ``.angle``, ``.rate`` | of a force along one measure | outputs, events |
-| ``rod.e3.strain``, ``.shear``, ``.curvature`` | of a beam element in its middle | everywhere |
-| ``rod.e3.N``, ``.Q``, ``.M`` | force and moment of the section there | everywhere |
+| ``rod.e3.strain``, ``.shear``, ``.curvature`` | of a beam element in its middle | outputs, events |
+| ``rod.e3.N``, ``.Q``, ``.M`` | force and moment of the section there | outputs, events |
 | ``spring.force``, ``.torque``, ``.Fx`` ..., ``.power`` | what a force exerts | outputs |
 
 `symgen.describe.readings` makes columns of results from the same table.
