@@ -188,7 +188,7 @@ def _of_material(scope: Scope, section: ProfileSection, material: MaterialSectio
     shear = _times(factor, _times(modulus, area))
     bending = [_raw(_times(young, about_y)), _raw(_times(young, about_z))]
     stiffness: dict[str, Any] = {"axial": _raw(_times(young, area)), "shear": _raw(shear), "bending": bending[1]}
-    rotary = (_times(density, about_z),)
+    rotary: tuple[Expr, ...] = (_times(density, about_z),)
     if scope.spatial:
         stiffness |= {"bending": bending, "torsion": _raw(_times(modulus, torsion))}
         rotary = _times(density, total(about_y, about_z)), _times(density, about_y), _times(density, about_z)

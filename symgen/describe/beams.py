@@ -78,7 +78,7 @@ class Beams:
         self.raw, self.scope_of, self.body_of = raw, scope_of, body_of
         self._nodes: dict[str, list[str]] = {}  # beam -> its nodes, "" for an end that is clamped
         self._clamps: list[_Clamp] = []
-        self._centres: dict[object, Any] = {}  # of bodies that ends are clamped to, in their frames
+        self._centres: dict[str, Any] = {}  # of bodies that ends are clamped to, in their frames
         self.bodies: dict[str, Any] = {}
         self.forces: dict[str, Any] = {}
 
@@ -136,8 +136,8 @@ class Beams:
                 ends.append(self._clamp(scope, clamp, pose, mass, rotary))
             else:
                 self.bodies[node] = self._node(scope, beam, shape, pose, mass, rotary)
-                units = [[float(i == j) for j in range(scope.dimension)] for i in range(2)]
-                ends.append((node, CENTRE, *units))
+                x, y = ([float(i == j) for j in range(scope.dimension)] for i in range(2))
+                ends.append((node, CENTRE, x, y))
                 if beam.load is not None:
                     load = [_times_text(size, part, node) for part in beam.load]
                     self.forces[f"{name}.{LOAD}{k}"] = {"type": "force", "body": node, "force": load}
@@ -218,8 +218,8 @@ class Beams:
             table["at"] = self._centres[table["body"]]
         at = table.get("at")
         if isinstance(table.get("between"), list | tuple) and isinstance(at, list | tuple):
-            places = zip(table["between"], at, strict=False)
-            table["at"] = at = [self._centres[b] if x == CENTRE and _is(b, self._centres) else x for b, x in places]
+            pairs = zip(table["between"], at, strict=False)
+            table["at"] = at = [self._centres[b] if x == CENTRE and _is(b, self._centres) else x for b, x in pairs]
         if isinstance(table.get("body"), str) and table["body"] in self._nodes:
             table["body"] = self._node_at(scope, table["body"], at)
             at = CENTRE
@@ -305,7 +305,9 @@ class _Shape:
     def pose(self, part: float) -> _Pose:
         """Return the section at a part of the length."""
         first, second = self.axes[:2]
-        reach, across, turn = _times(number(part), self.chord), ZERO, ZERO
+        reach: Expr = _times(number(part), self.chord)
+        across: Expr = ZERO
+        turn: Expr = ZERO
         if self.bend != ZERO:
             half = _times(number(0.5), self.bend)
             along = _times(number(part), half)

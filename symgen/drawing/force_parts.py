@@ -51,7 +51,7 @@ def _bent(pen: Pen, force: Force) -> list[Mark]:
             x, y, z = np.array(place.at) + sign * third * numbers.vector(component.along.vector)
             inner.append(BodyPoint(place.body, (float(x), float(y), float(z))))
             marks.append(Line(place.body, (place.at, inner[-1].at), BENT))
-        marks.append(pen.stretch("rod", *inner, BENT))
+        marks.append(pen.stretch("rod", inner[0], inner[1], BENT))
     return marks
 
 

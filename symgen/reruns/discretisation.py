@@ -36,8 +36,8 @@ def discretisation(run: Prepared, outcome: Outcome, settings: Settings) -> str |
     from symgen.running.prepare import prepare
 
     chosen = run.plan.settings
-    choice = {"method": chosen.method, "integrator": run.plan.integrator.name, "options": chosen.options}
-    settings = replace(settings, **choice, rtol=run.spec.rtol, atol=chosen.atol, times=tuple(outcome.times.tolist()))
+    settings = replace(settings, method=chosen.method, integrator=run.plan.integrator.name, options=chosen.options)
+    settings = replace(settings, rtol=run.spec.rtol, atol=chosen.atol, times=tuple(outcome.times.tolist()))
     try:
         finer, names = refined(mechanism)
         second = prepare(finer, settings)

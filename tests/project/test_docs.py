@@ -16,6 +16,7 @@ import symgen
 from benchmarks import gallery
 from symgen.api import load
 from symgen.catalogue import entries
+from symgen.describe.beam_sections import BeamSection
 from symgen.describe.digest import digest
 from symgen.describe.events import EventSection
 from symgen.describe.load import parse_toml
@@ -218,6 +219,7 @@ def test_a_kind_stands_in_the_reference_with_all_its_keys(kind: str, registry: o
         ("`[tables.NAME]`", [TableSection]),
         ("`[bodies.NAME]`", [BodySection]),
         ("`[bodies.NAME]` in space", [SpatialBodySection, OrientationSection]),
+        ("`[beams.NAME]`", [BeamSection]),
         ("`[events.NAME]`", [EventSection]),
     ],
 )
