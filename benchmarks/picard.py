@@ -45,7 +45,7 @@ MODELS = {
 }
 
 
-def made_ready(mechanism: Any, integrator: str, until: float, **more: Any) -> Prepared:
+def prepared(mechanism: Any, integrator: str, until: float, **more: Any) -> Prepared:
     """Return a run that has the end of the motion for its only output, unless others are given."""
     return prepare(mechanism, Settings(**{"times": [0.0, until], "until": until, "integrator": integrator, **more}))
 
@@ -78,7 +78,7 @@ def time_at(rows: list[tuple[float, float]], level: float) -> float:
 def exact(name: str, coordinates: str) -> tuple[Array, float]:
     """Return q and v at the end of a model's run in extended precision, and what half the step changes."""
     until, steps = MODELS[name]
-    run = made_ready(symgen.load(name).mechanism, "dop853", until, method="lagrange", coordinates=coordinates)
+    run = prepared(symgen.load(name).mechanism, "dop853", until, method="lagrange", coordinates=coordinates)
     return reference(run, steps)
 
 
@@ -94,7 +94,7 @@ def work(names: list[str]) -> None:
                 for tolerance in TOLERANCES:
                     for integrator in INTEGRATORS:
                         more = {"rtol": tolerance, "atol": tolerance, "method": method, "coordinates": coordinates}
-                        run = made_ready(symgen.load(name).mechanism, integrator, MODELS[name][0], **more)
+                        run = prepared(symgen.load(name).mechanism, integrator, MODELS[name][0], **more)
                         outcome, seconds = best_of(run)
                         q = at_end(outcome)
                         if outcome.code == 0:
@@ -136,12 +136,12 @@ def starts(arguments: list[str]) -> None:
             factor = rng.uniform(0.8, 1.26) if name == "bricard" else 0.2 * 25.0 ** rng.uniform()
             start = {place: float(found[place][k]), speed: float(found[speed][k]) * factor}
             more = {"method": "lagrange", "coordinates": "joint", "start": start, "max_violation": 1.0}
-            ends = made_ready(model.mechanism, "dop853", until, rtol=3e-14, atol=1e-15, **more).integrate()
+            ends = prepared(model.mechanism, "dop853", until, rtol=3e-14, atol=1e-15, **more).integrate()
             if ends.code != 0:
                 continue
             for tolerance in (1e-5, 1e-8, 1e-11):
                 for integrator in INTEGRATORS:
-                    run = made_ready(
+                    run = prepared(
                         model.mechanism, integrator, until, rtol=tolerance, atol=tolerance, **more
                     ).integrate()
                     failed[tolerance, integrator] = failed.get((tolerance, integrator), 0) + (run.code != 0)
@@ -175,11 +175,11 @@ def hard(arguments: list[str]) -> None:
     )
     for title, (mechanism, until) in cases.items():
         more = {"method": "direct-correction", "coordinates": "joint"}
-        ends = made_ready(mechanism, "dop853", until, rtol=3e-14, atol=1e-15, **more).integrate()
+        ends = prepared(mechanism, "dop853", until, rtol=3e-14, atol=1e-15, **more).integrate()
         for tolerance in (1e-6, 1e-9):
             for integrator in INTEGRATORS:
                 outcome, seconds = best_of(
-                    made_ready(mechanism, integrator, until, rtol=tolerance, atol=tolerance, **more), 5
+                    prepared(mechanism, integrator, until, rtol=tolerance, atol=tolerance, **more), 5
                 )
                 error = float(np.abs(at_end(outcome) - at_end(ends)).max())
                 together = 8 if integrator == "picard" and outcome.counters["vector_width"] else 1
@@ -198,12 +198,12 @@ def outputs(arguments: list[str]) -> None:
         mechanism, (until, _) = symgen.load(name).mechanism, MODELS[name]
         times = [float(t) for t in np.linspace(0.0, until, 101)]
         more = {"method": "lagrange", "coordinates": "joint", "max_violation": 1e-3}
-        right = made_ready(mechanism, "dop853", until, times=times, rtol=3e-14, atol=1e-15, **more).integrate().states
+        right = prepared(mechanism, "dop853", until, times=times, rtol=3e-14, atol=1e-15, **more).integrate().states
         for tolerance in LEVELS:
             for integrator in INTEGRATORS:
                 own = {"rtol": tolerance, "atol": tolerance, **more}
-                alone = best_of(made_ready(mechanism, integrator, until, **own))[1]
-                outcome, seconds = best_of(made_ready(mechanism, integrator, until, times=times, **own))
+                alone = best_of(prepared(mechanism, integrator, until, **own))[1]
+                outcome, seconds = best_of(prepared(mechanism, integrator, until, times=times, **own))
                 off, nq = np.abs(outcome.states - right[: len(outcome.states)]), outcome.compiled.info.nq
                 parts = off[:-1, :nq], off[:-1, nq:-1], off[-1, :nq], off[-1, nq:-1]
                 table.add_row(

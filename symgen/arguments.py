@@ -14,7 +14,7 @@ T = TypeVar("T")
 
 
 def shown(value: object) -> str:
-    """Return what an argument is, in words short enough for a message."""
+    """Return a description of an argument, in words short enough for a message."""
     if value is None or isinstance(value, bool):
         return str(value)
     if isinstance(value, str):

@@ -10,7 +10,7 @@ from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
 
-from symgen.errors import InputError, nearest
+from symgen.errors import InputError, nearest, quoted
 
 #: What a file is to hold, or what writes it to an open file.
 Content = bytes | str | Callable[[io.BytesIO], object]
@@ -163,6 +163,31 @@ def write_csv(path: Path, heading: Sequence[str], rows: Iterable[Sequence[object
     writer.writerow(heading)
     writer.writerows(["" if x is None else x for x in row] for row in rows)
     return write_whole(path, text.getvalue())
+
+
+def check_rows(where: str, names: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+    """Refuse a CSV table whose columns share a name, or whose rows are longer or shorter than its heading.
+
+    Parameters
+    ----------
+    where : str
+        The file, for the message.
+    names : sequence of str
+        Of the heading, without units.
+    rows : iterable of sequence of str
+        Those below it.
+
+    Raises
+    ------
+    InputError
+        With the column or the row.
+    """
+    for name in names:
+        if name and names.count(name) > 1:
+            raise InputError(where, "a name of its own for each column", f"{names.count(name)} columns {quoted(name)}")
+    for line, row in enumerate(rows, 2):
+        if len(row) != len(names):
+            raise InputError(where, f"as many cells as in the heading, {len(names)}", f"{len(row)} in row {line}")
 
 
 def headed(name: str, unit: str) -> str:

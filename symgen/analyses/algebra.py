@@ -206,7 +206,7 @@ def level(stiffness: Any) -> Any:
 
 
 def solver(stiffness: Any, rows: Any) -> Solver | None:
-    """Return what solves with the dense or sparse matrix of directions and rows.
+    """Return the solver for the dense or sparse matrix of directions and rows.
 
     None where it is singular or not finite. Of dense ones it is the pseudo-inverse; a step is infinite where none
     undoes what it is to undo, such as a force along which the stiffness vanishes.

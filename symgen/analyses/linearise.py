@@ -92,8 +92,22 @@ class LinearSystem:
         return control.ss(self.A, self.B, self.C, self.D, **names)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what JSON can express."""
+        """Return the fields in types of JSON."""
         return dict(plain(self))
+
+    def __repr__(self) -> str:
+        parts = (("states", self.states), ("inputs", self.inputs), ("outputs", self.outputs))
+        return f"<LinearSystem: {'; '.join(f'{len(names)} {what}{_few(names)}' for what, names in parts)}>"
+
+    def _repr_html_(self) -> str:
+        from symgen.analyses.kinds import in_notebook
+        from symgen.analyses.kinds.linearise import shown
+
+        return in_notebook(shown(self), self.notes)
+
+
+def _few(names: Sequence[str]) -> str:
+    return f" ({', '.join(names[:4])}{', ...' * (len(names) > 4)})" if names else ""
 
 
 def linear_system(subject: Subject, y: Array, states: Sequence[str] = (), instantaneous: bool = False) -> LinearSystem:
@@ -150,7 +164,7 @@ def linear_system(subject: Subject, y: Array, states: Sequence[str] = (), instan
         x.t,
         tuple(left_out),
         subject.by,
-        edges(subject, y, x.a, outputs),
+        (*subject.singular(subject.rows(x.base)), *edges(subject, y, x.a, outputs)),
         tuple(eigenvectors(x, names, vibration(x))[0].tolist()),
     )
 

@@ -97,8 +97,18 @@ class Modes:
         return np.asarray(-values.real / np.maximum(np.abs(values), 1e-300) + 0.0)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what JSON can express."""
+        """Return the fields in types of JSON."""
         return {**plain(self), "frequencies": plain(self.frequencies), "damping": plain(self.damping)}
+
+    def __repr__(self) -> str:
+        shown = ", ".join(f"{x:.4g}" for x in self.eigenvalues[:4]) + ", ..." * (len(self.eigenvalues) > 4)
+        return f"<Modes: {self.degrees_of_freedom} degrees of freedom, eigenvalues {shown or 'none'} 1/s>"
+
+    def _repr_html_(self) -> str:
+        from symgen.analyses.kinds import in_notebook
+        from symgen.analyses.kinds.modes import shown
+
+        return in_notebook(shown(self), self.notes)
 
 
 def modes(subject: Subject, y: Array, states: Sequence[str] = (), bodies: Callable[[], Subject] | None = None) -> Modes:
@@ -148,7 +158,7 @@ def modes(subject: Subject, y: Array, states: Sequence[str] = (), bodies: Callab
             moved = x.free @ vectors[: x.positions]
             largest = np.sqrt(_work(moved, x.base.by("balance", "a") @ moved))
         shapes = shapes / np.maximum(largest, 1e-300)
-    tables, notes = _shares(x, vectors, bodies), edges(subject, y)
+    tables, notes = _shares(x, vectors, bodies), (*subject.singular(subject.rows(x.base)), *edges(subject, y))
     shapes = shapes.T.astype(np.complex128)
     return Modes(in_order(values), squares, x.velocities, names, shapes, *tables, about, x.t, notes)
 
@@ -205,7 +215,7 @@ def _work(along: Array | Complex, force: Array | Complex) -> Array:
 def _by_force(
     subject: Subject, e: Evaluated, along: Array | Complex, change: Array | Complex, space: str
 ) -> dict[str, Array]:
-    """Return what each force does along modes by its derivatives by q or v."""
+    """Return the work of each force along modes by its derivatives by q or v."""
     works = dict[str, Array]()
     rows = e.by("elements", space) @ change
     for (name, i), row in zip(subject.form.elements, rows, strict=True):

@@ -99,7 +99,9 @@ def instantaneous(mechanism: Mechanism) -> Mechanism:
         nothing = (None,) * len(body.velocity)
         angular = nothing if isinstance(body, SpatialBody) else None
         bodies.append(msgspec.structs.replace(body, velocity=nothing, angular_velocity=angular))
-    return msgspec.structs.replace(mechanism, bodies=tuple(bodies), outputs=outputs, events=())
+    speeds = {f"{body.name}.{speed}" for body in mechanism.bodies for speed in body.speeds}
+    holds = tuple(hold for hold in mechanism.holds if hold.name not in speeds and not hold.name.endswith(".rate"))
+    return msgspec.structs.replace(mechanism, bodies=tuple(bodies), outputs=outputs, holds=holds, events=())
 
 
 def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: float = 0.0) -> PrescribedRun:
@@ -250,7 +252,7 @@ def free_coordinates(run: PrescribedRun, count: int) -> list[str]:
 
 
 def _observed(compiled: CompiledModel, start: Start, y: Array) -> Array:
-    """Return what the model reports at a state: rows, then value and rate of each joint coordinate."""
+    """Return the numbers that the model reports at a state: rows, then value and rate of each joint coordinate."""
     out = np.zeros(compiled.info.observed)
     observe = Ready(compiled.model.observe, abi.OBSERVE)
     observe(start.t, y.copy(), start.p, start.w.copy(), np.zeros(compiled.info.ny), out)

@@ -99,7 +99,7 @@ class StateTangent:
         return np.repeat([1.0, self.rate], [self.positions, self.velocities])
 
     def sizes_of(self, names: Sequence[str]) -> Array:
-        """Return what counts as large of quantities: the mechanism's length or 1 rad, times `rate` for rates."""
+        """Return the large sizes of quantities: the mechanism's length or 1 rad, times `rate` for rates."""
         subject = self.subject
         units = {q.name: q.unit for q in (*subject.compiled.info.coordinates, *subject.compiled.info.velocities)}
         own = {o.name for o in subject.mechanism.outputs}

@@ -110,7 +110,7 @@ class DenseStatics:
         )
 
     def _units(self) -> Array:
-        """Return what counts as 1 of each row and held coordinate: a length of the mechanism or 1 rad."""
+        """Return the units of rows and held coordinates: a length of the mechanism or 1 rad."""
         units = [self.subject.unit(name) for name, _ in self.held]
         return np.append(self.subject.gaps, [self.subject.length if unit == "m" else 1.0 for unit in units])
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.algebra import ROUNDED, split
 from symgen.analyses.reduced import StateQuantity, StateTangent, quantities_of, tangent
+from symgen.analyses.settle import TOLERANCE
 from symgen.analyses.subject import RATE, Subject
 from symgen.errors import AnalysisError, InputError
 from symgen.ir.program import COUNTERS
@@ -47,11 +48,14 @@ def at_rest(subject: Subject, x: StateTangent) -> bool:
     e, spans = x.base, subject.spans
     if any(np.any(e.by(group, "t")) for group in ("balance", "velocities", "positions")):
         return False
-    carried = np.abs(subject.rows(e)).T @ np.abs(x.lam) + np.abs(e.by("balance", "q") @ e.by("motion", "v")) @ spans
+    rows = subject.rows(e)
+    carried = np.abs(rows).T @ np.abs(x.lam) + np.abs(e.by("balance", "q") @ e.by("motion", "v")) @ spans
     heavy = np.diag(e.by("balance", "a")) * spans
     massive = heavy > 0.0  # what has no mass follows
     quick = carried[massive] / heavy[massive]
-    limit = STILL * quick + ROUNDED * quick.max(initial=0.0)
+    # at a singular position, forces along what rows do not hold there balance only as well as a search makes them
+    rounding = TOLERANCE if subject.lost(rows) > 0 else ROUNDED
+    limit = STILL * quick + rounding * quick.max(initial=0.0)
     v, a = np.abs(x.speeds / spans)[massive], np.abs(x.a / spans)[massive]
     return bool(np.all(a <= limit) and np.all(v**2 <= STILL * limit))
 
@@ -128,7 +132,7 @@ def _rank(x: StateTangent, names: Sequence[str]) -> int:
 
 
 def _rate_of(subject: Subject, name: str) -> str | None:
-    """Return what the rate of a coordinate is called, None where it has no name or the quantity is a velocity."""
+    """Return the name of the rate of a coordinate, None where it has no name or the quantity is a velocity."""
     info = subject.compiled.info
     names = [q.name for q in info.coordinates]
     if name in names and names.index(name) not in subject.spun:

@@ -39,7 +39,8 @@ Array = NDArray[np.float64]
 
 #: Beyond this many coordinates of bodies code is looped, and equilibria are searched with sparse matrices.
 LARGE = 300
-#: A redundant row below this part of what rows are is the rounding of none, as of a loop that is closed anyway.
+#: A row below this part of what rows are is the rounding of none, as of a loop that is closed anyway, or of links that
+#: lie in one line.
 NO_ROW = 1e-11
 #: Jumps of inputs are looked for up to so far behind a time, and are at it as near as this, both parts of it.
 BEYOND, HERE = 1e-9, 1e-13
@@ -196,10 +197,24 @@ class Subject(Yardsticks):
         return self.evaluated(y).by("motion", "v") * self.spans
 
     def rows(self, e: Evaluated) -> Array:
-        """Return D, with zeros for redundant rows that are nothing but rounding; shape (m, nv)."""
+        """Return D, with zeros for rows that are nothing but rounding; shape (m, nv)."""
         d = e.by("velocities", "v")
-        d[self.redundant & (np.linalg.norm(d * self.spans, axis=1) < NO_ROW * self.gaps)] = 0.0
+        d[np.linalg.norm(d * self.spans, axis=1) < NO_ROW * self.gaps] = 0.0
         return d
+
+    def lost(self, d: Array) -> int:
+        """Return by how much the rank of D is below that of positions nearby: above 0 at a singular position."""
+        return int(self.m - np.count_nonzero(self.redundant) - (self.nv - self.split(d)[0].shape[1]))
+
+    def singular(self, d: Array) -> tuple[str, ...]:
+        """Return a sentence about a singular position, none elsewhere; none where the start did not close."""
+        lost, near = self.lost(d), self.m - int(np.count_nonzero(self.redundant))
+        if lost <= 0 or not self.closed:
+            return ()
+        return (
+            f"the position is singular: its constraint rows have rank {near - lost}, those of positions nearby {near}; "
+            "degrees of freedom counted here are not those of the motion",
+        )
 
     def split(self, d: Array, loads: Array | None = None) -> tuple[Array, Array]:
         """Return a basis of what rows leave free and their pseudo-inverse, lengths of the mechanism and radians alike.

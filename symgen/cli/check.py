@@ -9,6 +9,7 @@ import click
 
 from symgen.cli import OK, write_json
 from symgen.cli._options import examples, json_option, setting_options
+from symgen.errors import counted
 
 
 @click.command(
@@ -44,8 +45,6 @@ def command(
     if as_json:
         write_json(facts)
         return OK
-    from symgen.report.words import counted
-
     sizes = facts["sizes"]
     click.echo(f"{facts['mechanism']}: valid, and it closes")
     parts = (("bodies", "body", "bodies"), ("joints", "joint", ""), ("forces", "force", ""))
@@ -65,7 +64,7 @@ def command(
 
 
 def _facts(model: str, parameters: dict[str, float], held: dict[str, float], strict: bool) -> dict[str, Any]:
-    """Return what assembling a mechanism shows: sizes, rank, degrees of freedom, redundant rows and notes."""
+    """Return the facts of an assembled mechanism: sizes, rank, degrees of freedom, redundant rows and notes."""
     from symgen.api import load
 
     loaded = load(model)

@@ -28,7 +28,13 @@ if TYPE_CHECKING:
 @click.option(
     "--at", default="start", show_default=True, metavar="WHEN", help="start, described, or a time in seconds."
 )
-@click.option("--view", "angles", metavar="TURN,TILT", help="In space: degrees about the vertical, and from above.")
+@click.option(
+    "--view",
+    "angles",
+    metavar="TURN,TILT",
+    show_default="where no body hides another",
+    help="In space: degrees about the vertical, and from above.",
+)
 @setting_options("parameters", "start")
 @json_option
 def command(
@@ -84,7 +90,7 @@ def _drawing(
     if time == 0.0:
         return model.draw(parameters, start, view=view)
     changes: dict[str, Any] = {"parameters": parameters, "start": start, "until": time, "times": (0.0, time)}
-    result = model.simulate(**changes, step=min(model.mechanism.defaults.step, time))
+    result = model.simulate(**changes, step=min(model.mechanism.defaults.step, time), verify=False)
     if result.status == FAILED:
         raise SimulationError(f"the run to t = {time:g} s failed: {result.reason}")
     if result.end < time:

@@ -175,12 +175,7 @@ def _entries(scope: Scope, entries: tuple[float | str | tuple[float | str, ...],
     if not rows and len(flat) == 6:
         return flat[0], flat[1], flat[2], flat[3], flat[4], flat[5]
     if len(rows) == 3 and not flat and all(len(row) == 3 for row in rows):
-        m = [[scope.constant("inertia", e) for e in row] for row in rows]
-        for i, j in ((0, 1), (0, 2), (1, 2)):
-            if scope.value(m[i][j], "inertia") != scope.value(m[j][i], "inertia"):
-                raise scope.error(
-                    "inertia", "a symmetric matrix", f"different entries {i + 1}{j + 1} and {j + 1}{i + 1}"
-                )
+        m = scope.symmetric("inertia", rows)
         return m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2]
     expected = "[Ixx, Iyy, Izz], [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] or three rows of three"
     raise scope.error("inertia", expected, words_of(entries))

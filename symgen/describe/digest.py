@@ -73,7 +73,7 @@ def identity(mechanism: Mechanism) -> str:
 
 
 def _table(table: Table) -> list[str]:
-    """Return what a table is; one of straight lines is what it was when there were no others."""
+    """Return the content of a table; one of straight lines is what it was when there were no others."""
     how = [] if table.interpolation == "linear" else [table.interpolation, str(table.periodic)]
     return [table.name, _text(table.x), _text(table.y), *how]
 

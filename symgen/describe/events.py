@@ -130,7 +130,7 @@ def _switching(scope: Scope, key: str, text: str) -> tuple[Expr, bool]:
 
 
 def _positive(condition: Expr) -> Expr:
-    """Return what is above 0 where a condition holds: b - a for ``a < b``, and for ``and`` the smaller one."""
+    """Return an expression above 0 where a condition holds: b - a for ``a < b``, and for ``and`` the smaller one."""
     if not isinstance(condition, Call):
         raise AssertionError("a condition in a tree is never a literal")
     a = condition.arguments

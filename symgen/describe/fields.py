@@ -71,7 +71,9 @@ DirectionPair = Annotated[
 Tensor = Annotated[
     tuple[float | str | tuple[float | str, ...], ...],
     Meta(
-        description="[Ixx, Iyy, Izz], [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] or three rows of three", min_length=3, max_length=6
+        description="[Ixx, Iyy, Izz] ([0, 0, 0] for no inertia), [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] or three rows of three",
+        min_length=3,
+        max_length=6,
     ),
 ]
 SixBySix = Annotated[

@@ -25,7 +25,7 @@ _EULER = ("e0", "e1", "e2", "e3")
 
 
 def body_holds(scope: Scope, raw: Mapping[str, Any], body: AnyBody) -> tuple[Hold, ...]:
-    """Return what the key ``hold`` of a body's table keeps.
+    """Return the quantities that the key ``hold`` of a body's table keeps.
 
     Raises
     ------
@@ -63,7 +63,7 @@ def _speeds(body: AnyBody) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 
 def joint_holds(scope: Scope, values: Mapping[str, float | str], joint: Joint) -> tuple[Hold, ...]:
-    """Return what the key ``start`` of a joint's table prescribes: coordinates and their rates, which are kept.
+    """Return the values in the key ``start`` of a joint's table: coordinates and their rates, which are kept.
 
     Raises
     ------

@@ -24,6 +24,7 @@ from symgen.describe.readings import Readings
 from symgen.describe.scope import Context
 from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest, quoted
+from symgen.files import check_rows
 from symgen.vocabulary.expressions import BENT, ZERO, Call, Expr, Name, Number, call, names, table_of
 
 T = TypeVar("T")
@@ -177,7 +178,7 @@ def _number(text: str) -> float | None:
 
 
 def _names(mechanism: Mechanism) -> FormulaNames:
-    """Return what the formula of an input may use."""
+    """Return the names that the formula of an input may use."""
     plain = {p.name: p.name for p in mechanism.parameters if not p.input} | {"t": "t"}
     bodies = {body.name: body.coordinates + body.speeds for body in mechanism.bodies}
     what = "a number or an expression of t, parameters and body coordinates"
@@ -188,7 +189,7 @@ def _names(mechanism: Mechanism) -> FormulaNames:
 
 
 def compared(e: Call) -> Expr:
-    """Return what a comparison, `sign`, `abs`, `min` or `max` compares with zero."""
+    """Return the expression that a comparison, `sign`, `abs`, `min` or `max` compares with zero."""
     return e.arguments[0] if len(e.arguments) == 1 else call("sub", *e.arguments)
 
 
@@ -221,7 +222,7 @@ class _Switching:
             self.jumps.append(jump)
 
     def switch(self, e: Call) -> Expr:
-        """Return what stands for a condition or a sign: the number that a run sets."""
+        """Return the replacement of a condition or a sign: the number that a run sets."""
         if e not in self.switches:
             name = f"{self.name}~{sum(1 for j in self.jumps if j.switch) + 1}"  # no name of a file
             self.jumps.append(Jump(compared(e), switch=name, value=e))
@@ -338,6 +339,7 @@ def _read(where: str, file: str, column: str, how: str | None) -> Data:
     headings = [match["name"] if (match := _HEADING.fullmatch(cell)) else cell for cell in rows[0]] if rows else []
     if column not in headings:
         raise InputError(f"{where}: {path.name}", "a column of the file", quoted(column), nearest(column, headings))
+    check_rows(f"{where}: {path.name}", headings, rows[1:])
     times = next((headings.index(name) for name in ("t", "time") if name in headings), 0)
     place = headings.index(column)
     if place == times:

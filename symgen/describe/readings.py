@@ -134,12 +134,12 @@ def _with_rate(owner: str, label: str, measure: Source, unit: str) -> Table:
 
 
 def _extent(measure: Source) -> str:
-    """Return what the measure of a force is called, nothing where it has no name."""
+    """Return the name of the measure of a force, empty where it has none."""
     return "length" if isinstance(measure, Distance) else "angle" if isinstance(measure, AnyAngle) else ""
 
 
 def _components(effort: Effort, extent: str) -> list[str]:
-    """Return what an effort is part of: the force or torque along a measure, or components along axes."""
+    """Return the whole that an effort is part of: the force or torque along a measure, or components along axes."""
     if extent:
         return ["force" if extent == "length" else "torque"]
     kind = "M" if is_turning(effort.measure) else "F"
@@ -180,14 +180,14 @@ class Readings:
         return name in self._context.forces
 
     def names_of(self, owner: str, where: str) -> tuple[str, ...]:
-        """Return what can be read of a body, joint or force beside a body's own coordinates."""
+        """Return the readings of a body, joint or force beside a body's own coordinates."""
         if owner in self._context.bodies:
             points = self._context.points[owner]
             return tuple(f"{p}.{label}" for p in points for label in self._of_point(owner, p))
         return tuple(self._of_element(owner, where))
 
     def find(self, path: tuple[str, ...], where: str) -> Expr | None:
-        """Return what a dotted name means, None where it means nothing.
+        """Return the meaning of a dotted name, None where it has none.
 
         Parameters
         ----------
@@ -253,7 +253,7 @@ def integrals(mechanism: Mechanism) -> dict[Integral, int]:
 
 
 def integrated(mechanism: Mechanism) -> tuple[Any, ...]:
-    """Return what a run integrates: joints, forces, and the formulas of integrals."""
+    """Return the integrands of a run: joints, forces, and the formulas of integrals."""
     return mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
 
 

@@ -85,7 +85,7 @@ def _table(struct: type[Any]) -> dict[str, Any]:
 
 
 def described(struct: type[Any]) -> str:
-    """Return what a table is and what its keys mean; those that kinds share are described by the struct they share."""
+    """Return the texts on a table and its keys; those that kinds share are described by the struct they share."""
     shared = [base for base in struct.__bases__ if base is not msgspec.Struct]
     own = inspect.cleandoc(struct.__doc__ or "")
     keys = described(shared[0]).partition(_KEYS)[2] if shared else ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections import ChainMap
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 
 import msgspec
@@ -22,6 +22,8 @@ from symgen.vocabulary.measures import GROUND, Direction, Marker, Measure
 
 #: The name by which a file means a body's centre of mass.
 CENTRE = "centre"
+#: Entries of a symmetric matrix that differ by less than this part of the largest of theirs and their diagonal are one.
+ROUNDING = 1e-12
 
 
 class Context(msgspec.Struct, frozen=True, dict=True):
@@ -42,7 +44,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
 
     @classmethod
     def of(cls, mechanism: Mechanism, source: str = "") -> Context:
-        """Return what is known of a mechanism that was read already, for formulas that come later."""
+        """Return the context of a mechanism that was read already, for formulas that come later."""
         joints = {joint.name: joint for joint in mechanism.joints}
         return cls(
             source or mechanism.name,
@@ -319,6 +321,24 @@ class Scope:
         what = f"an expression of parameters and {', '.join(own)}"
         plain = ChainMap(own, self.context.constants.plain)  # type: ignore[arg-type]  # the second one is only read
         return self._expression(key, value, self.context.constants.beside(what, plain))
+
+    def symmetric(self, key: str, rows: Sequence[Sequence[float | str]]) -> tuple[tuple[Expr, ...], ...]:
+        """Return the rows of a matrix; of two entries that differ by rounding the upper one counts.
+
+        Raises
+        ------
+        InputError
+            If the matrix is not symmetric.
+        """
+        matrix = [[self.constant(key, e) for e in row] for row in rows]
+        values = [[self.value(e, key) for e in row] for row in matrix]
+        for i, row in enumerate(values):
+            for j in range(i):
+                if abs(row[j] - values[j][i]) > ROUNDING * max(abs(row[j]), abs(row[i]), abs(values[j][j])):
+                    got = f"different entries {i + 1}{j + 1} and {j + 1}{i + 1}"
+                    raise self.error(key, "a symmetric matrix", got)
+                matrix[i][j] = matrix[j][i]
+        return tuple(map(tuple, matrix))
 
     def value(self, expression: Expr, key: str) -> float:
         """Return the number with the parameters' defaults."""

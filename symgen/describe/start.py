@@ -22,7 +22,7 @@ class Numbers(Protocol):
     """Numbers of one run, or arrays of many."""
 
     def value(self, expression: Expr, where: str) -> Any:
-        """Return what a formula stands for; `where` is file and key, for the message."""
+        """Return the value of a formula; `where` is file and key, for the message."""
 
     def apply(self, function: str, *arguments: Any) -> Any:
         """Return a function of formulas (`symgen.vocabulary.expressions.FUNCTIONS`) of numbers."""

@@ -82,7 +82,7 @@ def spanning_tree(mechanism: Mechanism, cut: Sequence[str] = ()) -> Topology:
 
 
 def _prescribed(mechanism: Mechanism, tree: Topology) -> tuple[Prescribed, ...]:
-    """Return what drivers say of the coordinates of a tree; one coordinate at least stays with the state.
+    """Return the values of drivers for the coordinates of a tree; one coordinate at least stays with the state.
 
     A driver whose effort is integrated keeps its row: its multiplier is wanted at every evaluation.
     """

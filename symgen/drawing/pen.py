@@ -122,8 +122,12 @@ class PlacedMechanism:
 
         The guide of a body that moves begins at the body's own point; that of the ground is only as long as it is used.
         """
-        own = self.now.turns[a.body].T @ along
-        places = [] if a.body == GROUNDED else [0.0]
+        places = [*self.travel(a, b, along), *([] if a.body == GROUNDED else [0.0])]
+        return min(places), max(places)
+
+    def travel(self, a: BodyPoint, b: BodyPoint, along: Array) -> tuple[float, float]:
+        """Return the ends of b's displacement from a along a direction that a's body carries [m]."""
+        own, places = self.now.turns[a.body].T @ along, list[float]()
         for poses in self.all:
             d = poses.out(b.body, [b.at])[0] - poses.out(a.body, [a.at])[0]
             places.append(float(d @ (poses.turns[a.body] @ own)))
@@ -194,7 +198,7 @@ class Pen:
         return Tube(body, ends[0], ends[1], radius * self.unit, look)
 
     def stretch(self, kind: str, a: BodyPoint, b: BodyPoint, look: Look) -> Stretch:
-        """Return what reaches from one point to another."""
+        """Return the line from one point to another."""
         return Stretch(kind, a.body, a.at, b.body, b.at, self.unit, look)
 
     def ring(self, body: int, at: Array, axis: Array, radius: float, look: Look = PLAIN) -> Line:

@@ -87,7 +87,7 @@ def usable() -> bool:
 
 
 def need_of(compiled: CompiledModel, setup: Setup, adaptive: bool, wants: set[int]) -> Need:
-    """Return what shapes the kernel of a law.
+    """Return the sizes that shape the kernel of a law.
 
     Parameters
     ----------

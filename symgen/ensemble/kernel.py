@@ -116,6 +116,7 @@ class RowKernel:
             np.zeros((room, info.ny)), np.tile(model.p, (room, 1)), np.empty((room, max(1, model.compiled.law.nw)))
         )
         now.p[:k, : len(info.parameters)], now.y[:k, : info.nq] = rows.parameters, rows.q
+        rows.put_method(model.compiled.law, now.p)
         return now
 
     def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:
@@ -160,7 +161,7 @@ class RowKernel:
         return compiled.parameter_array({q.name: 0.0 for q in compiled.info.parameters}, self.recipe.method_parameters)
 
     def _runs(self, code: Code, compiled: CompiledModel) -> Runs:
-        """Return what runs rows from starts of bodies."""
+        """Return the function that runs rows from starts of bodies."""
         recipe, watch, spec = self.recipe, self.recipe.watch, self.recipe.spec
         integrator: Integrator = INTEGRATORS.get(recipe.integrator)
         other, tree = (None if module is None else module.load() for module in (code.other, code.tree))

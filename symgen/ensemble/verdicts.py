@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 #: Status of a run that has not been done.
 NOT_RUN = "not run"
 #: What is said of velocities that could not be what they were given as.
-_PROJECTED = "given velocities contradicted the constraints and were projected; --strict lets such runs fail"
+_PROJECTED = "given velocities contradicted the constraints and were projected; `strict` lets such runs fail"
 
 
 def column(summary: Array, name: str) -> Array:
@@ -81,7 +81,7 @@ def judge_all(
 
 
 def warnings_all(summary: Array, done: NDArray[np.bool_], law: LawInfo, spec: RunSpec) -> dict[int, tuple[str, ...]]:
-    """Return what there is to say of runs by what their loops saw, by run.
+    """Return the verdicts on runs by what their loops saw, by run.
 
     Parameters
     ----------

@@ -85,7 +85,7 @@ def formulate(mechanism: Mechanism) -> Equations:
 
 
 def _bodies(model: ModelNodes) -> tuple[int, ...]:
-    """Return what bodies do that joints of a tree carry: coordinates, velocities, accelerations."""
+    """Return the motion of bodies that joints of a tree carry: coordinates, velocities, accelerations."""
     if model.tree is None:
         return ()
     bodies, rates = model.mechanism.bodies, model.tree.accelerations(model.state_rates)

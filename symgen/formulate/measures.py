@@ -330,7 +330,7 @@ class Exertion:
 
 
 def exertion(model: ModelNodes, effort: Effort) -> Exertion:
-    """Return what an effort exerts."""
+    """Return the force of an effort."""
     measure = model.motion(effort.measure)
     rate = measure.rate(model.graph, model.velocities)
     zero = model.graph.zero

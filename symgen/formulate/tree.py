@@ -89,7 +89,7 @@ class Tree(ABC):
 
     @abstractmethod
     def weight(self, body: str, force: list[int]) -> dict[int, int]:
-        """Return what a force at the centre of mass, in ground axes, is on the velocities of bodies."""
+        """Return a force at the centre of mass, in ground axes, as one on the velocities of bodies."""
 
     @abstractmethod
     def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int], DriverPower | None]:

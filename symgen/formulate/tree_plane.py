@@ -258,7 +258,7 @@ class PlanarTree(Tree):
         return [self.names[f"{body}.{name}"] for name in ("vx", "vy")]
 
     def weight(self, body: str, force: list[int]) -> dict[int, int]:
-        """Return what a force at the centre of mass, in ground axes, is on the velocities of bodies."""
+        """Return a force at the centre of mass, in ground axes, as one on the velocities of bodies."""
         p, first = self.placed[body], self.model.first[body]
         forces = {first: force[0], first + 1: force[1]}
         if not self.model.mechanism.body(body).is_point:

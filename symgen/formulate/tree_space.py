@@ -176,7 +176,7 @@ class SpatialTree(Tree):
         )
 
     def _hinge(self, link: Link, body: SpatialBody) -> tuple[Triple, Triple] | None:
-        """Return what a body turns about, if that is all that it does."""
+        """Return the axis that a body turns about, if that is all that it does."""
         joint, v = link.articulation, self.v
         if joint is None or joint.slides or joint.screw or body.is_point or joint.turn not in ("axis", "ball"):
             return None

@@ -40,7 +40,7 @@ class PlaneVectors:
         return self.graph.neg(a[1]), a[0]
 
     def cross(self, a: Pair, b: Pair) -> int:
-        """Return what a x b has across the plane."""
+        """Return the component of a x b across the plane."""
         return self.graph.sub(self.graph.mul(a[0], b[1]), self.graph.mul(a[1], b[0]))
 
     def rotate(self, axes: Pair, a: Pair) -> Pair:

@@ -53,7 +53,7 @@ class Adams:
         return adams.adaptive if adaptive else adams.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
-        """Return what the loop is entered with."""
+        """Return the arguments of the loop."""
         from symgen.runtime.records import Multistep
         from symgen.runtime.schemes import adams
 

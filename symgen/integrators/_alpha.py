@@ -63,7 +63,7 @@ class AlphaFamily:
         return alpha.adaptive if adaptive else alpha.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
-        """Return what the loop is entered with."""
+        """Return the arguments of the loop."""
         from symgen.runtime.newton import Pattern, alpha_plan
         from symgen.runtime.records import Alpha
         from symgen.runtime.schemes import alpha

@@ -86,7 +86,7 @@ class ImplicitTableau:
         return implicit.adaptive if adaptive else implicit.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
-        """Return what the loop is entered with."""
+        """Return the arguments of the loop."""
         from symgen.runtime.newton import Pattern, stage_plan
         from symgen.runtime.records import Stages
         from symgen.runtime.schemes import implicit

@@ -128,7 +128,7 @@ class Tableau:
         return explicit.adaptive if adaptive else explicit.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
-        """Return what the loop is entered with."""
+        """Return the arguments of the loop."""
         from symgen.runtime.schemes import explicit
 
         width, scheme = padded(compiled.info.ny), self.record(spec.adaptive)

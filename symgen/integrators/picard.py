@@ -11,15 +11,13 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from symgen.integrators.dop853 import KIND as DOP853
+from symgen.native.types import NODES
 from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
 from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo
     from symgen.runtime.run import RunSpec
-
-#: Points of a step that are computed in each: all but its start.
-_NODES = 8
 
 
 def lobatto(n: int) -> tuple[Array, Array]:
@@ -60,26 +58,26 @@ class Coefficients:
 @lru_cache(maxsize=1)
 def coefficients() -> Coefficients:
     """Return the coefficients of the scheme."""
-    points, weights = lobatto(_NODES)
+    points, weights = lobatto(NODES)
     count = len(points)
     # Legendre coefficients of the polynomial through the rates: sums by the quadrature, which is exact but for the last
     norms = 2.0 / (2.0 * np.arange(count) + 1.0)
-    norms[-1] = 2.0 / _NODES
-    through = legendre.legvander(points, _NODES).T * weights / norms[:, np.newaxis]
-    between = np.cos(np.pi * (np.arange(_NODES, 0, -1) - 0.5) / _NODES)
+    norms[-1] = 2.0 / NODES
+    through = legendre.legvander(points, NODES).T * weights / norms[:, np.newaxis]
+    between = np.cos(np.pi * (np.arange(NODES, 0, -1) - 0.5) / NODES)
     every = np.concatenate([points[1:], between, points[:1]])
     through_all = np.linalg.inv(legendre.legvander(every, len(every) - 1))
-    dense = np.zeros((count + len(every), 3 * _NODES))
-    dense[:count, :_NODES], dense[:count, 2 * _NODES] = through[:, 1:], through[:, 0]
+    dense = np.zeros((count + len(every), 3 * NODES))
+    dense[:count, :NODES], dense[:count, 2 * NODES] = through[:, 1:], through[:, 0]
     dense[count:, : len(every)] = through_all
 
     def collocation(x: Array) -> Array:
         once, twice = integrals(count, x)
         return np.concatenate([(through.T @ once).ravel(), (through.T @ twice).ravel(), 0.5 * (1.0 + x)])
 
-    table = np.zeros((count, 2 * _NODES))
+    table = np.zeros((count, 2 * NODES))
     table[:, :count] = through.T
-    k = np.arange(3 * _NODES)
+    k = np.arange(3 * NODES)
     recurrence = np.concatenate([1 / (4 * k + 2), (2 * k + 1) / (k + 1), k / (k + 1)])
     tables = collocation(points[1:]), collocation(between), 0.5 * weights[1:], table.ravel(), dense.ravel(), recurrence
     return Coefficients(*tables)
@@ -132,15 +130,15 @@ class Picard:
         return picard.adaptive if adaptive else picard.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
-        """Return what the loop is entered with."""
+        """Return the arguments of the loop."""
         from symgen.runtime.records import Nodes
         from symgen.runtime.right_hand_side import at_nodes
         from symgen.runtime.schemes import picard
 
         info, c = compiled.info, coefficients()
         derive, vector = at_nodes(compiled)
-        degree = int(min(max(1.0 - np.log10(spec.rtol), 4.0), _NODES)) if spec.adaptive else _NODES
-        arrays = c.table, c.middle, c.share, c.legendre, c.dense, c.recurrence, np.arange(3 * _NODES, dtype=np.int64)
+        degree = int(min(max(1.0 - np.log10(spec.rtol), 4.0), NODES)) if spec.adaptive else NODES
+        arrays = c.table, c.middle, c.share, c.legendre, c.dense, c.recurrence, np.arange(3 * NODES, dtype=np.int64)
         scheme = Nodes(derive, vector, rates_of(info), *arrays, degree, DOP853.record(True))
         width = padded(info.ny)
         memory, room = picard.memory(width), picard.room(width, info.windings)

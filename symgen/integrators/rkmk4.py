@@ -35,7 +35,7 @@ class LieTableau(Tableau):
         return lie.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
-        """Return what the loop is entered with."""
+        """Return the arguments of the loop."""
         from symgen.runtime.records import Rotations
         from symgen.runtime.schemes import lie
 

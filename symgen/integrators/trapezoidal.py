@@ -28,7 +28,7 @@ class Trapezoidal(ImplicitTableau):
         return None
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
-        """Return what the loop is entered with."""
+        """Return the arguments of the loop."""
         if compiled.law.level != "projected":
             return super().setup(compiled, spec, w)
         from symgen.runtime.newton import Pattern, constraint_forces, mass_diagonal, projection_plan

@@ -68,7 +68,7 @@ class Functions:
         return node
 
     def _decided(self, function: str, a: int, b: int) -> int:
-        """Return what is above 0 where both, or either, of two numbers are; the other may be none where one decides."""
+        """Return a value above 0 where both, or either, of two are; the other may be none where one decides."""
         g, smaller = self.graph, function == "both"
         decided = g.call("min" if smaller else "max", a, b)
         unsure = [x for x in (a, b) if not self._is_defined(x)]

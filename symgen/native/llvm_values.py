@@ -21,7 +21,7 @@ INTRINSICS = {name: name for name in ("sin", "cos", "exp", "log", "fabs", "copys
 
 
 def called(name: str) -> str:
-    """Return what a mathematical function is called."""
+    """Return the name of a mathematical function."""
     return f"@llvm.{INTRINSICS[name]}.f64" if name in INTRINSICS else f"@{name}"
 
 

@@ -162,7 +162,7 @@ class LoopValues(Reader):
         return Array(name, array.type, array.rank)
 
     def owner(self, node: ast.expr) -> Value:
-        """Return what something is an element of; None for a table of the module."""
+        """Return the array that something is an element of; None for a table of the module."""
         if isinstance(node, ast.Name) and node.id not in self.bound:
             return None
         return self.value(node)

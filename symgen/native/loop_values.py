@@ -57,7 +57,7 @@ NOTHING = Record(())
 
 
 def laid_out(name: str, kind: Any) -> tuple[Value, list[lang.FunctionParameter]]:
-    """Return what an argument is, and the parameters that it takes.
+    """Return the kind of an argument, and the parameters that it takes.
 
     Parameters
     ----------

@@ -111,7 +111,7 @@ class LoopReader(LoopValues):
     # -- statements
 
     def statement(self, node: ast.stmt) -> list[lang.Statement]:
-        """Return what a statement does, behind what it needs to have been done."""
+        """Return the effect of a statement, behind what it needs to have been done."""
         outer, self.pending = self.pending, []
         statements = self._statement(node)
         statements, self.pending = [*self.pending, *statements], outer
@@ -150,7 +150,7 @@ class LoopReader(LoopValues):
         return lang.While(lang.Constant("bool", True), (*before, leave, *body))
 
     def unrolled(self, node: ast.For) -> list[lang.Statement]:
-        """Return what is done for each of some values."""
+        """Return the statements for each of some values."""
         if node.orelse or any(isinstance(x, ast.Break | ast.Continue) for s in node.body for x in ast.walk(s)):
             raise Foreign("the end of a loop over a tuple", node)
         statements: list[lang.Statement] = []
@@ -177,7 +177,7 @@ class LoopReader(LoopValues):
         return [*statements, lang.Leave("block", copied.block)]
 
     def assignment(self, node: ast.Assign) -> list[lang.Statement]:
-        """Return what an assignment does; all values are worked out before the first of them is stored."""
+        """Return the statements of an assignment; all values are worked out before the first of them is stored."""
         value = self.value(node.value)
         if len(node.targets) > 1:
             value = self.named(value, node)
@@ -204,7 +204,7 @@ class LoopReader(LoopValues):
     # -- calls
 
     def call(self, node: ast.Call) -> Value:
-        """Return what a function gives."""
+        """Return the result of a function."""
         if node.keywords:
             raise Foreign("arguments by name", node)
         if isinstance(node.func, ast.Attribute) and self.of_math(node.func):
@@ -254,7 +254,7 @@ class LoopReader(LoopValues):
         return self.value(node)
 
     def meant(self, node: ast.expr) -> Any:
-        """Return what a called name means."""
+        """Return the meaning of a called name."""
         if not isinstance(node, ast.Name):
             raise Foreign("a call", node)
         return self.bound[node.id] if node.id in self.bound else self.globals.get(node.id)
@@ -269,14 +269,14 @@ class LoopReader(LoopValues):
         return list(value.values)
 
     def invoke(self, called: Address, arguments: list[Value], node: ast.Call) -> lang.Expression:
-        """Return what a function gives that is known by its address."""
+        """Return the result of a function that is known by its address."""
         result = SCALARS.get(called.signature.result)
         if result is None:
             raise Foreign("a function with other results", node)
         return lang.Invoke(result, called.name, handed_on(called.signature.arguments, arguments))
 
     def insert(self, called: Piece, arguments: list[Value], node: ast.Call) -> Value:
-        """Return what a function gives that is written in LLVM's language."""
+        """Return the result of a function that is written in LLVM's language."""
         if called.name == "bare" and len(arguments) == 1:
             return arguments[0]  # nothing counts references here
         if called.name == "part" and len(arguments) == 3 and isinstance(arguments[0], Array):
@@ -298,7 +298,7 @@ class LoopReader(LoopValues):
         return lang.Insert(SCALARS.get(called.result, "int"), symbol, text, handed_on(kinds, arguments), nothing)
 
     def call_part(self, called: Any, arguments: list[Value], node: ast.Call) -> lang.Expression:
-        """Return what a part gives that is called."""
+        """Return the result of a part that is called."""
         tree = tree_of(called)
         if len(tree.args.args) != len(arguments):
             raise Foreign(f"the function '{called.__name__}'", node)
@@ -313,7 +313,7 @@ class LoopReader(LoopValues):
         return lang.FunctionCall(function.returned, function, tuple(leaf_arguments))
 
     def copy(self, called: Any, arguments: list[Value], node: ast.Call) -> Value:
-        """Return what a part gives whose code is copied to where it is called."""
+        """Return the result of a part whose code is copied to where it is called."""
         tree = tree_of(called)
         if len(tree.args.args) != len(arguments) or len(self.copies) > 20:
             raise Foreign(f"the function '{called.__name__}'", node)

@@ -41,12 +41,12 @@ def vector_width() -> int:
 
 @functools.cache
 def processor() -> str:
-    """Return what machine code depends on of this processor."""
+    """Return the features of this processor that machine code depends on."""
     return repr(_host())
 
 
 def _machine(level: int) -> Any:
-    """Return what makes machine code, with the passes of a level of optimisation."""
+    """Return the compiler of machine code, with the passes of a level of optimisation."""
     triple, name, features = _host()
     # addresses are those of this process: code for x86 need not be moved again
     relocation = "static" if triple.startswith(("x86", "i386", "i686")) else "default"
@@ -61,7 +61,7 @@ def _best_machine() -> Any:
 
 @functools.cache
 def _engine() -> Any:
-    """Return what holds machine code in memory."""
+    """Return the holder of machine code in memory."""
     return llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine(3))
 
 

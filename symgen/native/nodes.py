@@ -17,9 +17,8 @@ from symgen.native import sines
 from symgen.native.llvm import FunctionPrinter, declarations, head, is_copied, reached
 from symgen.native.llvm_values import COMPARED, FLOATS, INTS, TYPES, ValuePrinter, literal
 from symgen.native.read_values import Foreign
+from symgen.native.types import NODES
 
-#: Nodes of a function, and of a vector.
-NODES = 8
 #: What the function returns, added up: a pivot is suspicious at a node; an angle is too large for the sines here.
 SUSPICIOUS, FAR = 1, 2
 #: Arrays of a right-hand side with a value a node, those that are shared, and those that are left alone.
@@ -136,8 +135,8 @@ class NodesPrinter(ValuePrinter):
     def inline(self, call: lang.FunctionCall) -> tuple[str, bool]:
         """Print the statements of a function on the same state; return its result, and whether it is a vector."""
         function, names = call.function, [p.name for p in call.function.parameters]
-        given = [a.name if isinstance(a, lang.Variable) else a for a in call.arguments]
-        if given != names:
+        arguments = [a.name if isinstance(a, lang.Variable) else a for a in call.arguments]
+        if arguments != names:
             raise Foreign("a function of another state")
         outer, values, vectors = self.function, self.values, self.vectors
         self.function, self.values, self.vectors = function, {"t": values["t"]}, {"t"}

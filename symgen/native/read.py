@@ -117,14 +117,14 @@ class Reader(TableValues):
         )
 
     def statements(self, nodes: list[ast.stmt]) -> tuple[lang.Statement, ...]:
-        """Return what statements do."""
+        """Return the translation of statements."""
         statements: list[lang.Statement] = []
         for node in nodes:
             statements.extend(self.statement(node))
         return tuple(statements)
 
     def inner(self, nodes: list[ast.stmt], loop: bool = False) -> tuple[lang.Statement, ...]:
-        """Return what the statements of a branch or of a loop do."""
+        """Return the translation of the statements of a branch or of a loop."""
         self.depth += 1
         self.loops += loop
         statements = self.statements(nodes)
@@ -133,7 +133,7 @@ class Reader(TableValues):
         return statements
 
     def statement(self, node: ast.stmt) -> list[lang.Statement]:
-        """Return what a statement does."""
+        """Return the translation of a statement."""
         if isinstance(node, ast.Assign):
             return self.assignment(node)
         if isinstance(node, ast.AugAssign):
@@ -166,7 +166,7 @@ class Reader(TableValues):
         raise Foreign(f"a statement '{type(node).__name__}'", node)
 
     def assignment(self, node: ast.Assign) -> list[lang.Statement]:
-        """Return what an assignment does; all values are worked out before the first of them is stored."""
+        """Return the statements of an assignment; all values are worked out before the first of them is stored."""
         first, statements = node.targets[0], list[lang.Statement]()
         self.note_signs(node)
         if isinstance(first, ast.Tuple) and isinstance(node.value, ast.Tuple) and len(node.targets) == 1:

@@ -58,14 +58,14 @@ class TableValues(ValueReader):
         return _integer(super().element(node))
 
     def sign(self, node: ast.BinOp | ast.AugAssign) -> str:
-        """Return what an operation is called."""
+        """Return the name of an operation."""
         values = (node.left, node.right) if isinstance(node, ast.BinOp) else (node.target, node.value)
         if not isinstance(node.op, ast.Add | ast.Mult) and all(self.is_unsigned(x) for x in values):
             raise Foreign("an operation without sign", node)
         return super().sign(node)
 
     def call(self, node: ast.Call) -> Any:
-        """Return what a function gives."""
+        """Return the result of a function."""
         called = self.of_module(node.func)
         if called is np.int64 or called is np.uint32:
             if len(node.args) != 1 or node.keywords:
@@ -115,7 +115,7 @@ class TableValues(ValueReader):
         return None
 
     def piece(self, called: Written, node: ast.Call) -> lang.Expression:
-        """Return what a function gives that is written in LLVM's language."""
+        """Return the result of a function that is written in LLVM's language."""
         if called.name == "_compiled_bits" and len(node.args) == 1:
             return lang.ScalarOperation("int", "bits", (as_type("float", self.expression(node.args[0])),))
         if called.name not in ("_compiled_kernel", "_compiled_code"):

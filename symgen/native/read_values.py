@@ -126,7 +126,7 @@ class ValueReader(ABC):
         return self.arithmetic(sign, self.expression(node.left), self.expression(node.right), node)
 
     def sign(self, node: ast.BinOp | ast.AugAssign) -> str:
-        """Return what an operation is called."""
+        """Return the name of an operation."""
         sign = _ARITHMETIC.get(type(node.op))
         if sign is None:
             raise Foreign("an operation", node)
@@ -187,7 +187,7 @@ class ValueReader(ABC):
         return truth_of(self.expression(node))
 
     def call(self, node: ast.Call) -> lang.Expression:
-        """Return what a function gives."""
+        """Return the result of a function."""
         if node.keywords:
             raise Foreign("arguments by name", node)
         builtin = self.builtin(node.func)
@@ -218,7 +218,7 @@ class ValueReader(ABC):
         return lang.FunctionCall(self.called[key].returned, self.called[key], arguments)
 
     def call_builtin(self, name: str, values: list[lang.Expression], node: ast.Call) -> lang.Expression:
-        """Return what a function of Python gives."""
+        """Return the result of a function of Python."""
         if name in ("min", "max") and len(values) > 1:
             first = values[0]
             for value in values[1:]:

@@ -81,7 +81,7 @@ def _straight(function: lang.Function) -> list[lang.Statement]:
 
 
 def _value(statement: lang.Statement) -> lang.Expression:
-    """Return what a straight statement evaluates."""
+    """Return the expressions of a straight statement."""
     if isinstance(statement, lang.Assign | lang.Store):
         return statement.value
     assert isinstance(statement, lang.Evaluate), "a straight statement"
@@ -121,7 +121,7 @@ def width(count: int) -> int:
 
 
 def kind(n: int) -> str:
-    """Return what the function for `n` angles returns: sines and cosines."""
+    """Return the result of the function for `n` angles: sines and cosines."""
     return f"{{<{n} x double>, <{n} x double>}}"
 
 

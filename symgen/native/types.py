@@ -11,6 +11,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+#: Nodes of a step that are evaluated at once, a vector of numbers: all points of the step but its start.
+NODES = 8
+
 
 @dataclass(frozen=True)
 class NumberType:

@@ -92,7 +92,7 @@ class ScriptLines:
         self.places, self.lines = places, list[str]()
 
     def value(self, expression: Expr, where: str) -> Any:
-        """Return what a formula stands for."""
+        """Return the value of a formula."""
         if isinstance(expression, Number):
             return expression.value
         if isinstance(expression, Name):
@@ -217,7 +217,7 @@ def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]
 
 
 def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
-    """Return what follows from parameters: derived ones, and the start, described or begun with."""
+    """Return the values that follow from parameters: derived ones, and the start, described or begun with."""
     places = {p.name: f"p[{i}]" for i, p in enumerate(mechanism.parameters)}
     formulas = []
     for name, expression in derived(mechanism.parameters):

@@ -7,13 +7,17 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 if TYPE_CHECKING:
+    from symgen.result.labelled import Labelled
     from symgen.result.result import Result
 
 
 #: Attributes of a result that stand in its JSON under their own names, before and behind the times.
 _FIRST = (
-    *("mechanism", "method", "integrator", "shape", "coordinates", "state", "step", "rtol", "atol", "until"),
+    *("mechanism", "method", "integrator", "shape", "coordinates", "state"),
+    *("step", "rtol", "atol", "relative_atol", "until"),
     *("status", "reason", "warnings", "notes", "parameters", "inputs"),
     *("steps", "rejected", "evaluations", "iterations", "vector_width"),
 )
@@ -59,3 +63,9 @@ def finite(value: Any) -> Any:
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value
+
+
+def series(table: Labelled) -> dict[str, list[float | None]]:
+    """Return a table as JSON has it: lists by key; numbers that are not finite are None."""
+    columns = {name: table.values[:, i].tolist() for i, name in enumerate(table.names)}
+    return columns if np.all(np.isfinite(table.values)) else finite(columns)

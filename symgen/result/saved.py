@@ -7,17 +7,20 @@ import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from symgen.describe.columns import PREFIX
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, quoted
-from symgen.files import check_name, need, unheaded
-from symgen.result.export import DIMENSIONS, LAST_HEADER, LAST_PREFIX, SAVED
+from symgen.files import check_name, check_rows, need, unheaded
+from symgen.result.export import LAST_HEADER, LAST_PREFIX, SAVED
 from symgen.result.labelled import Array
+from symgen.result.signals import TABLES
 from symgen.runtime.last_state import LastState
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _Value = TypeVar("_Value")
 #: Tables of a NetCDF file that are read.
@@ -35,8 +38,8 @@ class Recorded:
     t : Array, shape (k,)
         Times [s].
     columns : mapping of str to Array
-        By the names of data frames, each of shape (k,): coordinates, velocities, accelerations, and coordinates of
-        joints behind ``joint.``, where angles count turns; of files of columns all others too.
+        By name, each of shape (k,): coordinates, velocities, accelerations, and coordinates of joints, where angles
+        count turns; of files of columns all others too.
     mechanism : str
         Its name, empty in files of columns.
     run : mapping
@@ -82,7 +85,7 @@ class Recorded:
 
 
 def _read(option: str, path: Path, use: Callable[[Recorded], _Value]) -> _Value:
-    """Return what `use` makes of a file of a result; a `KeyError` means that something is missing in it."""
+    """Return the value of `use` for a file of a result; a `KeyError` means that something is missing in it."""
     ending = path.suffix.lower()
     if ending not in SAVED:
         raise InputError(option, f"a file ending in {', '.join(SAVED)}", f"'{path}'")
@@ -91,7 +94,7 @@ def _read(option: str, path: Path, use: Callable[[Recorded], _Value]) -> _Value:
 
 
 def checked(option: str, path: Path, read: Callable[[Path], _Value], libraries: Sequence[str]) -> _Value:
-    """Return what `read` makes of a file, with sentences about files that are missing or hold something else."""
+    """Return the value of `read` for a file, with sentences about files that are missing or hold something else."""
     need(option, *libraries)
     check_name(option, path)
     if not path.is_file():
@@ -100,18 +103,34 @@ def checked(option: str, path: Path, read: Callable[[Path], _Value], libraries: 
         return read(path)
     except InputError:
         raise
-    except (OSError, ValueError, KeyError, IndexError, TypeError, StopIteration, csv.Error) as error:
+    except (OSError, ValueError, KeyError, IndexError, TypeError, StopIteration, RuntimeError, csv.Error) as error:
         why = " ".join(str(error).split())[:80]
         raise InputError(option, "a file of a result", f"'{path}', which cannot be read as one ({why})") from None
 
 
-def _of_dataset(path: Path, whence: str) -> Recorded:
+def check_names(columns: Sequence[str]) -> None:
+    """Refuse columns of a version that called other things so: its energies had no sum, and their own names."""
+    if {"kinetic", "energy.kinetic"} & set(columns) and {"error", "energy.error"} & set(columns):
+        if "energy.total" not in columns:
+            raise ValueError("it is of an older version, whose columns had other names")
+
+
+def dataset_of(path: Path) -> xr.Dataset:
+    """Return the content of a NetCDF file; libraries raise errors of many types where it is damaged."""
+    import h5py
     import xarray as xr
 
-    dataset, columns = xr.load_dataset(path, engine="h5netcdf"), dict[str, Array]()
+    with h5py.File(path) as file:
+        file["/"]  # without it, h5netcdf leaves an object that prints a traceback when it is deleted
+    return xr.load_dataset(path, engine="h5netcdf")
+
+
+def _of_dataset(path: Path, whence: str) -> Recorded:
+    dataset, columns = dataset_of(path), dict[str, Array]()
+    check_names(dataset["kind_of_energy"].values.tolist())
     for table in _TABLES:
         values = np.asarray(dataset[table].values, dtype=np.float64)
-        columns |= {f"{PREFIX[table]}{name}": values[:, i] for i, name in enumerate(dataset[DIMENSIONS[table]].values)}
+        columns |= {str(name): values[:, i] for i, name in enumerate(dataset[TABLES[table]].values)}
     last = None
     if LAST_HEADER in dataset.attrs:
         variables = {str(name): v.values for name, v in dataset.data_vars.items() if v.dims == (f"{name}_index",)}
@@ -124,8 +143,10 @@ def _of_dataset(path: Path, whence: str) -> Recorded:
 def _of_csv(path: Path, whence: str) -> Recorded:
     with path.open(encoding="utf-8", newline="") as file:
         rows = csv.reader(file)
-        names = [unheaded(name) for name in next(rows)]
-        values = np.array([[float(x or "nan") for x in row] for row in rows])
+        names, cells = [unheaded(name) for name in next(rows)], list(rows)
+    check_names(names)
+    check_rows(whence, names, cells)
+    values = np.array([[float(x or "nan") for x in row] for row in cells])
     if not len(values):
         raise ValueError("it has no rows")
     columns = {name: values[:, i] for i, name in enumerate(names)}
@@ -136,6 +157,7 @@ def _of_parquet(path: Path, whence: str) -> Recorded:
     import pandas as pd
 
     frame = pd.read_parquet(path, engine="pyarrow")
+    check_names(list(map(str, frame.columns)))
     columns = {str(name): np.asarray(frame[name], dtype=np.float64) for name in frame.columns}
     return Recorded(whence, np.asarray(frame.index, dtype=np.float64), columns)
 
@@ -152,11 +174,8 @@ def recorded(motion: Any) -> Recorded:
         return motion
     if not all(hasattr(motion, name) for name in ("t", "q", "v", "a")):
         raise InputError("motion", "a result of a run, or a motion of kinematics", f"a {type(motion).__name__}")
-    tables = motion.q, motion.v, motion.a
+    tables = [getattr(motion, name) for name in _TABLES if hasattr(motion, name)]
     columns = {name: table.values[:, i] for table in tables for i, name in enumerate(table.names)}
-    if hasattr(motion, "joint_coordinates"):
-        joints, prefix = motion.joint_coordinates, PREFIX["joint_coordinates"]
-        columns |= {f"{prefix}{name}": joints[name] for name in joints.names}
     run = {name: dict(getattr(motion, name, {})) for name in ("parameters", "inputs")}
     return Recorded("motion", np.asarray(motion.t, dtype=np.float64), columns, run=run)
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 def made_of(compiled: CompiledModel, plan: Plan, spec: RunSpec) -> dict[str, Any]:
-    """Return what shapes a run, as JSON has it: two runs of the same making can take up each other's arrays.
+    """Return the settings of a run, as JSON has them: two runs of the same making can take up each other's arrays.
 
     Parameters
     ----------

@@ -89,7 +89,7 @@ def _sided(mechanism: Mechanism, info: ModelInfo, start: Start) -> Start:
 
 
 def held_of(info: ModelInfo, holds: Sequence[Hold], numbers: Scalars, v: Sequence[float | None]) -> Held:
-    """Return what is held by index.
+    """Return the held quantities by index.
 
     Parameters
     ----------

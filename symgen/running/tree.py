@@ -97,7 +97,7 @@ class TreeRun:
         return self._moving(outcome)[:, : self.bodies.info.nq]
 
     def carried(self, outcome: Outcome) -> CarriedOutcome:
-        """Return what a run gave as the motion of bodies."""
+        """Return the outcome of a run as the motion of bodies."""
         info, own = self.bodies.info, self.compiled.info
         moving = self._moving(outcome)
         k, n = len(outcome.times), info.nq + info.nv
@@ -124,7 +124,7 @@ class TreeRun:
         return CarriedOutcome(**values, inner=outcome, end_state=end, work=last[own.work], tree=self)
 
     def kept(self, outcome: CarriedOutcome) -> dict[str, NDArray[Any]]:
-        """Return what a run leaves for another one to go on from, beside what its loop kept."""
+        """Return the arrays from which another run goes on, beside those of the loop."""
         y = self.body_start.y.copy()
         y[: self.bodies.info.work] = outcome.end_state
         rank = np.array([self.start.rank])
@@ -160,7 +160,7 @@ class TreeRun:
     def _impact(
         self, watched: Watched, numbers: Sequence[int], event: Happening, after: Array, state: Array, p: Array
     ) -> Impact:
-        """Return what resets do to bodies in a state, where joints have some velocities afterwards."""
+        """Return the effect of resets on bodies in a state, where joints have some velocities afterwards."""
         own, info = self.compiled.info, self.bodies.info
         v = self._of_bodies(event.t, np.concatenate([event.state[: own.nq], after]), p)[info.nq :]
         y = np.zeros(info.ny)
@@ -334,7 +334,7 @@ def begin_on_tree(
     events: tuple[Event, ...] = (),
     watched: Callable[[], Watched | None] | None = None,
 ) -> TreeRun:
-    """Return what a run in joint coordinates begins with, from a start of bodies.
+    """Return a run in joint coordinates from a start of bodies.
 
     Parameters
     ----------

@@ -102,7 +102,7 @@ class Watched:
         return impact_of(compiled, [self.resets[n] for n in numbers], self.masses, where, t, y, p, w)
 
     def hunting_state(self, sizes: Sizes, state: State) -> hunting.HuntingState:
-        """Return what a run keeps, with what it keeps of its events before it has begun."""
+        """Return the state of a run with that of its events, before it has begun."""
         events, n = len(self.names), len(self.names) + len(self.switches)
         points = [x for switch in self.switches for x in switch.points]
         first = hunting.notes_at(n, sizes.width, len(state.w))

@@ -119,7 +119,7 @@ def aimed(system: Any, run: Any, h: float) -> float:
 
 @viewing
 def opened(sizes: Any, state: Any) -> Any:
-    """Return what a run keeps, its working memory in parts."""
+    """Return the state of a run, its working memory in parts."""
     s, width = bare(state), sizes.width
     trial, room = part(s.room, 0, width), part(s.room, width, s.room.shape[0] - width)
     kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.events, s.memory

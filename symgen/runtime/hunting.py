@@ -46,7 +46,7 @@ HUNTING_STATE = types.RecordType((*STATE, STATE.parts[0]), HuntingState)
 
 
 def opened(sizes: Any, state: Any) -> Any:
-    """Return what a run keeps, its working memory in parts, and what it keeps of events."""
+    """Return the state of a run, its working memory in parts, and that of its events."""
     return HuntingRun(*plain_opened(sizes, state), bare(state).hunt)
 
 

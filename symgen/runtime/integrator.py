@@ -107,7 +107,7 @@ class Integrator(Protocol):
         """Targets of sweeps with a loop over many runs: ``cpu``, ``lanes``, ``cuda``; none where there is no loop."""
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
-        """Return what the loop is entered with.
+        """Return the arguments of the loop.
 
         Parameters
         ----------

@@ -62,7 +62,7 @@ _SHORT = 0.25
 
 
 def opened(sizes: Any, state: Any) -> Any:
-    """Return what runs keep: emitted code works on the state that is tried where it stands in z."""
+    """Return the states of runs: emitted code works on the state that is tried where it stands in z."""
     s = bare(state)
     trial = part(s.p, 0, sizes.width)
     kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.events, s.memory

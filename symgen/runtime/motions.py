@@ -57,7 +57,7 @@ def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: f
 
 
 def names_of_motions(mechanism: Mechanism) -> frozenset[str]:
-    """Return what the motions of drivers read that may jump; nothing where none may."""
+    """Return the functions in the motions of drivers that may jump; none where none may."""
     return frozenset(name for *_, formula, _ in _moved(mechanism) for name in names(formula))
 
 

@@ -33,7 +33,7 @@ def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: floa
 
 
 def sizes_of(compiled: CompiledModel) -> Sizes:
-    """Return what loops have to know of a model."""
+    """Return the sizes of a model, as loops take them."""
     info, sections = compiled.info, compiled.info.sections
     names = "pivot", "multipliers", "mask", "change", "gauge", "row_weight", "jacobian"
     places = (sections.get(name, (0, 0))[0] for name in names)
@@ -64,7 +64,7 @@ def new_outputs(info: ModelInfo, times: Array) -> Outputs:
 
 
 def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> State:
-    """Return what a run keeps, before it has a start.
+    """Return the state of a run, before it has a start.
 
     Parameters
     ----------

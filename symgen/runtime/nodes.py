@@ -14,8 +14,8 @@ from typing import Any
 
 from symgen.native import types
 from symgen.native.compiler import interpreted
-from symgen.native.nodes import NODES
 from symgen.native.pieces import Piece
+from symgen.native.types import NODES
 
 #: Rates of a step: at its start and at its nodes.
 POINTS = NODES + 1

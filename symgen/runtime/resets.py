@@ -111,7 +111,7 @@ def impact_of(
     carry, rest, bodies = masses(compiled, t, y, p, w)
     after, impulses, contradictory = strike(carry.T @ bodies @ carry, every, right, v)
     if contradictory or not np.all(np.isfinite(after)):
-        raise _refusal(names, labels, every[info.m :] @ after, right[info.m :], t)
+        raise _refusal(names, labels, _nearest(carry.T @ bodies @ carry, every, right, v, info.m), right[info.m :], t)
     for row, value in zip(every[info.m :], right[info.m :], strict=True):
         if np.count_nonzero(row) == 1 and row.max() == 1.0:
             after[np.argmax(row)] = value  # a velocity itself: exactly, so that one at rest is at rest
@@ -147,8 +147,38 @@ def _refusal(names: str, labels: Sequence[str], near: Array, values: Array, t: f
     return InputError(names, expected, f"{wanted} at t = {t:.6g} s", f"the nearest are {nearest}")
 
 
+def _nearest(mass: Array, rows: Array, values: Array, v: Array, count: int) -> Array:
+    """Return the values of the rows behind the first ones that are nearest to the wanted, where these hold exactly.
+
+    Parameters
+    ----------
+    mass, rows, values, v
+        As for `strike`.
+    count : int
+        Number of the first rows, those of joints.
+    """
+    unit, scale = _alike(mass, rows)
+    _, sizes, vectors = np.linalg.svd(scale[:count, np.newaxis] * rows[:count] * unit, full_matrices=True)
+    free = unit[:, np.newaxis] * vectors[np.count_nonzero(sizes > _ROUNDING * sizes.max(initial=0.0)) :].T
+    own, start = rows[count:], strike(mass, rows[:count], values[:count], v)[0]
+    along = own @ free
+    along[np.linalg.norm(scale[count:, np.newaxis] * along, axis=1) < _ROUNDING] = 0.0  # of what joints determine
+    return np.asarray(own @ start + along @ np.linalg.lstsq(along, values[count:] - own @ start, rcond=_ROUNDING)[0])
+
+
+def _alike(mass: Array, rows: Array) -> tuple[Array, Array]:
+    """Return units of velocities that have equal kinetic energy, and what makes rows in these units equally long."""
+    diagonal = np.diag(mass)
+    usual = float(diagonal.mean()) or 1.0
+    unit = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, usual))
+    long = np.linalg.norm(rows * unit, axis=1)
+    # a row that repeats what the joints of a tree hold by construction is rounding: made long, it would hold something
+    counts = long > _ROUNDING * long.max(initial=0.0)
+    return unit, np.where(counts, 1.0 / np.where(counts, long, 1.0), 0.0)
+
+
 def strike(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Array, bool]:
-    """Return what the smallest impulse along some rows C makes of velocities.
+    """Return the velocities after the smallest impulse along some rows C.
 
     An impulse i changes velocities by ``M (v+ - v-) = C^T i``. With ``C v+ = c`` this is the v+ for which the kinetic
     energy of the change, ``(v+ - v-)^T M (v+ - v-) / 2``, is smallest.
@@ -174,13 +204,7 @@ def strike(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Ar
     contradictory : bool
         Whether more than rounding is left of ``C v+ - c``.
     """
-    diagonal = np.diag(mass)
-    usual = float(diagonal.mean()) or 1.0
-    unit = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, usual))  # velocities in units of equal kinetic energy
-    long = np.linalg.norm(rows * unit, axis=1)
-    # a row that repeats what the joints of a tree hold by construction is rounding: made long, it would hold something
-    counts = long > _ROUNDING * long.max(initial=0.0)
-    scale = np.where(counts, 1.0 / np.where(counts, long, 1.0), 0.0)
+    unit, scale = _alike(mass, rows)
     scaled, target = scale[:, np.newaxis] * rows * unit, scale * (values - rows @ v)
     metric = unit[:, np.newaxis] * mass * unit
     left_vectors, sizes, vectors = np.linalg.svd(scaled, full_matrices=True)

@@ -139,7 +139,7 @@ def integrate(
 def outcome_of(
     simulation: Simulation, outputs: Outputs, code: int, seconds: float = 0.0, interrupted: bool = False
 ) -> Outcome:
-    """Return what a run gave whose loop has ended.
+    """Return the outcome of a run whose loop has ended.
 
     Parameters
     ----------

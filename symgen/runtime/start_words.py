@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.errors import AssemblyError, InputError
+from symgen.errors import AssemblyError, InputError, fitting
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.held import Held
@@ -26,8 +26,8 @@ Array = NDArray[np.float64]
 _LISTED = 6
 #: What helps where nothing is free.
 OTHER_WAYS = (
-    "where drivers leave nothing free, 'symgen kinematics --start' finds other ways to close it, and all coordinates "
-    "of one of them can be held"
+    "where drivers leave nothing free, the analysis kinematics finds other ways to close it from another `start`, and "
+    "all coordinates of one of them can be held"
 )
 
 
@@ -107,8 +107,9 @@ def opposite(joint: str) -> str:
 
 def _listed(changes: Sequence[Change]) -> str:
     """Return the first changes one by one, and how many more there are."""
-    words = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:_LISTED])
-    return words + (f"; and {len(changes) - _LISTED} more" if len(changes) > _LISTED else "")
+    first = fitting(len(changes), _LISTED)
+    words = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:first])
+    return words + (f"; and {len(changes) - first} more" if len(changes) > first else "")
 
 
 def _from_to(change: Change) -> str:
@@ -160,11 +161,12 @@ def refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> Assemb
     reason = "given velocities contradicted by the constraints"
     if code == e.MOVED:
         reason = f"positions that closing moves by up to {float(summary[e.START_MOVED]):.3g}"
-    return InputError("initial state", "a consistent start (--strict)", reason)
+    return InputError("initial state", "a consistent start (`strict`)", reason)
 
 
 def _stays_open(info: ModelInfo, held: Held, joint: str, size: float) -> AssemblyError:
-    """Return why there is no start where a joint stays open by a size [m or rad]."""
+    """Return why there is no start where a joint stays open by a size, in the units of its rows."""
+    units = " or ".join(dict.fromkeys(row.unit for row in info.rows if row.joint == joint))
     described = held.described(info)
     holds = [words for words in (held.positions(info), f"{described} as described" if described else "") if words]
     what = f" with {' and '.join(holds)} held" if holds else ""
@@ -172,7 +174,8 @@ def _stays_open(info: ModelInfo, held: Held, joint: str, size: float) -> Assembl
     ways = f"; {OTHER_WAYS}" if holds and info.m >= info.nv else ""
     return AssemblyError(
         f"{info.name}: the mechanism cannot be assembled from this start{what}: joint '{joint}' stays open by "
-        f"{size:.3g} m or rad; check its points and the positions of the bodies it joins{ways}",
+        f"{size:.3g} {units}; check its points, the positions of the bodies it joins, and whether the links are long "
+        f"enough to meet at all{ways}",
         (joint,),
     )
 

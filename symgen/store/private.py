@@ -29,7 +29,7 @@ _WRITE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | _ANY
 
 
 def read(path: Path, key: str) -> bytes | None:
-    """Return what was written for a key, or nothing.
+    """Return the content for a key, or nothing.
 
     Parameters
     ----------

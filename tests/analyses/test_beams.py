@@ -134,7 +134,7 @@ def test_resultants_are_those_of_statics():
 
 
 def bend(elements):
-    """Return the beam of Bathe and Bolourchi (1979): an arc of 45 degrees, radius 100, 1 x 1, loaded across its plane."""
+    """Return the beam of Bathe and Bolourchi (1979): an arc of 45 degrees, radius 100, loaded across its plane."""
     builder = MechanismBuilder("bend", space="spatial").parameter("P", 300.0)
     end = (100.0 * np.sin(np.pi / 4), 100.0 * (1.0 - np.cos(np.pi / 4)), 0.0)
     stiff = {"axial": 1e7, "shear": 5e6, "torsion": 5e6 / 6, "bending": 1e7 / 12}

@@ -39,6 +39,14 @@ def test_modes_and_systems_as_programs_read_them(cli):
     assert found["outputs"] == ["lean", "steer"] and found["C"][0] == pytest.approx([1, 0, 0, 0], abs=1e-12)
 
 
+@pytest.mark.parametrize("at", ["equilibrium", "start"])
+def test_one_sentence_where_all_freedom_is_driven(cli, at):
+    code, out, err = cli("modes", "driven-four-bar", "--at", at)
+    assert (code, out.strip(), err) == (0, "no degree of freedom is left: there are no modes", "")
+    code, out, err = cli("linearise", "driven-four-bar", "--at", at)
+    assert (code, out.strip(), err) == (0, "no degree of freedom is left: there is nothing to linearise", "")
+
+
 def test_tables_are_readable(cli, tmp_path):
     code, out, _ = cli("equilibrium", "four-bar", "--start", "crank.theta=4.0")
     assert code == 0 and out.startswith("stable; omega^2 [1/s^2]: 8.35") and "crank.theta" in out
@@ -64,7 +72,7 @@ def test_tables_are_readable(cli, tmp_path):
         (("equilibrium", "four-bar", "--start", "crank.thet=1"), 2, "did you mean 'crank.theta'"),
         (("equilibrium", "four-bar", "--scan", "crank.theta=lin(2,3,3)", "--steady"), 2, "at rest"),
         (("modes", "four-bar", "--at", "start"), 2, "a state of rest"),
-        (("modes", "four-bar", "--at", "begin"), 2, "equilibrium, start, steady or a time"),
+        (("modes", "four-bar", "--at", "begin"), 2, "equilibrium, start, steady, a time"),
         (("modes", "four-bar", "--plot", "x.svg"), 2, "--over"),
         (("modes", "four-bar", "--over", "mass=lin(1,2,3)"), 2, "mass"),
         (("linearise", "four-bar", "--states", "A.angel"), 2, "did you mean 'A.angle'"),

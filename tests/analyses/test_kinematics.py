@@ -450,7 +450,7 @@ def test_files_and_json(driven, tmp_path, capsys):
     assert (tmp_path / "k.svg").stat().st_size and (tmp_path / "c.svg").stat().st_size
     assert main(["kinematics", "driven-four-bar", "--times", "0,x"]) == 2 and "--times" in capsys.readouterr().err
     frame = driven.kinematics([0.0, 0.1]).to_dataframe()
-    assert list(frame.index) == [0.0, 0.1] and frame.attrs["units"]["reaction.A.M"] == "N m"
+    assert list(frame.index) == [0.0, 0.1] and frame.attrs["units"]["A.M"] == "N m"
 
 
 def test_the_command_ends_at_a_dead_centre(tmp_path, capsys):
@@ -491,3 +491,26 @@ def test_times_that_no_step_leads_to_are_told_as_such():
     """A crank of 2 pi rad/s turns many times in the shortest step to 1e300 s: its motion was said to jump."""
     found = symgen.load("driven-four-bar").kinematics([0.0, 1e300])
     assert found.ended.startswith("the value of 'motor' jumps at t = 0 s, or goes too far in")
+
+
+@pytest.mark.parametrize("held", ["body", "joint"])
+def test_velocities_that_a_start_holds_are_those_of_the_drivers(held):
+    """They belong to the start of a run; a prescribed motion has positions, and velocities follow."""
+    raw = {
+        "mechanism": {"name": "crank", "gravity": [0.0, -9.81]},
+        "bodies": {"crank": {"mass": 2.0, "inertia": 0.1, "position": [0.5, 0.0]}},
+        "joints": {
+            "pin": {"type": "revolute", "between": ["ground", "crank"], "at": [[0.0, 0.0], [-0.5, 0.0]]},
+            "motor": {"type": "driver", "joint": "pin", "value": "6*t"},
+        },
+    }
+    if held == "body":
+        raw["bodies"]["crank"] |= {"angular_velocity": 6.0, "hold": True}
+    else:
+        raw["joints"]["pin"]["start"] = {"angle": 0.0, "rate": 6.0}
+    crank, times = model(raw), np.linspace(0.0, 1.0, 11)
+    motion = crank.kinematics(times)
+    np.testing.assert_allclose(motion["crank.omega"], 6.0, rtol=1e-12)
+    np.testing.assert_allclose(motion["crank.x"], 0.5 * np.cos(6.0 * times), atol=1e-12)
+    effort = crank.inverse(times=times)["motor"]
+    np.testing.assert_allclose(effort, 2.0 * 9.81 * 0.5 * np.cos(6.0 * times), rtol=1e-10)

@@ -10,18 +10,14 @@ import pytest
 
 import symgen
 from symgen import settings
-from symgen.cli import main
-from symgen.cli.compare import command as compare
+from symgen.cli import group, main
 from symgen.cli.generate import command as generate
-from symgen.cli.run import command as run
-from symgen.cli.stress import command as stress
-from symgen.cli.sweep import command as sweep
 from symgen.errors import InputError
 from symgen.runtime.run import RunSpec
 from symgen.study.stress.study import stress as stress_study
 
 PAGES = Path(__file__).resolve().parents[2] / "docs"
-COMMANDS = {"run": run, "compare": compare, "stress": stress, "sweep": sweep}
+COMMANDS = {name: group.get_command(None, name) for name in ("run", "compare", "stress", "sweep")}
 #: Settings of runs that look for events.
 EVENTS = ("stop_when", "record_when", "events")
 #: Settings that a command goes without, since it has a list of them, or no use for them.
@@ -100,9 +96,8 @@ def test_python_says_every_setting():
     text = inspect.getdoc(symgen.Model.simulate)
     page = (PAGES / "python.md").read_text(encoding="utf-8")
     for name in settings.names():
-        assert f"``{name}``" in text and f"`{name}`" in page, name
-        unit = settings.about(name).unit
-        assert not unit or f"``{name}`` [{unit}]" in text, name
+        assert f"\n{name} : " in text and f"`{name}`" in page, name
+        assert settings.about(name).help in text, name
     assert settings.names() == tuple(f.name for f in fields(symgen.Settings))
 
 
@@ -112,7 +107,19 @@ def test_generate_has_the_options_of_the_table():
 
 @pytest.mark.parametrize(("limit", "reason"), [("--max-violation", "max_violation"), ("--max-energy-error", "energy")])
 def test_limits_can_be_set_for_a_run(capsys, limit, reason):
-    words = ["run", "four-bar", "--method", "lagrange", "--step", "0.01", "--until", "1", "--json"]
+    words = [
+        "run",
+        "four-bar",
+        "--method",
+        "lagrange",
+        "--integrator",
+        "rk4",
+        "--step",
+        "0.01",
+        "--until",
+        "1",
+        "--json",
+    ]
     assert main(words) == 0
     assert main([*words, limit, "1e-13"]) == 1
     assert reason in capsys.readouterr().err
@@ -124,7 +131,8 @@ def test_limits_can_be_set_for_a_run(capsys, limit, reason):
 def test_limits_can_be_set_for_studies_and_sweeps(limit):
     found = symgen.compare("four-bar", "lagrange", "rk4", 1e-2, until=1.0, repeat=1, **{limit: 1e-13})
     assert found.rows[0].status == "failed" and ("max_violation" in found.rows[0].reason) == (limit == "max_violation")
-    many = symgen.sweep("four-bar", {"crank_mass": [1.0]}, method="lagrange", step=1e-2, until=1.0, **{limit: 1e-13})
+    constant = {"method": "lagrange", "integrator": "rk4", "step": 1e-2}
+    many = symgen.sweep("four-bar", {"crank_mass": [1.0]}, **constant, until=1.0, **{limit: 1e-13})
     assert many.counts["failed"] == 1
     with pytest.raises(InputError, match=f"{limit}: expected a finite number above 0"):
         symgen.compare("four-bar", "lagrange", "rk4", 1e-2, until=1.0, repeat=1, **{limit: -1.0})
@@ -139,7 +147,9 @@ def test_steps_are_bounded_by_every_command_that_runs(capsys):
         assert main([*words, "--until", "1", "--max-attempts", "5"]) == 1, words
         said = capsys.readouterr()
         assert "max_attempts" in said.out + said.err, words
-    assert main(["run", "four-bar", "--step", "0.01", "--until", "1", "--max-attempts", "5"]) == 2
+    assert (
+        main(["run", "four-bar", "--integrator", "rk4", "--step", "0.01", "--until", "1", "--max-attempts", "5"]) == 2
+    )
     assert "step: expected at most max_attempts = 5 steps, got 100" in capsys.readouterr().err
 
 
@@ -162,7 +172,7 @@ def test_adaptive_steps_are_no_longer_than_max_step(tmp_path):
     assert rows[0].evaluations >= 1200
     swinging = symgen.compare("pendulum", "lagrange", "dopri5", rtols=[1e-6], until=0.5, repeat=1, max_step=0.01)
     assert "Jacobi" in swinging.how  # a formula is what it was
-    assert free.simulate(method="lagrange", step=0.1, max_step=0.01).steps == 20
+    assert free.simulate(method="lagrange", integrator="rk4", step=0.1, max_step=0.01).steps == 20
     with pytest.raises(InputError, match="max_step: expected a finite number above 0"):
         free.simulate(max_step=0.0)
 

@@ -120,3 +120,22 @@ def test_keys_of_space_mean_nothing_in_the_plane(section, table, sentence):
     with pytest.raises(InputError, match=r"^thing.toml: \w+.it") as error:
         validate(raw, "thing.toml")
     assert sentence in str(error.value)
+
+
+def _with_inertia(inertia: object) -> dict:
+    return {"mechanism": {"name": "thing", "space": "spatial"}, "bodies": {"a": {"mass": 1.0, "inertia": inertia}}}
+
+
+def test_a_tensor_in_rows_is_symmetric_up_to_rounding():
+    rows = [[1.0, 0.1, 0.0], [0.1 * (1.0 + 2e-15), 2.0, 1e-17], [0.0, -1e-17, 1.5]]
+    tensor = validate(_with_inertia(rows), "thing.toml").bodies[0].inertia
+    assert [getattr(e, "value", e) for e in tensor] == [1.0, 2.0, 1.5, 0.1, 0.0, 1e-17]
+    rows[1][0] = 0.1 + 1e-9
+    with pytest.raises(InputError, match="expected a symmetric matrix, got different entries 21 and 12"):
+        validate(_with_inertia(rows), "thing.toml")
+
+
+def test_the_sentence_about_an_inertia_of_zero_shows_how_to_write_it():
+    with pytest.raises(InputError, match=r"\[0, 0, 0\] for no inertia.*got 0$"):
+        validate(_with_inertia(0), "thing.toml")
+    assert validate(_with_inertia([0, 0, 0]), "thing.toml").bodies[0].name == "a"

@@ -178,7 +178,7 @@ def test_force_of_the_graph_is_that_of_a_complex_step_of_the_energy(space, keys,
 
 @pytest.mark.parametrize(("space", "keys"), [("planar", PLANAR), ("spatial", SPATIAL)])
 def test_tangent_is_exact_and_symmetric_along_the_motion(space, keys):
-    """Second derivatives by the graph against central differences of its forces; K of positions in the plane is even."""
+    """Second derivatives by the graph against central differences of forces; in the plane K is symmetric."""
     q, v = pose(space, 7)
     e = formulate(mechanism_of(raw(space, **keys)))
     inputs = [("q", i) for i in range(len(q))]

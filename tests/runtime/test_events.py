@@ -11,7 +11,7 @@ from scipy.special import ellipkinc
 from support.emitted import mechanism_of
 
 import symgen
-from symgen.describe.builder import to_toml
+from symgen.describe.builder import MechanismBuilder, to_toml
 from symgen.describe.validate import validate
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
@@ -236,12 +236,12 @@ def test_rates_are_those_behind_a_closer_look_where_a_pivot_is_suspicious():
 
 @pytest.mark.parametrize("when", ["t > 0.1234", "sin(t) > sin(0.1234)", "not t < 0.1234", "t > 0.1 and t > 0.1234"])
 def test_a_run_stops_inside_a_constant_step(when):
-    result = spinning().simulate(step=1e-2, stop_when=when)
+    result = spinning().simulate(integrator="rk4", step=1e-2, stop_when=when)
     assert result.ok and abs(result.end - 0.1234) < 1e-15
     np.testing.assert_array_equal(result.t, [*(1e-2 * np.arange(13)), result.end])
-    whole = spinning().simulate(step=1e-2)
+    whole = spinning().simulate(integrator="rk4", step=1e-2)
     np.testing.assert_array_equal(result.q.values[:-1], whole.q.values[:13])  # as if nothing had been asked for
-    short = spinning().simulate(step=1e-2, until=result.end)
+    short = spinning().simulate(integrator="rk4", step=1e-2, until=result.end)
     np.testing.assert_allclose(result.q.values[-1], short.q.values[-1], rtol=1e-15)  # one digit of the step apart
 
 
@@ -335,7 +335,7 @@ def test_no_crossing_that_is_wider_than_a_step_is_missed(seed):
     moving = {**BALL, "bodies": {"ball": {"type": "point", "mass": 1.0, "velocity": [1.0, 0.0]}}}
     events = {f"g{k}": {"when": text} for k, text in enumerate(texts)}
     model = symgen.load(mechanism_of({**moving, "events": events}))
-    result = model.simulate(method="lagrange", step=h, until=until)
+    result = model.simulate(method="lagrange", integrator="rk4", step=h, until=until)
     expected = crossings(functions, until, 200_000)
     found = {k: times_of(result, f"g{k}") for k in range(6)}
     wide = 0
@@ -359,7 +359,7 @@ def test_an_excursion_inside_one_step_is_found():
     half = math.sqrt(2e-3 / G)
     for direction, expected in (("any", [1 - half, 1 + half]), ("rising", [1 - half]), ("falling", [1 + half])):
         events = {direction: event | {"direction": direction}}
-        result = model.simulate(method="lagrange", step=0.8, until=1.6, events=events)
+        result = model.simulate(method="lagrange", integrator="rk4", step=0.8, until=1.6, events=events)
         np.testing.assert_allclose(times_of(result, direction), expected, rtol=0.0, atol=1e-12)
 
 
@@ -527,13 +527,29 @@ def test_rows_that_are_rounding_take_no_impulse():
     assert not contradictory and not impulses[:2].any()
 
 
-def test_contradictory_velocities_are_refused_with_amounts():
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_contradictory_velocities_are_refused_with_the_nearest_that_joints_allow(coordinates):
+    """Those of a four-bar are on a line through 0: the foot of the perpendicular on it is nearest."""
     event = {"when": "t > 0.2", "reset": {"crank.omega": "2", "rocker.omega": "50"}}
     with pytest.raises(InputError) as caught:
-        four_bar(blow=event).simulate()
+        four_bar(blow=event).simulate(coordinates=coordinates)
     said = str(caught.value)
     assert said.startswith("event 'blow': reset: expected velocities that the joints and each other allow, got ")
     assert "crank.omega = 2, rocker.omega = 50 at t = 0.2 s; the nearest are crank.omega = " in said
+    before = four_bar().simulate(until=0.2)
+    line = np.array([before[name][-1] for name in ("crank.omega", "rocker.omega")])
+    nearest = line * (line @ [2.0, 50.0]) / (line @ line)
+    numbers = [float(word.split(" = ")[1]) for word in said.partition("nearest are ")[2].split(", ")]
+    np.testing.assert_allclose(numbers, nearest, rtol=1e-5)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_what_joints_hold_at_rest_has_no_other_velocity_nearby(coordinates):
+    built = MechanismBuilder("slide", gravity=(0.0, -9.81)).body("a", mass=1.0, inertia=0.1, velocity=[1.0, 0.0])
+    built = built.joint("guide", "translational", between=["ground", "a"], at=[[0.0, 0.0], "centre"], axis=[1.0, 0.0])
+    with pytest.raises(InputError, match=r"got a.omega = 0.3 at t = 0.2 s; the nearest are a.omega = 0$"):
+        event = {"when": "t > 0.2", "reset": {"a.omega": 0.3}}
+        symgen.load(built.build()).simulate(until=0.5, events={"hit": event}, coordinates=coordinates)
 
 
 # -- runs with events --------------------------------------------------------------------------------------------------
@@ -541,7 +557,7 @@ def test_contradictory_velocities_are_refused_with_amounts():
 
 def test_a_run_with_events_is_left_saved_and_gone_on_with():
     model = ball(**BOUNCE, top={"when": "ball.vy", "direction": "falling"})
-    run = prepare(model.mechanism, Settings(method="lagrange", step=1e-2, until=2.0))
+    run = prepare(model.mechanism, Settings(method="lagrange", integrator="rk4", step=1e-2, until=2.0))
     whole, first, second = (run.simulation() for _ in range(3))
     nothing = whole.outputs(np.zeros(0))
     whole.enter(nothing)
@@ -554,7 +570,7 @@ def test_a_run_with_events_is_left_saved_and_gone_on_with():
 
 
 def test_many_events_are_kept():
-    result = ball(often={"when": "sin(400*t)"}).simulate(method="lagrange", step=1e-3, until=5.0)
+    result = ball(often={"when": "sin(400*t)"}).simulate(method="lagrange", integrator="rk4", step=1e-3, until=5.0)
     found = times_of(result, "often")
     expected = np.arange(1, math.floor(2000 / math.pi) + 1) * math.pi / 400
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-14)

@@ -151,6 +151,35 @@ def test_files_of_runs_that_were_not_changed_and_others(tmp_path, capsys):
     assert "one way of saying where a run begins" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("mark", [b"OHDR", b"FRHP", b"BTLF"])
+def test_damaged_files_are_refused_in_one_sentence(tmp_path, capsys, mark):
+    """A bit of each sort of a NetCDF file's metadata is flipped; libraries raise errors of other types for each."""
+    first = symgen.load("pendulum").simulate(until=0.01, step=1e-3)
+    whole, damaged = first.save(tmp_path / "first.nc").read_bytes(), tmp_path / "damaged.nc"
+    place = whole.index(mark) + 10
+    damaged.write_bytes(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :])
+    for words in (["run", "pendulum", "--until", "0.02", "--from", str(damaged)], ["view", str(damaged)]):
+        assert main(words) == 2
+        lines = capsys.readouterr().err.splitlines()
+        assert len(lines) == 1 and "which cannot be read as one" in lines[0], lines
+
+
+@pytest.mark.parametrize(
+    ("damage", "told"),
+    [
+        (lambda text: text[:-40], "expected as many cells as in the heading, 22, got"),
+        (lambda text: text[:-1] + ",9\n", "expected as many cells as in the heading, 22, got 23 in row 12"),
+        (lambda text: text.replace("bob.y,", "bob.x,", 1), "expected a name of its own for each column, got 2 columns"),
+    ],
+)
+def test_damaged_tables_are_refused_in_one_sentence(tmp_path, capsys, damage, told):
+    file = symgen.load("pendulum").simulate(until=0.01, step=1e-3, output_step=1e-3).save(tmp_path / "first.csv")
+    file.write_text(damage(file.read_text()))
+    assert main(["run", "pendulum", "--until", "0.02", "--from", str(file)]) == 2
+    said = capsys.readouterr().err
+    assert told in said and said.count("\n") == 1, said
+
+
 @pytest.mark.parametrize(
     ("change", "told"),
     [

@@ -349,7 +349,10 @@ def test_more_jumps_than_are_looked_for_are_told(model, monkeypatch):
     ("text", "word", "message"),
     [
         ("t,u\n0,1\n1,x\n", "u", "data.csv: expected a number in every row, got 'x' in row 3"),
-        ("t,u\n0,1\n1\n", "u", "data.csv: expected a number in every row, got '' in row 3"),
+        ("t,u\n0,1\n1,\n", "u", "data.csv: expected a number in every row, got '' in row 3"),
+        ("t,u\n0,1\n1\n", "u", "data.csv: expected as many cells as in the heading, 2, got 1 in row 3"),
+        ("t,u\n0,1,9\n1,2\n", "u", "data.csv: expected as many cells as in the heading, 2, got 3 in row 2"),
+        ("t,u,u\n0,1,2\n1,2,3\n", "u", "data.csv: expected a name of its own for each column, got 2 columns 'u'"),
         ("t,force\n0,1\n1,2\n", "forc", "data.csv: expected a column of the file, got 'forc'; did you mean 'force'?"),
         ("t,u\n0,1\n1,2\n", "t", "data.csv: expected a column beside that of the times, got 't'"),
         ("", "u", "data.csv: expected a column of the file, got 'u'"),

@@ -196,7 +196,7 @@ class IndependentEquations:
     # -- from formulas to numbers --------------------------------------------------------------------------------------
 
     def _parameter_symbols(self) -> dict[str, Any]:
-        """Return what stands for each parameter in the formulas: its value."""
+        """Return the value of each parameter in the formulas."""
         return {name: sp.Float(x) for name, x in self.parameters.items()}
 
     def _compile(self, formulas: ReferenceFormulas, outputs: list[Any]) -> Callable[..., Any]:

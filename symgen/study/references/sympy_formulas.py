@@ -124,7 +124,9 @@ class ReferenceFormulas:
 
     def _reading(self, r: Reading) -> Any:
         """Return a measure's value, or its rate."""
-        assert not isinstance(r.source, Speed | Exerted | Driven | Integral | Flexed), "functions of state read measures"
+        assert not isinstance(r.source, Speed | Exerted | Driven | Integral | Flexed), (
+            "functions of state read measures"
+        )
         value = self._measure(r.source)
         return self._along(value) if r.order else value
 

@@ -165,7 +165,7 @@ def _is_adaptive(integrator: str, options: Mapping[str, str | float]) -> bool:
     """Whether a run chooses its own first step."""
     if integrator == AUTO:
         return True
-    return adapts(INTEGRATORS.get(integrator, "--integrator"), options)
+    return adapts(INTEGRATORS.get(integrator, "integrator"), options)
 
 
 def _shaped(mechanism: Mechanism, settings: Settings) -> Settings:
@@ -182,7 +182,7 @@ def _shaped(mechanism: Mechanism, settings: Settings) -> Settings:
 
 
 def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, motion: Fields) -> Run:
-    """Return what classification asks for."""
+    """Return the facts that classification uses."""
     values = parameter_values(level.mechanism, parameters)
     points = Points.of(level.mechanism, values)
     nq, count = outcome.compiled.info.nq, len(outcome.times)

@@ -23,7 +23,7 @@ OPEN = 1e-4
 
 
 def findings(study: Stress) -> tuple[str, ...]:
-    """Return what a study found: counts, the toughest methods, each family, gains and penalties, steps, and trust."""
+    """Return a study's findings: counts, the toughest methods, each family, gains and penalties, steps, and trust."""
     shown = Map.of(study)
     pairs = [(_line(line), entry.good, entry.judged) for line in shown.lines for entry in [shown.entry(line)]]
     return (
