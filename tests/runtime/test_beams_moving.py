@@ -7,7 +7,7 @@ from support.beams import cantilever
 import symgen
 from symgen.describe.builder import MechanismBuilder
 
-ALPHA = {"method": "generalized-alpha", "integrator": "generalized-alpha"}
+ALPHA = {"method": "generalized-alpha", "integrator": "generalized-alpha", "shape": "looped"}
 ADAPTIVE = {**ALPHA, "options": {"integrator.adaptive": "true"}}
 #: Tip of the pendulum at some times, to 1e-6.
 PENDULUM = {0.25: (0.910216, -0.363034), 0.5: (-0.105566, -0.994868), 1.0: (-0.992238, 0.043055)}
@@ -48,19 +48,17 @@ def furthest(run, columns, expected):
     )
 
 
-def test_pendulum_of_a_beam_by_three_integrators():
+def test_pendulum_of_a_beam_with_constant_and_adaptive_steps():
     model = pendulum(16)
     tip = "rod.end.x", "rod.end.y"
     runs = {
         "constant": (model.simulate(until=1.0, step=1e-3, output_step=0.25, **ALPHA), 1e-4),
         "adaptive": (model.simulate(until=1.0, rtol=1e-4, atol=1e-6, output_step=0.25, **ADAPTIVE), 1e-4),
-        "explicit": (model.simulate(until=1.0, integrator="dop853", rtol=1e-7, output_step=0.25), 1e-4),
     }
     for name, (run, bound) in runs.items():
         assert run.status == "ok", name
         # the discretisation is off by 6e-5: a pin that is let go sends waves of all lengths
         assert furthest(run, [run.q[c] for c in tip], PENDULUM) <= bound, name
-    assert runs["explicit"][0].energy_drift_max <= 1e-5
     assert runs["adaptive"][0].rejected < runs["adaptive"][0].steps
 
 
@@ -99,8 +97,10 @@ def spaghetti(elements):
 
 
 def test_free_beam_flies_as_its_centre_of_mass_does():
-    model = spaghetti(24)
-    run = model.simulate(until=10.0, method="lagrange", integrator="dop853", rtol=1e-10, atol=1e-12, output_step=0.5)
+    model = spaghetti(64)
+    run = model.simulate(
+        until=10.0, shape="looped", method="lagrange", integrator="dop853", rtol=1e-10, atol=1e-12, output_step=0.5
+    )
     assert run.status == "ok"
     names = [body.name for body in model.mechanism.bodies]
     masses = np.array([body.mass.value for body in model.mechanism.bodies])
