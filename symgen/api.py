@@ -298,6 +298,12 @@ class Model(Analysed, Shown):
         if is_verified(run, outcome.run_seconds):
             free = bool(run.plan.notes) and settings.rtol is None and settings.atol is None
             run, outcome, verification = verified(run, outcome, free)
+            if settings.verify and run.plan.mechanism.beams:
+                from symgen.reruns.discretisation import discretisation
+
+                words = discretisation(run, outcome, settings)
+                note = "; ".join(x for x in (verification.note, words) if x)
+                verification = replace(verification, note=note or None)
         # assembly calls emitted functions too: compiling them belongs to the run
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
         return build_result(run, outcome, runs.spread, verification)

@@ -180,7 +180,7 @@ def _shares(
     e = subject.evaluated(y, a, lam, x.t)
     dr, mass = np.linalg.pinv(e.by("motion", "v")) @ dq, e.by("balance", "a")
     kinetic, momentum = dict[str, Array](), mass @ dv
-    owners = np.array([v.name.partition(".")[0] for v in subject.compiled.info.velocities])
+    owners = np.array([v.name.rpartition(".")[0] for v in subject.compiled.info.velocities])
     for body in dict.fromkeys(owners.tolist()):
         kinetic[body] = _work(dv[owners == body], momentum[owners == body])
     energy = np.maximum(sum(kinetic.values(), np.zeros(dq.shape[1])), 1e-300)

@@ -11,6 +11,7 @@ which is Newton's method where s = 0. Far from rest s is so large that a step st
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -24,6 +25,7 @@ from symgen.errors import AnalysisError
 
 if TYPE_CHECKING:
     from symgen.analyses.large import Sparse
+    from symgen.describe.mechanism import Mechanism
 
 Array = NDArray[np.float64]
 
@@ -43,6 +45,12 @@ SINGULAR, ASTRAY = 1e6, 0.01
 FASTER, SLOWER = 4.0, 0.3
 #: Most iterations of Newton's method for states of the file at rest.
 MOST_ITERATIONS = 50
+#: Parts of what is not balanced at first that the first load step takes away, and the last one that is tried; Newton's
+#: steps in one.
+FIRST_LOAD, LEAST_LOAD, CORRECTIONS = 0.25, 1e-3, 20
+#: Newton's step that ends a load step, and the last one; below the third, steps that grow no shorter are rounding
+#: [lengths of the mechanism, rad].
+FOLLOWED, RESTING, ROUNDED = 1e-3, 1e-13, 1e-7
 
 
 #: A static problem over changes in lengths of the mechanism and radians: forces are work. So it is the same one in
@@ -64,6 +72,11 @@ class DenseStatics:
 
     subject: Subject
     held: Sequence[tuple[str, float]] = ()
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism."""
+        return self.subject.mechanism
 
     @property
     def lengths(self) -> Array:
@@ -208,12 +221,17 @@ def search(statics: S, y: Array) -> tuple[S, Array, Array, int]:
     """Return a static problem at an equilibrium, the state there, its multipliers, and the steps taken.
 
     Where forces have no potential, as those of a controller, downhill may lead nowhere: Newton's method alone follows.
+    Beams come to rest by load steps, if these lead somewhere: their stiffness along them is so large beside that of
+    bending that steps downhill are short.
 
     Raises
     ------
     AnalysisError
         If none is found.
     """
+    if any(force.flexures for force in statics.mechanism.forces):
+        with suppress(AnalysisError):
+            return _loaded(statics, y)
     try:
         return _search(statics, y, NEAR)
     except AnalysisError as error:
@@ -263,6 +281,43 @@ def _search(statics: S, y: Array, near: float) -> tuple[S, Array, Array, int]:
         f"no equilibrium was found from this start: after {MOST_STEPS} steps {error:.3g} of the forces is not "
         "balanced; another start may lead to one"
     )
+
+
+def _loaded(statics: S, y: Array) -> tuple[S, Array, Array, int]:
+    """Return the same by load steps: what is not balanced at first is taken away part by part, by Newton's method."""
+    statics, y, steps = _closed(statics, y)
+    force, gaps = statics.forces(y, statics.whole(None))
+    _, rows, stiffness = statics.derivatives(y, statics.whole(None))
+    solve = solver(level(stiffness), rows)
+    if solve is None:
+        raise AnalysisError("the rows cannot be told apart: some depend on others near the start")
+    work = solve(-force, np.zeros(len(gaps)))[1]
+    first, reached, part = force + rows.T @ work, 0.0, FIRST_LOAD
+    while part > LEAST_LOAD and steps < MOST_STEPS:
+        share = min(1.0, reached + part)
+        now, state, before, within = statics, (y, work), np.inf, False
+        for _ in range(CORRECTIONS):
+            steps += 1
+            force, gaps = now.forces(state[0], now.whole(state[1]))
+            motion, rows, stiffness = now.derivatives(state[0], now.whole(state[1]))
+            solve = solver(stiffness, rows)
+            change, more = (np.full(1, np.inf), work) if solve is None else solve((1.0 - share) * first - force, -gaps)
+            long = _length(now, motion, change) if np.all(np.isfinite(change)) else np.inf
+            if not long <= REACH:
+                break
+            state = now.moved(state[0], motion @ change), state[1] + more
+            now = now.wound(state[0])
+            within = long < (FOLLOWED if share < 1.0 else RESTING) or 0.5 * before <= long < ROUNDED
+            if within:
+                break
+            before = long
+        if not within:
+            part *= 0.25
+            continue
+        reached, part, statics, (y, work) = share, 2.0 * part, now, state
+        if reached == 1.0:
+            return statics, y, statics.whole(work), steps
+    raise AnalysisError("no equilibrium was found from this start by load steps")
 
 
 def _closed(statics: S, y: Array) -> tuple[S, Array, int]:

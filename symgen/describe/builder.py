@@ -73,6 +73,10 @@ class MechanismBuilder:
         """Add a body: ``mass``, ``inertia``, ``points``, ``position``, ``angle``, ... as in a file."""
         return self._add("bodies", name, {**keys})
 
+    def beam(self, name: str, **keys: Any) -> Self:
+        """Add a beam: ``start``, ``end``, ``elements``, ``section``, ``material``, ... as in a file."""
+        return self._add("beams", name, keys)
+
     def joint(self, name: str, type: str, **keys: Any) -> Self:
         """Add a joint of a type, with that type's keys."""
         return self._add("joints", name, {"type": type} | keys)

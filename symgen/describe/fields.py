@@ -61,6 +61,10 @@ AxisPair = Annotated[
     tuple[float | str | _Components, ...],
     Meta(description="a direction [x, y], in space [x, y, z] or two such, one in the frame of each body"),
 ]
+Across = Annotated[
+    float | str | tuple[float | str, ...],
+    Meta(description="a number or an expression of parameters, in space also a list, one for each axis of the section"),
+]
 DirectionPair = Annotated[
     tuple[_Components, _Components], Meta(description="two directions, one in the frame of each body")
 ]

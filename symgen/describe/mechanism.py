@@ -11,7 +11,7 @@ from symgen.arguments import shown
 from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import ZERO, Expr
-from symgen.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Row
+from symgen.vocabulary.measures import GROUND, Direction, Effort, Flexure, Marker, Measure, Row
 from symgen.vocabulary.rotations import IDENTITY, Orientation
 
 T = TypeVar("T")
@@ -266,13 +266,14 @@ class Rotor(msgspec.Struct, frozen=True):
     inertia: Expr
 
 
-class Force(msgspec.Struct, frozen=True):
-    """A force element of any kind, resolved to efforts along measures."""
+class Force(msgspec.Struct, frozen=True, omit_defaults=True, repr_omit_defaults=True):
+    """A force element of any kind, resolved to efforts along measures and to beam elements."""
 
     name: str
     kind: str
     bodies: tuple[str, ...]
     efforts: tuple[Effort, ...]
+    flexures: tuple[Flexure, ...] = ()  # texts of what has none stay what they were
 
 
 class StateVariable(msgspec.Struct, frozen=True):
@@ -368,6 +369,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     input_formulas: tuple[tuple[str, Expr], ...] = ()  # input -> the formula that a run has put in its place
     states: tuple[StateVariable, ...] = ()
     rotors: tuple[Rotor, ...] = ()
+    beams: bytes = b""  # the description as JSON where it has beams, so that these can have other elements
 
     def __repr__(self) -> str:
         counted = (

@@ -11,6 +11,8 @@
 | ``motor.angle.rate``, ``motor.rate`` | its rate; the short form where there is one coordinate | everywhere |
 | ``motor.effort``, ``motor.power`` | what a driver exerts along its coordinate | outputs |
 | ``spring.length``, ``.angle``, ``.rate`` | of a force along one measure | outputs, events |
+| ``rod.e3.strain``, ``.shear``, ``.curvature`` | of a beam element in its middle | outputs, events |
+| ``rod.e3.N``, ``.Q``, ``.M`` | force and moment of the section there | outputs, events |
 | ``spring.force``, ``.torque``, ``.Fx`` ..., ``.power`` | what a force exerts | outputs |
 
 `symgen.describe.readings` makes columns of results from the same table.
@@ -34,6 +36,8 @@ from symgen.vocabulary.measures import (
     Driven,
     Effort,
     Exerted,
+    Flexed,
+    Flexure,
     FormulaMeasure,
     HalfSquare,
     Holonomic,
@@ -56,6 +60,12 @@ STATE, OUTPUT = 1, 2
 
 #: Axes of a body's frame in space.
 AXES = ("ex", "ey", "ez")
+#: Components of the strain of a beam element, and of force and moment, in the plane and in space.
+PLANE = ("strain", "shear", "curvature"), ("N", "Q", "M")
+SPACE = (
+    ("strain", "shear_y", "shear_z", "twist", "curvature_y", "curvature_z"),
+    ("N", "Qy", "Qz", "T", "My", "Mz"),
+)
 
 #: Names behind an owner's -> what is read, and its unit.
 Table = dict[str, tuple[Reading, str]]
@@ -109,7 +119,9 @@ def of_force(force: Force, order: int) -> Table:
         unit = "m" if word == "length" else "rad"
         table[word] = Reading(f"{name}.{word}", single.measure), unit
         table["rate"] = Reading(f"{name}.rate", single.measure, 1), f"{unit}/s"
-    if order == OUTPUT and efforts:
+    for flexure in force.flexures:
+        table |= _of_flexure(name, flexure)
+    if order == OUTPUT and (efforts or force.flexures):
         components: dict[str, list[Effort]] = {}
         for effort in efforts:
             for component in _components(effort, word):
@@ -117,7 +129,19 @@ def of_force(force: Force, order: int) -> Table:
         for component, parts in components.items():
             unit = "N m" if is_turning(parts[0].measure) else "N"
             table[component] = Reading(f"{name}.{component}", Exerted(tuple(parts))), unit
-        table["power"] = Reading(f"{name}.power", Exerted(efforts, power=True)), "W"
+        table["power"] = Reading(f"{name}.power", Exerted(efforts, True, force.flexures)), "W"
+    return table
+
+
+def _of_flexure(name: str, flexure: Flexure) -> Table:
+    """Return the strain in the middle of a beam element, and the force and moment of the section there."""
+    strains, stresses = PLANE if len(flexure.compliances) == 3 else SPACE
+    bends = len(strains) // 2
+    table = Table()
+    for stress, labels, units in ((False, strains, ("", "1/m")), (True, stresses, ("N", "N m"))):
+        for i, label in enumerate(labels):
+            unit = units[i > bends] if len(labels) == 3 else units[i >= bends]
+            table[label] = Reading(f"{name}.{label}", Flexed(flexure, i, stress)), unit
     return table
 
 
@@ -183,6 +207,10 @@ class Readings:
         yield from self._context.bodies
         yield from self._context.joint_names
         yield from self._context.forces
+
+    def has(self, name: str) -> bool:
+        """Return whether a force is called so."""
+        return name in self._context.forces
 
     def names_of(self, owner: str, where: str) -> tuple[str, ...]:
         """Return the readings of a body, joint or force beside a body's own coordinates."""

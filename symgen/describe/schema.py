@@ -8,6 +8,7 @@ from typing import Any
 
 import msgspec
 
+from symgen.describe.beam_sections import BeamSection
 from symgen.describe.events import EventSection
 from symgen.describe.fields import OF_ANY_JOINT
 from symgen.describe.kinds import FORCES, JOINTS
@@ -35,7 +36,7 @@ def schema() -> dict[str, Any]:
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "symgen mechanism",
         "type": "object",
-        "required": ["mechanism", "bodies"],
+        "required": ["mechanism"],
         "additionalProperties": False,
         "properties": {
             "mechanism": _table(MechanismSection),
@@ -45,6 +46,7 @@ def schema() -> dict[str, Any]:
             "states": _named(_table(StateSection)),
             "tables": _named(_table(TableSection)),
             "bodies": _named({"anyOf": [_table(BodySection), _table(SpatialBodySection)]}) | {"minProperties": 1},
+            "beams": _named(_table(BeamSection)),
             "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases, **OF_ANY_JOINT)}),
             "outputs": _named({"anyOf": [{"type": ["number", "string"]}, _table(OutputSection)]}),
             "forces": _named({"oneOf": _kinds(FORCES.items(), FORCES.aliases)}),

@@ -306,6 +306,7 @@ NAMED = {
     "inputs": "input",
     "tables": "table",
     "bodies": "body",
+    "beams": "beam",
     "joints": "joint",
     "forces": "force",
     "states": "state",

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -15,7 +15,18 @@ from symgen.describe.events import read_event
 from symgen.describe.fields import OF_ANY_JOINT, Flag, JointStart, OutputFunction, Scalar, read, read_value, words_of
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.kinds import FORCES, JOINTS
-from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter, Rotor, StateVariable
+from symgen.describe.mechanism import (
+    AnyBody,
+    Defaults,
+    Force,
+    Hold,
+    Joint,
+    Mechanism,
+    Output,
+    Parameter,
+    Rotor,
+    StateVariable,
+)
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.scope import Context, Scope
@@ -35,6 +46,9 @@ from symgen.describe.topology import articulation_of
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import ONE, call, names
 from symgen.vocabulary.measures import Marker
+
+if TYPE_CHECKING:
+    from symgen.describe.beams import Beams
 
 Raw = Mapping[str, Any]
 #: Levels of tables in a file, and joints in a chain of references.
@@ -68,6 +82,7 @@ class _Validator:
         self._cuts: list[str] = []
         self._rotors: dict[str, Rotor] = {}
         self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
+        self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams
 
     def where(self, path: str) -> str:
         return f"{self.source}: {path}"
@@ -99,11 +114,14 @@ class _Validator:
             state_names=tuple(name for name, _ in self.entries("states")),
         )
         scope = Scope(self.context, "mechanism")
-        gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
         read_body = spatial_body if head.space == "spatial" else planar_body
+        written = self.raw
+        beams = self.beams(read_body)
+        gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
         bodies = tuple(read_body(self.scope("bodies", name), value) for name, value in self.entries("bodies"))
         if not bodies:
             raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
+        bodies = bodies if beams is None else tuple(map(beams.clamped, bodies))
         self.context = msgspec.structs.replace(self.context, bodies={body.name: body for body in bodies})
         joints = tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints"))
         forces = tuple(self.force(name, value) for name, value in self.entries("forces"))
@@ -129,6 +147,7 @@ class _Validator:
             cuts=tuple(self._cuts),
             holds=tuple(holds),
             shapes=tuple((body.name, shape) for scope, raw, body in described for shape in shapes_of(scope, raw)),
+            beams=b"" if beams is None else msgspec.json.encode(written),
             events=tuple(read_event(self.scope("events", n), n, event) for n, event in self.entries("events")),
         )
         check_columns(mechanism, self.source)
@@ -143,12 +162,14 @@ class _Validator:
         if not isinstance(content, Mapping):
             raise InputError(self.where(section), f"a table of {section}, one entry a name", words_of(content))
         for name, value in content.items():
-            yield check_identifier(name, self.where(section), NAMED[section]), value
+            if name not in self._parts:
+                check_identifier(name, self.where(section), NAMED[section])
+            yield name, value
 
     def unique(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
         for group in (
-            ("bodies", "joints", "forces"),
+            ("bodies", "beams", "joints", "forces"),
             ("parameters", "inputs", "states", "tables"),
             ("states", "outputs"),
         ):
@@ -159,6 +180,18 @@ class _Validator:
                         got = f"'{name}', which is a {NAMED[sections[name]]} already"
                         raise InputError(self.where(f"{section}.{name}"), "a name used once", got)
                     sections[name] = section
+
+    def beams(self, read_body: Callable[[Scope, object], AnyBody]) -> Beams | None:
+        """Put the nodes and elements of beams into the description; return the beams, None where there are none."""
+        if not any(self.entries("beams")):
+            return None
+        from symgen.describe.beams import Beams
+
+        for section in ("bodies", "joints", "forces"):
+            any(self.entries(section))
+        beams = Beams(self.raw, self.scope, read_body)
+        self.raw, self._parts = beams.expanded(), frozenset((*beams.bodies, *beams.forces))
+        return beams
 
     # Sections ------------------------------------------------------------------------------------------------------
 

@@ -152,6 +152,8 @@ def _body_item(pen: Pen, body: AnyBody, points: list[Point], guided: set[str]) -
     i = numbers.index[body.name]
     colour = COLOURS[i % len(COLOURS)]
     centre = BodyPoint(i, (0.0, 0.0, 0.0))
+    if "." in body.name:  # a node of a beam, whose elements draw it
+        return Item("body", body.name, "node", (pen.dot(centre, 0.18, RIGID),), label=(i, (0.0, 0.0, 0.0)))
     shapes = [shape for name, shape in numbers.mechanism.shapes if name == body.name]
     marks: list[Mark]
     if body.is_point and not shapes:

@@ -168,7 +168,7 @@ def targets_of(names: Names, varied: Sequence[str], holds: Sequence[Hold], info:
 
 def _columns(name: str, info: ModelInfo) -> tuple[int, ...]:
     """Return the velocities that change a coordinate, or the orientation of a body in space."""
-    body, _, what = name.partition(".")
+    body, _, what = name.rpartition(".")
     if what == ORIENTATION:
         at = next(at for first, at in info.spins if info.coordinates[first].name == f"{body}.e0")
         return at, at + 1, at + 2

@@ -13,7 +13,8 @@ from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import UNITS, quantities
 from symgen.errors import finite_numbers
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, mass_blocks
-from symgen.formulate.measures import ModelNodes, exertion
+from symgen.formulate.flexure import exertions
+from symgen.formulate.measures import ModelNodes
 from symgen.formulate.of_time import time_function
 from symgen.formulate.tree import energies_on_tree
 from symgen.ir.program import of_table
@@ -159,11 +160,10 @@ def _forces(model: ModelNodes) -> tuple[list[int], int, int]:
     forces, power, potential = [g.zero] * len(model.velocities), g.zero, g.zero
     for force in model.mechanism.forces:
         with finite_numbers(f"forces.{force.name}"):
-            for effort in force.efforts:
-                exerted = exertion(model, effort)
+            for exerted in exertions(model, force):
                 for i, entry in sorted(exerted.row.items()):
                     forces[i] = g.add(forces[i], g.mul(entry, exerted.total))
-                power = g.add(power, g.mul(exerted.magnitude, exerted.rate))
+                power = g.add(power, exerted.power)
                 potential = g.add(potential, exerted.energy)
     return forces, power, potential
 

@@ -28,6 +28,7 @@ from symgen.vocabulary.measures import (
     Driven,
     Effort,
     Exerted,
+    Flexed,
     FormulaMeasure,
     FormulaSpeed,
     Integral,
@@ -138,6 +139,10 @@ class ModelNodes(Formulas):
 
     def reading(self, r: Reading) -> int:
         """Return the node of a measure's value, rate, or second derivative, which needs v'."""
+        if isinstance(r.source, Flexed):
+            from symgen.formulate.flexure import flexed
+
+            return flexed(self, r.source)
         assert not isinstance(r.source, Exerted | Driven | Integral), "what is exerted is read at outputs only"
         derived, g = self.motion(r.source), self.graph
         if r.order == 0:
@@ -292,7 +297,7 @@ class ModelNodes(Formulas):
     def _leaf(self, leaf: Name | Reading) -> DerivedMeasure:
         """Return what moves in a formula: a coordinate of a body, whose row is that of its velocity, or a measure."""
         if isinstance(leaf, Reading):
-            assert not isinstance(leaf.source, Exerted | Driven | Integral), "rows read measures"
+            assert not isinstance(leaf.source, Exerted | Driven | Integral | Flexed), "rows read measures"
             return self.motion(leaf.source)
         body, _, label = leaf.name.partition(".")
         known = self.mechanism.body(body)
@@ -369,8 +374,8 @@ class Exertion:
         s'.
     total : int
         -dU/ds + F.
-    magnitude : int
-        F, the part without potential.
+    power : int
+        F s', the power of the part without potential.
     energy : int
         U.
     """
@@ -378,7 +383,7 @@ class Exertion:
     row: Mapping[int, int]
     rate: int
     total: int
-    magnitude: int
+    power: int
     energy: int
 
 
@@ -391,4 +396,5 @@ def exertion(model: ModelNodes, effort: Effort) -> Exertion:
         (zero, zero) if effort.potential == ZERO else potential_of(model, effort.potential, measure.value)
     )
     magnitude = model.expression(effort.magnitude, s=measure.value, rate=rate)
-    return Exertion(measure.row, rate, model.graph.add(conservative, magnitude), magnitude, energy)
+    total, power = model.graph.add(conservative, magnitude), model.graph.mul(magnitude, rate)
+    return Exertion(measure.row, rate, total, power, energy)

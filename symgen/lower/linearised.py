@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 from symgen.describe.evaluate import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.formulate.equations import Equations
+from symgen.formulate.flexure import exertions
 from symgen.formulate.formulate import formulate
-from symgen.formulate.measures import exertion
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Target
@@ -132,7 +132,7 @@ def can_decay(mechanism: Mechanism, beside: Beside) -> bool:
         return True
     model = SideModel(mechanism, beside=beside)
     for force in mechanism.forces:
-        totals = [exertion(model, effort).total for effort in force.efforts]
+        totals = [exerted.total for exerted in exertions(model, force)]
         if any(space == "v" for space, _ in model.graph.keys(totals)):
             return True
     return False
@@ -175,8 +175,7 @@ def _elements(model: SideModel) -> tuple[tuple[tuple[str, int], ...], list[int]]
         return (), []
     g, entries = model.graph, dict[tuple[str, int], int]()
     for force in model.mechanism.forces:
-        for effort in force.efforts:
-            exerted = exertion(model, effort)
+        for exerted in exertions(model, force):
             for i, entry in sorted(exerted.row.items()):
                 key = force.name, i
                 entries[key] = g.sub(entries.get(key, g.zero), g.mul(entry, exerted.total))

@@ -13,7 +13,8 @@ from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import ACCELERATIONS, Mechanism
 from symgen.describe.readings import integrals
 from symgen.describe.topology import quantities
-from symgen.formulate.measures import ModelNodes, exertion
+from symgen.formulate.flexure import exertions
+from symgen.formulate.measures import ModelNodes
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.interpolation import Interpolation
@@ -71,7 +72,7 @@ class SideModel(ModelNodes):
         """Return the node of what is read: a measure, or what is exerted along measures."""
         g, source = self.graph, r.source
         if isinstance(source, Exerted):
-            exerted = [exertion(self, effort) for effort in source.efforts]
+            exerted = exertions(self, source)
             return g.total(g.mul(e.total, e.rate) if source.power else e.total for e in exerted)
         if isinstance(source, Integral):
             own = len(self.mechanism.states)

@@ -229,7 +229,7 @@ def facts_of(whole: Mechanism, settings: Settings, with_method: bool) -> dict[st
 
 def _topology(topology: Topology, mechanism: Mechanism) -> dict[str, list[str]]:
     """Return which joints carry bodies, which close loops, and which bodies are rigid with what carries them."""
-    moving = {name.partition(".")[0] for name, _ in state_names(mechanism, topology)[1]}
+    moving = {name.rpartition(".")[0] for name, _ in state_names(mechanism, topology)[1]}
     return {
         "tree": [link.joint for link in topology.links if link.joint],
         "cut": list(topology.cut),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
+from symgen.describe.columns import FORMS
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, quoted
 from symgen.files import check_name, check_rows, need, unheaded
@@ -198,6 +200,7 @@ def read_recorded(option: str, path: Path) -> Recorded:
     return _read(option, path, lambda motion: motion)
 
 
+_OF_BODY = re.compile(r"(\w+)(\.(?:start|end|[0-9]+))?\.(\w+)")
 _PLACES = ("x", "y", "z", "theta", "e0", "e1", "e2", "e3")
 
 
@@ -226,7 +229,14 @@ def read_last_state(option: str, path: Path) -> LastState:
 
 def _of_columns(saved: Recorded) -> LastState:
     def row(labels: Iterable[str]) -> dict[str, float]:
-        own = (name for name in saved.columns if name.count(".") == 1 and name.partition(".")[2] in labels)
+        # bodies have names without a dot, nodes of beams with one, before which no head of a table stands
+        heads = {form.partition(".")[0] for form in FORMS.values()}
+        own = (
+            name
+            for name in saved.columns
+            if (m := _OF_BODY.fullmatch(name)) and m[3] in labels and not (m[2] and m[1] in heads)
+            if not (m[2] and f"{m[1]}.{m[3]}" in saved.columns)
+        )
         return {name: float(saved.columns[name][-1]) for name in own}
 
     work = 0.0 if saved.mechanism else float(saved.columns["energy.work"][-1])

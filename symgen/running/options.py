@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from symgen.arguments import shown
 from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.errors import InputError, nearest
+from symgen.runtime.integrator import estimates
 
 if TYPE_CHECKING:
     from symgen.runtime.integrator import Integrator
@@ -58,9 +59,9 @@ def _integrator_option(key: str, name: str, value: str | float, integrator: Inte
         if not q.minimum <= number <= q.maximum:
             raise InputError(f"option {key}", f"from {q.minimum:g} to {q.maximum:g}", f"{value}")
         return repr(number)
-    if integrator.adaptive and name == "adaptive" and str(value).lower() in ("true", "false"):
+    if estimates(integrator) and name == "adaptive" and str(value).lower() in ("true", "false"):
         return str(value).lower()
-    names = [*numeric, *(("adaptive=true", "adaptive=false") if integrator.adaptive else ())]
+    names = [*numeric, *(("adaptive=true", "adaptive=false") if estimates(integrator) else ())]
     raise InputError(
         f"option {key}",
         f"an option of {integrator.name}",

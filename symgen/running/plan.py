@@ -23,10 +23,11 @@ from symgen.methods import METHODS
 from symgen.running.automatic import usual_integrator
 from symgen.running.options import split_options
 from symgen.running.outputs import output_times
+from symgen.runtime.integrator import adapts
 from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.run import MAX_ATTEMPTS, RunSpec
 from symgen.runtime.stops import Stop, foreseen, merged
-from symgen.settings import Settings, told_constant
+from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Event, Hold, Mechanism
@@ -187,7 +188,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     choice, method_parameters, integrator_options = split_options(s, integrator)
     zero: complex | None = getattr(integrator, "zero", None)
     method_parameters = method.placed(choice.options, zero, integrator.name) | method_parameters
-    adaptive = integrator.adaptive and not told_constant(s.options, integrator.name)
+    adaptive = adapts(integrator, s.options)
     step = s.step
     if step is None:  # the first one may be longer than the run, whose end cuts it
         step = own_run.first_step if adaptive else own_run.step
@@ -204,13 +205,14 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     longest, why = longest_step(mechanism, until - begin, events, inputs.driven.jumps if inputs.driven else ())
     times = foreseen(mechanism, events)
     values = parameter_values(mechanism, s.parameters) if times else {}
+    rtol = getattr(integrator, "rtol", RTOL)  # schemes of low order have larger ones by default
     spec = RunSpec(
         until=until,
         step=step,
         adaptive=adaptive,
         times=output_times(s, mechanism, (begin, until), step, adaptive),
-        rtol=RTOL if s.rtol is None else s.rtol,
-        atol=ATOL if s.atol is None else s.atol,
+        rtol=rtol if s.rtol is None else s.rtol,
+        atol=ATOL / RTOL * rtol if s.atol is None else s.atol,
         relative=s.atol is None,
         largest_step=min(own or np.inf, longest),
         max_violation=s.max_violation,

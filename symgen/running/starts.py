@@ -117,7 +117,7 @@ def held_of(info: ModelInfo, holds: Sequence[Hold], numbers: Scalars, v: Sequenc
     coordinates = {quantity.name: i for i, quantity in enumerate(info.coordinates)}
     velocities = {quantity.name: j for j, quantity in enumerate(info.velocities)}
     joints = {quantity.name: k for k, quantity in enumerate(info.joint_coordinates)}
-    spins = {f"{info.coordinates[first].name.partition('.')[0]}.{ORIENTATION}": at for first, at in info.spins}
+    spins = {f"{info.coordinates[first].name.rpartition('.')[0]}.{ORIENTATION}": at for first, at in info.spins}
     values, speeds, places, rates = dict[int, float](), dict[int, float](), dict[int, float](), dict[int, float]()
     fixed = list[int]()
     for hold in holds:

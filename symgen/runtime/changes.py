@@ -174,7 +174,7 @@ class Changes:
         mass = compiled.section(w, "mass")
         for j in np.flatnonzero(~(mass > 0.0)):
             if j not in info.massless:
-                body = info.velocities[j].name.partition(".")[0]
+                body = info.velocities[j].name.rpartition(".")[0]
                 raise InputError("set", f"a mass and an inertia of {body} above 0", f"{mass[j]:g}")
         if not (math.isfinite(w[abi.PHI]) and np.isfinite(state.p).all()):
             raise InputError("set", "parameters for which the equations are defined", "numbers that are not finite")

@@ -42,8 +42,9 @@ from symgen.runtime.watch import approach, begin, keep_maxima, meets, remember_r
 TRY, LOW = range(2)
 
 # -- what a loop decides by itself; schemes may give other numbers -----------------------------------------------------
-#: Whether steps follow the error estimate.
-ADAPTIVE = False
+#: Whether steps follow the error estimate; whether that is rough, so that the first steps are off by a large part of an
+#: energy that is only building up.
+ADAPTIVE, ROUGH = False, False
 #: Whether outputs inside a step are interpolated; else they are reached by a shortened step of their own.
 DENSE = False
 #: Whether events are looked for; without, nothing of that is compiled.
@@ -337,7 +338,8 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         # -- it is: the state at `following` is accepted
         control[abi.STEPS] += 1
         code = watch(sizes, run, run.trial, following)
-        if not ADAPTIVE and code == abi.ENERGY and control[abi.STEPS] <= SETTING_OUT and following < span.end - tiny:
+        setting_out = (not ADAPTIVE or ROUGH) and control[abi.STEPS] <= SETTING_OUT
+        if setting_out and code == abi.ENERGY and following < span.end - tiny:
             code = abi.DONE
         if code != abi.DONE:
             return code

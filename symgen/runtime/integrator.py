@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -119,6 +120,18 @@ class Integrator(Protocol):
         w : Array
             Scratch of a consistent start, with the mask of redundant rows.
         """
+
+
+def adapts(integrator: Integrator, options: Mapping[str, str | float]) -> bool:
+    """Whether an integrator chooses its steps: as it does by itself, or as the option ``adaptive`` sets."""
+    keys = (f"{owner}.adaptive" for owner in ("integrator", integrator.name))
+    chosen = next((str(options[key]).lower() for key in keys if key in options), "")
+    return chosen != "false" if integrator.adaptive else estimates(integrator) and chosen == "true"
+
+
+def estimates(integrator: Integrator) -> bool:
+    """Whether an integrator can choose its steps, by itself or by its option ``adaptive``."""
+    return bool(getattr(integrator, "estimates", integrator.adaptive))
 
 
 def law_functions(compiled: CompiledModel, *names: str) -> tuple[Any, ...]:

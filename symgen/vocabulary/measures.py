@@ -236,11 +236,41 @@ class Effort(msgspec.Struct, frozen=True):
     potential: Expr = ZERO
 
 
+class Flexure(msgspec.Struct, frozen=True):
+    """A beam element between the frames of two sections, elastic and damped.
+
+    With H_a and H_b the frames, psi = log(H_a^-1 H_b) is the element's deformation: length and shear displacements [m],
+    then in the plane its bend, in space twist and two bends [rad]. Its potential is ``d^T F^-1 d / 2`` with
+    ``d = psi - rest`` and ``F = h C + h/12 ad_psi C ad_psi^T``, its damping force ``-damping F^-1 psi'``.
+
+    `measures` are what psi is a function of, with e_i the axes of the frames and r the vector between their origins: in
+    the plane (e_i of a + e_i of b) . r of both axes and the bend; in space those of all axes, twice the axial vector of
+    the relative rotation and its trace. `compliances` is the diagonal of C in the order of psi, `turn` what the bend is
+    beyond the measure of it.
+    """
+
+    measures: tuple[Measure, ...]
+    length: Expr
+    compliances: tuple[Expr, ...]
+    rest: tuple[Expr, ...]
+    damping: Expr = ZERO
+    turn: Expr = ZERO
+
+
+class Flexed(msgspec.Struct, frozen=True, tag="flexed"):
+    """A component of the strain in the middle of a beam element, or with `stress` of the force and moment there."""
+
+    flexure: Flexure
+    component: int
+    stress: bool = False
+
+
 class Exerted(msgspec.Struct, frozen=True, tag="exerted"):
     """What efforts exert together: the sum of -dU/ds + F [N, N m], or with `power` of that times s' [W]."""
 
     efforts: tuple[Effort, ...]
     power: bool = False
+    flexures: tuple[Flexure, ...] = ()
 
 
 class Driven(msgspec.Struct, frozen=True, tag="driven"):
@@ -258,4 +288,4 @@ class Integral(msgspec.Struct, frozen=True, tag="integral"):
 
 
 #: What a reading may be of.
-Source = Measure | Speed | Exerted | Driven | Integral
+Source = Measure | Speed | Exerted | Driven | Integral | Flexed

@@ -300,4 +300,4 @@ def test_all_kinds_are_there():
         "revolute", "revolute-spherical", "rigid", "rolling", "rolling-disc", "rolling-sphere", "rows", "screw",
         "spherical", "translational", "universal",
     }  # fmt: skip
-    assert set(FORCES) == {"bushing", "force", "spring-damper", "torque", "torsional-spring-damper"}
+    assert set(FORCES) == {"beam", "bushing", "force", "spring-damper", "torque", "torsional-spring-damper"}

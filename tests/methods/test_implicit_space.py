@@ -22,7 +22,7 @@ from symgen.runtime.compiled import ModelInfo
 from symgen.vocabulary.infos import LawInfo
 
 JOINT_KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES and name not in APART)
-FORCE_KINDS = tuple(name for name, kind in FORCES.items() if "spatial" in kind.SPACES)
+FORCE_KINDS = tuple(name for name, kind in FORCES.items() if "spatial" in kind.SPACES and name != "beam")
 #: Method -> level of its descriptor.
 LEVELS = {
     "baumgarte": "acceleration",

@@ -15,6 +15,7 @@ from support.processes import COMMAND, python
 import symgen
 from benchmarks import gallery
 from symgen.api import load
+from symgen.describe.beam_sections import BeamSection
 from symgen.describe.digest import digest
 from symgen.describe.events import EventSection
 from symgen.describe.load import parse_toml
@@ -220,6 +221,7 @@ def test_a_kind_stands_in_the_reference_with_all_its_keys(kind: str, registry: o
         ("`[tables.NAME]`", [TableSection]),
         ("`[bodies.NAME]`", [BodySection]),
         ("`[bodies.NAME]` in space", [SpatialBodySection, OrientationSection]),
+        ("`[beams.NAME]`", [BeamSection]),
         ("`[events.NAME]`", [EventSection]),
     ],
 )

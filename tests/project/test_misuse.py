@@ -378,7 +378,7 @@ def rows():
         "builder", names, lambda x, v: symgen.MechanismBuilder(v).body("a", mass=1).build(), "mechanism.name"
     )
     further = {
-        **dict.fromkeys(("body", "event"), ()),
+        **dict.fromkeys(("body", "beam", "event"), ()),
         **{"parameter": (1.0,), "input": (1.0,), "table": ([0, 1], [0, 1]), "output": ("t",)},
         **{"joint": ("rigid",), "force": ("torque",)},
     }
@@ -481,7 +481,7 @@ def test_no_function_with_arguments_is_left_out():
         *(f"Result.{n}" for n in "save plot reaction columns select series view".split()),
         *"Labelled.row Labelled.unit Study.save Study.plot Sweep.save Sweep.plot Sweep.reasons".split(),
         *(f"SteppedRun.{n}" for n in "step run every set restore reset".split()),
-        *(f"MechanismBuilder.{n}" for n in "run parameter input table body joint force output event".split()),
+        *(f"MechanismBuilder.{n}" for n in "run parameter input table body beam joint force output event".split()),
     }
     tested |= {f"Model.{method.__name__}" for method in ANALYSIS_METHODS}
     # what only the package makes or calls

@@ -9,7 +9,8 @@ from symgen import arguments
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.settings import COORDINATES, Settings, told_constant
+from symgen.runtime.integrator import adapts
+from symgen.settings import COORDINATES, Settings
 
 #: Constant steps of a study are these multiples of the mechanism's own, unless steps are given.
 STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)
@@ -82,7 +83,7 @@ class Combinations:
 
     def _steps(self, common: Settings, own: float) -> Iterator[Settings]:
         name = str(common.integrator)
-        if INTEGRATORS.get(name, "integrators").adaptive and not told_constant(common.options, name):
+        if adapts(INTEGRATORS.get(name, "integrators"), common.options):
             for rtol in self.rtols or RTOLS:
                 yield replace(common, rtol=rtol, atol=rtol * ATOL_SHARE)
         else:

@@ -29,6 +29,7 @@ from symgen.vocabulary.measures import (
     Driven,
     Effort,
     Exerted,
+    Flexed,
     FormulaMeasure,
     FormulaSpeed,
     HalfSquare,
@@ -126,7 +127,9 @@ class ReferenceFormulas:
 
     def _reading(self, r: Reading) -> Any:
         """Return a measure's value, or its rate."""
-        assert not isinstance(r.source, Speed | Exerted | Driven | Integral), "functions of state read measures"
+        assert not isinstance(r.source, Speed | Exerted | Driven | Integral | Flexed), (
+            "functions of state read measures"
+        )
         value = self._measure(r.source)
         return self._along(value) if r.order else value
 
