@@ -33,7 +33,7 @@ CANARIES = (
 #: Alternatives of bodies in the schema -> the mechanisms they belong to.
 _SPACES = {"BodySection": "planar", "SpatialBodySection": "spatial"}
 #: Sections whose entries are all of one kind.
-_ALIKE = ("parameters", "inputs", "states", "tables", "bodies", "outputs", "events")
+_ALIKE = ("parameters", "inputs", "states", "tables", "bodies", "beams", "outputs", "events")
 
 
 def places(part: dict[str, Any] | None = None, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
@@ -103,6 +103,11 @@ def bases(path: tuple[Any, ...]) -> Iterator[dict[str, Any]]:
     section, kind = path[0], next((p[1] for p in path if isinstance(p, tuple)), None)
     if section == "states":
         yield SMALL | {"states": {"x": {"rate": "k - x", "start": 1.0}}}
+        return
+    if section == "beams":
+        section_of = {"width": 0.02, "height": 0.01}
+        keys = {"elements": 2, "section": section_of, "material": {"young": 7e10, "poisson": 0.3, "density": 2700.0}}
+        yield copy.deepcopy(SMALL) | {"beams": {"leaf": {"start": [3.0, 0.0], "end": [4.0, 0.0], **keys}}}
         return
     if section == "joints" and kind in BESIDE:
         yield copy.deepcopy(BESIDE[kind])
