@@ -2,7 +2,7 @@
 
 python -m benchmarks.moving_picture
 
-Bodies move by CSS, which plays where scripts do not, and stands still for readers who prefer that. A test draws it anew.
+Bodies move by CSS, which needs no script and stands still for readers who prefer that. A test draws the picture anew.
 """
 
 from __future__ import annotations
