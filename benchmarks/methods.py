@@ -22,6 +22,7 @@ from symgen.api import Model, load
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 from symgen.result.result import Result
+from symgen.running.automatic import constant_integrator
 
 #: Model -> step [s], end [s].
 MODELS = {
@@ -56,9 +57,17 @@ class Row:
 
 def simulate(model: Model, method: str, step: float, until: float, repeat: int) -> Result:
     """Run with constant steps; only the end is kept, so that outputs cost nothing."""
-    scheme = INTEGRATORS.get(METHODS.get(method).default_integrator)
+    scheme = INTEGRATORS.get(constant_integrator(method))
     options = {"integrator.adaptive": "false"} if scheme.adaptive else {}
-    return model.simulate(method=method, step=step, until=until, times=[until], repeat=repeat, options=options)
+    return model.simulate(
+        method=method,
+        integrator=constant_integrator(method),
+        step=step,
+        until=until,
+        times=[until],
+        repeat=repeat,
+        options=options,
+    )
 
 
 def row(name: str, method: str, step: float, until: float, repeat: int) -> Row:

@@ -30,6 +30,7 @@ from symgen.errors import InputError
 from symgen.methods import METHODS
 from symgen.result.points import Points
 from symgen.result.result import Result
+from symgen.running.automatic import constant_integrator
 
 Array = NDArray[np.float64]
 
@@ -182,7 +183,7 @@ def passages(method: str, windows: int, steps: Array, until: float = 10.0) -> Pa
     model, times = load(f"n-four-bar:{windows}"), np.linspace(0.0, until, 101)
     exact = n_four_bar(model.mechanism, model.parameters(), np.zeros(0), times)[2]
     points = Points.of(model.mechanism, model.parameters())
-    integrator = METHODS.get(method).default_integrator
+    integrator = constant_integrator(method)
     errors, statuses, warned = [], [], []
     for step in steps:
         result = run(model, method, integrator, float(step), times)

@@ -330,7 +330,8 @@ class Model(Analysed):
             (``"method.alpha": 5``), ``stop_when`` and ``record_when`` (conditions such as
             ``"crank.theta > 2*pi"``, one or several, at which the run ends or which are noted), ``events`` (tables as
             in ``[events]`` of a file, by name), ``strict`` (refuse an inconsistent start), ``verify`` (estimate
-            the error by a second run with finer steps, which also settles an `unverified` run), ``max_violation`` and
+            the error by a second run with finer steps, which also settles an `unverified` run; by default after an
+            adaptive run with default tolerances of less than 50 ms; False: never), ``max_violation`` and
             ``max_energy_error`` (what ends a run as failed), ``max_step`` [s] (the largest one of an adaptive run),
             ``max_attempts`` (attempts at steps after which a run has failed), ``repeat`` (warm up, then time that many
             runs and report the shortest), ``shape`` (``auto``, ``straight`` or ``looped``), ``coordinates``
@@ -341,7 +342,7 @@ class Model(Analysed):
         Result
             Also of a failed or interrupted run, with status and reason.
         """
-        from symgen.reruns.verification import verified
+        from symgen.reruns.verification import is_verified, verified
         from symgen.result.build import build_result
         from symgen.runtime.timing import timed
         from symgen.store.stats import seconds_in_cache
@@ -352,7 +353,7 @@ class Model(Analysed):
         run = prepare(self.mechanism, settings)
         runs = timed(lambda: run.integrate(progress), settings.repeat)
         outcome, verification = runs.outcome, None
-        if run.plan.notes or settings.verify:  # something was chosen automatically, or the error is asked for
+        if is_verified(run, outcome.run_seconds):
             free = bool(run.plan.notes) and settings.rtol is None and settings.atol is None
             run, outcome, verification = verified(run, outcome, free)
         # assembly calls emitted functions too: compiling them belongs to the run

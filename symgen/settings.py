@@ -121,7 +121,11 @@ class Settings:
 
     method: str = _setting("direct-correction", "Constraint stabilisation method, or auto.", str, _name)
     integrator: str | None = _setting(
-        None, "Integrator, or auto.", str, _name, otherwise="the method's own, mostly rk4"
+        None,
+        "Integrator, or auto.",
+        str,
+        _name,
+        otherwise="of the mechanism; the method's own, mostly picard or dop853",
     )
     step: float | None = _number(
         None,
@@ -170,7 +174,11 @@ class Settings:
         {}, "Events beside those of the mechanism, as tables by name.", dict, _events
     )
     strict: bool = _switch(False, "Refuse a start that is not consistent.")
-    verify: bool = _switch(False, "Estimate the error by a second run with finer steps, and settle doubts by it.")
+    verify: bool | None = _switch(
+        None,
+        "Estimate the error by a second run with finer steps, and settle doubts by it.",
+        otherwise="of the mechanism; adaptive runs of less than 50 ms with default tolerances",
+    )
     max_violation: float = _number(
         1e-6, "Largest violation of positions and of velocities, as fractions of the mechanism's length and speed."
     )

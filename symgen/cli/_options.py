@@ -56,8 +56,12 @@ def _option(name: str, text: str | None, otherwise: Any) -> Callable[[F], F]:
     value = usual if otherwise is None or words is otherwise else otherwise
     extra: dict[str, Any] = {"help": text or setting.help, "callback": lambda c, p, v: _checked(name, v)}
     if setting.kind is bool:
-        extra["is_flag"] = True
-    elif setting.kind in (dict, list):
+        named = flag(name)
+        if value is None:  # neither on nor off
+            named += f"/--no-{named[2:]}"
+            extra |= {"default": None, "show_default": words.strip("()")}
+        return click.option(named, name, is_flag=True, **extra)
+    if setting.kind in (dict, list):
         extra |= {"multiple": True, "metavar": setting.metavar} | ({"default": value} if setting.kind is list else {})
     else:
         extra |= {"type": str if setting.kind is tuple else setting.kind, "default": value}

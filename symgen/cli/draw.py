@@ -84,7 +84,7 @@ def _drawing(
     if time == 0.0:
         return model.draw(parameters, start, view=view)
     changes: dict[str, Any] = {"parameters": parameters, "start": start, "until": time, "times": (0.0, time)}
-    result = model.simulate(**changes, step=min(model.mechanism.defaults.step, time))
+    result = model.simulate(**changes, step=min(model.mechanism.defaults.step, time), verify=False)
     if result.status == FAILED:
         raise SimulationError(f"the run to t = {time:g} s failed: {result.reason}")
     if result.end < time:

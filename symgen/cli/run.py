@@ -100,7 +100,9 @@ def command(
     tell((*result.notes, *(f"warning: {w}" for w in result.warnings)))
     chosen = extremes(result.select(quantities)) if quantities else {}
     if as_json:
-        write_json(result.to_json() | {"proposals": []} | ({"quantities": chosen} if quantities else {}))
+        write_json(
+            result.to_json() | {"proposals": list(result.proposals)} | ({"quantities": chosen} if quantities else {})
+        )
     else:
         from symgen.cli._tables import show_quantities, show_result
 

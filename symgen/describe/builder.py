@@ -48,8 +48,8 @@ class MechanismBuilder:
         )
         return f"<MechanismBuilder {str(self._raw['mechanism']['name'])[:60]}: {counts or 'nothing yet'}>"
 
-    def run(self, **keys: float) -> Self:
-        """Set run defaults: ``until``, ``step``, ``output_step``, ``max_step``, ``predictable_until`` [s]."""
+    def run(self, **keys: float | str) -> Self:
+        """Set run defaults: ``integrator``, ``verify``, and the times of ``[run]`` in a file [s]."""
         self._raw["run"] = self._raw.get("run", {}) | _plain(keys)
         return self
 

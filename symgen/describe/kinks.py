@@ -19,6 +19,7 @@ from symgen.describe.readings import integrated
 from symgen.describe.remembered import remembered
 from symgen.describe.tables import Table
 from symgen.vocabulary.expressions import BENT, Call, Expr, Name, Number, Reading, names, readings, table_of
+from symgen.vocabulary.functions import ELEMENTARY
 from symgen.vocabulary.measures import Effort
 
 #: What may jump, and what compares something with zero, or two values with each other.
@@ -130,6 +131,14 @@ def changing(part: Any) -> Iterator[Expr]:
     for formula, effort in _calls(part, enters=lambda e: False):
         if any(e.function in _COMPARED or table_of(e.function) for e, _ in _calls(formula)):
             yield formula if effort is None else _of_a_run(formula, effort)
+
+
+def restricted(part: Any) -> Iterator[tuple[Expr, Expr]]:
+    """Yield formulas in a part of a mechanism, each with a call in it that is no number everywhere, as of a run."""
+    for whole, effort in _calls(part, enters=lambda e: False):
+        for e, _ in _calls(whole):
+            if e.function in ("div", "pow") or (e.function in ELEMENTARY and not ELEMENTARY[e.function].everywhere):
+                yield (whole, e) if effort is None else (_of_a_run(whole, effort), _of_a_run(e, effort))
 
 
 def _of_a_run(e: Expr, effort: Effort) -> Expr:

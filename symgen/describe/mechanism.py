@@ -281,7 +281,10 @@ class Hold(msgspec.Struct, frozen=True):
 
 
 class Defaults(msgspec.Struct, frozen=True):
-    """What a run uses where nothing else is asked for; `max_step` bounds its adaptive steps."""
+    """What a run uses where nothing else is asked for; `max_step` bounds its adaptive steps.
+
+    `step` is that of constant steps; adaptive ones begin with `first_step`, the step that a file has, if any.
+    """
 
     until: float = 10.0
     step: float = 1e-3
@@ -289,6 +292,9 @@ class Defaults(msgspec.Struct, frozen=True):
     predictable_until: float | None = None  # None: not chaotic, or not known to be
     max_step: float | None = None
     source: str = ""
+    first_step: float | None = None
+    integrator: str | None = None
+    verify: bool | None = None
 
 
 def bounded(mechanism: Mechanism, max_step: float | None) -> Mechanism:

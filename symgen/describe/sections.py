@@ -44,23 +44,30 @@ class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
 
 
 class RunSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """What a run uses where nothing else is asked for; all in seconds.
+    """What a run uses where nothing else is asked for; all numbers in seconds.
 
     Parameters
     ----------
+    integrator : str
+        The integrator, or auto; absent: that of the method.
     until, step, output_step : float
-        End, step size and distance between outputs; without a step a millisecond, or a hundredth of a shorter end.
+        End, step size and distance between outputs. A step is the first one of an adaptive run; constant steps without
+        one are a millisecond, or a hundredth of a shorter end.
     max_step : float
         Largest step of adaptive integrators.
     predictable_until : float
         How long a chaotic motion can be predicted; absent where it is not chaotic.
+    verify : bool
+        Whether a second, finer run estimates the error; absent: where it takes little time.
     """
 
+    integrator: Text | None = None
     until: PositiveNumber = 10.0
     step: PositiveNumber | None = None
     output_step: PositiveNumber | None = None
     max_step: PositiveNumber | None = None
     predictable_until: PositiveNumber | None = None
+    verify: bool | None = None
 
 
 class ParameterSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -164,7 +164,8 @@ class _Validator:
         step = run.step or (usual if run.until >= usual else 0.01 * run.until)
         if step > run.until:
             raise InputError(f"{where}.step", f"at most until = {run.until!r}", repr(step))
-        return Defaults(run.until, step, run.output_step, run.predictable_until, run.max_step, source)
+        further = source, run.step, run.integrator, run.verify
+        return Defaults(run.until, step, run.output_step, run.predictable_until, run.max_step, *further)
 
     def parameters(self) -> tuple[Parameter, ...]:
         """Return the parameters in the order of the file, then the inputs, formulas worked out with the defaults."""

@@ -32,7 +32,7 @@ from symgen.ensemble.row_quantities import choose_quantities
 from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import LANES
-from symgen.running.automatic import AUTO, EXPLICIT
+from symgen.running.automatic import AUTO, CONSTANT, EXPLICIT
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import make_plan
 from symgen.running.tree import tree_code
@@ -209,7 +209,8 @@ def make_ensemble(
         end = model.mechanism.defaults.until if settings.until is None else settings.until
         settings = replace(settings, times=(end,))
     if target != "cpu":
-        explicit = EXPLICIT if settings.integrator == AUTO else settings.integrator
+        named = settings.integrator or model.mechanism.defaults.integrator
+        explicit = EXPLICIT if named == AUTO else named or CONSTANT  # others have no loop there
         settings = replace(settings, coordinates="absolute", integrator=explicit)
         refuse_events(f"target '{target}'", model.mechanism, settings)
     plan = make_plan(model.mechanism, settings, Purpose.ROWS)

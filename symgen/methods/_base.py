@@ -178,7 +178,8 @@ class Method(ABC):
         Problem forms the method gives: ``ode`` for explicit integrators; ``index-1``, ``index-2`` or ``index-3`` for
         implicit ones.
     default_integrator : str
-        What is used where no integrator is asked for.
+        What runs take by default: ``picard`` for laws whose right-hand side has a form in vectors, ``dop853`` for those
+        that iterate, choose coordinates or factorise in loops.
     integrates : str
         ``"all"`` coordinates, or only the ``"independent"`` ones of a partition.
     dense : str
@@ -194,7 +195,7 @@ class Method(ABC):
     forms: ClassVar[tuple[str, ...]] = ("ode",)
     parameters: ClassVar[tuple[MethodParameter, ...]] = ()
     options: ClassVar[tuple[MethodOption, ...]] = ()
-    default_integrator: ClassVar[str] = "rk4"
+    default_integrator: ClassVar[str] = "picard"
     integrates: ClassVar[str] = "all"
     dense: ClassVar[str] = ""
     velocities_follow: ClassVar[bool] = False

@@ -26,6 +26,7 @@ class AugmentedHamiltonian(Method):
     summary = "momenta are integrated; velocities satisfy their constraint in every evaluation"
     reference = "Bayo, Avello, Nonlinear Dyn. 5 (1994) 209-231, doi 10.1007/BF00045677"
     forms = ("one-step",)
+    default_integrator = "dop853"
     parameters = (PENALTY, ITERATION_TOLERANCE)
 
     def needs_regular_mass(self, options: Mapping[str, str]) -> bool:

@@ -19,6 +19,7 @@ class AugmentedLagrangian(Method):
     name = "augmented-lagrangian"
     summary = "penalty terms with iterated multipliers and stabilised constraints"
     reference = "Bayo, Garcia de Jalon, Serna, Comput. Methods Appl. Mech. Eng. 71 (1988) 183-195"
+    default_integrator = "dop853"
     parameters = (PENALTY, OMEGA, MU, ITERATION_TOLERANCE)
 
     def law(self, system: System, options: Mapping[str, str]) -> Iteration:

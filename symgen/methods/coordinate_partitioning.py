@@ -23,6 +23,7 @@ class CoordinatePartitioning(MultiplierMethod):
     summary = "independent coordinates are integrated, dependent ones follow from the constraints"
     reference = "Wehage, Haug, J. Mech. Des. 104 (1982) 247-255, doi 10.1115/1.3256318"
     forms = ("ode",)
+    default_integrator = "dop853"
     integrates = "independent"
     parameters = (TOLERANCE,)
 

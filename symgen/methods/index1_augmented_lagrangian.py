@@ -24,6 +24,7 @@ class Index1AugmentedLagrangian(Method):
         "Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130; "
         "Cuadrado, Cardenal, Bayo, Multibody Syst. Dyn. 1 (1997) 259-280"
     )
+    default_integrator = "dop853"
     parameters = (
         PENALTY,
         ITERATION_TOLERANCE,

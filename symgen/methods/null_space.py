@@ -26,6 +26,7 @@ class NullSpace(Method):
         "Mani, Haug, Atkinson, J. Mech. Trans. Autom. Des. 107 (1985) 82-87; "
         "Kim, Vanderploeg, J. Mech. Trans. Autom. Des. 108 (1986) 183-188"
     )
+    default_integrator = "dop853"
     parameters = (TOLERANCE,)
 
     def law(self, system: System, options: Mapping[str, str]) -> Tangent:

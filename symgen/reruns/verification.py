@@ -1,7 +1,7 @@
 """The error of a run, estimated by a second run with finer steps.
 
-A second run is made on request (``--verify``), and where anything was chosen automatically: who leaves the
-choice to the program has not looked at tolerances either.
+A second run is made on request (``--verify``), where anything was chosen automatically, and where a run with default
+tolerances took little time: who leaves the choice to the program has not looked at tolerances either.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.describe.evaluate import parameter_values
+from symgen.result import points
 from symgen.result.points import Agreement, Points, Verification, agreement
 from symgen.runtime import abi
 
@@ -55,7 +56,12 @@ def run_again(
     else:
         assert spec.step is not None, "a constant step is given"
         finer = run.with_spec(step=spec.step * HALF)
-    second = finer.integrate(start=replace(outcome.start, saved=None))  # another grid of steps begins there
+    start = outcome.start
+    if start.saved is not None:  # another grid of steps begins there, and with it another balance of energy
+        y = start.y.copy()
+        y[outcome.compiled.info.work] = 0.0
+        start = replace(start, saved=None, y=y)
+    second = finer.integrate(start=start)
     if second.code != abi.DONE:
         return finer, second, None
     a, b = _comparable(outcome, second)
@@ -79,6 +85,19 @@ def _comparable(first: Outcome, second: Outcome) -> tuple[NDArray[np.intp], NDAr
 def _steps_of(run: Prepared) -> str:
     """Return in words how the steps of a run are chosen."""
     return f"rtol = {run.spec.rtol:g}" if run.spec.adaptive else f"step = {run.spec.step:g} s"
+
+
+def is_verified(run: Prepared, seconds: float) -> bool:
+    """Return whether a second run estimates the error of a run that took so long [s].
+
+    Unless that is set, one does where something was chosen automatically, and where it takes little time and nobody
+    chose the steps or the tolerances.
+    """
+    wanted, settings = run.plan.verify, run.plan.settings
+    if wanted is not None:
+        return wanted
+    free = run.spec.adaptive and settings.rtol is None and settings.atol is None
+    return bool(run.plan.notes) or (free and seconds < points.QUICK)
 
 
 def verified(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Prepared, Outcome, Verification]:
@@ -122,7 +141,8 @@ def verified(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Prepa
             doubt = f"a check by {name} did not come to its end: {end}"
             return run, outcome, Verification(doubt, None, error, total)
         apart = agreed.apart
-        error = apart / apart_of_error if math.isfinite(apart) else None
+        # two runs may agree to the last bit, and neither is exact
+        error = max(apart / apart_of_error, agreed.rounding) if math.isfinite(apart) else None
         if agreed.holds:
             verification = Verification(None, f"verified: {name} agrees within {apart:.2g} m", error, total)
             return (finer, second, verification) if free else (run, outcome, verification)

@@ -16,8 +16,10 @@ from symgen.result.labelled import labelled
 from symgen.result.reactions import Forces, seats
 from symgen.result.result import FAILED, Rank, Result, Seconds
 from symgen.result.tables import Measured
+from symgen.running.automatic import stiff_by_steps
 from symgen.running.continuation import made_of
 from symgen.running.tree import CarriedOutcome
+from symgen.running.undefined import undefined_at_end
 from symgen.runtime import abi
 from symgen.runtime.events import record_of, stopped
 from symgen.runtime.last_state import LastState
@@ -59,7 +61,10 @@ def build_result(
     forces = Forces(outcome, seats(mechanism, values))
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(run, outcome, verification)
-    notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome), *_slow(outcome))
+    if verdict.status == FAILED and (undefined := undefined_at_end(mechanism, outcome)):
+        verdict = replace(verdict, reason=f"{str(verdict.reason).partition('; ')[0]}: {undefined}")
+    stiff = () if verdict.status == FAILED else stiff_by_steps(run, outcome)
+    notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome), *stiff)
     verdict = replace(verdict, notes=(*notes, *verdict.notes, *stopped(outcome)))
     derived = (compiled,) if run.tree is None else (compiled, run.compiled)
     states, status = outcome.states, outcome.status_columns
@@ -70,9 +75,10 @@ def build_result(
         mechanism=mechanism.name,
         method=law.method,
         integrator=plan.integrator.name,
-        step=spec.step,
+        step=plan.settings.step if spec.adaptive else spec.step,
         rtol=spec.rtol if spec.adaptive else None,
         atol=spec.atol if spec.adaptive else None,
+        relative_atol=spec.relative if spec.adaptive else None,
         until=spec.until,
         status=verdict.status,
         reason=verdict.reason,
@@ -106,6 +112,7 @@ def build_result(
         velocity_violation_max=outcome.velocity_violation_max,
         energy_drift_max=outcome.energy_drift_max,
         error_estimate=None if verification is None or verdict.status == FAILED else verification.error,
+        proposals=("--integrator radau5",) if stiff else (),
         outcome=outcome,
         forces=forces,
         measured=measured,
@@ -118,15 +125,6 @@ def build_result(
         state=tuple(x.name for x in (*own.coordinates, *own.velocities)),
         ended=partial(_last_state, run, outcome),
     )
-
-
-def _slow(outcome: Outcome) -> tuple[str, ...]:
-    """Return a note on a run whose steps were bounded by the convergence of an iteration, not by the motion."""
-    slow, steps = outcome.counters.get("slow_steps", 0), outcome.steps
-    if slow < 50 or slow < 0.5 * steps:
-        return ()
-    text = f"the iteration of picard converged slowly in {slow} of {steps} steps: the motion is stiff"
-    return (f"{text}, radau5 takes longer steps",)
 
 
 def _last_state(run: Prepared, outcome: Outcome) -> LastState:

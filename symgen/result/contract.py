@@ -13,7 +13,8 @@ if TYPE_CHECKING:
 
 #: Attributes of a result that stand in its JSON under their own names, before and behind the times.
 _FIRST = (
-    *("mechanism", "method", "integrator", "shape", "coordinates", "state", "step", "rtol", "atol", "until"),
+    *("mechanism", "method", "integrator", "shape", "coordinates", "state"),
+    *("step", "rtol", "atol", "relative_atol", "until"),
     *("status", "reason", "warnings", "notes", "parameters", "inputs"),
     *("steps", "rejected", "evaluations", "iterations", "vector_width"),
 )

@@ -41,18 +41,17 @@ def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -
     run, outcome : Prepared, Outcome
         The run.
     second : Verification, optional
-        What a run with finer steps says of it. It settles doubts where the settings ask for it; doubts of its own count
-        in any case.
+        What a run with finer steps says of it; it settles doubts.
     """
-    verify = run.plan.settings.verify
     verdict = judge_alone(outcome, run.compiled.law.position_correction)
     verdict = replace(verdict, warnings=(*verdict.warnings, *_velocity_warning(run, outcome)))
     if second is None or verdict.status == FAILED:
         return verdict
-    verdict = replace(verdict, notes=() if second.note is None else (second.note,))
-    if second.doubt is not None and (verify or verdict.status == OK):
+    if second.doubt is not None:
         return replace(verdict, status=UNVERIFIED, reason=second.doubt)
-    return replace(verdict, status=OK, reason=None) if verify else verdict
+    wanted = run.plan.verify or run.plan.notes  # else the status alone has the estimate
+    notes = (second.note,) if wanted and second.note is not None else ()
+    return replace(verdict, status=OK, reason=None, notes=notes)
 
 
 def judge_alone(outcome: Ended, position_correction: bool) -> Verdict:

@@ -68,7 +68,8 @@ class Points:
     def size(self, q: Array) -> float:
         """Return the mechanism's size [m]: the longest body's own length.
 
-        Where all bodies are point masses it is the extent of what they do: the diagonal of the box that holds them.
+        Where all bodies are point masses it is the extent of what they do: the diagonal of the box that holds them; of
+        one point at one place the distance from the origin.
 
         Parameters
         ----------
@@ -79,7 +80,8 @@ class Points:
         if longest > 0.0 or not self.bodies or not len(q):
             return longest
         places = np.concatenate([q[:, i : i + self.dimension] for i, _ in self.bodies])
-        return float(np.linalg.norm(np.ptp(places, axis=0)))
+        extent = float(np.linalg.norm(np.ptp(places, axis=0)))
+        return extent or float(np.linalg.norm(places[0]))
 
     def distance(self, a: Array, b: Array) -> float:
         """Return the largest distance [m] between corresponding points, over all bodies and times.
@@ -114,6 +116,8 @@ def rotation_matrices(orientation: Array) -> Array:
     return np.stack([np.stack(row, 1) for row in matrix((e0, e1, e2, e3))], 1)
 
 
+#: A run of adaptive steps that takes fewer seconds is checked by a second one by default.
+QUICK = 0.05
 #: Two motions agree when no point of a body is farther from its counterpart than this share of the mechanism's size:
 #: of the longest body's own length, or of the extent of the motion where all bodies are point masses.
 AGREEMENT = 1e-4
@@ -129,10 +133,13 @@ class Agreement:
         Largest distance between corresponding points at each output [m].
     limit : float
         Up to which they agree [m].
+    rounding : float
+        Of a point at the mechanism's size [m].
     """
 
     distances: Array
     limit: float
+    rounding: float = 0.0
 
     @property
     def apart(self) -> float:
@@ -162,7 +169,8 @@ def agreement(points: Points, a: Array, b: Array) -> Agreement:
         Coordinates at the same times.
     """
     with np.errstate(all="ignore"):
-        return Agreement(points.distances(a, b), AGREEMENT * points.size(a))
+        size = points.size(a)
+        return Agreement(points.distances(a, b), AGREEMENT * size, float(np.finfo(np.float64).eps) * size)
 
 
 @dataclass(frozen=True)

@@ -85,6 +85,9 @@ class Result(MotionTables):
         What was run.
     step, rtol, atol : float or None
         Constant (or asked first) step [s], and tolerances; None where they do not apply.
+    relative_atol : bool or None
+        Whether `atol` counts coordinates over the mechanism's length and velocities over its speed, as the default
+        does; else it is in the units of the state.
     until : float
         Asked end time [s].
     status : str
@@ -125,6 +128,8 @@ class Result(MotionTables):
     error_estimate : float or None
         About how far from the exact motion a point of a body is at worst [m], by a second run with finer steps; None
         where there was none.
+    proposals : tuple of str
+        Options of a run that would take fewer steps, such as ``"--integrator radau5"`` where the motion was stiff.
 
     Notes
     -----
@@ -144,6 +149,7 @@ class Result(MotionTables):
     step: float | None
     rtol: float | None
     atol: float | None
+    relative_atol: bool | None
     until: float
     status: str
     reason: str | None
@@ -170,6 +176,7 @@ class Result(MotionTables):
     velocity_violation_max: float
     energy_drift_max: float
     error_estimate: float | None
+    proposals: tuple[str, ...]
     outcome: Outcome
     forces: Forces
     measured: Measured

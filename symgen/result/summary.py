@@ -6,6 +6,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from symgen.result.labelled import html_table
+from symgen.result.points import QUICK
 from symgen.result.result import FAILED
 
 if TYPE_CHECKING:
@@ -14,7 +15,11 @@ if TYPE_CHECKING:
 
 def lines(result: Result) -> list[tuple[str, str]]:
     """Return (label, text) pairs that say what was run and how it went."""
-    steps = f"step {result.step:g} s" if result.rtol is None else f"rtol {result.rtol:g}, atol {result.atol:g}"
+    if result.rtol is None:
+        steps = f"step {result.step:g} s"
+    else:
+        over = " of length and speed" if result.relative_atol else ""
+        steps = f"rtol {result.rtol:g}, atol {result.atol:g}{over}"
     rejected = f", {result.rejected} rejected" if result.rejected else ""
     s, rank = result.seconds, result.rank
     spread = f" (spread {s.run_spread:.2g} s)" if s.run_spread else ""
@@ -51,19 +56,22 @@ def _coordinates(result: Result) -> str:
 
 
 def status_in_words(result: Result) -> str:
-    """Return status, reason, and how the error was estimated: ``ok (error about 3.2e-07 m, from ...)``."""
+    """Return status, reason, how the error was estimated, and proposals: ``ok (error about 3.2e-07 m, from ...)``."""
     text = result.status + (f": {result.reason}" if result.reason else "")
     if result.status == FAILED:
         return text
-    if result.rtol is None:
-        local, other = "", "half the step"
-    else:
-        local, other = f"local errors within rtol {result.rtol:g}; ", "other tolerances"
+    adaptive = result.rtol is not None
+    parts = [f"local errors within rtol {result.rtol:g}"] if adaptive else []
     if result.error_estimate is not None:
-        return f"{text} ({local}error about {result.error_estimate:.2g} m, from a run with {other})"
-    if not local:
-        return f"{text} (error not estimated: --verify runs again with half the step)"
-    return f"{text} ({local}global error not estimated: --verify runs again with a tenth of it)"
+        other = "other tolerances" if adaptive else "half the step"
+        parts.append(f"error about {result.error_estimate:.2g} m, from a run with {other}")
+    else:
+        whole, finer = ("global error", "a tenth of it") if adaptive else ("error", "half the step")
+        slow = adaptive and result.seconds.run >= QUICK
+        why = f" as the run took {result.seconds.run:.2g} s" if slow else ""
+        parts.append(f"{whole} not estimated{why}: --verify runs again with {finer}")
+    parts += [f"stiff: {proposal} takes longer steps" for proposal in result.proposals]
+    return f"{text} ({'; '.join(parts)})"
 
 
 def html(result: Result) -> str:

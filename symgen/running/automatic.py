@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.compiling.choices import choose_shape
 from symgen.compiling.linearised import GROWTH, compile_growth
+from symgen.compiling.pipeline import choose_method
 from symgen.describe.kinks import discontinuities_of
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import COUNTERS
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from symgen.running.prepare import Prepared
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.outcome import Outcome
     from symgen.settings import Settings
 
 Array = NDArray[np.float64]
@@ -30,10 +33,14 @@ Array = NDArray[np.float64]
 AUTO = "auto"
 #: Integrator of motions that are not stiff, and that of smooth ones whose right-hand side is evaluated in vectors.
 EXPLICIT, TOGETHER = "dop853", "picard"
+#: Explicit integrator of constant steps where none is named: of studies, lanes and devices.
+CONSTANT = "rk4"
 #: Steps of a trial, and the part of them whose iteration converges slowly where the motion is stiff.
 TRIAL, SLOW = 100, 0.5
 #: A mechanism counts as stiff where stability asks for this many times the steps that following its motion does.
 STIFF_RATIO = 20.0
+#: Runs of fewer steps are short, whatever bounds these.
+LONG = 1000
 #: Steps of an adaptive run of high order over the time in which its state changes by its own size.
 _STEPS_A_CHANGE = 8.0
 #: Above this many unknowns of a stage nobody asks for eigenvalues: they would take longer than a run.
@@ -144,6 +151,29 @@ def trial_of(mechanism: Mechanism, settings: Settings) -> Settings:
     return replace(settings, method=method, integrator=integrator, options=options)
 
 
+def usual_integrator(mechanism: Mechanism, method: str, coordinates: str, shape: str, evaluations: float) -> str:
+    """Return the integrator of a run where neither the run nor the description names one.
+
+    It is the method's own, but `EXPLICIT` in place of `TOGETHER` where nodes would be evaluated one after another, in
+    looped code, and where steps end at what the state passes.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    method, coordinates, shape : str
+        As in the settings.
+    evaluations : float
+        About how many a run takes, by which the shape of its code is chosen.
+    """
+    own = METHODS.get(method, "--method").default_integrator
+    if own != TOGETHER:
+        return own
+    if shape == "auto" and coordinates != "joint":
+        shape = choose_shape(mechanism, choose_method(method), shape, evaluations).name
+    return EXPLICIT if shape == "looped" or discontinuities_of(mechanism) else TOGETHER
+
+
 def facts_of(mechanism: Mechanism, compiled: CompiledModel, start: Start, until: float) -> Facts:
     """Return the facts of a mechanism at its start.
 
@@ -186,6 +216,35 @@ def slow_steps(run: Prepared) -> float:
     simulation.enter(simulation.outputs(np.zeros(0)), pause=TRIAL)
     steps, slow = simulation.state.control[[abi.STEPS, abi.POINTS]]
     return float(slow) / max(float(steps), 0.5 * TRIAL)
+
+
+def constant_integrator(method: str, where: str = "--method") -> str:
+    """Return the integrator that studies take a method with: `CONSTANT`, or its own where it solves another form."""
+    chosen = METHODS.get(method, where)
+    return CONSTANT if set(INTEGRATORS.get(CONSTANT).forms) & set(chosen.forms) else chosen.default_integrator
+
+
+def stiff_by_steps(run: Prepared, outcome: Outcome) -> tuple[str, ...]:
+    """Return a sentence about a run whose many steps stability bounded, not the motion; none where nothing shows that.
+
+    The iteration of `TOGETHER` shows it by itself. Of other explicit schemes the eigenvalues at the start do.
+    """
+    integrator, implicit = run.plan.integrator, set(INTEGRATORS.get("radau5").forms)
+    if outcome.steps < LONG or not run.spec.adaptive or "ode" not in integrator.forms:
+        return ()
+    if not implicit & set(run.plan.choice.method.forms):
+        return ()
+    if integrator.name == TOGETHER:
+        slow = outcome.counters["slow_steps"]
+        if slow < SLOW * outcome.steps:
+            return ()
+        why = f"the iteration of {TOGETHER} converged slowly in {slow} of {outcome.steps} steps"
+    else:
+        facts = facts_of(run.plan.mechanism, *run.assembled.of_bodies, run.spec.until)
+        if facts.stiffness <= STIFF_RATIO:
+            return ()
+        why = f"the fastest decay at the start, {facts.fastest_decay:.3g} 1/s, bounded the steps of {integrator.name}"
+    return (f"{why}: the motion is stiff, radau5 takes longer steps",)
 
 
 def decide(facts: Facts, method: str, integrator: str | None) -> tuple[str, str | None, tuple[str, ...]]:

@@ -102,16 +102,17 @@ def check_saving(mechanism: Mechanism, s: Settings) -> None:
         count = float(len(s.times))
     elif every is not None:
         count = until / every
-    elif _has_constant_steps(s):
+    elif _has_constant_steps(s, mechanism):
         count = until / (s.step or mechanism.defaults.step)
     else:
         count = DEFAULT_OUTPUTS
     require("--save", f"{count:.3g} outputs of {mechanism.name}", count * output_size(mechanism, saved=True))
 
 
-def _has_constant_steps(s: Settings) -> bool:
-    """Whether settings name, or a method has by itself, an integrator with constant steps."""
-    name = s.integrator or (METHODS.get(s.method).default_integrator if s.method in METHODS else "")
+def _has_constant_steps(s: Settings, mechanism: Mechanism) -> bool:
+    """Whether settings or a description name, or a method has by itself, an integrator with constant steps."""
+    own = METHODS.get(s.method).default_integrator if s.method in METHODS else ""
+    name = s.integrator or mechanism.defaults.integrator or own
     return name in INTEGRATORS and not INTEGRATORS.get(name).adaptive
 
 

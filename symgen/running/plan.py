@@ -20,6 +20,7 @@ from symgen.describe.kinks import discontinuities_of, longest_step
 from symgen.errors import InputError, quoted
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
+from symgen.running.automatic import usual_integrator
 from symgen.running.options import split_options
 from symgen.running.outputs import output_times
 from symgen.runtime.motions import refuse_jumps
@@ -136,6 +137,12 @@ class Plan:
         return self.settings.parameters
 
     @property
+    def verify(self) -> bool | None:
+        """Whether a second run estimates the error, None where nobody set it."""
+        own = self.settings.verify
+        return self.mechanism.defaults.verify if own is None else own
+
+    @property
     def key(self) -> tuple[str, tuple[tuple[str, float], ...]]:
         """What code and start depend on beside mechanism and parameters."""
         return f"{self.choice.stem} {self.choice.shape} {self.coordinates}", tuple(
@@ -166,16 +173,22 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     if purpose is not Purpose.STATE:
         refuse_weightless(mechanism)
     method = METHODS.get(s.method, "--method")
-    integrator = INTEGRATORS.get(s.integrator or method.default_integrator, "--integrator")
-    _refuse_pair(method, integrator)
-    choice, method_parameters, integrator_options = split_options(s, integrator)
     last = None if isinstance(s.start, Mapping) else s.start.last_state
     if last is not None:
         _refuse_other(mechanism, last)
-    begin = 0.0 if last is None else last.t
-    until = mechanism.defaults.until if s.until is None else s.until
+    begin, shape, own_run = 0.0 if last is None else last.t, _shape(s, last), mechanism.defaults
+    until = own_run.until if s.until is None else s.until
+    name = s.integrator
+    if name is None:
+        evaluations = ADAPTIVE_EVALUATIONS * (until - begin)
+        name = usual_integrator(mechanism, s.method, s.coordinates, shape, evaluations)
+    integrator = INTEGRATORS.get(name, "--integrator")
+    _refuse_pair(method, integrator)
+    choice, method_parameters, integrator_options = split_options(s, integrator)
     adaptive = integrator.adaptive and not told_constant(s.options, integrator.name)
-    step = s.step if adaptive or s.step is not None else mechanism.defaults.step
+    step = s.step
+    if step is None:  # the first one may be longer than the run, whose end cuts it
+        step = own_run.first_step if adaptive else own_run.step
     _check_steps(s, step, begin, until, adaptive)
     own = method.largest_step(
         {p.name: method_parameters.get(p.name, p.default) for p in method.parameters}, integrator.real_boundary
@@ -212,7 +225,6 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     free = "solver" in choice.options and not _has_option(s, "solver")
     massless = mechanism.has_massless
     choice, free = for_masses(mechanism, choice, free), free and not massless
-    shape = _shape(s, last)
     if s.coordinates == "joint":
         choose_coordinates(mechanism, s.coordinates, shape)
         shape = "straight"

@@ -174,6 +174,8 @@ def decided(
     """
     inputs = put_inputs(mechanism, settings)
     mechanism, settings = inputs.mechanism, inputs.settings
+    if settings.integrator is None and mechanism.defaults.integrator is not None:
+        settings = replace(settings, integrator=mechanism.defaults.integrator)
     if AUTO not in (settings.method, settings.integrator):
         return resolved(inputs, settings, purpose), None
     trial = trial_of(mechanism, settings)

@@ -113,8 +113,10 @@ SAME_TIME, RESOLVED_TIME = 1e-9, 4e-16
     LAST_SHORT,  # root of the shortest row at the accepted state before, and how fast it fell
     SHORT_FALL,
     CHOSEN,  # largest value of the smallest pivot since rows were chosen that stand for all
-) = range(19)
-N_GAUGES = 19
+    LAST_KINETIC,  # kinetic energy at the accepted state before
+    FORCE,  # largest change of kinetic energy or work over its way, where the balance of energy was in doubt
+) = range(21)
+N_GAUGES = 21
 
 #: Columns of the table of rank events.
 EVENT_IN, EVENT_OUT, EVENT_RANK, EVENT_PIVOT = range(4)

@@ -17,6 +17,8 @@ _WINDOW = 10_000
 VANISHING = 1e-2
 #: An error of the energy below this part of kinetic and potential energy is no failure.
 NEGLIGIBLE = 1e-9
+#: A way below this part of the mechanism's length is none: so far two motions that agree may be apart.
+NO_WAY = 1e-4
 
 
 def remember_rank(sizes: Any, run: Any) -> None:
@@ -84,6 +86,24 @@ def stuck(span: Any, run: Any, t: float) -> bool:
     return False
 
 
+def force(sizes: Any, run: Any, y: Any, before: float) -> float:
+    """Return the force that a step shows [N]: its change of kinetic energy or of work over the largest way of a body.
+
+    Parameters
+    ----------
+    sizes, run, y
+        As for `watch`; `run` has the state before as well.
+    before : float
+        Kinetic energy of the state before [J].
+    """
+    way = 0.0
+    for i in range(sizes.nq):
+        way = max(way, abs(y[i] - run.y[i]) * run.metric[i])
+    behind = sizes.nq + sizes.nv
+    change = max(abs(run.w[abi.KINETIC] - before), abs(y[behind] - run.y[behind]))
+    return change / way if way > 0.0 else 0.0
+
+
 def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     """Judge an accepted state; return how the loop has to end, or `DONE` to go on.
 
@@ -109,6 +129,8 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     scale = max(w[abi.KINETIC], abs(w[abi.POTENTIAL] - gauges[abi.POTENTIAL_START]), abs(work))
     if scale > gauges[abi.ENERGY_SCALE]:
         gauges[abi.ENERGY_SCALE] = scale
+    before = gauges[abi.LAST_KINETIC]
+    gauges[abi.LAST_KINETIC] = w[abi.KINETIC]
 
     pivot, rank = w[abi.PIVOT], int(w[abi.RANK])
     if pivot < gauges[abi.SMALLEST_PIVOT]:
@@ -157,8 +179,11 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     if w[abi.DRIFT_MEASURE] > gauges[abi.LIMIT_DRIFT] * speed:
         return abi.VELOCITY
     # energies are no more exact than the rounding of what they are sums of
-    if abs(error) > gauges[abi.LIMIT_ENERGY] * gauges[abi.ENERGY_SCALE] + NEGLIGIBLE * (
-        w[abi.KINETIC] + abs(w[abi.POTENTIAL])
-    ):
-        return abi.ENERGY
+    limit, rounding = gauges[abi.LIMIT_ENERGY], NEGLIGIBLE * (w[abi.KINETIC] + abs(w[abi.POTENTIAL]))
+    excess, way = abs(error) - rounding, NO_WAY * length
+    if excess > limit * max(gauges[abi.ENERGY_SCALE], way * gauges[abi.FORCE]):
+        # large works cancel where a body stands still: the energy in motion is at least that over a way that is none
+        gauges[abi.FORCE] = max(gauges[abi.FORCE], force(sizes, run, y, before))
+        if excess > limit * max(gauges[abi.ENERGY_SCALE], way * gauges[abi.FORCE]):
+            return abi.ENERGY
     return abi.DONE

@@ -367,7 +367,7 @@ def test_names_of_a_file_stay_text(chromium: Chromium, tmp_path: Path) -> None:
     title = "</script><script>window.canary = 1</script><img src=x onerror='window.canary = 2'>"
     builder = MechanismBuilder("arm", title=title).parameter("m", 1.0, unit="</script><b>", note=title)
     model = Model(builder.body("a", type="point", mass="m").build())
-    path = model.simulate(until=0.1, step=0.01).view().save(tmp_path / "page.html")
+    path = model.simulate(integrator="rk4", until=0.1, step=0.01).view().save(tmp_path / "page.html")
     chromium.open(path)
     assert chromium.run("typeof window.canary") == "undefined"
     assert chromium.run("document.querySelector('h1').textContent") == title
@@ -376,7 +376,7 @@ def test_names_of_a_file_stay_text(chromium: Chromium, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("seed", range(6))
 def test_random_mechanisms_in_space(seed: int, chromium: Chromium, tmp_path: Path) -> None:
-    result = Model(mechanism_of(make(seed, "spatial"))).simulate(until=0.5, step=1e-3)
+    result = Model(mechanism_of(make(seed, "spatial"))).simulate(integrator="rk4", until=0.5, step=1e-3)
     path = result.view().save(tmp_path / "page.html")
     assert len(path.read_bytes()) <= 500_000
     for width in (1280, 390):

@@ -131,7 +131,7 @@ def test_generate_refuses_what_is_wrong_and_writes_nothing(cli, tmp_path):
 
 
 def test_run_json_is_alone_on_standard_output(cli):
-    code, out, err = cli("run", "four-bar", "--until", "0.2", "--json")
+    code, out, err = cli("run", "four-bar", "--integrator", "rk4", "--until", "0.2", "--json")
     assert code == 0 and err == ""
     found = json.loads(out)
     assert found["status"] == "ok" and found["steps"] == 200 and found["evaluations"] == 800
@@ -139,7 +139,8 @@ def test_run_json_is_alone_on_standard_output(cli):
 
 def test_run_defaults(cli):
     found = json.loads(cli("run", "pendulum", "--until", "0.1", "--json")[1])
-    assert (found["method"], found["integrator"], found["step"]) == ("direct-correction", "rk4", 1e-3)
+    assert (found["method"], found["integrator"], found["rtol"]) == ("direct-correction", "picard", 1e-8)
+    assert found["step"] is None and found["proposals"] == []
 
 
 def test_run_takes_everything(cli, tmp_path):
@@ -177,7 +178,7 @@ def test_run_shows_a_table(cli):
 
 
 def test_a_failed_run_exits_1_and_still_gives_its_result(cli, tmp_path):
-    drifting = ("--method", "lagrange", "--step", "2e-2", "--until", "3")
+    drifting = ("--method", "lagrange", "--integrator", "rk4", "--step", "2e-2", "--until", "3")
     code, out, err = cli("run", "four-bar", *drifting, "--json", "--save", tmp_path / "a.csv")
     assert code == 1
     found = json.loads(out)

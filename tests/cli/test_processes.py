@@ -91,9 +91,21 @@ def integrating(process):
 
 @pytest.mark.skipif(not os.path.isdir("/proc/self/task"), reason="needs /proc")
 def test_an_interrupted_run_writes_what_it_has(tmp_path):
-    assert symgen(["run", "pendulum", "--until", "0.1", "--json"]).returncode == 0
+    assert symgen(["run", "pendulum", "--integrator", "rk4", "--until", "0.1", "--json"]).returncode == 0
     saved = tmp_path / "run.csv"
-    arguments = ("run", "pendulum", "--until", "1e5", "--output-step", "10", "--json", "--save", saved)
+    arguments = (
+        "run",
+        "pendulum",
+        "--integrator",
+        "rk4",
+        "--until",
+        "1e5",
+        "--output-step",
+        "10",
+        "--json",
+        "--save",
+        saved,
+    )
     code, out, err = interrupt(arguments, integrating, tmp_path)
     assert code == 130
     found = json.loads(out)
@@ -128,7 +140,7 @@ def test_a_long_run_shows_progress_on_a_terminal_only():
     """Standard error is a terminal, standard output a pipe: the bar is drawn, and JSON stays alone."""
     leader, follower = pty.openpty()
     script = "from symgen.cli import main; raise SystemExit(main())"
-    arguments = ["run", "pendulum", "--until", "20000", "--output-step", "100", "--json"]
+    arguments = ["run", "pendulum", "--integrator", "rk4", "--until", "20000", "--output-step", "100", "--json"]
     process = subprocess.Popen(
         [sys.executable, "-c", script, *arguments],
         stdout=subprocess.PIPE,

@@ -25,7 +25,7 @@ REFUSED = {
     "run four-bar --step abc": "'abc' is not a valid float",
     "run four-bar --step nan": "--step: expected a finite number above 0, got nan",
     "run four-bar --rtol 0": "--rtol: expected a finite number above 0, got 0",
-    "run four-bar --until 1e12": "at most 2e9 steps",
+    "run four-bar --integrator rk4 --until 1e12": "at most 2e9 steps",
     "run four-bar --method direct-correctoin": "did you mean 'direct-correction'?",
     "run four-bar --integrator rk5": "did you mean 'rk4'?",
     "run four-bar --set crank_mass": "--set: expected NAME=VALUE, got 'crank_mass'",

@@ -112,7 +112,19 @@ def test_generate_has_the_options_of_the_table():
 
 @pytest.mark.parametrize(("limit", "reason"), [("--max-violation", "max_violation"), ("--max-energy-error", "energy")])
 def test_limits_can_be_set_for_a_run(capsys, limit, reason):
-    words = ["run", "four-bar", "--method", "lagrange", "--step", "0.01", "--until", "1", "--json"]
+    words = [
+        "run",
+        "four-bar",
+        "--method",
+        "lagrange",
+        "--integrator",
+        "rk4",
+        "--step",
+        "0.01",
+        "--until",
+        "1",
+        "--json",
+    ]
     assert main(words) == 0
     assert main([*words, limit, "1e-13"]) == 1
     assert reason in capsys.readouterr().err
@@ -124,7 +136,8 @@ def test_limits_can_be_set_for_a_run(capsys, limit, reason):
 def test_limits_can_be_set_for_studies_and_sweeps(limit):
     found = symgen.compare("four-bar", "lagrange", "rk4", 1e-2, until=1.0, repeat=1, **{limit: 1e-13})
     assert found.rows[0].status == "failed" and ("max_violation" in found.rows[0].reason) == (limit == "max_violation")
-    many = symgen.sweep("four-bar", {"crank_mass": [1.0]}, method="lagrange", step=1e-2, until=1.0, **{limit: 1e-13})
+    constant = {"method": "lagrange", "integrator": "rk4", "step": 1e-2}
+    many = symgen.sweep("four-bar", {"crank_mass": [1.0]}, **constant, until=1.0, **{limit: 1e-13})
     assert many.counts["failed"] == 1
     with pytest.raises(InputError, match=f"{limit}: expected a finite number above 0"):
         symgen.compare("four-bar", "lagrange", "rk4", 1e-2, until=1.0, repeat=1, **{limit: -1.0})
@@ -139,7 +152,9 @@ def test_steps_are_bounded_by_every_command_that_runs(capsys):
         assert main([*words, "--until", "1", "--max-attempts", "5"]) == 1, words
         said = capsys.readouterr()
         assert "max_attempts" in said.out + said.err, words
-    assert main(["run", "four-bar", "--step", "0.01", "--until", "1", "--max-attempts", "5"]) == 2
+    assert (
+        main(["run", "four-bar", "--integrator", "rk4", "--step", "0.01", "--until", "1", "--max-attempts", "5"]) == 2
+    )
     assert "step: expected at most max_attempts = 5 steps, got 100" in capsys.readouterr().err
 
 
@@ -162,7 +177,7 @@ def test_adaptive_steps_are_no_longer_than_max_step(tmp_path):
     assert rows[0].evaluations >= 1200
     swinging = symgen.compare("pendulum", "lagrange", "dopri5", rtols=[1e-6], until=0.5, repeat=1, max_step=0.01)
     assert "Jacobi" in swinging.how  # a formula is what it was
-    assert free.simulate(method="lagrange", step=0.1, max_step=0.01).steps == 20
+    assert free.simulate(method="lagrange", integrator="rk4", step=0.1, max_step=0.01).steps == 20
     with pytest.raises(InputError, match="max_step: expected a finite number above 0"):
         free.simulate(max_step=0.0)
 

@@ -18,8 +18,8 @@ def test_json_is_the_contract_and_nothing_else(cli):
     assert [row["runs"] for row in found["reasons"]] == [2] and found["times"] == 1 and found["output"] is None
     assert (found["method"], found["integrator"], found["step"], found["until"]) == (
         "direct-correction",
-        "rk4",
-        1e-3,
+        "picard",
+        None,
         0.02,
     )
 

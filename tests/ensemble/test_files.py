@@ -18,7 +18,12 @@ from symgen.describe.builder import MechanismBuilder
 from symgen.ensemble.table import DONE, FolderTable, RowTable
 from symgen.errors import InputError
 
-FEW = {"vary": {"crank_mass": "lin(1, 3, 6)", "crank.omega": [0.0, 2.0]}, "until": 0.05, "quantities": ("q",)}
+FEW = {
+    "vary": {"crank_mass": "lin(1, 3, 6)", "crank.omega": [0.0, 2.0]},
+    "until": 0.05,
+    "quantities": ("q",),
+    "integrator": "rk4",
+}
 
 
 def test_a_netcdf_file_holds_everything(tmp_path):
@@ -34,7 +39,7 @@ def test_a_netcdf_file_holds_everything(tmp_path):
     assert np.all(data["status"] == "ok") and np.all(data["reason"] == "")
     np.testing.assert_array_equal(data["steps"], 50)
     heavy = data.sel({"crank_mass": 3.0, "crank.omega(0)": 2.0})
-    one = symgen.simulate("four-bar", until=0.05, times=(0.05,), parameters={"crank_mass": 3.0})
+    one = symgen.simulate("four-bar", integrator="rk4", until=0.05, times=(0.05,), parameters={"crank_mass": 3.0})
     rest = data.sel({"crank_mass": 3.0, "crank.omega(0)": 0.0})
     assert float(rest["crank.theta"][-1]) == pytest.approx(one["crank.theta"][-1], abs=1e-13)
     assert float(heavy["crank.theta"][-1]) > float(rest["crank.theta"][-1])
@@ -219,6 +224,7 @@ def test_two_processes_cannot_write_to_one_folder(tmp_path):
     before = {path.name: path.read_bytes() for path in folder.iterdir()}
     with FolderTable(folder, ensemble.description, ensemble.sizes, True):
         words = ("four-bar", "--vary", "crank_mass=lin(1,3,6)", "--vary", "crank.omega=values(0,2)", "--until", "0.05")
+        words = (*words, "--integrator", "rk4")
         process = start(*words, "--quantity", "q", "-o", folder, "--resume")
         _, err = process.communicate(timeout=600)
         assert process.returncode == 2 and "expected one that no other process uses, got one in use" in err
@@ -368,7 +374,12 @@ def test_nothing_is_lost_or_doubled_by_a_kill_or_an_interruption(tmp_path, kill)
     assert [p.name for p in tmp_path.iterdir()] == ["long.nc"]
     with xr.open_dataset(path, engine="h5netcdf") as data:
         whole = symgen.sweep(
-            "four-bar", {"crank_mass": "lin(1,3,200)"}, until=5.0, step=1e-3, quantities=("crank.theta",)
+            "four-bar",
+            {"crank_mass": "lin(1,3,200)"},
+            integrator="rk4",
+            until=5.0,
+            step=1e-3,
+            quantities=("crank.theta",),
         )
         assert len(before) < -(-200 // whole.ensemble.chunk)
         np.testing.assert_array_equal(data["crank.theta"].values, whole["crank.theta"])

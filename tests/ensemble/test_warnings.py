@@ -57,11 +57,17 @@ def test_where_the_push_depends_on_what_varies_a_note_says_what_steps_may_miss(t
 
 
 def test_rows_have_what_single_runs_say_of_singular_positions():
-    chosen = {"until": 1.3, "step": 0.01}
+    chosen = {"until": 1.3, "integrator": "rk4", "step": 0.01}
     found = symgen.sweep("n-four-bar:1", {"coupler0.omega": [0.0]}, **chosen)
     assert found.warnings[0] == symgen.simulate("n-four-bar:1", start={"coupler0.omega": 0.0}, **chosen).warnings
     assert "passed near a singular position" in found.warnings[0][0]
-    unstable = {"method": "baumgarte", "options": {"method.alpha": 1e3}, "step": 0.01, "until": 0.02}
+    unstable = {
+        "method": "baumgarte",
+        "options": {"method.alpha": 1e3},
+        "integrator": "rk4",
+        "step": 0.01,
+        "until": 0.02,
+    }
     everywhere = symgen.sweep("pendulum", {"bob_mass": [1.0, -1.0]}, **unstable)
     assert "is unstable with" in everywhere.warnings[0][0] and everywhere.warnings[1] == ()
 

@@ -130,15 +130,20 @@ def test_this_machine_says_something():
     assert found is None or 1e6 < found < 1e15
 
 
-def test_a_method_s_own_integrator_has_an_output_at_every_step(monkeypatch):
-    """Only an integrator that was named counted: of runs by default a thousand outputs were expected."""
+def test_constant_steps_have_an_output_each_whoever_names_the_integrator(monkeypatch):
     from symgen.running.outputs import check_saving
     from symgen.settings import Settings
 
     mechanism = msgspec.structs.replace(load("four-bar").mechanism, defaults=Defaults(until=10.0, step=1e-3))
     monkeypatch.setattr(memory, "available", lambda: 1e9)
     check_saving(mechanism, Settings())
-    for integrator in (None, "rk4"):
+    constant = msgspec.structs.replace(mechanism, defaults=Defaults(10.0, 1e-5, integrator="rk4"))
+    for described, settings in (
+        (mechanism, Settings(step=1e-5, integrator="rk4")),
+        (mechanism, Settings(method="generalized-alpha", step=1e-5)),
+        (constant, Settings()),
+    ):
         with pytest.raises(InputError, match=r"1e\+06 outputs of four-bar"):
-            check_saving(mechanism, Settings(step=1e-5, integrator=integrator))
-    check_saving(mechanism, Settings(step=1e-5, integrator="dop853"))
+            check_saving(described, settings)
+    check_saving(mechanism, Settings(step=1e-5))
+    check_saving(constant, Settings(integrator="dop853"))

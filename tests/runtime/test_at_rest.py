@@ -6,6 +6,8 @@ written out here.
 
 from __future__ import annotations
 
+import math
+
 import pytest
 from support.emitted import mechanism_of
 
@@ -130,3 +132,19 @@ at = ["P", "A"]
     model = load(validate(parse_toml(text, "bob.toml"), "bob.toml"))
     run = model.simulate(method="direct-correction", integrator="euler", step=2e-3, until=2.0)
     assert run.status == "failed" and "energy" in str(run.reason)
+
+
+@pytest.mark.parametrize(("integrator", "step"), [("rk4", 1e-3), ("rk4", 5e-4), ("euler", 1e-4), ("picard", None)])
+def test_a_body_that_stands_still_does_not_fail(integrator, step):
+    """It creeps where the push is the friction: 1 = 2.943 tanh(v / 1e-3). The works of both cancel."""
+    model = sled("1.0 - 0.3*9.81*tanh(sled.vx/1e-3)", mass=1.0)
+    run = model.simulate(method="direct-correction", integrator=integrator, step=step, until=10.0)
+    assert (run.status, run.reason) == ("ok", None)
+    assert run["sled.vx"][-1] == pytest.approx(1e-3 * math.atanh(1.0 / 2.943), rel=1e-9)
+
+
+def test_limits_of_the_energy_bound_a_body_that_stands_still_as_well():
+    model = sled("1.0 - 0.3*9.81*tanh(sled.vx/1e-3)", mass=1.0)
+    settings = {"method": "direct-correction", "integrator": "rk4", "until": 10.0}
+    assert model.simulate(**settings, step=2e-3).status == "failed"  # 40 times as fast as it creeps
+    assert model.simulate(**settings, step=1e-3, max_energy_error=1e-6).status == "failed"

@@ -236,12 +236,12 @@ def test_rates_are_those_behind_a_closer_look_where_a_pivot_is_suspicious():
 
 @pytest.mark.parametrize("when", ["t > 0.1234", "sin(t) > sin(0.1234)", "not t < 0.1234", "t > 0.1 and t > 0.1234"])
 def test_a_run_stops_inside_a_constant_step(when):
-    result = spinning().simulate(step=1e-2, stop_when=when)
+    result = spinning().simulate(integrator="rk4", step=1e-2, stop_when=when)
     assert result.ok and abs(result.end - 0.1234) < 1e-15
     np.testing.assert_array_equal(result.t, [*(1e-2 * np.arange(13)), result.end])
-    whole = spinning().simulate(step=1e-2)
+    whole = spinning().simulate(integrator="rk4", step=1e-2)
     np.testing.assert_array_equal(result.q.values[:-1], whole.q.values[:13])  # as if nothing had been asked for
-    short = spinning().simulate(step=1e-2, until=result.end)
+    short = spinning().simulate(integrator="rk4", step=1e-2, until=result.end)
     np.testing.assert_allclose(result.q.values[-1], short.q.values[-1], rtol=1e-15)  # one digit of the step apart
 
 
@@ -335,7 +335,7 @@ def test_no_crossing_that_is_wider_than_a_step_is_missed(seed):
     moving = {**BALL, "bodies": {"ball": {"type": "point", "mass": 1.0, "velocity": [1.0, 0.0]}}}
     events = {f"g{k}": {"when": text} for k, text in enumerate(texts)}
     model = symgen.load(mechanism_of({**moving, "events": events}))
-    result = model.simulate(method="lagrange", step=h, until=until)
+    result = model.simulate(method="lagrange", integrator="rk4", step=h, until=until)
     expected = crossings(functions, until, 200_000)
     found = {k: times_of(result, f"g{k}") for k in range(6)}
     wide = 0
@@ -359,7 +359,7 @@ def test_an_excursion_inside_one_step_is_found():
     half = math.sqrt(2e-3 / G)
     for direction, expected in (("any", [1 - half, 1 + half]), ("rising", [1 - half]), ("falling", [1 + half])):
         events = {direction: event | {"direction": direction}}
-        result = model.simulate(method="lagrange", step=0.8, until=1.6, events=events)
+        result = model.simulate(method="lagrange", integrator="rk4", step=0.8, until=1.6, events=events)
         np.testing.assert_allclose(times_of(result, direction), expected, rtol=0.0, atol=1e-12)
 
 
@@ -557,7 +557,7 @@ def test_what_joints_hold_at_rest_has_no_other_velocity_nearby(coordinates):
 
 def test_a_run_with_events_is_left_saved_and_gone_on_with():
     model = ball(**BOUNCE, top={"when": "ball.vy", "direction": "falling"})
-    run = prepare(model.mechanism, Settings(method="lagrange", step=1e-2, until=2.0))
+    run = prepare(model.mechanism, Settings(method="lagrange", integrator="rk4", step=1e-2, until=2.0))
     whole, first, second = (run.simulation() for _ in range(3))
     nothing = whole.outputs(np.zeros(0))
     whole.enter(nothing)
@@ -570,7 +570,7 @@ def test_a_run_with_events_is_left_saved_and_gone_on_with():
 
 
 def test_many_events_are_kept():
-    result = ball(often={"when": "sin(400*t)"}).simulate(method="lagrange", step=1e-3, until=5.0)
+    result = ball(often={"when": "sin(400*t)"}).simulate(method="lagrange", integrator="rk4", step=1e-3, until=5.0)
     found = times_of(result, "often")
     expected = np.arange(1, math.floor(2000 / math.pi) + 1) * math.pi / 400
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-14)

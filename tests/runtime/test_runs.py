@@ -16,6 +16,7 @@ from symgen.api import load
 from symgen.catalogue import raw
 from symgen.integrators import INTEGRATORS as SCHEMES
 from symgen.methods import METHODS as KNOWN
+from symgen.running.automatic import constant_integrator
 from symgen.running.prepare import make_plan
 from symgen.runtime import abi
 from symgen.runtime.run import integrate
@@ -24,7 +25,7 @@ from symgen.store.stats import cache_stats
 
 
 def test_a_run_that_went_well():
-    result = load("four-bar").simulate(until=0.5)
+    result = load("four-bar").simulate(integrator="rk4", until=0.5)
     assert (result.status, result.reason, result.warnings, result.notes) == ("ok", None, (), ())
     assert result.steps == 500 and result.rank_event_count == 0 and result.smallest_pivot.min() > 0.1
     assert result.evaluations == 4 * result.steps
@@ -36,14 +37,14 @@ def test_a_run_that_went_well():
 def test_baumgarte_beyond_its_limit():
     """alpha = beta = 500 with RK4 is stable up to 5.57 ms."""
     keys = {"method": "baumgarte", "options": {"method.alpha": 500, "method.beta": 500}, "until": 2.0}
-    result = load("four-bar").simulate(**keys, step=7e-3)
+    result = load("four-bar").simulate(**keys, integrator="rk4", step=7e-3)
     assert result.status == "failed"
     assert any("the step 0.007 s exceeds 0.00557 s" in w for w in result.warnings)
     assert "exceeds max_violation" in result.reason and f"at t = {result.outcome.end:.6g} s" in result.reason
     assert 0.0 < result.outcome.end < 2.0
     # inside the limit violations stay bounded, although steps as coarse as that leave much of them
-    assert load("four-bar").simulate(**keys, step=4e-3, max_violation=1.0).status == "ok"
-    assert load("four-bar").simulate(**keys, step=7e-3, max_violation=1.0).status == "failed"
+    assert load("four-bar").simulate(**keys, integrator="rk4", step=4e-3, max_violation=1.0).status == "ok"
+    assert load("four-bar").simulate(**keys, integrator="rk4", step=7e-3, max_violation=1.0).status == "failed"
 
 
 @pytest.mark.parametrize("integrator", ADAPTIVE)
@@ -110,7 +111,9 @@ def test_a_state_that_is_not_finite_is_a_failure():
 
 def test_passages_are_events_that_hold_the_singular_times():
     """The window is flat where B0 crosses the ground line; times by interpolation of the run itself."""
-    outcome = run(load("n-four-bar:1"), method="direct-correction", step=1e-3, until=5.0, output_step=1e-3)
+    outcome = run(
+        load("n-four-bar:1"), method="direct-correction", integrator="rk4", step=1e-3, until=5.0, output_step=1e-3
+    )
     height = outcome.states[:, 1]
     crossings = outcome.times[:-1][np.sign(height[:-1]) != np.sign(height[1:])]
     assert len(crossings) == outcome.rank_event_count == len(outcome.rank_events) > 3
@@ -122,7 +125,7 @@ def test_passages_are_events_that_hold_the_singular_times():
 
 
 def test_without_correction_of_positions_a_passage_leaves_doubt():
-    keys = {"step": 1e-3, "until": 1.0}
+    keys = {"integrator": "rk4", "step": 1e-3, "until": 1.0}
     for method in ("lagrange", "baumgarte"):
         result = load("n-four-bar:1").simulate(method=method, **keys)
         assert result.status == "unverified" and "singular position" in result.reason
@@ -133,7 +136,7 @@ def test_without_correction_of_positions_a_passage_leaves_doubt():
 @pytest.mark.parametrize("method", ["lagrange", "baumgarte"])
 def test_a_wrong_branch_never_ends_well(method):
     for step in (0.97e-3, 1e-3, 1.02e-3):
-        assert load("n-four-bar:1").simulate(method=method, step=step, until=10.0).status != "ok"
+        assert load("n-four-bar:1").simulate(method=method, integrator="rk4", step=step, until=10.0).status != "ok"
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -155,7 +158,7 @@ def test_a_redundant_row_changes_nothing_in_the_motion(method):
 
 def test_a_redundant_row_is_no_event_near_a_singular_position():
     """One passage of the flat parallelogram is one event, and its rank never exceeds that of the start."""
-    result = load(mechanism_of(parallelogram())).simulate(until=1.0, step=1e-3)
+    result = load(mechanism_of(parallelogram())).simulate(integrator="rk4", until=1.0, step=1e-3)
     assert max(e.rank for e in result.rank_events) <= 11
     assert result.rank_event_count == 1
 
@@ -167,7 +170,7 @@ def test_a_start_in_a_singular_position_is_left_behind():
         turned = {"position": [x, 0.0], "angle": 0.0, "velocity": [0.0, -v]}
         turned["angular_velocity"] = 0.0 if name == "coupler0" else -1.0
         description["bodies"][name] = description["bodies"][name] | turned
-    outcome = run(load(mechanism_of(description)), method="direct-correction", step=1e-3, until=0.5)
+    outcome = run(load(mechanism_of(description)), method="direct-correction", integrator="rk4", step=1e-3, until=0.5)
     assert outcome.code == abi.DONE, outcome.reason
     coupler = outcome.states[:, 5]
     assert np.abs(coupler).max() <= 1e-3, "the coupler stays level on the regular branch"
@@ -211,7 +214,7 @@ def test_an_interrupt_keeps_what_was_computed(integrator):
 def test_parameters_at_run_time_are_as_good_as_compiled_ones(method):
     """Other masses without compiling again, against a mechanism in which they are written as numbers."""
     new = {"crank_mass": 3.3, "coupler_mass": 0.7, "rocker_mass": 11.0}
-    keys = {"method": method, "step": 1e-3, "until": 0.5}
+    keys = {"method": method, "integrator": constant_integrator(method), "step": 1e-3, "until": 0.5}
     model = load("four-bar")
     first = run(model, **keys)
     before = cache_stats()

@@ -91,7 +91,10 @@ def test_lanes_take_smooth_tables():
     from symgen.ensemble.sweep import sweep
 
     model = forced("cubic", False)
-    asked = {"vary": {"block.x": np.linspace(-0.9, 1.2, 11)}, "until": 0.5, "step": 1e-3, "method": "lagrange"}
+    asked = {"vary": {"block.x": np.linspace(-0.9, 1.2, 11)}, "until": 0.5, "integrator": "rk4"} | {
+        "step": 1e-3,
+        "method": "lagrange",
+    }
     single, lanes = (
         sweep(model, **asked, quantities=["block.x"], target=target)["block.x"] for target in ("cpu", "lanes")
     )

@@ -143,3 +143,19 @@ def test_a_guard_keeps_what_is_undefined_aside(when):
     found = falling(when).simulate(integrator="rk4")
     assert found.status == "ok", found.reason
     assert [event.t for event in found.events] == [pytest.approx(0.15**0.5, abs=1e-12)]
+
+
+@pytest.mark.parametrize("integrator", ["dop853", "rk4", "radau5"])
+def test_a_failure_names_the_root_that_has_no_value(integrator):
+    arm = symgen.load(
+        MechanismBuilder("rooted", gravity=(0.0, 0.0))
+        .input("push", 0.0)
+        .body("arm", mass=1.0, inertia=0.1)
+        .joint("pin", "revolute", between=("ground", "arm"), at=((0.0, 0.0), "centre"))
+        .force("motor", "torque", body="arm", torque="push + (log(arm.theta) if arm.theta > 5 else 0)")
+        .output("way", "integral(abs(arm.omega))")
+        .build()
+    )
+    run = arm.simulate(inputs={"push": "max(0.1, sqrt(0.5 - t))"}, integrator=integrator, until=1.0)
+    assert run.status == "failed" and run.end == pytest.approx(0.5, abs=2e-3)
+    assert run.reason.endswith(": sqrt(0.5 - t) of force 'motor' is undefined"), run.reason

@@ -9,6 +9,7 @@ from support.spatial_runs import columns, run
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 from symgen.result.points import Points
+from symgen.running.automatic import constant_integrator
 
 TIMES = np.linspace(0.0, 0.3, 7)
 #: Of second order, or with an error of its own as the penalty has: they need more room [m].
@@ -25,7 +26,7 @@ def expected():
 @pytest.mark.parametrize("method", METHODS.names)
 def test_every_method_moves_the_slider_crank(method):
     model, q = expected()
-    integrator = METHODS.get(method).default_integrator
+    integrator = constant_integrator(method)
     settings = {"rtol": 1e-9, "atol": 1e-11} if INTEGRATORS.get(integrator).adaptive else {"step": 5e-4}
     result = model.simulate(method=method, integrator=integrator, until=0.3, times=TIMES, **settings)
     assert result.status in ("ok", "unverified"), result.reason

@@ -68,7 +68,7 @@ def test_pieces_are_one_run(arm, integrator):
 
 
 def test_bodies_stand_on_their_joints(arm):
-    sim = arm.start(coordinates="joint", step=1e-3)
+    sim = arm.start(coordinates="joint", integrator="rk4", step=1e-3)
     sim.run(0.2)
     at = sim.bodies
     (a, b), (wa, wb) = sim.q.tolist(), sim.v.tolist()
@@ -85,10 +85,10 @@ def test_controllers_read_joints(arm):
         seen.append((t, float(run.q["upper.theta"])))
         return {"torque": -2.0 * float(run.q["upper.theta"])}
 
-    sim = arm.start(coordinates="joint", step=1e-3)
+    sim = arm.start(coordinates="joint", integrator="rk4", step=1e-3)
     sim.every(0.01, controller)
     sim.run(0.05)
-    other = arm.start(step=1e-3)
+    other = arm.start(integrator="rk4", step=1e-3)
     other.every(0.01, controller)
     other.run(0.05)
     joint, absolute = seen[:5], seen[5:]
@@ -98,7 +98,7 @@ def test_controllers_read_joints(arm):
 
 
 def test_masses_may_change_and_lengths_may_not(arm):
-    sim = arm.start(coordinates="joint", step=1e-3)
+    sim = arm.start(coordinates="joint", integrator="rk4", step=1e-3)
     sim.run(0.02)
     before = sim.bodies
     with pytest.raises(InputError, match="leave the position of every joint as it is, got some that move lower"):
@@ -111,5 +111,5 @@ def test_masses_may_change_and_lengths_may_not(arm):
 
 
 def test_bodies_of_a_run_in_their_own_coordinates(arm):
-    sim = arm.start(step=1e-3)
+    sim = arm.start(integrator="rk4", step=1e-3)
     assert sim.bodies["lower.theta"] == sim.q["lower.theta"]

@@ -14,8 +14,7 @@ from symgen.compiling.choices import straight_seconds
 from symgen.compiling.pipeline import choose_method
 from symgen.integrators import INTEGRATORS
 from symgen.lower.looped.law import is_loopable
-from symgen.methods import METHODS
-from symgen.running.automatic import AUTO
+from symgen.running.automatic import AUTO, constant_integrator
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -121,7 +120,7 @@ def left_out(
         Whether all pairs have straight code, but the one that chooses for itself.
     """
     wanted = [pair for pair in dict.fromkeys(pairs) if needs_straight(*pair) or (straight and pair[0] != AUTO)]
-    wanted.sort(key=lambda pair: METHODS.get(pair[0]).default_integrator != pair[1])
+    wanted.sort(key=lambda pair: constant_integrator(pair[0]) != pair[1])
     pairs_out, compiled, spent = [], set[tuple[str, str, bool]](), 0.0
     for mechanism in mechanisms:
         each = straight_seconds(mechanism)

@@ -15,7 +15,7 @@ from symgen.describe.mechanism import bounded
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.running.automatic import AUTO
+from symgen.running.automatic import AUTO, constant_integrator
 from symgen.running.plan import refuse_events, refuse_weightless
 from symgen.settings import Settings, default
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
@@ -53,7 +53,7 @@ def pairs(method: str, constant_steps: bool = False) -> tuple[tuple[str, str], .
     if method == AUTO:
         return () if constant_steps else ((AUTO, AUTO),)
     chosen = METHODS.get(method, "--methods")
-    names = dict.fromkeys([chosen.default_integrator, *FURTHER])
+    names = dict.fromkeys([constant_integrator(method), *FURTHER])
     fit = [n for n in names if set(INTEGRATORS.get(n).forms) & set(chosen.forms)]
     return tuple((method, n) for n in fit if not (constant_steps and INTEGRATORS.get(n).adaptive))
 
@@ -245,7 +245,7 @@ class _Study:
                 cases.setdefault((task.level.model, task.level.family), []).append((task.level, motion))
         for (_, family), own in cases.items():
             level, motion = own[0 if family == "duration" else min(1, len(own) - 1)]
-            for pair in ((name, METHODS.get(name).default_integrator) for name in self.methods if name != AUTO):
+            for pair in ((name, constant_integrator(name)) for name in self.methods if name != AUTO):
                 if self._is_compiled(level, pair):
                     yield LimitTask(level, *pair, motion, self.common)
 
