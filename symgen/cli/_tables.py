@@ -10,6 +10,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from symgen.errors import fitting
+
 if TYPE_CHECKING:
     from symgen.ensemble.sweep_study import Sweep
     from symgen.result.result import Result
@@ -114,10 +116,11 @@ def _final(result: Result, most: int = 12) -> tuple[list[str], list[tuple[str, .
     for name, value in (result.q.row() | result.v.row()).items():
         body, _, label = name.rpartition(".")
         bodies.setdefault(body, {})[label] = f"{value:.6g}"
+    first = fitting(len(bodies), most)
     labels = sorted({label for row in bodies.values() for label in row}, key=_LABELS.index)
-    rows = [(body, *(row.get(label, "") for label in labels)) for body, row in list(bodies.items())[:most]]
-    if len(bodies) > most:
-        rows.append((f"... {len(bodies) - most} more", *("" for _ in labels)))
+    rows = [(body, *(row.get(label, "") for label in labels)) for body, row in list(bodies.items())[:first]]
+    if len(bodies) > first:
+        rows.append((f"... {len(bodies) - first} more", *("" for _ in labels)))
     return labels, rows
 
 

@@ -22,8 +22,8 @@ from symgen.describe.events import in_words
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.sides import SidedJoint
 from symgen.ensemble.measures import Measures, stored
-from symgen.ensemble.row_quantities import RowQuantity
 from symgen.ir.numerics import WARN
+from symgen.result.signals import Signal
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.ensemble_abi import SIDE
@@ -164,7 +164,7 @@ class Recipe:
         Steps, tolerances, limits and output times.
     method_parameters : mapping
         Values of the method's parameters that differ from the defaults.
-    quantities : tuple of RowQuantity
+    quantities : tuple of Signal
         What is kept.
     tree : Mechanism or None
         The mechanism with its tree, where runs are in joint coordinates.
@@ -189,7 +189,7 @@ class Recipe:
     integrator: str
     spec: RunSpec
     method_parameters: Mapping[str, float]
-    quantities: tuple[RowQuantity, ...]
+    quantities: tuple[Signal, ...]
     held: Held
     strict: bool
     code: str
@@ -225,14 +225,14 @@ class Recipe:
         return 0 if self.watch is None else self.watch.width
 
     @property
-    def columns(self) -> tuple[RowQuantity, ...]:
+    def columns(self) -> tuple[Signal, ...]:
         """What loops leave of a run: the quantities, or those of them that loops know and then what others need."""
         if self.measures is None:
             return self.quantities
         return (*(q for q in self.quantities if q.source < SIDE), *self.measures.reads)
 
     @property
-    def behind(self) -> tuple[RowQuantity, ...]:
+    def behind(self) -> tuple[Signal, ...]:
         """The quantities that are worked out behind the loops."""
         return tuple(q for q in self.quantities if q.source >= SIDE)
 

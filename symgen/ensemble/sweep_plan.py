@@ -6,7 +6,7 @@ import hashlib
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from msgspec import structs
@@ -25,7 +25,7 @@ from symgen.ensemble.chunks import Rows, make_rows
 from symgen.ensemble.driving import Driving, read_by_motions
 from symgen.ensemble.kernel import kernel_of
 from symgen.ensemble.loop_runs import PLAIN
-from symgen.ensemble.measures import integrated, make_measures, measurable
+from symgen.ensemble.measures import integrated, make_measures
 from symgen.ensemble.names import Names, Targets, targets_of
 from symgen.ensemble.recipe import Code, Module, Recipe, Watch, code_identity
 from symgen.ensemble.row_quantities import choose_quantities
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from symgen.api import Model
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Event, Mechanism
-    from symgen.ensemble.row_quantities import RowQuantity
+    from symgen.result.signals import Signal
     from symgen.runtime.compiled import CompiledModel
 
 #: A chunk should take about so many seconds, and its arrays no more than so many bytes.
@@ -240,7 +240,7 @@ def make_ensemble(
     if target == "lanes" and spec.adaptive:  # runs side by side take the same steps
         got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with --step, or rk4"
         raise InputError("target 'lanes'", "a constant step", got, hint)
-    kept = choose_quantities(compiled.info, kept_names, partial(measurable, mechanism, compiled.info))
+    kept = choose_quantities(mechanism, compiled.info, kept_names)
     integral = integrated(mechanism, kept)
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
@@ -305,7 +305,7 @@ def _code(
     compiled: CompiledModel,
     target: str,
     joint: bool,
-    kept: Sequence[RowQuantity],
+    kept: Sequence[Signal],
 ) -> Code:
     """Return the code that runs use for one solver, with how quantities behind the loops are worked out."""
     return Code(

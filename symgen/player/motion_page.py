@@ -21,7 +21,7 @@ from symgen.drawing.mechanism_scene import build_scene
 from symgen.drawing.scene import Array, Disc, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
 from symgen.files import check_path, write_whole
 from symgen.player.live import Live
-from symgen.player.recording import Recording, fitted, frames_within, packed, shorts
+from symgen.player.recording import Recording, fitted, frames_within, packed, shorts, with_further
 
 #: The ending of pages, which need no library.
 PAGES: Mapping[str, tuple[str, ...]] = {".html": ()}
@@ -29,6 +29,8 @@ PAGES: Mapping[str, tuple[str, ...]] = {".html": ()}
 LARGEST = {False: 145_000, True: 480_000}
 #: Characters for data at most.
 MOST_DATA = {False: 60_000, True: 150_000}
+#: Characters for plots of what a page need not have, beside these.
+MOST_PLOTS = {False: 120_000, True: 200_000}
 #: How a page says that it has no forces.
 BARE = "forces are left out, as the page would be too large with them"
 SCRIPTS = {False: ("draw.js", "plots.js", "player.js"), True: ("solid.js", "draw.js", "plots.js", "player.js")}
@@ -79,9 +81,11 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
     data["motions"] = []
     for each in motions:
         shown, coarse = fitted(each, share, len(pins))
-        if shown is not each and not data["note"].endswith(BARE):
-            data["note"] = f"{data['note']}; {BARE}" if data["note"] else BARE
         keep = frames_within(shown, share, coarse, len(pins))
+        shown, missing = with_further(each, shown, len(keep), MOST_PLOTS[spatial] // len(motions))
+        notes = [BARE] if shown.pushed != each.pushed else []
+        notes += [f"no plots of {', '.join(dict.fromkeys(missing))}: the page would be too large"] if missing else []
+        data["note"] = "; ".join(dict.fromkeys([*filter(None, [data["note"]]), *notes]))
         data["motions"].append(packed(shown, keep, coarse) | _gaps(scene, shown.q[keep]))
     text = _web("page.html")
     parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": as_json(data), "SCRIPT": script}

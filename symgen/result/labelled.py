@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.arguments import shown, whole
-from symgen.errors import InputError, nearest, quoted
+from symgen.errors import InputError, fitting, nearest, quoted
 
 Array = NDArray[np.float64]
 
@@ -111,8 +111,9 @@ def html_table(headings: Sequence[str], rows: Sequence[Sequence[str]], most: int
         return "<tr>" + "".join(f"<{tag} style='text-align:left'>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
 
     head = row(headings, "th") if headings else ""
-    left = [f"<tr><td>... {len(rows) - most} more</td></tr>"] if len(rows) > most else []
-    return f"<table>{head}{''.join([row(cells, 'td') for cells in rows[:most]] + left)}</table>"
+    first = fitting(len(rows), most)
+    left = [f"<tr><td>... {len(rows) - first} more</td></tr>"] if len(rows) > first else []
+    return f"<table>{head}{''.join([row(cells, 'td') for cells in rows[:first]] + left)}</table>"
 
 
 class Quantity(Protocol):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.errors import AssemblyError, InputError
+from symgen.errors import AssemblyError, InputError, fitting
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.held import Held
@@ -107,8 +107,9 @@ def opposite(joint: str) -> str:
 
 def _listed(changes: Sequence[Change]) -> str:
     """Return the first changes one by one, and how many more there are."""
-    words = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:_LISTED])
-    return words + (f"; and {len(changes) - _LISTED} more" if len(changes) > _LISTED else "")
+    first = fitting(len(changes), _LISTED)
+    words = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:first])
+    return words + (f"; and {len(changes) - first} more" if len(changes) > first else "")
 
 
 def _from_to(change: Change) -> str:

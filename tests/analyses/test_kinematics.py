@@ -450,7 +450,7 @@ def test_files_and_json(driven, tmp_path, capsys):
     assert (tmp_path / "k.svg").stat().st_size and (tmp_path / "c.svg").stat().st_size
     assert main(["kinematics", "driven-four-bar", "--times", "0,x"]) == 2 and "--times" in capsys.readouterr().err
     frame = driven.kinematics([0.0, 0.1]).to_dataframe()
-    assert list(frame.index) == [0.0, 0.1] and frame.attrs["units"]["reaction.A.M"] == "N m"
+    assert list(frame.index) == [0.0, 0.1] and frame.attrs["units"]["A.M"] == "N m"
 
 
 def test_the_command_ends_at_a_dead_centre(tmp_path, capsys):

@@ -265,8 +265,8 @@ def rows():
         ("reaction", lambda x, v: x.result.reaction(v), "joint: expected the name of a joint, got {}"),
     ):
         yield from each(label, keys, call, sentence)
-    yield "column", lambda x: x.result["bob.z"], "result: expected the name of a column, got 'bob.z'; did you mean"
-    yield "column long", lambda x: x.result["x" * 9999], "got 'xxxxxxxxxxxx"
+    yield "column", lambda x: x.result["bob.z"], "quantity 'bob.z': expected a quantity of pendulum, got none of"
+    yield "column long", lambda x: x.result["x" * 9999], "quantity 'xxxxxxxxxxxx"
     yield "reaction", lambda x: x.result.reaction("lin"), "joint: expected the name of a joint, got 'lin'"
     indices = (99, -99, "last", None, 1.5, [0])
     yield from each("row", indices, lambda x, v: x.result.q.row(v), "row: expected a whole number from -")
@@ -275,6 +275,8 @@ def rows():
         ("plot", lambda x, v: x.result.plot(v), "plot"),
         ("study", lambda x, v: x.study.save(v), "save"),
         ("sweep save", lambda x, v: x.sweep.save(v), "save"),
+        ("study plot", lambda x, v: x.study.plot(v), "plot"),
+        ("sweep plot", lambda x, v: x.sweep.plot(v), "plot"),
     ):
         names = {"3": 3, "None": None, "b'a.csv'": b"a.csv", "a list of 1": ["a.csv"]}
         yield from each(label, names, call, f"{where}: expected a path, got {{}}")
@@ -286,7 +288,12 @@ def rows():
     yield "select", lambda x: x.result.select(3), "quantities: expected a list of names, got 3"
     yield "select name", lambda x: x.result.select(["bob.z"]), "quantity 'bob.z': expected a quantity of"
     yield "plot what", lambda x: x.result.plot("a.png", 3), "plot: expected a list of names, got 3"
-    yield "plot panel", lambda x: x.result.plot("a.png", "energi"), "plot: expected the name of a panel, got 'energi'"
+    yield "plot over", lambda x: x.result.plot("a.png", "q", over=3), "over: expected a text, got 3"
+    yield "plot over two", lambda x: x.result.plot("a.png", "q", over="bob"), "over: expected one column, got 'bob'"
+    yield "study plot what", lambda x: x.study.plot("a.png", "eror"), "plot: expected one of step, rtol, error"
+    yield "sweep plot what", lambda x: x.sweep.plot("a.png", "bob.z"), "quantity 'bob.z': expected a quantity of"
+    yield "sweep plot over", lambda x: x.sweep.plot("a.png", over="bob.z"), "over: expected t, what varies, or"
+    yield "plot panel", lambda x: x.result.plot("a.png", "energi"), "quantity 'energi': expected a quantity of"
     # studies
     lists = {"3": 3, "a dict of 0": {}, "the function len": len}
     for name in ("methods", "integrators"):
@@ -301,7 +308,7 @@ def rows():
         call = comparing(name)
         wrong = f"{name}: expected a finite number above 0, got "
         yield from each(f"compare {name}", (0, -1.0, NAN, "1", True, [1.0]), call, wrong)
-    yield "view beside", lambda x: x.result.view("a.nc"), "beside: expected a Result, got"
+    yield "view beside", lambda x: x.result.view("a.nc"), "beside: expected a result of a run"
     yield "view live", lambda x: x.result.view(live="no"), "live: expected "
     yield "draw at", lambda x: x.model.draw(at="end"), "at: expected one of"
     yield "draw parameters", lambda x: x.model.draw({"nothing": 1.0}), "parameter 'nothing': expected a parameter"
@@ -453,13 +460,18 @@ def test_no_function_with_arguments_is_left_out():
         *"load simulate compare sweep Model Settings MechanismBuilder Mechanism.body Mechanism.joint_named".split(),
         *(f"Model.{n}" for n in "parameters compile equations_in generate draw assemble simulate start".split()),
         *(f"Result.{n}" for n in "save plot reaction columns select series view".split()),
-        *"Labelled.row Labelled.unit Study.save Sweep.save Sweep.reasons".split(),
+        *"Labelled.row Labelled.unit Study.save Study.plot Sweep.save Sweep.plot Sweep.reasons".split(),
         *(f"SteppedRun.{n}" for n in "step run every set restore".split()),
         *(f"MechanismBuilder.{n}" for n in "run parameter input table body joint force output event".split()),
     }
     tested |= {f"Model.{method.__name__}" for method in ANALYSIS_METHODS}
     # what only the package makes or calls
-    inner = {*"Result Labelled Study Sweep SteppedRun Mechanism Model.compiled Model.ready Model.initial_state".split()}
+    inner = {
+        *"Labelled Study Sweep SteppedRun Mechanism Model.compiled Model.ready Model.initial_state".split(),
+        "Result",
+        "Result.along",
+        "Result.whole",
+    }
     found = set()
     for name in symgen.__all__:
         thing = getattr(symgen, name)

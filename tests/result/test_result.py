@@ -7,10 +7,8 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen.describe.columns import PREFIX
 from symgen.errors import InputError
-from symgen.result.result import TABLES
-from symgen.result.select import columns_of
+from symgen.result.signals import of_run
 
 
 @pytest.fixture(scope="module")
@@ -215,6 +213,9 @@ def test_repeated_runs_report_the_shortest():
 def test_columns_are_known_before_a_run(name):
     model = symgen.load(name)
     result = model.simulate(until=0.01, step=1e-2, integrator="rk4")
-    expected = {PREFIX[table] + column: table for table in TABLES for column in result.columns(table)}
-    found = columns_of(model.mechanism, result.outcome.compiled.info)
-    assert list(found.items()) == list(expected.items())
+    tables = of_run(model.mechanism, result.outcome.compiled.info)
+    assert [s.name for table in tables.values() for s in table] == list(result.whole().names)
+    assert tuple(s.unit for table in tables.values() for s in table) == result.whole().units
+    assert {table: tuple(s.key for s in signals) for table, signals in tables.items()} == {
+        name: table.names for name, table in result.tables().items()
+    }

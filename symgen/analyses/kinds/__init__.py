@@ -23,7 +23,7 @@ OF_DRIVEN = ("start", "strict")
 #: And beside those of states for a run that leads to one.
 OF_RUNS = (*OF_STATES, "options", "events", "strict", "max_violation", "max_energy_error", "max_step", "max_attempts")
 
-Kind = Literal["text", "texts", "whole", "switch", "words", "numbers", "range", "times", "plot", "tables"]
+Kind = Literal["text", "texts", "columns", "whole", "switch", "words", "numbers", "range", "times", "plot", "tables"]
 
 
 @dataclass(frozen=True)
@@ -37,9 +37,9 @@ class Option:
     help : str
         What the help says of it; for a setting, by default what the table of settings says.
     kind : str
-        Of its value: ``text``, ``texts`` (given several times), ``whole``, ``switch``, ``words`` (``A,B``), ``numbers``
-        (``A=1``, given several times), ``range`` (``A=lin(0,1,5)``), ``times``, or a file to write: ``plot``,
-        ``tables``.
+        Of its value: ``text``, ``texts`` (given several times), ``columns`` (``A,B``, given several times), ``whole``,
+        ``switch``, ``words`` (``A,B``), ``numbers`` (``A=1``, given several times), ``range`` (``A=lin(0,1,5)``),
+        ``times``, or a file to write: ``plot``, ``tables``.
     metavar : str
         What stands for a value in the help.
     argument : str
@@ -90,10 +90,17 @@ def of_motion(start: str) -> tuple[Option, ...]:
 def of_tables(shown: str, drawn: str) -> tuple[Option, ...]:
     """Return the options of what is done with tables over time: what ``--quantity`` names and ``--plot`` draws."""
     return (
-        Option("--quantity", shown, "texts", "NAME", "quantities"),
+        Option("--quantity", shown, "columns", "NAME,NAME", "quantities"),
         Option("--save", "Write tables to FILE: .csv, with units, or .parquet.", "tables", "FILE"),
-        Option("--plot", f"Draw {drawn} over time into FILE: .png, .svg or .pdf.", "plot", "FILE"),
+        Option("--plot", f"Draw {drawn} into FILE: .png, .svg or .pdf.", "plot", "FILE"),
+        Option("--over", "Draw over NAME, such as crank.theta.  [default: t]", metavar="NAME"),
     )
+
+
+def check_over(over: str | None, plot: Path | None) -> None:
+    """Refuse ``--over`` without a plot."""
+    if over is not None and plot is None:
+        raise InputError("--over", "--plot FILE, which draws over it", "no --plot")
 
 
 @dataclass(frozen=True)

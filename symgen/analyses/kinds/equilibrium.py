@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from symgen.analyses.kinds import STATE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_of
-from symgen.errors import InputError
+from symgen.errors import InputError, fitting
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -119,12 +119,13 @@ def _shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
     if result.not_unique:
         yield f"  reactions are not unique at {', '.join(result.not_unique)}"
     for title, values in (("coordinate", result.q), ("multiplier", result.multipliers)):
+        first = fitting(len(values), MOST)
         if values:
             yield AnalysisTable(
-                (title, "value"), [(n, f"{x:.9g}") for n, x in list(values.items())[:MOST]], left=(title,)
+                (title, "value"), [(n, f"{x:.9g}") for n, x in list(values.items())[:first]], left=(title,)
             )
-        if len(values) > MOST:
-            yield f"... and {len(values) - MOST} more; --json has all"
+        if len(values) > first:
+            yield f"... and {len(values) - first} more; --json has all"
 
 
 KIND = Analysis(

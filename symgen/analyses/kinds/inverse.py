@@ -13,6 +13,7 @@ from symgen.analyses.kinds import (
     AnalysisOutput,
     AnalysisTable,
     Option,
+    check_over,
     of_motion,
     of_tables,
     settings_of,
@@ -80,6 +81,7 @@ def command(
     quantities: Sequence[str],
     save: Path | None,
     plot: Path | None,
+    over: str | None,
 ) -> AnalysisOutput:
     """Find the efforts that a motion of MODEL needs: motor torques, forces of actuators.
 
@@ -91,8 +93,10 @@ def command(
             raise InputError(flag(name), "settings of a recorded motion", "one of drivers' motion")
     if quantities and save is None and plot is None:
         raise InputError("--quantity", "--save or --plot, where quantities go", "neither")
+    check_over(over, plot)
     result = inverse(load(), motion, settings, times, actuators, weights)
     result.select(quantities)  # names that are wrong are refused before anything is shown
+    result.along(over or "t")
     return AnalysisOutput(
         result.to_json(),
         _shown(result),
@@ -100,7 +104,7 @@ def command(
         result.ended,
         {
             save: lambda path: result.save(path, ("efforts", *quantities) if quantities else ()),
-            plot: lambda path: result.plot(path, ("efforts", "power", *quantities)),
+            plot: lambda path: result.plot(path, ("efforts", "power", *quantities), over or "t"),
         },
     )
 

@@ -6,7 +6,16 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from symgen.analyses.kinds import OF_MOTIONS, Analysis, AnalysisOutput, Option, of_motion, of_tables, settings_of
+from symgen.analyses.kinds import (
+    OF_MOTIONS,
+    Analysis,
+    AnalysisOutput,
+    Option,
+    check_over,
+    of_motion,
+    of_tables,
+    settings_of,
+)
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -57,16 +66,19 @@ def command(
     quantities: Sequence[str],
     save: Path | None,
     plot: Path | None,
+    over: str | None,
     curves: Path | None,
 ) -> AnalysisOutput:
     """Move MODEL, whose freedom is all driven, through any times without integrating.
 
     For example: symgen kinematics driven-four-bar --times "lin(0, 1, 361)" --transmission C --save motion.csv
     """
-    from symgen.result.select import extremes
+    from symgen.result.summary import extremes
 
+    check_over(over, plot)
     result = kinematics(load(), times, settings, transmission)
-    shown = extremes(result.select(quantities or ("q",))) if len(result.t) else {}
+    result.along(over or "t")
+    shown = extremes(result.select(quantities) if quantities else result.whole(("q",))) if len(result.t) else {}
     return AnalysisOutput(
         result.to_json() | ({"quantities": shown} if quantities else {}),
         (f"{result.mechanism}: {len(result.t)} times, {result.steps} steps", shown),
@@ -74,7 +86,7 @@ def command(
         result.ended,
         {
             save: lambda path: result.save(path, quantities),
-            plot: lambda path: result.plot(path, quantities),
+            plot: lambda path: result.plot(path, quantities, over or "t"),
             curves: lambda path: result.plot_curves(path),
         },
     )

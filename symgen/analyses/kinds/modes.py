@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from symgen import arguments
 from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
-from symgen.errors import InputError
+from symgen.errors import InputError, fitting
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -154,6 +154,7 @@ def command(
 
 
 def _shown(result: Modes) -> Iterator[str | AnalysisTable]:
+    first = fitting(len(result.of_shapes), MOST)
     freedom, many = result.degrees_of_freedom, len(result.eigenvalues)
     if not many:
         yield "no degree of freedom is left: there are no modes"
@@ -169,11 +170,11 @@ def _shown(result: Modes) -> Iterator[str | AnalysisTable]:
             *(str(k + 1), _complex(value), f"{result.frequencies[k]:.6g}", f"{result.damping[k]:.4g}"),
             *(_shares(parts, k) for parts in tables.values()),
         )
-        for k, value in enumerate(result.of_shapes[:MOST])
+        for k, value in enumerate(result.of_shapes[:first])
     ]
     yield AnalysisTable(("mode", "eigenvalue [1/s]", "frequency [Hz]", "damping", *tables), rows, left=(*tables,))
-    if len(result.of_shapes) > MOST:
-        yield f"... and {len(result.of_shapes) - MOST} more; --json has all"
+    if len(result.of_shapes) > first:
+        yield f"... and {len(result.of_shapes) - first} more; --json has all"
 
 
 def _shares(parts: Mapping[str, Any], k: int, most: int = 4) -> str:

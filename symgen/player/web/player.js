@@ -22,9 +22,18 @@ const plot = makePlot($("plot"), $("key"));
 function recorded(part) {
   const n = part.count, t = floatColumns(part.t, n)[0] || new Float32Array(0), columns = typeof part.q === "string" ? floatColumns(part.q, n) : shortColumns(part.q, n);
   const rows = Array.from({ length: n }, (_, k) => Float64Array.from(columns, (c) => c[k]));
-  const groups = part.groups.map((g) => ({ ...g, columns: shortColumns(g, n) }));
+  const groups = part.groups.map((g) => ({ ...g, columns: g.places ? g.places.map((i) => columns[i]) : filled(g, n) }));
   for (const name of ["reactions", "pulls", "gaps"]) if (part[name]) part[name].columns = shortColumns(part[name], n);
   return { ...part, t: Float64Array.from(t), rows, groups, end: n ? t[n - 1] : 0, whole: true };
+}
+
+// Columns of every so many frames, the last one among them, at all frames.
+function filled(g, n) {
+  const every = g.every, count = n ? Math.ceil((n - 1) / every) + 1 : 0;
+  return shortColumns(g, count).map((column) => Float64Array.from({ length: n }, (_, k) => {
+    const j = Math.floor(k / every), begin = j * every, end = Math.min(begin + every, n - 1);
+    return k === begin ? column[j] : column[j] + ((column[j + 1] - column[j]) * (k - begin)) / (end - begin);
+  }));
 }
 
 const motions = data.motions.map(recorded);
