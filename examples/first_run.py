@@ -12,5 +12,5 @@ print(f"largest force in pin B: {result.magnitudes['B.F'].max():.1f} N")
 print(f"energy: largest error {abs(result.energy_error).max():.1e} J")
 print(f"violation: largest {result.position_violation_max:.1e} m")
 
-result.plot("first-run.pdf")
+result.plot("first-run.pdf", ["B.F", "crank.omega"], over="crank.theta")
 result.save("first-run.csv")

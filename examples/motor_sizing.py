@@ -14,4 +14,4 @@ print(f"largest force in pin C: {motion['C.F'].max():.0f} N")
 needed = linkage.inverse(times=times)
 motor = needed.summary()["motor"]
 print(f"motor: up to {motor['max']:.0f} N m, effective {motor['rms']:.0f} N m, up to {motor['peak_power']:.0f} W")
-needed.plot("motor.pdf")
+needed.plot("motor.pdf", ["motor.effort", "motor.power"], over="crank.theta")
