@@ -17,7 +17,7 @@ from symgen.cli._options import examples, json_option, setting_options
 )
 @click.argument("model")
 @setting_options("parameters", "start", "strict")
-@click.option("--draw", "picture", metavar="FILE", help="Draw it into FILE as well: .svg, .png or .pdf.")
+@click.option("--draw", "picture", metavar="FILE", help="Also draw the mechanism into FILE: .svg, .png or .pdf.")
 @json_option
 def command(
     model: str,

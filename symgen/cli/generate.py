@@ -48,7 +48,7 @@ def command(
     from symgen.api import load
 
     if every and methods:
-        raise InputError("--all", "no --method beside it", ", ".join(methods))
+        raise InputError("--all", "no --method with it", ", ".join(methods))
     mechanism = load(model)
     wanted = None if every else methods or "direct-correction"
     package = mechanism.generate(output, wanted, options, coordinates=coordinates, shape=shape, target=target)

@@ -33,10 +33,12 @@ WIDEST = 150
 @click.option("--format", "form", type=click.Choice(["text", "latex", "json"]), show_default="text")
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
 @click.option("--document", is_flag=True, help="With --format latex: a document that compiles as it is.")
-@click.option("--select", metavar="NAME,NAME", help="Of LaTeX: sections (Phi, D, gamma, M, f, law, ...), and joints.")
-@click.option("--symbols", is_flag=True, help="Of LaTeX: symbols for lengths that are numbers in the file.")
-@click.option("-o", "--output", metavar="FILE.html", help="Write a page that needs nothing else, with all of it.")
-@click.option("--method", help="Show the operation counts of this method's functions too.")
+@click.option(
+    "--select", metavar="NAME,NAME", help="With --format latex: sections (Phi, D, gamma, M, f, law, ...) and joints."
+)
+@click.option("--symbols", is_flag=True, help="With --format latex: symbols for lengths that are numbers in the file.")
+@click.option("-o", "--output", metavar="FILE.html", help="Write a self-contained page with all sections.")
+@click.option("--method", help="Also show the operation counts of this method's functions.")
 @setting_options(
     *("options", "shape", "coordinates", "parameters"),
     text={"options": "Of the method: weight=mass.", "parameters": "Value of a parameter, for the start."},
@@ -72,7 +74,7 @@ def command(
     form = "json" if as_json else form or "text"
     if output is not None:
         if as_json or document or select is not None or symbols or form != "text":
-            raise InputError("inspect: -o", "a page, which has everything", "options of text, LaTeX or JSON beside it")
+            raise InputError("inspect: -o", "a page, which has everything", "options of text, LaTeX or JSON with it")
         write_page(model, settings, output)
         return OK
     if form == "latex":

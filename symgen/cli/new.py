@@ -20,7 +20,7 @@ from symgen.cli._options import examples
     "--space",
     type=click.Choice(["planar", "spatial"]),
     default="planar",
-    help="Planar, or in space; planar if not given.",
+    help="Planar, or in space.  [default: planar]",
 )
 def command(name: str, output: str | None, space: str) -> int:
     """Write a mechanism file that runs as it is and shows every key, with comments. Never overwrites a file."""

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     "--from",
     "whence",
     metavar="FILE",
-    help="Go on from the last state of a saved result: .nc, or .parquet or .csv for its coordinates and velocities.",
+    help="Continue from the last state of a saved result: .nc, or .parquet or .csv for its coordinates and velocities.",
 )
 @click.option("--save", metavar="FILE", help="Write the result to FILE: .nc, .parquet or .csv.")
 @quantity_options(

@@ -35,18 +35,20 @@ _OF_MODES = ("parameters", "inputs", "start", "coordinates")
 @click.option(
     "-o", "--output", metavar="FILE", help="The page, .html, or a film: .gif, .mp4 with ffmpeg.  [MODEL.html]"
 )
-@click.option("--beside", metavar="RESULT.nc", help="Another motion of the same mechanism, drawn faintly behind.")
 @click.option(
-    "--model", "described", metavar="MODEL", help="The mechanism of RESULT.nc, where it is none of the catalogue."
+    "--beside", metavar="RESULT.nc", help="Another motion of the same mechanism, drawn faintly in the background."
+)
+@click.option(
+    "--model", "described", metavar="MODEL", help="The mechanism of RESULT.nc, if it is not in the catalogue."
 )
 @click.option("--live/--no-live", default=None, show_default="live", help="Put the equations into the page.")
-@click.option("--mode", type=int, metavar="N", help="Play the mode shape of that number instead of a run.")
+@click.option("--mode", type=int, metavar="N", help="Play mode shape N instead of a run.")
 @click.option(
     "--at",
     default="equilibrium",
     show_default=True,
     metavar="PLACE",
-    help="With --mode: about what, equilibrium, start, or a time of a run [s].",
+    help="With --mode: the state it is about: equilibrium, start, or a time of a run [s].",
 )
 @setting_options(
     *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "parameters", "inputs", "start"),

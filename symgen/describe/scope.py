@@ -96,7 +96,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
     @property
     def _of_inputs(self) -> dict[str, str]:
         """What is said of inputs where they may not stand."""
-        return dict.fromkeys(self.inputs, "an input may stand in forces, torques and actuators")
+        return dict.fromkeys(self.inputs, "only forces, torques and actuators may use an input")
 
     @cached_property
     def functions(self) -> dict[str, str]:

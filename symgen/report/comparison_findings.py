@@ -130,7 +130,7 @@ def _best(study: Study) -> str:
     alike = sum((r.error or 0.0) <= limit for r in rows)
     text = f"the smallest error, {words.number(best.error)} m, is that of {_name(best)}"
     if alike > 1:
-        text += f"; {alike} runs are as good as can be told from the reference"
+        text += f"; {alike} runs are as accurate as the reference can show"
     return text
 
 

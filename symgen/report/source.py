@@ -97,7 +97,7 @@ def _picture(ours: dict[str, dict[str, Row]]) -> Picture:
         ax.set_ylim(-len(RATIOS) + 0.5, 0.5)
         ax.grid(False, axis="y")
         ax.set_xlabel("run time as a ratio to lagrange")
-        ax.set_title("The source's ratios beside ours")
+        ax.set_title("The source's ratios and ours")
         below(figure, 2 * len(METHODS))
 
     caption = (

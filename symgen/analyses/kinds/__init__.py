@@ -72,12 +72,12 @@ PLACE = (
     *STATE,
     Option(
         "--at",
-        "About what: equilibrium, start, steady, or a time of a run [s].",
+        "The state: equilibrium, start, steady, or a time of a run [s].",
         metavar="PLACE",
         default="equilibrium",
     ),
-    Option("--states", "Quantities that are the states. [default: found]", "words", "NAME,NAME"),
-    Option("--cyclic", "With --at steady: coordinates that turn on. [default: found]", "words", "NAME,NAME"),
+    Option("--states", "Quantities that are the states.  [default: automatic]", "words", "NAME,NAME"),
+    Option("--cyclic", "With --at steady: coordinates that keep turning.  [default: automatic]", "words", "NAME,NAME"),
 )
 
 
