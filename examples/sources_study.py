@@ -22,3 +22,4 @@ print(f"reference: {study.how}")
 
 write(comparison([study]), Path("study.html"))
 study.save("study.csv")
+study.plot("study.pdf")

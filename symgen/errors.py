@@ -143,6 +143,11 @@ def fitting(count: int, most: int) -> int:
     return count if count <= most + 1 else most
 
 
+def counted(n: int, one: str, many: str = "") -> str:
+    """Return a number of things: 1 run, 3 runs."""
+    return f"{n} {one if n == 1 else many or one + 's'}"
+
+
 def nearest(word: str, candidates: Iterable[str]) -> str:
     """Return the hint ``did you mean 'x'?`` for the closest known word, or the list of known words."""
     names = sorted(set(candidates))

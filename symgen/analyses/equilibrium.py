@@ -82,6 +82,16 @@ class Equilibrium:
         """Return the fields in types of JSON."""
         return dict(plain(self))
 
+    def __repr__(self) -> str:
+        squares = ", ".join(f"{x:.4g}" for x in self.omega_squared[:3]) + ", ..." * (len(self.omega_squared) > 3)
+        return f"<Equilibrium: {self.stability}, omega^2 = [{squares}] 1/s^2, {len(self.q)} coordinates in .q>"
+
+    def _repr_html_(self) -> str:
+        from symgen.analyses.kinds import in_notebook
+        from symgen.analyses.kinds.equilibrium import shown
+
+        return in_notebook(shown(self), self.notes)
+
 
 def judged(rest: Settled) -> Equilibrium:
     """Return an equilibrium with its smallest multipliers, its stiffness, and the reactions that are not unique."""
@@ -196,7 +206,7 @@ def scanned_rests(subject: Subject, name: str, values: Array) -> tuple[Equilibri
     if len(values) < 2:
         raise InputError(f"scan {name}", "two values or more", f"{len(values)}")
     if unit == "m":  # steps are bounded by the mechanism's length, and its start may have none
-        subject = subject.as_long_as(float(np.abs(values - _value(subject, subject.y, name)).max()))
+        subject = subject.as_long_as(float(np.abs(values - value_of(subject, subject.y, name)).max()))
     rests, before, y, reached = list[Equilibrium](), None, subject.y.copy(), False
     y[subject.nq :] = 0.0
     for value in values:
@@ -256,12 +266,13 @@ def _between(name: str, a: Held, b: Held) -> Settled | None:
             continue
         steps += rest.steps
         rest = replace(rest, steps=steps)
-        if low - slack <= _value(rest.subject, rest.y, name) <= high + slack:
+        if low - slack <= value_of(rest.subject, rest.y, name) <= high + slack:
             return rest
         elsewhere = rest
     return elsewhere
 
 
-def _value(subject: Subject, y: Array, name: str) -> float:
+def value_of(subject: Subject, y: Array, name: str) -> float:
+    """Return the value of a coordinate at a state."""
     space, at = subject.position(name)
     return float(y[at] if space == "q" else subject.evaluated(y).value("functions")[at])

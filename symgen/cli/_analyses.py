@@ -90,6 +90,8 @@ def _read(option: Option, value: Any) -> Any:
         return column_names(flag, value)
     if kind == "numbers":
         return assignments(flag, value)
+    if kind == "place":
+        return assignments(flag, value.split(",")) if "=" in value else value
     if kind in FILES:
         return output_file(flag, value, kind)
     if value is not None and kind in ("times", "range"):

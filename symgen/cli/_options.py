@@ -13,6 +13,7 @@ import click
 
 from symgen import arguments
 from symgen.analyses.kinds import check_over
+from symgen.cli import in_options
 from symgen.errors import InputError, quoted
 from symgen.settings import about, default, flag
 
@@ -258,7 +259,7 @@ def differ(files: Mapping[str, Path | None]) -> None:
 def tell(notes: Iterable[str]) -> None:
     """Say on standard error what belongs to an answer and is no part of it."""
     for sentence in notes:
-        click.echo(f"symgen: {sentence}", err=True)
+        click.echo(f"symgen: {in_options(sentence)}", err=True)
 
 
 def time_list(option: str, text: str) -> tuple[float, ...]:

@@ -35,7 +35,11 @@ if TYPE_CHECKING:
     ),
 )
 @click.argument("models", metavar="MODEL...", nargs=-1, required=True)
-@click.option("--methods", metavar="A,B", help="Methods, or all; by default the six of the source.")
+@click.option(
+    "--methods",
+    metavar="A,B",
+    help="Methods, or all; by default the six of the source. With options, a line each: baumgarte:alpha=5:beta=5.",
+)
 @click.option("--integrators", metavar="A,B", help="Integrators, or all; rk4, dopri5 and dop853 by default.")
 @click.option("--steps", metavar="H,H", help="Constant steps [s]; multiples of the mechanism's own by default.")
 @click.option("--rtols", metavar="R,R", help="Relative tolerances of adaptive integrators.")

@@ -77,7 +77,7 @@ def choose_method(name: str, options: Mapping[str, str] | None = None, implicit:
     InputError
         If there is no such method or option.
     """
-    method = METHODS.get(name, "--method")
+    method = METHODS.get(name, "method")
     implicit = implicit or not {"ode", "one-step"} & set(method.forms)  # some methods have no other form
     return MethodChoice(method, method.complete_options(options or {}), implicit)
 
@@ -224,10 +224,10 @@ def _without_method(mechanism: Mechanism, target: str) -> tuple[Any, Any, str, M
 
 def _refuse_target(target: str, choices: tuple[MethodChoice, ...], shape: str) -> None:
     if shape == "looped":
-        raise InputError(f"--target {target}", "the straight shape", "looped")
+        raise InputError(f"target '{target}'", "the straight shape", "looped")
     for choice in choices:
         if choice.implicit:
-            expected = f"a method that explicit integrators solve (--target {target})"
+            expected = f"a method that explicit integrators solve (target {target})"
             raise InputError(f"method '{choice.method.name}'", expected, "one for implicit ones")
 
 

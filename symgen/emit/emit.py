@@ -42,7 +42,7 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu",
     layout = program.layout
     numbers = sum(table.numbers for table in program.tables)
     if target == "cuda" and numbers > MOST_CONSTANTS:
-        room = f"at most {MOST_CONSTANTS // 2} points in all (--target cuda)"
+        room = f"at most {MOST_CONSTANTS // 2} points in all (target cuda)"
         raise InputError("tables", room, f"what takes the room of {numbers // 2}")
     header = [
         versions(program.digest),

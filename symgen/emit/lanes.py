@@ -74,7 +74,7 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     """
     layout, correction, info, made = program.layout, program.correction, program.info, versions(model.digest)
     if program.form != "direct" or program.closed or correction.metric not in ("identity", "scaled", "mass"):
-        expected = "a method that is a formula with at most one correction (--target lanes)"
+        expected = "a method that is a formula with at most one correction (target lanes)"
         raise InputError(f"method '{info.method}'", expected, "one that iterates, or chooses coordinates")
     n_p = info.parameter_offset + len(info.parameters) + info.hoisted
     bases = bases_of(layout.ny, n_p, layout.nw)

@@ -116,6 +116,7 @@ class RowKernel:
             np.zeros((room, info.ny)), np.tile(model.p, (room, 1)), np.empty((room, max(1, model.compiled.law.nw)))
         )
         now.p[:k, : len(info.parameters)], now.y[:k, : info.nq] = rows.parameters, rows.q
+        rows.put_method(model.compiled.law, now.p)
         return now
 
     def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import ModelInfo
     from symgen.vocabulary.expressions import Expr
 
+#: What names of the method's parameters begin with.
+METHOD = "method."
 _EULER = ("e0", "e1", "e2", "e3")
 
 
@@ -33,6 +35,8 @@ class Names:
         Of bodies, in the order of q and v.
     joints : mapping of str to str
         Names of joint coordinates and rates, each with the one name of what it is.
+    options : tuple of str
+        Parameters of the method: ``method.alpha``.
     """
 
     model: str
@@ -40,6 +44,7 @@ class Names:
     coordinates: tuple[str, ...]
     velocities: tuple[str, ...]
     joints: Mapping[str, str]
+    options: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, mechanism: Mechanism) -> Names:
@@ -75,12 +80,15 @@ class Names:
         InputError
             If a name is none, means what another one does, or is given otherwise.
         """
-        names, written, taken = (*self.parameters, *self.starts), dict[str, str](), set(map(self.one, taken_names))
+        names = (*self.parameters, *self.starts, *self.options)
+        written, taken = dict[str, str](), set(map(self.one, taken_names))
         for name in varied:
             where = f"vary '{name}'"
             if name not in names:
                 expected = f"a parameter, or an initial coordinate or velocity of {self.model}"
-                raise InputError(where, expected, "none of that name", nearest(name, names))
+                if name.startswith(METHOD):
+                    names, expected = self.options, "a parameter of the method, which is a number"
+                raise InputError(where, expected, "none of that name", nearest(name, names) or "it has none")
             if name in self.coordinates and name.rpartition(".")[2] in _EULER:
                 raise InputError(
                     where,

@@ -23,6 +23,7 @@ from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.sides import SidedJoint
 from symgen.ensemble.measures import Measures, stored
 from symgen.ir.numerics import WARN
+from symgen.plugins import stamps
 from symgen.result.signals import Signal
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.compiled import CompiledModel
@@ -182,6 +183,8 @@ class Recipe:
         From `code_identity`: what computes it.
     target : {"cpu", "lanes", "cuda"}
         What runs it.
+    plugins : tuple of str
+        Files that workers load before.
     """
 
     first: Code
@@ -198,6 +201,7 @@ class Recipe:
     watch: Watch | None = None
     sides: tuple[SidedJoint, ...] = ()
     stops: bool = False
+    plugins: tuple[str, ...] = ()
 
     @property
     def times(self) -> Array:
@@ -269,4 +273,4 @@ class Recipe:
 
 def code_identity() -> str:
     """Return a digest of all that computes runs: the version, and the sources of loops, schemes and ensembles."""
-    return digest(__version__, sources_digest(*SOURCES["rows"]))
+    return digest(__version__, sources_digest(*SOURCES["rows"]), *stamps())

@@ -77,6 +77,10 @@ class Sweep:
 
     def _repr_html_(self) -> str:
         facts = [("mechanism", self.ensemble.model.name), ("runs", str(len(self)))]
+        for axis in self.ensemble.grid.axes:
+            facts += [(name, f"{len(x)} values from {x.min():g} to {x.max():g}") for name, x in axis.values.items()]
+        names = [q.name for q in self.ensemble.recipe.quantities]
+        facts.append(("quantities", ", ".join(names[:8]) + ", ..." * (len(names) > 8)))
         facts += [(status, str(count)) for status, count in self.counts.items() if count]
         return html_table((), [*facts, ("seconds", f"{self.seconds:.3g}")])
 

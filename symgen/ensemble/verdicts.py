@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 #: Status of a run that has not been done.
 NOT_RUN = "not run"
 #: What is said of velocities that could not be what they were given as.
-_PROJECTED = "given velocities contradicted the constraints and were projected; --strict lets such runs fail"
+_PROJECTED = "given velocities contradicted the constraints and were projected; `strict` lets such runs fail"
 
 
 def column(summary: Array, name: str) -> Array:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.digits import cleaned, scale_of
 from symgen.drawing.scene import Array
 
 if TYPE_CHECKING:
@@ -132,11 +133,10 @@ def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
     return groups
 
 
-def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording, bool]:
-    """Return the part of a recording that a page holds, and whether its coordinates have 16 bits.
+def is_coarse(recording: Recording, room: int, further: int = 0) -> bool:
+    """Whether the coordinates of a page have 16 bits, between the smallest and the largest value, instead of 32.
 
-    Further groups are left out. Where `FEWEST` frames are too many characters, coordinates have 16 bits instead of 32
-    between the smallest and the largest value, and where that is not enough, forces are left out.
+    They have where `FEWEST` frames would be too many characters otherwise.
 
     Parameters
     ----------
@@ -147,11 +147,7 @@ def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording
     further : int
         Columns of 16 bits beside those of the recording.
     """
-    recording = replace(recording, groups=tuple(group for group in recording.groups if not group.further))
-    for candidate, coarse in ((recording, False), (recording, True)):
-        if FEWEST * _characters(candidate, coarse, further) <= room:
-            return candidate, coarse
-    return replace(recording, reactions=None, pushed=(), pulls=None, pulling=()), True
+    return FEWEST * _characters(recording, False, further) > room
 
 
 def _characters(recording: Recording, coarse: bool, further: int) -> float:
@@ -160,13 +156,18 @@ def _characters(recording: Recording, coarse: bool, further: int) -> float:
     return (wide + 2 * further) * 4 / 3
 
 
-def with_further(recording: Recording, shown: Recording, frames: int, room: int) -> tuple[Recording, list[str]]:
+def without_further(recording: Recording) -> Recording:
+    """Return a recording without the groups that a page has only where there is room."""
+    return replace(recording, groups=tuple(group for group in recording.groups if not group.further))
+
+
+def with_further(recording: Recording, frames: int, room: int) -> tuple[Recording, list[str]]:
     """Return what a page holds with those further groups that there is room for, and the titles of the others.
 
     Parameters
     ----------
-    recording, shown : Recording
-        The motion, and what `fitted` makes of it.
+    recording : Recording
+        The motion.
     frames : int
         How many outputs the page holds.
     room : int
@@ -180,7 +181,7 @@ def with_further(recording: Recording, shown: Recording, frames: int, room: int)
             groups.append(group)
         else:
             missing.append(group.title)
-    return replace(shown, groups=tuple(groups)), missing
+    return replace(recording, groups=tuple(groups)), missing
 
 
 def frames_within(recording: Recording, room: int, coarse: bool = False, further: int = 0) -> Array:
@@ -250,6 +251,8 @@ def _plotted(group: PlottedGroup, keep: Array) -> dict[str, Any]:
     values = group.values[keep[np.minimum(np.arange(0, len(keep) + every - 1, every), len(keep) - 1)]]
     if group.logarithmic:
         values = np.log10(np.maximum(np.abs(values), 1e-17))
+    else:
+        values = cleaned(values, scale_of(group.values.ravel(), group.unit))
     return {"every": every, **shorts(values)}
 
 

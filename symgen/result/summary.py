@@ -71,8 +71,10 @@ def status_in_words(result: Result) -> str:
         whole, finer = ("global error", "a tenth of it") if adaptive else ("error", "half the step")
         slow = adaptive and result.seconds.run >= QUICK
         why = f" as the run took {result.seconds.run:.2g} s" if slow else ""
-        parts.append(f"{whole} not estimated{why}: --verify runs again with {finer}")
-    parts += [f"stiff: {proposal} takes longer steps" for proposal in result.proposals]
+        parts.append(f"{whole} not estimated{why}: `verify` runs again with {finer}")
+    parts += [
+        f"stiff: {proposal.replace('--integrator', '`integrator`')} takes longer steps" for proposal in result.proposals
+    ]
     return f"{text} ({'; '.join(parts)})"
 
 

@@ -168,7 +168,12 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, st
     begin = np.array([state[n] for n in names]) if set(names) <= set(state) else None
     if prepared.tree is not None:
         return _live_on_tree(prepared, prepared.tree, step, begin)
-    return live_part(mechanism, prepared.compiled, prepared.start, step, begin)
+    live, note = live_part(mechanism, prepared.compiled, prepared.start, step, begin)
+    if live is None and run["coordinates"] == "absolute":  # a tree has a tenth of the operations, or less
+        prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
+        if prepared.tree is not None:
+            return _live_on_tree(prepared, prepared.tree, step, begin)
+    return live, note
 
 
 def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None) -> tuple[Live | None, str]:

@@ -146,7 +146,7 @@ def trial_of(mechanism: Mechanism, settings: Settings) -> Settings:
         if method == "direct-correction" and not mechanism.has_massless:
             options.setdefault("method.weight", "mass")
     if integrator == AUTO:
-        explicit = set(METHODS.get(method, "--method").forms) & set(INTEGRATORS.get(EXPLICIT).forms)
+        explicit = set(METHODS.get(method, "method").forms) & set(INTEGRATORS.get(EXPLICIT).forms)
         integrator = EXPLICIT if explicit else METHODS.get(method).default_integrator
     return replace(settings, method=method, integrator=integrator, options=options)
 
@@ -166,7 +166,7 @@ def usual_integrator(mechanism: Mechanism, method: str, coordinates: str, shape:
     evaluations : float
         About how many a run takes, by which the shape of its code is chosen.
     """
-    own = METHODS.get(method, "--method").default_integrator
+    own = METHODS.get(method, "method").default_integrator
     if own != TOGETHER:
         return own
     if shape == "auto" and coordinates != "joint":
@@ -218,7 +218,7 @@ def slow_steps(run: Prepared) -> float:
     return float(slow) / max(float(steps), 0.5 * TRIAL)
 
 
-def constant_integrator(method: str, where: str = "--method") -> str:
+def constant_integrator(method: str, where: str = "method") -> str:
     """Return the integrator that studies take a method with: `CONSTANT`, or its own where it solves another form."""
     chosen = METHODS.get(method, where)
     return CONSTANT if set(INTEGRATORS.get(CONSTANT).forms) & set(chosen.forms) else chosen.default_integrator

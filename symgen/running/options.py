@@ -41,10 +41,12 @@ def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[
         elif owner in ("integrator", tableau.name):
             integrator[name] = _integrator_option(key, name, value, tableau)
         else:
+            own = [f"method.{name}" for name in (*numeric, *(o.name for o in base.options))]
+            own += [f"integrator.{p.name}" for p in tableau.parameters]
             known_owners = ("method", base.name, "integrator", tableau.name)
-            raise InputError(
-                f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", nearest(owner, known_owners)
-            )
+            bare = [full for full in own if full.partition(".")[2] == key]
+            hint = f"did you mean '{bare[0]}'?" if bare else nearest(owner, known_owners) if name else nearest(key, own)
+            raise InputError(f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", hint)
     return choose_method(s.method, structural, not {"ode", "one-step"} & set(tableau.forms)), parameters, integrator
 
 

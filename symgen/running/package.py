@@ -87,7 +87,7 @@ def write_package(
     """
     # outputs belong to the runtime: on a tree, integrals would keep the rows of drivers whose efforts they read
     mechanism = msgspec.structs.replace(mechanism, outputs=())
-    names = tuple(dict.fromkeys(METHODS.canonical(name, "--method") for name in methods or METHODS.names))
+    names = tuple(dict.fromkeys(METHODS.canonical(name, "method") for name in methods or METHODS.names))
     own = _options_of(names, options)
     chosen = [choose_method(name, values) for name, values in own.items()]
     if not methods and mechanism.has_massless:
@@ -124,10 +124,10 @@ def _options_of(names: Sequence[str], options: Mapping[str, str]) -> dict[str, d
     for key, value in options.items():
         owner, _, name = key.partition(".")
         if owner not in own and not (owner == "method" and len(own) == 1):
-            raise InputError(f"--option {key}", f"METHOD.NAME with one of {', '.join(own)}", f"'{key}'")
+            raise InputError(f"option {key}", f"METHOD.NAME with one of {', '.join(own)}", f"'{key}'")
         of_owner = own[names[0] if owner == "method" else owner]
         if name in of_owner:
-            raise InputError(f"--option {key}", "each option once", f"{name} twice")
+            raise InputError(f"option {key}", "each option once", f"{name} twice")
         of_owner[name] = value
     return own
 

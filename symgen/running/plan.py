@@ -172,7 +172,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     mechanism = inputs.mechanism
     if purpose is not Purpose.STATE:
         refuse_weightless(mechanism)
-    method = METHODS.get(s.method, "--method")
+    method = METHODS.get(s.method, "method")
     last = None if isinstance(s.start, Mapping) else s.start.last_state
     if last is not None:
         _refuse_other(mechanism, last)
@@ -182,7 +182,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     if name is None:
         evaluations = ADAPTIVE_EVALUATIONS * (until - begin)
         name = usual_integrator(mechanism, s.method, s.coordinates, shape, evaluations)
-    integrator = INTEGRATORS.get(name, "--integrator")
+    integrator = INTEGRATORS.get(name, "integrator")
     _refuse_pair(method, integrator)
     choice, method_parameters, integrator_options = split_options(s, integrator)
     adaptive = integrator.adaptive and not told_constant(s.options, integrator.name)

@@ -26,8 +26,8 @@ Array = NDArray[np.float64]
 _LISTED = 6
 #: What helps where nothing is free.
 OTHER_WAYS = (
-    "where drivers leave nothing free, 'symgen kinematics --start' finds other ways to close it, and all coordinates "
-    "of one of them can be held"
+    "where drivers leave nothing free, the analysis kinematics finds other ways to close it from another `start`, and "
+    "all coordinates of one of them can be held"
 )
 
 
@@ -161,7 +161,7 @@ def refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> Assemb
     reason = "given velocities contradicted by the constraints"
     if code == e.MOVED:
         reason = f"positions that closing moves by up to {float(summary[e.START_MOVED]):.3g}"
-    return InputError("initial state", "a consistent start (--strict)", reason)
+    return InputError("initial state", "a consistent start (`strict`)", reason)
 
 
 def _stays_open(info: ModelInfo, held: Held, joint: str, size: float) -> AssemblyError:

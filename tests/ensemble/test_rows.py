@@ -103,7 +103,7 @@ def test_open_and_contradictory_starts_are_closed_and_projected_as_for_single_ru
     assert_rows(found, model, **settings)
     strict = symgen.sweep(model, {"lift": [0.0]}, until=0.02, strict=True)
     assert strict.status[0] == "failed"
-    assert "initial state: expected a consistent start (--strict), got positions that closing moves" in strict.reason[0]
+    assert "initial state: expected a consistent start (`strict`), got positions that closing moves" in strict.reason[0]
 
 
 def test_a_start_that_stays_open_is_a_failed_row_in_the_words_of_a_single_run():

@@ -23,7 +23,7 @@ PRINTED: dict[str, tuple[dict[str, tuple[float, float]], tuple[str, ...]]] = {
     "first_run.py": ({rf"violation: largest {NUMBER}": (0.0, 1e-9)}, ("first-run.pdf", "first-run.csv")),
     "sources_study.py": (
         {rf"direct-correction +0.005 s  ok: error {NUMBER}": (0.0, 1e-6)},
-        ("study.html", "study.csv"),
+        ("study.html", "study.csv", "study.pdf"),
     ),
     "equations_in_sympy.py": ({rf"{NUMBER} of 2 checks by SymPy hold": (2.0, 0.0)}, ()),
     "emitted_code_under_scipy.py": ({rf"SciPy .* {NUMBER} rad": (13.8049676, 1e-5)}, ("emitted/lagrange.py",)),
@@ -38,7 +38,9 @@ PRINTED: dict[str, tuple[dict[str, tuple[float, float]], tuple[str, ...]]] = {
         ("motor.pdf",),
     ),
     "modes.py": ({rf"{NUMBER} degree of freedom": (3 * 3 - 4 * 2, 0.0)}, ()),
-    "page.py": ({}, ("motion.html", "four-bar.svg")),
+    "page.py": ({}, ("motion.html", "equations.html", "four-bar.svg")),
+    "own_method.py": ({rf"velocity-feedback: .* by {NUMBER} m/s": (0.0, 1e-7)}, ()),
+    "own_joint.py": ({rf"fallen {NUMBER} m": (9.81 / 3.0 * 0.5**2 / 2.0, 1e-9)}, ()),
     "hanging_chain.py": ({rf"8 bodies, {NUMBER} constraint rows": (2.0 * 9, 0.0)}, ()),
 }
 

@@ -239,9 +239,9 @@ def rows():
     for changes, sentence in (
         ({"path": 3}, "path: expected a path, got 3"),
         ({"methods": 3}, "methods: expected a list of names, got 3"),
-        ({"methods": "lagrang"}, "--method: expected a method, got 'lagrang'; did you mean"),
+        ({"methods": "lagrang"}, "method: expected a method, got 'lagrang'; did you mean"),
         ({"options": 3}, "options: expected texts by the names of options, got 3"),
-        ({"options": {"weight": "mass"}}, "--option weight: expected METHOD.NAME with one of direct-correction"),
+        ({"options": {"weight": "mass"}}, "option weight: expected METHOD.NAME with one of direct-correction"),
         ({"coordinates": "polar"}, "coordinates: expected one of absolute, joint, auto, got 'polar'"),
         ({"shape": "auto"}, "shape: expected one of straight, looped, got 'auto'"),
         ({"target": "c"}, "target: expected one of cpu, lanes, cuda, got 'c'"),
@@ -324,7 +324,7 @@ def rows():
     )
     for changes, sentence in (
         ({"journal": "file"}, "journal: expected a symgen.study.journal"),
-        ({"reference_by": 3}, "--reference: expected one of auto"),
+        ({"reference_by": 3}, "reference_by: expected one of auto"),
         ({"shape": "round"}, "shape: expected one of auto"),
         ({"options": 3}, "options: expected values by the names"),
         ({"parameters": {"g": "x"}}, "expected a finite number"),
@@ -403,6 +403,19 @@ def rows():
     yield from each("set", NO_MAPPING, lambda x, v: x.sim.set(v), numbers)
     yield from each("step u", NO_MAPPING, lambda x, v: x.sim.step(0.01, v), "parameters, got {}")
     yield from each("restore", NO_MAPPING, lambda x, v: x.sim.restore(v), "expected what `save` returned, got {}")
+    starts = {"3": 3, "[1.0]": [1.0]}
+    yield from each("reset", starts, lambda x, v: x.sim.reset(v), "start: expected values by the names of coordinates")
+    yield "reset name", lambda x: x.sim.reset({"bob.vxx": 1.0}), "did you mean 'bob.vx'?"
+    yield "column", lambda x: x.sim["crank.thet"], "result: expected the name of a column, got 'crank.thet'"
+    yield "inspect method", lambda x: x.model.inspect("lagrang"), "method: expected a method, got 'lagrang'"
+    yield "inspect options", lambda x: x.model.inspect("lagrange", 3), "options: expected texts by name, got 3"
+    yield "inspect coordinates", lambda x: x.model.inspect(coordinates="joints"), "did you mean 'joint'?"
+    yield "view live", lambda x: x.model.view(live=3, until=0.01), "live: expected True or False, got 3"
+    yield "view until", lambda x: x.model.view(until=-1), "until: expected a finite number above 0, got -1"
+    yield "model sweep", lambda x: x.model.sweep({"bob_mas": [1.0]}), "did you mean 'bob_mass'?"
+    yield "model compare", lambda x: x.model.compare(["lagrang"]), "methods: expected a method, got 'lagrang'"
+    yield "variant", lambda x: x.model.compare(["baumgarte:alpha"]), "methods: expected NAME, or NAME:OPTION=VALUE"
+    yield "plugin", lambda x: symgen.load_plugin(3), "plugin: expected a path, got 3"
     functions = {"3": 3, "None": None, "'f'": "f"}
     yield from each(
         "controller", functions, lambda x, v: x.sim.every(0.1, v), "controller: expected a function, got {}"
@@ -458,10 +471,12 @@ def test_no_function_with_arguments_is_left_out():
     """Every public name that can be called, and every method of a public class that takes something, has rows."""
     tested = {
         *"load simulate compare sweep Model Settings MechanismBuilder Mechanism.body Mechanism.joint_named".split(),
+        *"list_methods list_integrators load_plugin".split(),
         *(f"Model.{n}" for n in "parameters compile equations_in generate draw assemble simulate start".split()),
+        *(f"Model.{n}" for n in "inspect view sweep compare".split()),
         *(f"Result.{n}" for n in "save plot reaction columns select series view".split()),
         *"Labelled.row Labelled.unit Study.save Study.plot Sweep.save Sweep.plot Sweep.reasons".split(),
-        *(f"SteppedRun.{n}" for n in "step run every set restore".split()),
+        *(f"SteppedRun.{n}" for n in "step run every set restore reset".split()),
         *(f"MechanismBuilder.{n}" for n in "run parameter input table body joint force output event".split()),
     }
     tested |= {f"Model.{method.__name__}" for method in ANALYSIS_METHODS}

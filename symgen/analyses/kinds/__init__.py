@@ -8,22 +8,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from html import escape
 from pathlib import Path
 from typing import Any, Literal
 
 from symgen.errors import InputError
+from symgen.keywords import DrivenKeywords, PlaceKeywords, StateKeywords
+from symgen.keywords import names as names_of
 from symgen.registry import Registry
 from symgen.settings import Settings, changed
 
 #: Settings that count for analyses about a state, and for motions that drivers prescribe.
-OF_STATES = ("parameters", "inputs", "start", "coordinates", "shape")
-OF_MOTIONS = ("parameters", "inputs", "start", "strict", "shape")
+OF_STATES, OF_MOTIONS = names_of(StateKeywords), names_of(DrivenKeywords)
 #: Those of them that count where drivers say the motion, not where it was recorded.
 OF_DRIVEN = ("start", "strict")
-#: And beside those of states for a run that leads to one.
-OF_RUNS = (*OF_STATES, "options", "events", "strict", "max_violation", "max_energy_error", "max_step", "max_attempts")
 
-Kind = Literal["text", "texts", "columns", "whole", "switch", "words", "numbers", "range", "times", "plot", "tables"]
+Kind = Literal[
+    "text", "texts", "columns", "whole", "switch", "words", "numbers", "range", "times", "place", "plot", "tables"
+]
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,7 @@ class Option:
     kind : str
         Of its value: ``text``, ``texts`` (given several times), ``columns`` (``A,B``, given several times), ``whole``,
         ``switch``, ``words`` (``A,B``), ``numbers`` (``A=1``, given several times), ``range`` (``A=lin(0,1,5)``),
-        ``times``, or a file to write: ``plot``, ``tables``.
+        ``times``, ``place`` (a word or ``A=0,B=1``), or a file to write: ``plot``, ``tables``.
     metavar : str
         What stands for a value in the help.
     argument : str
@@ -72,8 +74,9 @@ PLACE = (
     *STATE,
     Option(
         "--at",
-        "The state: equilibrium, start, steady, or a time of a run [s].",
-        metavar="PLACE",
+        "The state: equilibrium, start, steady, a time of a run [s], or an equilibrium by coordinates: A=0,B=1.",
+        "place",
+        "PLACE",
         default="equilibrium",
     ),
     Option("--states", "Quantities that are the states.  [default: automatic]", "words", "NAME,NAME"),
@@ -120,6 +123,16 @@ class AnalysisTable:
     headings: Sequence[str]
     rows: Sequence[Sequence[str]]
     left: Sequence[str] = ()
+
+
+def in_notebook(items: Iterable[str | AnalysisTable], notes: Iterable[str] = ()) -> str:
+    """Return as HTML what a command shows of a result."""
+    from symgen.result.labelled import html_table
+
+    lines = [*items, *(f"note: {note}" for note in notes)]
+    return "\n".join(
+        f"<p>{escape(x)}</p>" if isinstance(x, str) else html_table(x.headings, x.rows, most=40) for x in lines
+    )
 
 
 @dataclass(frozen=True)
@@ -187,9 +200,10 @@ def settings_of(
     return whole
 
 
-def settings_at(where: str, settings: Settings | None, changes: Mapping[str, object], at: str | float) -> Settings:
+def settings_at(where: str, settings: Settings | None, changes: Mapping[str, object], at: object) -> Settings:
     """Return settings of an analysis about a place; those of a run count where one leads there."""
-    return settings_of(where, settings, changes, OF_STATES if isinstance(at, str) else OF_RUNS)
+    counting = OF_STATES if isinstance(at, str | Mapping) else names_of(PlaceKeywords)
+    return settings_of(where, settings, changes, counting)
 
 
 ANALYSES: Registry[Analysis] = Registry(__name__, "analysis")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 from symgen.analyses.kinds import (
     OF_DRIVEN,
@@ -18,7 +18,9 @@ from symgen.analyses.kinds import (
     of_tables,
     settings_of,
 )
+from symgen.digits import digits, scale_of
 from symgen.errors import InputError
+from symgen.keywords import DrivenKeywords
 from symgen.settings import Settings, flag, is_given
 
 if TYPE_CHECKING:
@@ -37,7 +39,7 @@ def inverse(
     times: ArrayLike | None = None,
     actuators: Sequence[str] = (),
     weights: Mapping[str, float] | None = None,
-    **changes: object,
+    **changes: Unpack[DrivenKeywords],
 ) -> Inverse:
     """Return the efforts that a motion needs; see `docs/inverse.md`.
 
@@ -55,7 +57,7 @@ def inverse(
         Of efforts that are not unique: the sum of (weight effort)^2 is smallest. 1 / N, or 1 / (N m) times the
         length of the mechanism, by default.
     **changes
-        Single settings that mean something here: ``parameters``, ``inputs``, ``strict``, ``shape``.
+        Other settings are refused; ``start`` and ``strict`` belong to a motion that drivers prescribe.
 
     Raises
     ------
@@ -114,9 +116,11 @@ def _shown(result: Inverse) -> Iterator[str | AnalysisTable]:
     yield f"{result.mechanism}: efforts at {len(result.t)} times"
     columns = {"largest": "max", "rms": "rms", "unit": "unit", "at [s]": "at"}
     columns |= {"peak power [W]": "peak_power", "energy [J]": "energy"}
+    entries = result.summary()
+    scales = {key: scale_of(e[key] for e in entries.values() if key in e) for key in columns.values() if key != "unit"}
     rows = [
-        (name, *(x if isinstance(x := entry.get(key, ""), str) else f"{x:.6g}" for key in columns.values()))
-        for name, entry in result.summary().items()
+        (name, *(x if isinstance(x := entry.get(key, ""), str) else digits(x, scales[key]) for key in columns.values()))
+        for name, entry in entries.items()
     ]
     yield AnalysisTable(("effort", *columns), rows, left=("effort", "unit"))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 from symgen.analyses.kinds import (
     OF_MOTIONS,
@@ -16,6 +16,7 @@ from symgen.analyses.kinds import (
     of_tables,
     settings_of,
 )
+from symgen.keywords import DrivenKeywords
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ def kinematics(
     times: ArrayLike | None = None,
     settings: Settings | None = None,
     transmission: Sequence[str] = (),
-    **changes: object,
+    **changes: Unpack[DrivenKeywords],
 ) -> Kinematics:
     """Return the motion of a mechanism whose freedom is all driven, without integrating; see `docs/kinematics.md`.
 
@@ -43,8 +44,8 @@ def kinematics(
     transmission : sequence of str
         Pins whose transmission angles are wanted, such as ``"C"`` or ``"C(B, D)"``.
     **changes
-        Single settings that mean something here: ``parameters``, ``inputs``, ``start``, ``strict``, ``shape``. Of
-        several ways to close the mechanism that nearest to a start such as ``{"rocker.theta": -1.5}`` is taken.
+        Other settings are refused. Of several ways to close the mechanism that nearest to a start such as
+        ``{"rocker.theta": -1.5}`` is taken.
 
     Raises
     ------

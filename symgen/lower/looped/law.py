@@ -72,7 +72,7 @@ def refuse_dense(method: Method, options: Mapping[str, str], implicit: bool) -> 
         expected, why = "constraints that each joint gives alone", f", whose constraints ask for '{strange}'"
     else:
         return
-    raise InputError("--shape looped", expected, f"'{method.name}'{why}; the straight shape is for it")
+    raise InputError("shape 'looped'", expected, f"'{method.name}'{why}; the straight shape is for it")
 
 
 #: Functions of laws that can be loops.

@@ -76,6 +76,8 @@ class Row:
         Sentences: what to be careful with.
     coordinates : {"absolute", "joint"}
         What the state was made of. Violations of joint coordinates are those of the loops.
+    variant : str
+        Options of the method that tell it from others of the study, such as ``alpha=5, beta=5``.
     """
 
     method: str
@@ -105,11 +107,13 @@ class Row:
     velocity_violation_final: float | None = None
     acceleration_violation_final: float | None = None
     coordinates: str = "absolute"
+    variant: str = ""
 
     @property
     def label(self) -> str:
-        """The method, with the coordinates where these are not those of bodies: ``lagrange, joint``."""
-        return self.method if self.coordinates == "absolute" else f"{self.method}, {self.coordinates}"
+        """The method with its variant, and the coordinates where these are not those of bodies: ``lagrange, joint``."""
+        parts = self.method, self.variant, "" if self.coordinates == "absolute" else self.coordinates
+        return ", ".join(filter(None, parts))
 
     @property
     def setting(self) -> tuple[str, float | None, float | None]:

@@ -164,7 +164,7 @@ def _is_adaptive(integrator: str, options: Mapping[str, str | float]) -> bool:
     """Whether a run chooses its own first step."""
     if integrator == AUTO:
         return True
-    return INTEGRATORS.get(integrator, "--integrator").adaptive and not told_constant(options, integrator)
+    return INTEGRATORS.get(integrator, "integrator").adaptive and not told_constant(options, integrator)
 
 
 def _shaped(mechanism: Mechanism, settings: Settings) -> Settings:
