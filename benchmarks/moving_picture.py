@@ -8,6 +8,7 @@ Bodies move by CSS, which needs no script and stands still for readers who prefe
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from benchmarks.gallery import PICTURES
 from symgen.api import load
@@ -61,7 +62,7 @@ def draw() -> str:
     )
 
 
-def _path(x: np.ndarray, y: np.ndarray, theta: np.ndarray) -> str:
+def _path(x: NDArray[np.float64], y: NDArray[np.float64], theta: NDArray[np.float64]) -> str:
     """Return the path of the mark."""
     px = x + np.cos(theta) * MARK[0] - np.sin(theta) * MARK[1]
     py = y + np.sin(theta) * MARK[0] + np.cos(theta) * MARK[1]

@@ -194,7 +194,7 @@ class Settings:
         None,
         "Largest step{unit} of an adaptive integrator.",
         unit="s",
-        otherwise="of the mechanism; none, or a thousandth of the run where formulas of t may pass something short",
+        otherwise="of the mechanism; none, or a thousandth of the run where formulas of t may have short features",
     )
     max_attempts: float | None = _number(
         None,

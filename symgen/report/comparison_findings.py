@@ -96,7 +96,7 @@ def _reference(study: Study) -> str:
     )
     if marked:
         lie = words.counted(marked, "row lies", "rows lie")
-        text += f"; {lie} below that, marked *, and {'says' if marked == 1 else 'say'} no more than that"
+        text += f"; {lie} below that (marked *), beyond what the reference resolves"
     return f"{text}. Note: {words.readable(study.note)}" if study.note else text
 
 
