@@ -42,7 +42,7 @@ def command(
 ) -> int:
     """Write the emitted modules of MODEL into a folder, and list the files.
 
-    There is model.py, and a module for each method. They need nothing but math, numpy and numba. The same mechanism
+    The folder has model.py and a module for each method, which need only math, numpy and numba. The same mechanism
     always gives the same bytes. With straight code for processors, simulate.py starts where model.json says.
     """
     from symgen.api import load

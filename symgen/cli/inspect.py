@@ -45,7 +45,7 @@ def command(
     coordinates: str,
     parameters: dict[str, float],
 ) -> int:
-    """Show what symgen derives for MODEL: exactly what is compiled.
+    """Show the equations that symgen derives for MODEL, exactly as they are compiled.
 
     Coordinates, constraints, Jacobian with its pattern, quadratic velocity terms, forces, mass matrix, sizes, degrees
     of freedom, redundant rows, operation counts before and after common subexpressions, and what was left out and why.

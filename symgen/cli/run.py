@@ -65,11 +65,11 @@ def command(
     as_json: bool,
     **values: Any,
 ) -> int:
-    """Simulate MODEL and say how it went.
+    """Simulate MODEL and show the result.
 
     Outputs are every step with a constant step and 1001 equidistant times with an adaptive integrator, unless the
-    mechanism or --output-step says otherwise. With --from, times go on where the saved run ended; --until is the end
-    in the same time.
+    mechanism or --output-step sets others. With --from, times continue where the saved run ended, and --until is the
+    end on the same time axis.
     """
     # before anything expensive: what is wrong with the words of the command
     settings = Settings(**values)

@@ -45,11 +45,11 @@ def command(
     as_json: bool,
     **limits: Any,
 ) -> int:
-    """Run every method on stiff and extreme cases made of each MODEL (four-bar by default).
+    """Run every method on stiff and extreme cases derived from each MODEL (four-bar by default).
 
-    Each cell is compared with an independent reference; what the run says of itself stands beside that. Ctrl-C shows
-    the cells that are done; with --resume the same command goes on behind them. Exit code 1 if auto reports success
-    with an error above 1e-3 m.
+    Each cell is compared with an independent reference, and its own status is listed as well. Ctrl-C shows the finished
+    cells; with --resume the same command continues after them. Exit code 1 if auto reports success with an error above
+    1e-3 m.
     """
     if compilation is not None:
         arguments.number("--compilation", compilation, positive=True)

@@ -85,8 +85,8 @@ def command(
 
     NAME is a parameter of the mechanism, or a coordinate or velocity of a body or joint at the start (crank.theta,
     crank.omega, motor.angle).
-    Runs that fail are rows with their reasons. With --output, finished runs survive Ctrl-C and kills, and --resume
-    goes on from there.
+    Failed runs are rows with their reasons. With --output, finished runs survive Ctrl-C and kills, and --resume
+    continues from there.
     """
     # before anything expensive: what is wrong with the words of the command
     axes = _axes(varied)

@@ -1,4 +1,4 @@
-"""Make a page that plays a motion, or a film."""
+"""Write a page that plays a motion, or a film."""
 
 from __future__ import annotations
 
@@ -66,10 +66,10 @@ def command(
     as_json: bool,
     **values: Any,
 ) -> int:
-    """Make a page or film of the motion of MODEL, which is run for that, of a mode of it, or of a saved result.
+    """Write a page or film of a motion: that of MODEL, of one of its modes, or of a saved result.
 
-    The page is one file without anything from elsewhere: play, scrub, loop, traces of points, forces, plots with a
-    cursor. Where the equations are not too large it holds them, so that sliders of parameters change the motion.
+    The page is one file that works offline: play, scrub, loop, traces of points, forces, plots with a cursor. Unless
+    the equations are too large, the page contains them, and sliders of parameters change the motion.
     """
     stored, film = what.lower().endswith(".nc"), output is not None and Path(output).suffix.lower() in (".gif", ".mp4")
     model_text = f"the model '{what}'"
