@@ -63,6 +63,7 @@ DRAWN: Mapping[str, Callable[[], str]] = {
     "coupler-paths": _path,
     "mode": _mode,
     "press": lambda: _described("tutorial.md", "press"),
+    "carousel": lambda: _described("tutorial-space.md", "carousel"),
     "crane": lambda: _described("tutorials/modes.md", "crane"),
 }
 

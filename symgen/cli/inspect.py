@@ -63,7 +63,7 @@ def command(
     form = "json" if as_json else form or "text"
     if output is not None:
         if as_json or document or select is not None or symbols or form != "text":
-            raise InputError("inspect: -o", "a page, which has everything", "options of text, LaTeX or JSON beside it")
+            raise InputError("inspect: -o", "a page, which has everything", "options of text, LaTeX or JSON with it")
         from symgen.reading.listing import text_of
 
         written = write_page(load(model).mechanism, settings, Path(output), "inspect: -o", text_of(model))

@@ -1,4 +1,4 @@
-"""Show the mechanisms that come with symgen, or its methods, integrators, joints and forces."""
+"""List mechanisms, methods, integrators, joints or forces."""
 
 from __future__ import annotations
 
