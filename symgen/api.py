@@ -206,13 +206,14 @@ class Model(Analysed, Shown):
         coordinates: str = "absolute",
         shape: str = "straight",
         target: str = "cpu",
+        fmi: int = 2,
     ) -> Package:
         """Write the emitted code into a folder: modules that people read, and a script that simulates the mechanism.
 
         Parameters
         ----------
         path : path, optional
-            The folder, which is made if need be; by default that of the mechanism's name.
+            The folder, which is made if need be, or the FMU; by default of the mechanism's name.
         methods : str or sequence of str, optional
             Methods, each a module; None: all that suit the mechanism, the shape and the target.
         options : mapping, optional
@@ -221,8 +222,10 @@ class Model(Analysed, Shown):
             Coordinates of the state.
         shape : {"straight", "looped"}
             Code for this mechanism alone, or loops over tables that all mechanisms share.
-        target : {"cpu", "lanes", "cuda"}
-            What the code is for. Straight code for processors runs by itself, see its README.md.
+        target : str
+            What the code is for, one of `symgen.targets`: ``cpu``, ``lanes``, ``cuda``, ``javascript``, ``c``, ``fmu``.
+        fmi : {2, 3}
+            Version of the interface of an FMU.
 
         Returns
         -------
@@ -234,22 +237,23 @@ class Model(Analysed, Shown):
         InputError
             If an argument is wrong, or the folder cannot be written.
         """
-        from symgen.ir.program import TARGETS
-        from symgen.running.package import write_package
+        from symgen.targets import TARGETS, Request
 
+        kind = TARGETS.get(arguments.text("target", target, "the name of a target"), "target")
         texts = {
             name: arguments.text(f"option '{name}'", value)
             for name, value in arguments.mapping("options", options, "texts by the names of options").items()
         }
-        return write_package(
+        request = Request(
             self.mechanism,
-            arguments.path("path", self.name if path is None else path),
+            arguments.path("path", self.name + kind.ending if path is None else path),
             None if methods is None else arguments.words("methods", methods),
             texts,
             arguments.one_of("coordinates", coordinates, COORDINATES),
             arguments.one_of("shape", shape, SHAPES[1:]),
-            arguments.one_of("target", target, TARGETS),
+            fmi,
         )
+        return kind.write(request)
 
     # editors and type checkers see the functions, which are imported when they are first called
     if TYPE_CHECKING:

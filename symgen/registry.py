@@ -20,6 +20,8 @@ from symgen.plugins import load_installed
 
 T = TypeVar("T")
 
+#: Characters of a list of kinds that is shown beside the nearest spelling.
+_LISTED = 400
 _NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 
 
@@ -100,8 +102,9 @@ class Registry(Generic[T]):
         if resolved not in self._loaded and resolved not in self._scan():
             names = (*self.names, *self.aliases)
             hint = nearest(name, names)
-            if not hint.startswith("known"):
-                hint += " (known: " + ", ".join(sorted(names)) + ")"
+            known = " (known: " + ", ".join(sorted(names)) + ")"
+            if not hint.startswith("known") and len(known) <= _LISTED:  # a longer list buries the hint
+                hint += known
             raise InputError(where or self.what, f"{article} {self.what}", quoted(name), hint)
         return resolved
 

@@ -96,6 +96,7 @@ COUNTERS = (
     "degrees",  # columns of a tangent basis
     "dense_solves",  # evaluations by a dense factorisation
     "dense_rank",  # smallest rank found by them
+    "balanced",  # 1 once the energy is known that velocities are scaled to
 )
 
 
@@ -249,11 +250,18 @@ class Correction:
         Norm in which the correction is smallest; ``scaled`` is that in which rank is decided, where 1 rad weighs as
         much as the body's length; ``independent`` keeps the independent coordinates, ``augmented`` is the metric of M
         reached by iterations with M + a D^T D.
+    share : str
+        Parameter of the method that the correction is multiplied by; none by default.
+    energy : bool
+        Whether the velocities that the constraints leave free are then scaled to the balance of energy. The energy of
+        such a run is no measure of its error.
     """
 
     position: str = "none"
     velocity: bool = False
     metric: str = "identity"
+    share: str = ""
+    energy: bool = False
 
     @property
     def rounds(self) -> int:

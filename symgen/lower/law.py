@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+from symgen.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.derivative import jacobian
 from symgen.ir.program import Block, LawProgram, ModelLayout, ModelProgram, Target
@@ -39,7 +40,16 @@ def lower_law(
         Its structural options, complete.
     implicit : bool
         Whether the descriptor form for implicit integrators is added.
+
+    Raises
+    ------
+    InputError
+        If velocities shall be scaled to the energy where drivers prescribe coordinates of a tree.
     """
+    correction = method.correction(options)
+    if correction.energy and equations.driving is not None:  # T is not quadratic in v then
+        expected = f"coordinates in which no driver prescribes one of the state, for '{method.name}'"
+        raise InputError("--coordinates", expected, "those of joints that are driven", "--coordinates absolute")
     record, names = record_law(method, options, equations.driving is not None), [p.name for p in method.parameters]
     scalars = ScalarNodes(equations, record.operations, names)
     scalars.run(range(len(record.operations)))
@@ -59,7 +69,6 @@ def lower_law(
         blocks += form_blocks
     blocks.insert(0, replace(hoister.prepare(), role="preparation"))
     layout = replace(model.layout, sections=_sections(model.layout, record, blocks, degrees))
-    correction = method.correction(options)
     info = LawInfo(
         method=method.name,
         key=method.stem(options, implicit),
@@ -69,6 +78,7 @@ def lower_law(
         hoisted=len(hoister.slots) - hoister.reserved,
         position_correction=correction.position != "none",
         velocity_correction=correction.velocity,
+        energy_correction=correction.energy,
         nw=layout.nw,
         unknowns=unknowns,
         level=level,
@@ -120,7 +130,7 @@ def _sections(
     layout: ModelLayout, record: RecordedLaw, blocks: list[Block], degrees: int
 ) -> dict[str, tuple[int, int]]:
     """Return the sections of ``w``: those of the model, and the law's own behind them."""
-    sizes = {"nv": layout.nv, "m": layout.m, "degrees": degrees}
+    sizes = {"one": 1, "nv": layout.nv, "m": layout.m, "degrees": degrees}
     sections, offset = dict(layout.sections), layout.nw
     for name, factors in record.sections:
         size = 1

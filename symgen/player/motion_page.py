@@ -116,14 +116,19 @@ def _script(live: Live | None, spatial: bool) -> str:
     own = "".join(_web(name) for name in SCRIPTS[spatial])
     if live is None:
         return f"(() => {{\n'use strict';\nconst emitted = null, makeLive = null;\n{own}}})();"
-    functions = "rhs accept geometry masses prepareModel prepareLaw derive describe confirm move bodies"
-    return f"(() => {{\n'use strict';\n{_emitted(live, functions)}{_web('live.js')}{own}}})();"
+    return f"(() => {{\n'use strict';\n{model_script(live)}{own}}})();"
 
 
 def _emitted(live: Live, functions: str, *further: str) -> str:
     """Return emitted code, an object of those of its functions that it has, and what evaluates them."""
     names = [n for n in functions.split() if f"function {n}(" in live.code or f"const {n} =" in live.code]
     return f"{live.code}const emitted = {{ {', '.join([*names, *further])} }};\n{_web('rates.js')}"
+
+
+def model_script(live: Live) -> str:
+    """Return a script that defines ``emitted``, the functions of a mechanism, and ``makeLive``, which runs them."""
+    functions = "rhs accept geometry masses prepareModel prepareLaw derive describe confirm move bodies"
+    return f"{_emitted(live, functions)}{_web('live.js')}"
 
 
 def rates_script(live: Live) -> str:

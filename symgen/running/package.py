@@ -112,7 +112,7 @@ def write_package(
     if run is not None:
         beside["simulate.py"] = (templates_folder() / "package" / "simulate.py").read_text(encoding="utf-8")
     files |= {name: text for name, text in beside.items() if _may_write(folder / name)}
-    written = _write(folder, files)
+    written = write_folder(folder, files)
     if run is None and _may_write(folder / "simulate.py"):  # of another package
         (folder / "simulate.py").unlink(missing_ok=True)
     return Package(folder, written, generated.derive_seconds, generated.emit_seconds)
@@ -238,7 +238,7 @@ def _may_write(path: Path) -> bool:
         return False
 
 
-def _write(folder: Path, files: Mapping[str, Content]) -> tuple[Path, ...]:
+def write_folder(folder: Path, files: Mapping[str, Content]) -> tuple[Path, ...]:
     """Write files, all of them or none, and return them in order."""
     paths = {folder / name: content for name, content in files.items()}
     absent = [f for f in (folder, *folder.parents) if not f.exists()]

@@ -185,6 +185,8 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     integrator = INTEGRATORS.get(name, "integrator")
     _refuse_pair(method, integrator)
     choice, method_parameters, integrator_options = split_options(s, integrator)
+    zero: complex | None = getattr(integrator, "zero", None)
+    method_parameters = method.placed(choice.options, zero, integrator.name) | method_parameters
     adaptive = integrator.adaptive and not told_constant(s.options, integrator.name)
     step = s.step
     if step is None:  # the first one may be longer than the run, whose end cuts it
@@ -213,7 +215,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         largest_step=min(own or np.inf, longest),
         max_violation=s.max_violation,
         max_velocity_violation=limit_of_velocities(method, s.max_violation),
-        max_energy_error=s.max_energy_error,
+        max_energy_error=np.inf if method.correction(choice.options).energy else s.max_energy_error,
         max_attempts=MAX_ATTEMPTS if s.max_attempts is None else s.max_attempts,
         compares=not adaptive and "ode" not in integrator.forms and any(x.jumps for x in discontinuities_of(mechanism)),
         # not the end of this run: a run that is continued needs the same duration

@@ -53,9 +53,11 @@ def begin_anew(simulation: Simulation) -> int:
     work = float(state.y[place])
     state.control[abi.BEGUN] = 0
     state.y[place] = 0.0  # the balance begins with none
+    state.iw[abi.BALANCED] = 0
     before = float(w[abi.KINETIC] + w[abi.POTENTIAL])
     code = begin_with_step(simulation)
     state.y[place] = work + float(w[abi.KINETIC] + w[abi.POTENTIAL]) - before
+    state.iw[abi.BALANCED] = 0  # the work is another one now
     state.gauges[:], state.control[_WATCHED] = gauges, watched
     return code
 

@@ -57,6 +57,8 @@ SETTING_OUT = 100
 _HOPELESS, _ASTRAY = 1e6, 1e-2
 #: A zone is crossed in so many times the distance to its middle: not 2, so that no stage at half the step meets it.
 _ACROSS = 2.3
+#: What stands for the step before an adaptive run has chosen one, as a part of the run.
+_BEFORE = 1e-3
 #: The part of the way to a switch of a step whose stages do not pass it.
 _SHORT_OF = 0.9
 #: What an attempt returns where an iteration did not converge, and where a matrix does not fit into its room.
@@ -227,6 +229,8 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         control[abi.REFUSED] = control[abi.BARRED] = control[abi.KNOWN] = 0
         if ADAPTIVE:
             clock[abi.NEXT] = span.step
+        # laws whose gains follow the step are evaluated before there is one
+        note_step(run, span.step if span.step > 0.0 else _BEFORE * span.duration)
         prepare(system, scheme, span, run)
         if attend(system, run, LOOK) == FAIL:
             return abi.UNDEFINED

@@ -512,5 +512,5 @@ def test_velocities_that_a_start_holds_are_those_of_the_drivers(held):
     motion = crank.kinematics(times)
     np.testing.assert_allclose(motion["crank.omega"], 6.0, rtol=1e-12)
     np.testing.assert_allclose(motion["crank.x"], 0.5 * np.cos(6.0 * times), atol=1e-12)
-    effort = crank.inverse(times=times)["motor"]
+    effort = crank.inverse(times=times)["motor.effort"]
     np.testing.assert_allclose(effort, 2.0 * 9.81 * 0.5 * np.cos(6.0 * times), rtol=1e-10)

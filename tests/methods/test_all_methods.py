@@ -18,8 +18,8 @@ CASES = {
     "slider-crank": (1.0, 1e-3, 6.25e-5),
     "andrews": (0.01, 1e-5, 2.5e-6),
 }
-#: `penalty` approaches another motion: its error falls with the penalty.
-COMMON = tuple(m for m in METHODS.names if m != "penalty")
+#: Joints that give way approach another motion, and `braun-goldfarb` this one in order 2.
+COMMON = tuple(m for m in METHODS.names if m not in ("penalty", "compliant-constraints", "braun-goldfarb"))
 #: One of each kind.
 SOME = (
     *("lagrange", "direct-correction", "augmented-lagrangian", "coordinate-partitioning", "null-space"),
@@ -34,7 +34,7 @@ def motions(name, method):
     until, step, short = CASES[name]
     times = np.linspace(0.0, until, 11)
     q, result = motion(load(name), method, short if second_order(method) else step, times)
-    assert result.status == "ok", f"{method}: {result.reason}"
+    assert result.status == ("unverified" if method == "energy-projection" else "ok"), result.reason
     return q
 
 
@@ -91,6 +91,12 @@ def test_the_error_of_penalty_falls_with_the_penalty():
         ("null-space", "abm4"),
         ("adaptive-baumgarte", "rk4"),
         ("augmented-lagrangian", "rk4"),
+        ("energy-projection", "rk4"),
+        ("compliant-constraints", "rk4"),
+        ("invariant-stabilization", "rk4"),
+        ("hamiltonian-baumgarte", "rk4"),
+        ("controllable-velocity-projection", "rk4"),
+        ("dependent-correction", "rk4"),
     ],
 )
 def test_order(method, integrator):

@@ -211,7 +211,7 @@ def test_whatever_code_is_generated_with_is_in_the_digest_of_the_generator():
     assert "describe" in folders, "imports are followed"
     assert folders <= {*GROUPS["code"], *UNMARKED}
     named = (PACKAGE.parent / "templates").rglob("*.j2")
-    assert {path.parent.name for path in named} - {"report", "package"} == set(TEMPLATES)
+    assert {path.parent.name for path in named} - {"report", "package", "c"} == set(TEMPLATES)
 
 
 @pytest.mark.parametrize("file", ["describe/formulas.py", "lower/looped/kernels.py", "compiling/choices.py"])

@@ -244,7 +244,11 @@ def rows():
         ({"options": {"weight": "mass"}}, "option weight: expected METHOD.NAME with one of direct-correction"),
         ({"coordinates": "polar"}, "coordinates: expected one of absolute, joint, auto, got 'polar'"),
         ({"shape": "auto"}, "shape: expected one of straight, looped, got 'auto'"),
-        ({"target": "c"}, "target: expected one of cpu, lanes, cuda, got 'c'"),
+        (
+            {"target": "cc"},
+            "target: expected a target, got 'cc'; did you mean 'c'? (known: c, cpu, cuda, fmu, javascript, lanes)",
+        ),
+        ({"target": "fmu", "fmi": 4}, "fmi: expected 2 or 3, got 4"),
     ):
         yield f"generate {changes}", lambda x, c=changes: x.model.generate(**c), sentence
     yield "assemble what", lambda x: x.model.assemble(3), "compiled: expected what Model.compile returned, got 3"
@@ -406,7 +410,7 @@ def rows():
     starts = {"3": 3, "[1.0]": [1.0]}
     yield from each("reset", starts, lambda x, v: x.sim.reset(v), "start: expected values by the names of coordinates")
     yield "reset name", lambda x: x.sim.reset({"bob.vxx": 1.0}), "did you mean 'bob.vx'?"
-    yield "column", lambda x: x.sim["crank.thet"], "result: expected the name of a column, got 'crank.thet'"
+    yield "column", lambda x: x.sim["crank.thet"], "quantity 'crank.thet': expected a quantity of pendulum"
     yield "inspect method", lambda x: x.model.inspect("lagrang"), "method: expected a method, got 'lagrang'"
     yield "inspect options", lambda x: x.model.inspect("lagrange", 3), "options: expected texts by name, got 3"
     yield "inspect coordinates", lambda x: x.model.inspect(coordinates="joints"), "did you mean 'joint'?"
