@@ -36,7 +36,7 @@ STYLE = f"""
 def draw() -> str:
     """Return the picture as SVG."""
     motion = load("driven-four-bar").kinematics(np.linspace(0.0, 1.0, FRAMES + 1))
-    assert motion.ok, motion.reason
+    assert motion.ok, motion.ended
     keyframes, bodies = [], []
     for (name, half), colour in zip(LENGTHS.items(), COLOURS, strict=False):
         x, y, theta = (motion[f"{name}.{coordinate}"] for coordinate in ("x", "y", "theta"))
