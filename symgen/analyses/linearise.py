@@ -207,9 +207,9 @@ class Vibration:
 def vibration(x: StateTangent) -> Vibration | None:
     """Return the small motions about a state of rest.
 
-    None where something moves or has no mass, a force follows, or joints hold velocities alone.
+    None where something moves or has no mass, a force follows, joints hold velocities alone, or a file has states.
     """
-    if not x.size or x.positions != x.velocities or not at_rest(x.subject, x):
+    if not x.size or x.subject.states or x.positions != x.velocities or not at_rest(x.subject, x):
         return None
     e, basis = x.base, x.subject.split(x.subject.rows(x.base))[0]
     try:

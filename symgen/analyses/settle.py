@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.algebra import Solver, largest, level, solver
 from symgen.analyses.subject import Subject
+from symgen.compiling.linearised import Evaluated
 from symgen.errors import AnalysisError
 
 if TYPE_CHECKING:
@@ -40,6 +41,8 @@ OPENED = 0.05
 SINGULAR, ASTRAY = 1e6, 0.01
 #: What s is multiplied with where a step is too long, and the least part of its root that is left behind a short one.
 FASTER, SLOWER = 4.0, 0.3
+#: Most iterations of Newton's method for states of the file at rest.
+MOST_ITERATIONS = 50
 
 
 #: A static problem over changes in lengths of the mechanism and radians: forces are work. So it is the same one in
@@ -73,7 +76,7 @@ class DenseStatics:
 
     def _parts(self, y: Array, lam: Array) -> tuple[Array, Array, Array, Array, Array]:
         subject = self.subject
-        e = subject.evaluated(y, lam=lam[: subject.m])
+        e, by_position = at_balance(subject, y, lam[: subject.m])
         motion, active = e.by("motion", "v"), ~subject.redundant
         rows, gaps = [e.by("velocities", "v")[active]], [e.value("positions")[active]]
         force = e.value("balance")
@@ -87,7 +90,7 @@ class DenseStatics:
             rows.append(row[np.newaxis])
             gaps.append(np.array([now - value]))
         spans, units = subject.spans, self._units()[self._active]
-        stiffness = spans[:, np.newaxis] * (e.by("balance", "q") @ motion) * spans
+        stiffness = spans[:, np.newaxis] * (by_position @ motion) * spans
         return (
             spans * force,
             np.concatenate(gaps) / units,
@@ -122,6 +125,40 @@ class DenseStatics:
     def wound(self, y: Array) -> DenseStatics:
         """Return the same with the angles that count turns as they are at a state less than half a turn away."""
         return replace(self, subject=self.subject.wound(y))
+
+
+def at_balance(subject: Subject, y: Array, lam: Array | None = None) -> tuple[Evaluated, Array]:
+    """Evaluate where the states of the file have come to rest, which are set in `y`; their stiffness is included.
+
+    Returns
+    -------
+    e : Evaluated
+        The descriptor form there.
+    stiffness : Array, shape (nv, nq)
+        Derivatives of the balance by q, states of the file following.
+
+    Raises
+    ------
+    AnalysisError
+        If their rates do not determine them.
+    """
+    e = subject.evaluated(y, lam=lam)
+    if not subject.states:
+        return e, e.by("balance", "q")
+    own = subject.compiled.info.own_states
+    for _ in range(MOST_ITERATIONS):
+        try:
+            change = np.linalg.solve(e.by("states", "z"), e.value("states"))
+        except np.linalg.LinAlgError:
+            names = ", ".join(x.name for x in subject.compiled.info.states)
+            raise AnalysisError(f"no equilibrium: the rates of the states {names} do not determine them") from None
+        size = float(np.abs(change / subject.extents(y)).max())
+        y[own] -= change
+        e = subject.evaluated(y, lam=lam)
+        if not size > 1e-14:
+            break
+    following = np.linalg.solve(e.by("states", "z"), e.by("states", "q"))
+    return e, e.by("balance", "q") - e.by("balance", "z") @ following
 
 
 @dataclass(frozen=True)

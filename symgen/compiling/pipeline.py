@@ -125,6 +125,19 @@ def _sympy_version() -> str:
     return (Path(spec.origin).parent / "release.py").read_text(encoding="utf-8").split('"')[1]
 
 
+def refuse_loops(mechanism: Mechanism) -> None:
+    """Refuse looped code for what exists as straight code only.
+
+    Raises
+    ------
+    InputError
+        If the file has states of its own, or rotors on joints.
+    """
+    for what, some in (("states of its own", mechanism.states), ("rotors on joints", mechanism.rotors)):
+        if some:
+            raise InputError("shape", f"straight code where a file has {what}", "looped")
+
+
 def generate(
     mechanism: Mechanism,
     choices: tuple[MethodChoice, ...],
@@ -162,6 +175,7 @@ def generate(
     if target != "cpu":
         _refuse_target(target, choices, shape)
     if shape == "looped":
+        refuse_loops(mechanism)
         from symgen.compiling.looped import generate_looped, shared_folder
 
         began = time.perf_counter()
@@ -343,6 +357,7 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
         operations={b.name: b.operations for b in program.blocks},
         inputs=equations.inputs,
         alone=_alone(program, len(equations.rows)),
+        states=equations.states,
     )
 
 

@@ -85,6 +85,11 @@ class MechanismBuilder:
         """Add an event: ``when``, ``direction``, ``action``, ``reset`` as in a file."""
         return self._add("events", name, {**keys})
 
+    def state(self, name: str, rate: float | str, start: float | str = 0.0, unit: str = "") -> Self:
+        """Add a state with a rate of its own, such as the current of a motor, which every formula may read."""
+        keys = {"rate": rate, "start": start, "unit": unit}
+        return self._add("states", name, {key: item for key, item in keys.items() if item != ""})
+
     def output(self, name: str, value: str, unit: str = "") -> Self:
         """Add a formula that results report, such as ``"integral(motor.power)"``."""
         return self._add("outputs", name, {"value": value, "unit": unit} if unit else {"value": value})

@@ -43,6 +43,10 @@ def canonical(mechanism: Mechanism) -> str:
         ["joints", [_text(joint) for joint in mechanism.joints]],
         ["forces", [_text(force) for force in mechanism.forces]],
     ]
+    if mechanism.states:
+        parts.append(["states", [[x.name, x.unit, _text(x.rate)] for x in mechanism.states]])
+    if mechanism.rotors:
+        parts.append(["rotors", [_text(rotor) for rotor in mechanism.rotors]])
     if mechanism.topology is not None:
         parts.append(["topology", _text(mechanism.topology)])
     return "\n".join(_text(part) for part in parts)
@@ -65,7 +69,13 @@ def identity(mechanism: Mechanism) -> str:
 
     plain = msgspec.structs.replace(mechanism, shapes=(), input_formulas=())
     # the text of structs, which older folders of sweeps and journals were named by
-    text = msgspec.Struct.__repr__(plain).replace(", shapes=()", "").replace(", input_formulas=()", "")
+    text = (
+        msgspec.Struct.__repr__(plain)
+        .replace(", shapes=()", "")
+        .replace(", input_formulas=()", "")
+        .replace(", states=()", "")
+        .replace(", rotors=()", "")
+    )
     return hashlib.sha256(text.encode()).hexdigest()
 
 

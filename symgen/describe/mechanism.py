@@ -27,6 +27,12 @@ ACCELERATIONS = {
     "wz": "alphaz",
 }
 
+
+def is_speed(name: str) -> bool:
+    """Whether a coordinate or velocity of a body, such as ``rod.vx``, is a velocity."""
+    return name.rpartition(".")[2] in ACCELERATIONS
+
+
 #: Components of a vector: two in the plane, three in space.
 Vec = tuple[Expr, ...]
 
@@ -252,6 +258,14 @@ class Joint(msgspec.Struct, frozen=True):
         return "rad" if label.startswith("angle") else "m"
 
 
+class Rotor(msgspec.Struct, frozen=True):
+    """A rotor that turns with the angle of a joint: its energy is half of `inertia` times the square of that rate."""
+
+    joint: str
+    angle: Measure
+    inertia: Expr
+
+
 class Force(msgspec.Struct, frozen=True):
     """A force element of any kind, resolved to efforts along measures."""
 
@@ -259,6 +273,15 @@ class Force(msgspec.Struct, frozen=True):
     kind: str
     bodies: tuple[str, ...]
     efforts: tuple[Effort, ...]
+
+
+class StateVariable(msgspec.Struct, frozen=True):
+    """A state of the file's own, x' = `rate`, a formula of t, parameters, inputs, the motion and all such states."""
+
+    name: str
+    start: Expr
+    rate: Expr
+    unit: str = ""
 
 
 class Output(msgspec.Struct, frozen=True):
@@ -343,6 +366,8 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     shapes: tuple[tuple[str, Shape], ...] = ()  # body -> what it looks like, several entries for several shapes
     topology: Topology | None = None  # where joint coordinates are the state; joints of the tree have no rows then
     input_formulas: tuple[tuple[str, Expr], ...] = ()  # input -> the formula that a run has put in its place
+    states: tuple[StateVariable, ...] = ()
+    rotors: tuple[Rotor, ...] = ()
 
     def __repr__(self) -> str:
         counted = (

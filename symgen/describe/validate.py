@@ -12,10 +12,10 @@ from symgen.describe.bodies import planar_body, shapes_of, spatial_body
 from symgen.describe.columns import check_columns
 from symgen.describe.evaluate import evaluate, in_order
 from symgen.describe.events import read_event
-from symgen.describe.fields import Flag, JointStart, OutputFunction, Scalar, read, read_value, words_of
+from symgen.describe.fields import OF_ANY_JOINT, Flag, JointStart, OutputFunction, Scalar, read, read_value, words_of
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.kinds import FORCES, JOINTS
-from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter
+from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter, Rotor, StateVariable
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.scope import Context, Scope
@@ -27,12 +27,13 @@ from symgen.describe.sections import (
     OutputSection,
     ParameterSection,
     RunSection,
+    StateSection,
     TableSection,
 )
 from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
 from symgen.errors import InputError, nearest, quoted
-from symgen.vocabulary.expressions import names
+from symgen.vocabulary.expressions import ONE, call, names
 from symgen.vocabulary.measures import Marker
 
 Raw = Mapping[str, Any]
@@ -65,6 +66,7 @@ class _Validator:
         self._seats: dict[str, Marker] = {}
         self._open = 0  # joints being resolved, each because the one before refers to it
         self._cuts: list[str] = []
+        self._rotors: dict[str, Rotor] = {}
         self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
 
     def where(self, path: str) -> str:
@@ -94,6 +96,7 @@ class _Validator:
             head.space,
             frozenset(name for name, _ in self.entries("joints")),
             inputs=tuple(p.name for p in parameters if p.input),
+            state_names=tuple(name for name, _ in self.entries("states")),
         )
         scope = Scope(self.context, "mechanism")
         gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
@@ -119,6 +122,8 @@ class _Validator:
             joints=joints,
             forces=forces,
             defaults=self.defaults(line(head.source)),
+            rotors=tuple(self._rotors[joint.name] for joint in joints if joint.name in self._rotors),
+            states=tuple(self.state(name, value) for name, value in self.entries("states")),
             outputs=tuple(self.output(name, value) for name, value in self.entries("outputs")),
             seats=tuple(self._seats.items()),
             cuts=tuple(self._cuts),
@@ -142,7 +147,11 @@ class _Validator:
 
     def unique(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
-        for group in (("bodies", "joints", "forces"), ("parameters", "inputs", "tables")):
+        for group in (
+            ("bodies", "joints", "forces"),
+            ("parameters", "inputs", "states", "tables"),
+            ("states", "outputs"),
+        ):
             sections: dict[str, str] = {}
             for section in group:
                 for name, _ in self.entries(section):
@@ -241,6 +250,12 @@ class _Validator:
             raise InputError(where, "points between which curves have finite coefficients", "points too close or far")
         return table
 
+    def state(self, name: str, raw: object) -> StateVariable:
+        where, scope = self.where(f"states.{name}"), self.scope("states", name)
+        section = read(StateSection, raw, where)
+        start, rate = scope.constant("start", section.start), scope.of_state("rate", section.rate)
+        return StateVariable(name, start, rate, check_unit(section.unit, f"{where}.unit"))
+
     def output(self, name: str, raw: object) -> Output:
         where = self.where(f"outputs.{name}")
         if isinstance(raw, Mapping):
@@ -278,11 +293,11 @@ class _Validator:
         if self._open > DEEPEST:
             raise InputError(where, f"joints that refer to each other in at most {DEEPEST} steps", "more")
         path = f"joints.{name}"
-        kind, table = self.split(path, self.raw["joints"][name], "joint type", "start", "cut")
+        kind, table = self.split(path, self.raw["joints"][name], "joint type", *OF_ANY_JOINT)
         struct = JOINTS.get(kind, self.where(f"{path}.type"))
         scope = Scope(self.context, path, name, JOINTS.canonical(kind))
         scope.check_space(struct.SPACES)
-        section = read(struct, table, self.where(path), ("type", "start", "cut"))
+        section = read(struct, table, self.where(path), ("type", *OF_ANY_JOINT))
         joint = section.build(scope)
         at = getattr(section, "at", None)
         if at is not None:
@@ -296,9 +311,29 @@ class _Validator:
                 got = f"a {joint.kind} joint, which has rows in any case"
                 raise InputError(self.where(f"{path}.cut"), "a joint that can carry a body", got)
             self._cuts.append(name)
+        self.rotor(scope, joint, self.raw["joints"][name])
         self._joints[name] = joint
         self._open -= 1
         return joint
+
+    def rotor(self, scope: Scope, joint: Joint, raw: Raw) -> None:
+        """Note the rotor of a joint, where it has one."""
+        if "rotor_inertia" not in raw:
+            if "gear_ratio" in raw:
+                raise scope.error("gear_ratio", "the key rotor_inertia beside it", "no such key")
+            return
+        angles = [measure for label, measure in joint.coordinates if Joint.unit(label) == "rad"]
+        if len(angles) != 1:
+            got = f"a {joint.kind} joint with {len(angles) or 'none'}"
+            raise scope.error("rotor_inertia", "a joint with one angle", got)
+        given = {
+            key: read_value(Scalar, raw.get(key, 1.0), scope.where(key)) for key in ("rotor_inertia", "gear_ratio")
+        }
+        inertia = scope.constant("rotor_inertia", given["rotor_inertia"], positive=True)
+        ratio = scope.constant("gear_ratio", given["gear_ratio"])
+        if ratio != ONE:
+            inertia = call("mul", inertia, call("mul", ratio, ratio))
+        self._rotors[joint.name] = Rotor(joint.name, angles[0], inertia)
 
     def force(self, name: str, raw: object) -> Force:
         path = f"forces.{name}"

@@ -12,7 +12,7 @@ from symgen.drawing.pen import PLAIN, BodyPoint, Pen, across, parts
 from symgen.drawing.scene import GROUNDED, INK, Array, BodyFrame, Item, Look, Mark, Poses
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import ZERO, Number, names
-from symgen.vocabulary.measures import Angle, Component, Distance, Effort, PointSpeed, Spin, Turn
+from symgen.vocabulary.measures import Angle, Component, Distance, Effort, HalfSquare, PointSpeed, Spin, Turn
 
 PUSH = Look("#a0522d", "", 1.8)
 COIL = Look(INK, "", 1.2)
@@ -21,7 +21,7 @@ COIL = Look(INK, "", 1.2)
 def force_item(pen: Pen, force: Force) -> Item:
     """Return the symbol of a force element; one without points is drawn at its bodies."""
     numbers = pen.numbers
-    stretched = [m for m in parts(force.efforts) if isinstance(m, Distance)]
+    stretched = [m for m in parts(force.efforts) if isinstance(m, Distance | HalfSquare)]
     turned = [m for m in parts(force.efforts) if isinstance(m, Angle | Turn | Spin)]
     marks: list[Mark]
     if stretched:

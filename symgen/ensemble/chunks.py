@@ -38,6 +38,8 @@ class Rows:
         Described coordinates, not closed; given velocities, nan where they are to be completed.
     targets : Array, shape (k, h)
         Values of what the runs hold: coordinates, then joint coordinates, then rates of these.
+    states : Array, shape (k, number of states)
+        Values of the states of the file's own.
     stops : tuple of tuple of Stop
         Of each run, or of all of them, where an input jumps; none where nothing does.
     method : mapping of str to Array, shape (k,)
@@ -48,6 +50,7 @@ class Rows:
     q: Array
     v: Array
     targets: Array
+    states: Array
     stops: tuple[tuple[Stop, ...], ...] = ()
     method: Mapping[str, Array] = field(default_factory=dict)
 
@@ -115,7 +118,10 @@ def make_rows(
     targets = np.zeros((k, len(held)))
     for i, name in enumerate(held):
         targets[:, i] = chosen[name]
-    return Rows(parameters, q, v, targets)
+    states = np.empty((k, len(mechanism.states)))
+    for i, x in enumerate(mechanism.states):
+        states[:, i] = chosen[x.name] if x.name in chosen else numbers.value(x.start)
+    return Rows(parameters, q, v, targets, states)
 
 
 @dataclass(frozen=True)

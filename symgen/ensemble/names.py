@@ -35,6 +35,8 @@ class Names:
         Of bodies, in the order of q and v.
     joints : mapping of str to str
         Names of joint coordinates and rates, each with the one name of what it is.
+    states : tuple of str
+        Of the file's own.
     options : tuple of str
         Parameters of the method: ``method.alpha``.
     """
@@ -44,6 +46,7 @@ class Names:
     coordinates: tuple[str, ...]
     velocities: tuple[str, ...]
     joints: Mapping[str, str]
+    states: tuple[str, ...] = ()
     options: tuple[str, ...] = ()
 
     @classmethod
@@ -53,12 +56,13 @@ class Names:
         coordinates = tuple(f"{body.name}.{name}" for body in bodies for name in body.coordinates)
         velocities = tuple(f"{body.name}.{name}" for body in bodies for name in body.speeds)
         parameters = tuple(p.name for p in mechanism.parameters)
-        return cls(mechanism.name, parameters, coordinates, velocities, joint_names(mechanism))
+        states = tuple(x.name for x in mechanism.states)
+        return cls(mechanism.name, parameters, coordinates, velocities, joint_names(mechanism), states)
 
     @property
     def starts(self) -> tuple[str, ...]:
         """All names of the start."""
-        return (*self.coordinates, *self.velocities, *self.joints)
+        return (*self.coordinates, *self.velocities, *self.joints, *self.states)
 
     def one(self, name: str) -> str:
         """Return the one name of what a name of the start means."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
+from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions, refuse_states
 from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
@@ -58,6 +58,7 @@ class AlphaFamily:
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
+        refuse_states(self, compiled)
         from symgen.runtime.newton import Pattern, alpha_plan
         from symgen.runtime.records import Alpha
         from symgen.runtime.schemes import alpha

@@ -184,11 +184,12 @@ class ModelLayout:
     m: int
     parameters: int
     sections: Mapping[str, tuple[int, int]]  # name -> (offset in w, size)
+    states: int = 0
 
     @property
     def ny(self) -> int:
-        """Length of the state: q, v and the work of forces without potential and of drivers."""
-        return self.nq + self.nv + 1
+        """Length of the state: q, v, the work of forces without potential and of drivers, and states of a file."""
+        return self.nq + self.nv + 1 + self.states
 
     @property
     def nw(self) -> int:

@@ -65,6 +65,7 @@ def lower_law(
     if implicit:
         form = record_form(method, options, driven=equations.driving is not None)
         unknowns, level = equations.nq + equations.nv + equations.m * (2 if form.form == "stabilised" else 1), form.form
+        unknowns += len(equations.states)
         form_blocks, pattern = _form_blocks(hoister, scalars, form, unknowns)
         blocks += form_blocks
     blocks.insert(0, replace(hoister.prepare(), role="preparation"))
@@ -102,6 +103,9 @@ def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
     if scalars.mass_entries and "y" not in ARGUMENTS[part.name]:
         scalars = scalars.with_stored_mass
     outputs = [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
+    if any(place == "rates.work" for place, _ in part.outputs):
+        space, work = scalars.places["rates.work"]
+        outputs += [(Target(space, work + i), node) for i, node in enumerate(scalars.equations.state_rates, 1)]
     if part.name in _KEEPS_MASS:
         outputs += [(Target("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
     return outputs
@@ -150,18 +154,22 @@ def _form_blocks(
 
     ``residual(t, y, k, p, w, r)`` writes F to r and the power of forces without potential and of drivers to the status;
     ``tangent(t, y, k, p, w, j)`` the structural nonzeros of dF/dk and dF/dy, equation by equation; from `unknowns` on,
-    unknowns are q and v.
+    unknowns are q and v. Rates of states are the last unknowns, and stand last among the derivatives by the state.
     """
     e, scalars = law.equations, law.following(form.operations)
     scalars.run(range(len(form.operations)))
     (part,) = form.parts
     groups = {place: scalars.values[index] for place, index in part.outputs}
     rows = [(group, node) for group in EQUATIONS if group in groups for node in groups[group]]
+    own = unknowns - len(e.states)
+    g = law.graph
+    rows[own:own] = [("states", g.sub(g.input("k", own + i), rate)) for i, rate in enumerate(e.state_rates)]
     arguments = ("t", "y", "k", "p", "w", "r")
     residual = [(Target("r", i), node) for i, (_, node) in enumerate(rows)]
     residual.append(to_status("power", groups["power"]))
-    first = {"k": 0, "q": unknowns, "v": unknowns + e.nq}
+    first = {"k": 0, "q": unknowns, "v": unknowns + e.nq, "z": unknowns + own - 1}
     keys = [("k", i) for i in range(unknowns)] + [("q", i) for i in range(e.nq)] + [("v", i) for i in range(e.nv)]
+    keys += [("z", i) for i in range(1, len(e.states) + 1)]
     tangent: Outputs = []
     pattern: list[tuple[int, int]] = []
     for i, derivatives in enumerate(jacobian(law.graph, [n for _, n in rows[:unknowns]], keys)):

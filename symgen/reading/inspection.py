@@ -219,6 +219,9 @@ def facts_of(whole: Mechanism, settings: Settings, with_method: bool) -> dict[st
         "operations": _operations(equations),
         "left_out": [{"what": o.what, "why": o.why} for o in equations.omissions],
     }
+    if equations.states:
+        rates = zip(equations.states, equations.state_rates, strict=True)
+        facts["states"] = {x.name: {"unit": x.unit, "rate": show(node)} for x, node in rates}
     if with_method:
         facts["method"] = _method(mechanism, equations, choice)
     return facts
@@ -265,6 +268,7 @@ def _sizes(equations: Equations) -> dict[str, int]:
 def _operations(e: Equations) -> dict[str, dict[str, int]]:
     """Count operations by quantity, each with its own common subexpressions, and of all together."""
     parts = e.nodes() | {"energies": [e.kinetic, e.potential, e.power]}
+    parts |= {"states": list(e.state_rates)} if e.states else {}
     parts["together"] = [node for nodes in parts.values() for node in nodes]
     return {
         name: {"before": e.graph.tree_operations(nodes), "after": e.graph.operations(nodes)}
@@ -340,6 +344,9 @@ def as_text(facts: dict[str, Any]) -> str:
     lines += [f"M[{', '.join(b['velocities'])}] = {_matrix(b['matrix'])}" for b in facts["mass"]]
     section("Forces f: M v' + D^T lambda = f")
     lines += [f"f[{name}] = {force}" for name, force in facts["forces"].items()]
+    if "states" in facts:
+        section("States of the file")
+        lines += [f"{name}' = {x['rate']} [{x['unit']}/s]" for name, x in facts["states"].items()]
     section("Energies")
     lines += [f"{name} = {expression}" for name, expression in facts["energies"].items()]
     section("Operations: before common subexpressions -> after")

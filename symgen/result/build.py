@@ -136,6 +136,7 @@ def _last_state(run: Prepared, outcome: Outcome) -> LastState:
     else:
         arrays = _arrays(outcome)
         y, work, w = arrays["y"], arrays["y"][info.work], arrays["w"]
+    own = arrays["y"][run.compiled.info.own_states].tolist()
     whole = outcome.code in (abi.DONE, abi.STOPPED)
     return LastState(
         mechanism=mechanism.name,
@@ -150,6 +151,7 @@ def _last_state(run: Prepared, outcome: Outcome) -> LastState:
         made=made_of(run.compiled, run.plan, run.spec),
         failed="" if whole else outcome.reason,
         arrays=arrays,
+        states=dict(zip((x.name for x in info.states), own, strict=True)) or None,
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -230,4 +230,7 @@ def _of_columns(saved: Recorded) -> LastState:
         return {name: float(saved.columns[name][-1]) for name in own}
 
     work = 0.0 if saved.mechanism else float(saved.columns["energy.work"][-1])
-    return LastState(saved.mechanism, "", float(saved.t[-1]), row(_PLACES), row(ACCELERATIONS), work)
+    last = LastState(saved.mechanism, "", float(saved.t[-1]), row(_PLACES), row(ACCELERATIONS), work)
+    # states of a file are columns with the names of outputs, which have no dot
+    own = {name: float(column[-1]) for name, column in saved.columns.items() if "." not in name}
+    return replace(last, states=own or None)

@@ -99,11 +99,11 @@ def linearised(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> A
 
     Returns
     -------
-    matrix : Array, shape (nq + nv, nq + nv)
+    matrix : Array, shape (nq + nv + states, nq + nv + states)
         All zero where nothing can decay: no force depends on velocities, and no joint is a condition on them.
     """
-    nq, nv = compiled.info.nq, compiled.info.nv
-    result, form = np.zeros((nq + nv, nq + nv)), compile_growth(mechanism, compiled)
+    nq, nv, states = compiled.info.nq, compiled.info.nv, len(compiled.info.states)
+    result, form = np.zeros((nq + nv + states, nq + nv + states)), compile_growth(mechanism, compiled)
     if form is None:
         return result
     w = start.w.copy()
@@ -124,9 +124,10 @@ def linearised(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> A
     e = form.at(start.t, start.y, solution[:nv], start.p, w)
     if not np.all(np.isfinite(e.out)):
         return np.full_like(result, np.nan)
-    by_state = [np.hstack([e.by(group, "q"), e.by(group, "v")]) for group in GROWTH]
+    by_state = [np.hstack([e.by(group, space) for space in "qvz"]) for group in GROWTH]
     result[:nq] = by_state[0]
-    result[nq:] = solved(by_state[1], by_state[2])[:nv]
+    result[nq : nq + nv] = solved(by_state[1], by_state[2])[:nv]
+    result[nq + nv :] = by_state[3]
     return result
 
 

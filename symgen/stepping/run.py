@@ -54,6 +54,8 @@ class SteppedRun:
     q, v, state : Named
         Coordinates, velocities, and both: read-only views of what the run holds at present, without copies. In joint
         coordinates those of the joints of the tree.
+    states : Named
+        The same of the states of the file's own.
     warnings, notes : tuple of str
         What there is to say of the start and the settings.
     """
@@ -88,6 +90,7 @@ class SteppedRun:
         self.q = _view(state.y, 0, info.coordinates)
         self.v = _view(state.y, info.nq, info.velocities)
         self.state = _view(state.y, 0, both)
+        self.states = _view(state.y, info.work + 1, info.states)
         self.warnings, self.notes = (*plan.all_warnings, *start.warnings), start.notes
         self._first = self.save()
         if not self._free:  # else the first step says how long it is
@@ -474,5 +477,6 @@ class SteppedRun:
 
 def _view(y: np.ndarray, first: int, quantities: Iterable[Quantity]) -> Named:
     """Return a named view of a part of the state."""
-    names, units = zip(*((q.name, q.unit) for q in quantities), strict=True)
+    quantities = tuple(quantities)
+    names, units = tuple(q.name for q in quantities), tuple(q.unit for q in quantities)
     return Named.of(y[first : first + len(names)], names, units)

@@ -6,8 +6,8 @@ from typing import Any
 
 import msgspec
 
-#: What linearised functions are differentiated by: time, q, v, v', multipliers and parameters.
-BY = ("t", "q", "v", "a", "lam", "p")
+#: What linearised functions are differentiated by: time, q, v, v', multipliers, parameters and states of the file.
+BY = ("t", "q", "v", "a", "lam", "p", "z")
 
 
 class Info(msgspec.Struct, frozen=True):

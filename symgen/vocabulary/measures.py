@@ -49,6 +49,13 @@ class Distance(msgspec.Struct, frozen=True, tag="distance"):
     b: Marker
 
 
+class HalfSquare(msgspec.Struct, frozen=True, tag="half-square"):
+    """``s = |r_b - r_a|^2 / 2`` [m^2]: smooth where the markers meet."""
+
+    a: Marker
+    b: Marker
+
+
 class LinkStretch(msgspec.Struct, frozen=True, tag="link-stretch"):
     """``s = (|r_b - r_a|^2 - L^2) / (2 L)`` [m]: zero, with unit gradient, where the distance is `length`."""
 
@@ -126,11 +133,30 @@ class Sum(msgspec.Struct, frozen=True, tag="sum"):
     terms: tuple[tuple[Expr, Measure], ...]
 
 
+class FormulaMeasure(msgspec.Struct, frozen=True, tag="formula"):
+    """s = a formula of t, parameters, coordinates of bodies and values of measures."""
+
+    of: Expr
+
+
 #: Angles that come back to themselves in a turn, so that somebody has to count.
 Turning = Turn | Bearing
 #: All angles.
 AnyAngle = Angle | Turn | Bearing
-Measure = Component | Distance | LinkStretch | Angle | Dot | Turn | Bearing | Spin | RimHeight | Sum
+Measure = (
+    Component
+    | Distance
+    | HalfSquare
+    | LinkStretch
+    | Angle
+    | Dot
+    | Turn
+    | Bearing
+    | Spin
+    | RimHeight
+    | Sum
+    | FormulaMeasure
+)
 
 
 class PointSpeed(msgspec.Struct, frozen=True, tag="point-speed"):
@@ -166,7 +192,13 @@ class BladeSpeed(msgspec.Struct, frozen=True, tag="blade-speed"):
     blade: Direction
 
 
-Speed = PointSpeed | RollingSpeed | BladeSpeed
+class FormulaSpeed(msgspec.Struct, frozen=True, tag="formula-speed"):
+    """A formula of t, parameters, coordinates of bodies, measures, and rates of these, in which it is linear."""
+
+    of: Expr
+
+
+Speed = PointSpeed | RollingSpeed | BladeSpeed | FormulaSpeed
 
 
 class Holonomic(msgspec.Struct, frozen=True, tag="holonomic"):
@@ -179,7 +211,7 @@ class Holonomic(msgspec.Struct, frozen=True, tag="holonomic"):
 
 
 class Nonholonomic(msgspec.Struct, frozen=True, tag="nonholonomic"):
-    """One row u = value(t, parameters) on a velocity u = J v that is no rate of a measure [m/s]."""
+    """One row u = value(t, parameters) on a velocity u = J v that is no rate of a measure."""
 
     label: str
     speed: Speed

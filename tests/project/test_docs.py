@@ -26,6 +26,7 @@ from symgen.describe.sections import (
     ParameterSection,
     RunSection,
     SpatialBodySection,
+    StateSection,
     TableSection,
 )
 from symgen.describe.validate import validate
@@ -215,6 +216,7 @@ def test_a_kind_stands_in_the_reference_with_all_its_keys(kind: str, registry: o
         ("`[mechanism]`", [MechanismSection]),
         ("`[run]`", [RunSection]),
         ("`[parameters]`", [ParameterSection]),
+        ("`[states.NAME]`", [StateSection]),
         ("`[tables.NAME]`", [TableSection]),
         ("`[bodies.NAME]`", [BodySection]),
         ("`[bodies.NAME]` in space", [SpatialBodySection, OrientationSection]),

@@ -29,7 +29,7 @@ def agree(name, coordinates, folder):
     y0, p = np.zeros(info.ny), np.zeros(len(start.p))
     assert library.begin(y0, p) == 0
     np.testing.assert_allclose(y0, start.y[: info.ny], rtol=1e-11, atol=1e-11)
-    np.testing.assert_allclose(p, start.p, rtol=1e-14)
+    np.testing.assert_allclose(p, start.p, rtol=1e-14, atol=1e-14)
     random, w, iw = np.random.default_rng(1), start.w.copy(), np.zeros(16, dtype=np.int64)
     speed = 1.0 + np.abs(y0[info.nq : info.work]).max()
     rates = corrections = 0.0

@@ -27,7 +27,9 @@ _BODY_FIELDS = frozenset(("body", "a", "b"))
 _LABELS = frozenset(("label",))
 _UNITS = (0.0, 1.0, -1.0)
 #: What a mechanism says that is no part of its equations, so that it gives no kernel another name.
-_BESIDE = frozenset(("defaults", "holds", "events", "outputs", "seats", "cuts", "topology", "shapes", "given"))
+_BESIDE = frozenset(
+    ("defaults", "holds", "events", "outputs", "seats", "cuts", "topology", "shapes", "given", "states", "rotors")
+)
 
 
 @dataclass(frozen=True)
