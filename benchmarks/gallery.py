@@ -320,7 +320,7 @@ def index() -> str:
     lines = [
         "# Gallery",
         "",
-        "Every studied mechanism of the catalogue, and what was measured of it. By `python -m benchmarks.gallery`.",
+        "All studied mechanisms of the catalogue, with measurements. Written by `python -m benchmarks.gallery`.",
         "",
         "| | mechanism | most accurate row |",
         "| --- | --- | --- |",
@@ -334,7 +334,7 @@ def index() -> str:
         *_across(),
         "## Machines",
         "",
-        "Described to start from; `symgen view` plays them.",
+        "Machines to start from. `symgen view` plays them.",
         "",
         "| | machine |",
         "| --- | --- |",

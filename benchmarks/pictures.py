@@ -63,6 +63,9 @@ DRAWN: Mapping[str, Callable[[], str]] = {
     "coupler-paths": _path,
     "mode": _mode,
     "press": lambda: _described("tutorial.md", "press"),
+    "carousel": lambda: _described("tutorial-space.md", "carousel"),
+    "groove": lambda: _described("tutorials/own-constraint.md", "groove"),
+    "motor": lambda: _described("tutorials/motor-current.md", "motor-and-linkage"),
     "crane": lambda: _described("tutorials/modes.md", "crane"),
 }
 

@@ -25,7 +25,14 @@ ROOT = Path(__file__).resolve().parents[1]
 #: The sidebar: caption -> pages, relative to the root. A page of docs/ that stands nowhere else comes last in "Guides";
 #: pages in a folder with a README stand below that README.
 NAVIGATION = {
-    "Start": ("docs/tutorial", "docs/tutorial-space", "docs/tutorials/README", "docs/gallery/README", "docs/findings"),
+    "Start": (
+        "docs/tutorial",
+        "docs/tutorial-space",
+        "docs/tutorials/README",
+        "docs/gallery/README",
+        "examples/README",
+        "docs/findings",
+    ),
     "Guides": ("docs/howto/README", "docs/results", "docs/stress", "docs/sweeps"),
     "Theory": ("docs/theory/README", "docs/methods", "docs/integrators", "docs/pairs", "docs/joint-coordinates"),
     "Analyses": ("docs/equilibrium", "docs/modes", "docs/linearise", "docs/kinematics", "docs/inverse"),
@@ -118,7 +125,7 @@ version = release = __version__
 
 root_doc = "docs/README"
 source_suffix = {".md": "markdown"}
-include_patterns = ["docs/**", "benchmarks/**", "CONTRIBUTING.md", "CHANGELOG.md"]
+include_patterns = ["docs/**", "benchmarks/**", "examples/README.md", "CONTRIBUTING.md", "CHANGELOG.md"]
 exclude_patterns = [".*", "out", "build", "dist", "generated", "tests", "symgen", "templates", "**/__pycache__"]
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_click", "sphinx_copybutton"]
 

@@ -156,24 +156,29 @@ class Settings:
     )
     start: Mapping[str, float] = _setting(
         {},
-        "Value of a coordinate or velocity at the start, such as crank.theta=0.5, which is kept.",
+        "Coordinate or velocity that the start keeps, such as crank.theta=0.5.",
         dict,
         _start,
         metavar="NAME=VALUE",
     )
     options: Mapping[str, str | float] = _setting(
-        {}, "Option, such as method.alpha=5.", dict, _options, flag="--option", metavar="KEY=VALUE"
+        {},
+        "Option of the method or integrator, such as method.alpha=5.",
+        dict,
+        _options,
+        flag="--option",
+        metavar="KEY=VALUE",
     )
     stop_when: Sequence[str] = _setting(
         (), "Condition at which the run ends, such as 'crank.theta > 2*pi'.", list, _conditions, metavar="CONDITION"
     )
     record_when: Sequence[str] = _setting(
-        (), "Condition whose times and states are noted.", list, _conditions, metavar="CONDITION"
+        (), "Condition at which time and state are recorded.", list, _conditions, metavar="CONDITION"
     )
     events: Mapping[str, Mapping[str, Any]] = _setting(
-        {}, "Events beside those of the mechanism, as tables by name.", dict, _events
+        {}, "Events in addition to those of the mechanism, as tables by name.", dict, _events
     )
-    strict: bool = _switch(False, "Refuse a start that is not consistent.")
+    strict: bool = _switch(False, "Refuse an inconsistent start.")
     verify: bool | None = _switch(
         None,
         "Estimate the error by a second run with finer steps, and settle doubts by it.",
@@ -189,14 +194,14 @@ class Settings:
         None,
         "Largest step{unit} of an adaptive integrator.",
         unit="s",
-        otherwise="of the mechanism; none, or a thousandth of the run where formulas of t may pass something short",
+        otherwise="of the mechanism; none, or a thousandth of the run where formulas of t may have short features",
     )
     max_attempts: float | None = _number(
         None,
         "Attempts at steps after which a run ends as failed; constant steps that would be more are refused.",
         otherwise="1e8 adaptive, 2e9 constant",
     )
-    repeat: int = _setting(1, "Warm up and time that many runs.", int, _repeat, metavar="N")
+    repeat: int = _setting(1, "Time this many runs after a warm-up.", int, _repeat, metavar="N")
     shape: str = _setting("auto", "Shape of the code: auto, straight or looped.", str, _shape)
     coordinates: str = _setting(
         "absolute",

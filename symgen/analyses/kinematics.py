@@ -297,5 +297,5 @@ def checked_times(where: str, value: Any) -> Array:
         raise InputError(where, "a list of finite times", arguments.shown(value))
     if not np.all(np.diff(times) > 0.0):
         k = int(np.argmin(np.diff(times) > 0.0))
-        raise InputError(where, "times that increase", f"{times[k + 1]:g} behind {times[k]:g}")
+        raise InputError(where, "times that increase", f"{times[k + 1]:g} after {times[k]:g}")
     return np.ascontiguousarray(times)

@@ -250,7 +250,7 @@ def _search(statics: S, y: Array, near: float) -> tuple[S, Array, Array, int]:
     even = level(stiffness)
     solve = solver(even, rows)
     if solve is None:
-        raise AnalysisError("the rows cannot be told apart: some depend on others near the start")
+        raise AnalysisError("the rows cannot be distinguished: some depend on others near the start")
     work = solve(-force, np.zeros(len(gaps)))[1]
     before = y, work
     error, best, shift, first, size = np.inf, np.inf, 0.0, 0.0, np.zeros(len(force))

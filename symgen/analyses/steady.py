@@ -289,8 +289,8 @@ def _check_steady(
         then = soon if k == 0 and soon is not None else _later(subject, then)
         t, b = then.t, system(then, names)[0]
         if not np.abs((b - a) * alike).max(initial=0.0) <= LATER * (pace(x) + np.abs(a * alike).max(initial=0.0)):
-            expected = "a steady motion, about which everything that is looked at stays as it is"
-            raise InputError(where, expected, f"one whose linear system is another at t = {t:.4g} s")
+            expected = "a steady motion, along which no state changes"
+            raise InputError(where, expected, f"one whose linear system differs at t = {t:.4g} s")
         for before, extent in zip(quantities, large, strict=True):
             if not abs(then.quantity(before.name).value - before.value) <= LATER * (extent + abs(before.value)):
                 raise InputError(where, "a steady motion", f"one in which '{before.name}' changes until t = {t:.4g} s")

@@ -334,7 +334,7 @@ class Tracer:
         """Return why the motion does not go on, in a sentence."""
         t, sine, slope, least = self.clock[f.TIME], self.clock[f.SINE], self.clock[f.SLOPE], self.course.least
         if code == f.UNDEFINED:
-            return f"a formula is not finite behind t = {t:.9g} s"
+            return f"a formula is not finite after t = {t:.9g} s"
         if sine < SPACING:
             rest = 0.5 * sine / slope if slope > 0.0 and np.isfinite(slope) else 0.0  # its square falls to 0
             passage = self._passage(t + self.sign * rest, "dead centre", None)
@@ -349,4 +349,4 @@ class Tracer:
             who = ", ".join(dict.fromkeys(f"'{self.info.rows[i].joint}'" for i in jumps))
             long = f"or goes too far in {least:.3g} s, the shortest step of so long a motion"
             return f"the value of {who} jumps at t = {t:.9g} s, {long}"
-        return f"no position near the last one closes the mechanism behind t = {t:.9g} s"
+        return f"no position near the last one closes the mechanism after t = {t:.9g} s"

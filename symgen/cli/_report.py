@@ -61,7 +61,10 @@ def study_files(row: str) -> Callable[[F], F]:
         click.option("--csv", metavar="FILE", help=f"Write the {row}s to a CSV file."),
         units_option,
         click.option(
-            "--resume", "--journal", metavar="FILE", help=f"Keep every finished {row} there, and skip those it has."
+            "--resume",
+            "--journal",
+            metavar="FILE",
+            help=f"Store every finished {row} in FILE, and skip the {row}s that it has.",
         ),
     )
 
@@ -127,5 +130,5 @@ def sketches_of(
 
 def interrupted(row: str, stored: bool) -> int:
     """Say that a study was interrupted and whether a journal keeps its rows, and return the exit code."""
-    how = "the same command goes on behind them" if stored else "--resume FILE would have kept them for another time"
+    how = "the same command continues after them" if stored else "with --resume FILE they would have been stored"
     return complain(f"interrupted; the {row}s that were done are shown; {how}", INTERRUPTED)

@@ -161,7 +161,17 @@ def show_study(study: Study) -> None:
 
 #: Columns of a study, of which a narrow terminal shows the first ones.
 _HEADINGS = (
-    *("method", "integrator", "step, rtol", "error [m]", "run [ms]", "status", "x lagrange", "|Phi|", "energy [J]"),
+    *(
+        "method",
+        "integrator",
+        "step, rtol",
+        "error [m]",
+        "run [ms]",
+        "status",
+        "time / lagrange",
+        "|Phi|",
+        "energy [J]",
+    ),
     *("evaluations", "|D v - nu|", "spread"),
 )
 

@@ -1,4 +1,4 @@
-"""Validate and assemble a mechanism; say its degrees of freedom."""
+"""Validate and assemble a mechanism; show its degrees of freedom."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from symgen.errors import counted
 )
 @click.argument("model")
 @setting_options("parameters", "start", "strict")
-@click.option("--draw", "picture", metavar="FILE", help="Draw it into FILE as well: .svg, .png or .pdf.")
+@click.option("--draw", "picture", metavar="FILE", help="Also draw the mechanism into FILE: .svg, .png or .pdf.")
 @json_option
 def command(
     model: str,
@@ -28,9 +28,9 @@ def command(
     picture: str | None,
     as_json: bool,
 ) -> int:
-    """Validate MODEL, assemble it, and say its degrees of freedom, rank and redundant rows.
+    """Validate MODEL, assemble it, and show its degrees of freedom, rank and redundant rows.
 
-    With --draw there is a picture also where it does not close: it shows where that stopped and which joints stay open.
+    --draw also draws a mechanism that does not close: the picture shows its last position and the open joints.
     """
     if picture is not None:
         from symgen.api import load

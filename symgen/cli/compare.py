@@ -98,7 +98,7 @@ def command(
 
     The error is the largest distance [m] to a reference motion, over bodies, output times and points (centre of mass,
     and tips of the axes at the body's own length). Integrators with an error estimate run at --rtols, the others at
-    --steps. Ctrl-C shows the rows that are done; with --resume the same command goes on behind them.
+    --steps. Ctrl-C shows the finished rows; with --resume the same command continues after them.
     """
     step_list, rtol_list = number_list("--steps", steps), number_list("--rtols", rtols)
     method_list, integrator_list = words("--methods", methods), words("--integrators", integrators)

@@ -48,8 +48,8 @@ def command(
 ) -> int:
     """Draw MODEL: bodies from their points or shapes, joints and forces by their symbols.
 
-    A mechanism that cannot be assembled is drawn where that stopped, with the joints that stay open marked; the exit
-    code is 2 then.
+    A mechanism that cannot be assembled is drawn in its last position, with open joints marked. The exit code is
+    then 2.
     """
     from symgen.api import load
     from symgen.drawing.drawing import PICTURES

@@ -56,13 +56,13 @@ def command(
 ) -> int:
     """Write the emitted modules of MODEL into a folder, and list the files.
 
-    There is model.py, and a module for each method. They need nothing but math, numpy and numba. The same mechanism
+    The folder has model.py and a module for each method, which need only math, numpy and numba. The same mechanism
     always gives the same bytes. With straight code for processors, simulate.py starts where model.json says.
     """
     from symgen.api import load
 
     if every and methods:
-        raise InputError("--all", "no --method beside it", ", ".join(methods))
+        raise InputError("--all", "no --method with it", ", ".join(methods))
     mechanism = load(model)
     wanted = None if every else methods or "direct-correction"
     package = mechanism.generate(

@@ -21,10 +21,12 @@ from symgen.errors import InputError
 @click.option("--format", "form", type=click.Choice(["text", "latex", "json"]), show_default="text")
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
 @click.option("--document", is_flag=True, help="With --format latex: a document that compiles as it is.")
-@click.option("--select", metavar="NAME,NAME", help="Of LaTeX: sections (Phi, D, gamma, M, f, law, ...), and joints.")
-@click.option("--symbols", is_flag=True, help="Of LaTeX: symbols for lengths that are numbers in the file.")
-@click.option("-o", "--output", metavar="FILE.html", help="Write a page that needs nothing else, with all of it.")
-@click.option("--method", help="Show the operation counts of this method's functions too.")
+@click.option(
+    "--select", metavar="NAME,NAME", help="With --format latex: sections (Phi, D, gamma, M, f, law, ...) and joints."
+)
+@click.option("--symbols", is_flag=True, help="With --format latex: symbols for lengths that are numbers in the file.")
+@click.option("-o", "--output", metavar="FILE.html", help="Write a self-contained page with all sections.")
+@click.option("--method", help="Also show the operation counts of this method's functions.")
 @setting_options(
     *("options", "shape", "coordinates", "parameters"),
     text={"options": "Of the method: weight=mass.", "parameters": "Value of a parameter, for the start."},
@@ -43,7 +45,7 @@ def command(
     coordinates: str,
     parameters: dict[str, float],
 ) -> int:
-    """Show what symgen derives for MODEL: exactly what is compiled.
+    """Show the equations that symgen derives for MODEL, exactly as they are compiled.
 
     Coordinates, constraints, Jacobian with its pattern, quadratic velocity terms, forces, mass matrix, sizes, degrees
     of freedom, redundant rows, operation counts before and after common subexpressions, and what was left out and why.
@@ -61,7 +63,7 @@ def command(
     form = "json" if as_json else form or "text"
     if output is not None:
         if as_json or document or select is not None or symbols or form != "text":
-            raise InputError("inspect: -o", "a page, which has everything", "options of text, LaTeX or JSON beside it")
+            raise InputError("inspect: -o", "a page, which has everything", "options of text, LaTeX or JSON with it")
         from symgen.reading.listing import text_of
 
         written = write_page(load(model).mechanism, settings, Path(output), "inspect: -o", text_of(model))

@@ -31,7 +31,7 @@ def registry(kinds: str) -> Registry[Any]:
 @click.argument("what", type=click.Choice(("mechanisms", *KINDS)), default="mechanisms")
 @json_option
 def command(what: str, as_json: bool) -> int:
-    """Show the mechanisms that come with symgen, with their sources and what a run of them uses by default.
+    """Show the mechanisms that come with symgen, with their sources and the default settings of a run.
 
     Or WHAT is methods, integrators, joints or forces: names with a line about each, those of plugins among them.
     """

@@ -20,10 +20,10 @@ from symgen.cli._options import examples
     "--space",
     type=click.Choice(["planar", "spatial"]),
     default="planar",
-    help="Planar, or in space; planar if not given.",
+    help="Planar, or in space.  [default: planar]",
 )
 def command(name: str, output: str | None, space: str) -> int:
-    """Write a mechanism file that runs as it is and shows every key, with comments. Never overwrites a file."""
+    """Write a commented mechanism file that runs without changes and shows every key. Never overwrites a file."""
     from symgen.describe.template import template
     from symgen.files import check_writable, write_whole
 

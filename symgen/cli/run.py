@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     "--from",
     "whence",
     metavar="FILE",
-    help="Go on from the last state of a saved result: .nc, or .parquet or .csv for its coordinates and velocities.",
+    help="Continue from the last state of a saved result: .nc, or .parquet or .csv for its coordinates and velocities.",
 )
 @click.option("--save", metavar="FILE", help="Write the result to FILE: .nc, .parquet or .csv.")
 @quantity_options(
@@ -65,11 +65,11 @@ def command(
     as_json: bool,
     **values: Any,
 ) -> int:
-    """Simulate MODEL and say how it went.
+    """Simulate MODEL and show the result.
 
     Outputs are every step with a constant step and 1001 equidistant times with an adaptive integrator, unless the
-    mechanism or --output-step says otherwise. With --from, times go on where the saved run ended; --until is the end
-    in the same time.
+    mechanism or --output-step sets others. With --from, times continue where the saved run ended, and --until is the
+    end on the same time axis.
     """
     # before anything expensive: what is wrong with the words of the command
     settings = Settings(**values)

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 @click.option("--cases", metavar="A,B", help="Families of cases, such as stiffness,mass-ratio; all by default.")
 @click.option("--methods", metavar="A,B", help="Methods, auto among them; all and auto by default.")
 @click.option("--quick", is_flag=True, help="Fewer cases, each method with its own integrator only.")
-@click.option("--catalogue", is_flag=True, help="Take every studied model of the catalogue.")
-@click.option("--compilation", type=float, metavar="SECONDS", help="Leave out pairs that would take longer to compile.")
+@click.option("--catalogue", is_flag=True, help="Include every studied model of the catalogue.")
+@click.option("--compilation", type=float, metavar="SECONDS", help="Omit pairs that would take longer to compile.")
 @study_files("cell")
 @setting_options("max_violation", "max_energy_error", "max_step", "max_attempts", "coordinates")
 @jobs_option("Processes.")
@@ -45,11 +45,11 @@ def command(
     as_json: bool,
     **limits: Any,
 ) -> int:
-    """Run every method on stiff and extreme cases made of each MODEL (four-bar by default).
+    """Run every method on stiff and extreme cases derived from each MODEL (four-bar by default).
 
-    Each cell is compared with an independent reference; what the run says of itself stands beside that. Ctrl-C shows
-    the cells that are done; with --resume the same command goes on behind them. Exit code 1 if auto reports success
-    with an error above 1e-3 m.
+    Each cell is compared with an independent reference, and its own status is listed as well. Ctrl-C shows the finished
+    cells; with --resume the same command continues after them. Exit code 1 if auto reports success with an error above
+    1e-3 m.
     """
     if compilation is not None:
         arguments.number("--compilation", compilation, positive=True)

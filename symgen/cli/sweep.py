@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     metavar="NAME=VALUES",
     help="What varies: lin(a,b,n), log(a,b,n), values(a,b,...) or uniform(a,b,n,seed).",
 )
-@click.option("--zip", "together", is_flag=True, help="Let all names vary together instead of in all combinations.")
+@click.option("--zip", "together", is_flag=True, help="Vary all names together instead of in all combinations.")
 @setting_options(
     *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "times", "parameters", "inputs"),
     *("start", "options", "stop_when", "record_when", "strict", "max_violation", "max_energy_error", "max_step"),
@@ -61,7 +61,7 @@ if TYPE_CHECKING:
 @click.option(
     "-o", "--output", metavar="PATH", help="Write results to a NetCDF file (.nc), a CSV file with units, or a folder."
 )
-@click.option("--resume", is_flag=True, help="Continue what was begun at --output.")
+@click.option("--resume", is_flag=True, help="Continue the sweep at --output.")
 @jobs_option("Threads.")
 @click.option("--scheduler", metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")
 @target_option("What runs them: all cores, eight runs at once on each, or a CUDA device.")
@@ -85,8 +85,8 @@ def command(
 
     NAME is a parameter of the mechanism, or a coordinate or velocity of a body or joint at the start (crank.theta,
     crank.omega, motor.angle).
-    Runs that fail are rows with their reasons. With --output, finished runs survive Ctrl-C and kills, and --resume
-    goes on from there.
+    Failed runs are rows with their reasons. With --output, finished runs survive Ctrl-C and kills, and --resume
+    continues from there.
     """
     # before anything expensive: what is wrong with the words of the command
     axes = _axes(varied)

@@ -1,4 +1,4 @@
-"""Make a page that plays a motion, or a film."""
+"""Write a page that plays a motion, or a film."""
 
 from __future__ import annotations
 
@@ -35,18 +35,20 @@ _OF_MODES = ("parameters", "inputs", "start", "coordinates")
 @click.option(
     "-o", "--output", metavar="FILE", help="The page, .html, or a film: .gif, .mp4 with ffmpeg.  [MODEL.html]"
 )
-@click.option("--beside", metavar="RESULT.nc", help="Another motion of the same mechanism, drawn faintly behind.")
 @click.option(
-    "--model", "described", metavar="MODEL", help="The mechanism of RESULT.nc, where it is none of the catalogue."
+    "--beside", metavar="RESULT.nc", help="Another motion of the same mechanism, drawn faintly in the background."
+)
+@click.option(
+    "--model", "described", metavar="MODEL", help="The mechanism of RESULT.nc, if it is not in the catalogue."
 )
 @click.option("--live/--no-live", default=None, show_default="live", help="Put the equations into the page.")
-@click.option("--mode", type=int, metavar="N", help="Play the mode shape of that number instead of a run.")
+@click.option("--mode", type=int, metavar="N", help="Play mode shape N instead of a run.")
 @click.option(
     "--at",
     default="equilibrium",
     show_default=True,
     metavar="PLACE",
-    help="With --mode: about what, equilibrium, start, or a time of a run [s].",
+    help="With --mode: the state it is about: equilibrium, start, or a time of a run [s].",
 )
 @setting_options(
     *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "parameters", "inputs", "start"),
@@ -64,10 +66,10 @@ def command(
     as_json: bool,
     **values: Any,
 ) -> int:
-    """Make a page or film of the motion of MODEL, which is run for that, of a mode of it, or of a saved result.
+    """Write a page or film of a motion: that of MODEL, of one of its modes, or of a saved result.
 
-    The page is one file without anything from elsewhere: play, scrub, loop, traces of points, forces, plots with a
-    cursor. Where the equations are not too large it holds them, so that sliders of parameters change the motion.
+    The page is one file that works offline: play, scrub, loop, traces of points, forces, plots with a cursor. Unless
+    the equations are too large, the page contains them, and sliders of parameters change the motion.
     """
     stored, film = what.lower().endswith(".nc"), output is not None and Path(output).suffix.lower() in (".gif", ".mp4")
     model_text = f"the model '{what}'"

@@ -194,7 +194,7 @@ def longest_step(
         return math.inf, ""
     longest = length / PARTS
     return longest, (
-        f"formulas of t in {' and '.join(groups)} may pass something short: adaptive steps are at most {longest:.3g} s,"
+        f"formulas of t in {' and '.join(groups)} may have short features: adaptive steps are at most {longest:.3g} s,"
         f" a thousandth of the run; what is shorter needs a smaller `max_step`"
     )
 

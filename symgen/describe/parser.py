@@ -268,7 +268,7 @@ class _Reader:
         if reading is not None:
             return reading
         names = (*own, *(() if readings is None else readings.names_of(owner, self.where)))
-        what = f"{quoted('.'.join(path[1:]))}, which {'body ' if own else ''}'{owner}' has not"
+        what = f"{quoted('.'.join(path[1:]))}, which {'body ' if own else ''}'{owner}' does not have"
         listed = f"it has {', '.join(names)}" if names else "it has nothing to read"
         raise self.fail(what, listed if len(names) <= 20 else nearest(text, [f"{owner}.{k}" for k in names]))
 

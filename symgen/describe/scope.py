@@ -96,8 +96,8 @@ class Context(msgspec.Struct, frozen=True, dict=True):
     @property
     def _changing(self) -> dict[str, str]:
         """Hints on inputs and states where they may not stand."""
-        hints = dict.fromkeys(self.state_names, "a state may stand in forces, torques, rates of states and outputs")
-        return hints | dict.fromkeys(self.inputs, "an input may stand in forces, torques and actuators")
+        hints = dict.fromkeys(self.state_names, "only forces, torques, rates of states and outputs may use a state")
+        return hints | dict.fromkeys(self.inputs, "only forces, torques and actuators may use an input")
 
     @cached_property
     def functions(self) -> dict[str, str]:

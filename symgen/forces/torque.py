@@ -56,7 +56,7 @@ class Torque(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
         if self.joint is not None:
             for key in ("reaction", "frame"):
                 if getattr(self, key) is not None:
-                    raise scope.error(key, "no such key beside joint", words_of(getattr(self, key)))
+                    raise scope.error(key, "no such key together with joint", words_of(getattr(self, key)))
             joint, _, angle = scope.joint_coordinate(self.joint, self.coordinate, unit="rad")
             return Force(scope.name, scope.kind, joint.bodies, (self._along(scope, angle),))
         body = scope.body("body", self.body or "", turns=True, ground=False)

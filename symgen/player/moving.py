@@ -128,5 +128,5 @@ def _encoded(pictures: Iterator[Image.Image], rate: float) -> bytes:
             if process.wait() or not path.is_file():
                 messages.seek(0)
                 why = " ".join(messages.read().decode(errors="replace").split())[:200]
-                raise InputError("film", "ffmpeg to make an MP4", f"its error: {why or 'none told'}")
+                raise InputError("film", "ffmpeg to make an MP4", f"its error: {why or 'none'}")
         return path.read_bytes()

@@ -96,7 +96,7 @@ def _reference(study: Study) -> str:
     )
     if marked:
         lie = words.counted(marked, "row lies", "rows lie")
-        text += f"; {lie} below that, marked *, and {'says' if marked == 1 else 'say'} no more than that"
+        text += f"; {lie} below that (marked *), beyond what the reference resolves"
     return f"{text}. Note: {words.readable(study.note)}" if study.note else text
 
 
@@ -130,7 +130,7 @@ def _best(study: Study) -> str:
     alike = sum((r.error or 0.0) <= limit for r in rows)
     text = f"the smallest error, {words.number(best.error)} m, is that of {_name(best)}"
     if alike > 1:
-        text += f"; {alike} runs are as good as can be told from the reference"
+        text += f"; {alike} runs are as accurate as the reference can show"
     return text
 
 

@@ -51,7 +51,7 @@ def beside_the_source(studies: list[Study]) -> Section | None:
                 rows.append((name, mechanism, method, words.ratio(theirs), mine, step))
     headings = ("mechanism of the source", "ours", "method", "source", "symgen", "step")
     table = DocumentTable("Run time as a ratio to lagrange.", headings, tuple(rows), words=3)
-    return Section("Beside the source", _TEXT, tables=(table,), pictures=(_picture(ours),))
+    return Section("Compared with the source", _TEXT, tables=(table,), pictures=(_picture(ours),))
 
 
 def _ours(study: Study) -> dict[str, Row]:
@@ -99,7 +99,7 @@ def _picture(ours: dict[str, dict[str, Row]]) -> Picture:
         ax.set_ylim(-len(ours) + 0.5, 0.5)
         ax.grid(False, axis="y")
         ax.set_xlabel("run time as a ratio to lagrange")
-        ax.set_title("The source's ratios beside ours")
+        ax.set_title("The source's ratios and ours")
         below(figure, 2 * len(METHODS))
 
     caption = (

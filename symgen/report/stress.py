@@ -19,7 +19,7 @@ from symgen.study.stress.stress_rows import LEGEND, Map, Stress, StressRow, outc
 _LEAD = (
     "Every cell is one run of a method with an integrator on a case, compared with a motion from another route: a "
     "closed form, or independently derived equations integrated by another scheme at a tight tolerance. The outcome is "
-    f"told by that distance, not by what the run says of itself. A run is accurate (ok) up to {ACCURATE:g} m."
+    f"judged by that distance, not by the status of the run. A run is accurate (ok) up to {ACCURATE:g} m."
 )
 #: Of more models than this the report has an overview.
 FEW_MODELS = 3

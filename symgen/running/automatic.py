@@ -339,12 +339,11 @@ def _integrator(facts: Facts, method: str) -> tuple[str, str]:
         return name, f"integrator {name}: it solves the form of {method} ({', '.join(chosen.forms)})"
     if unknowns > LARGEST_LINEARISED and facts.stiffness <= STIFF_RATIO:
         return EXPLICIT, (
-            f"integrator dop853: with {unknowns} unknowns a stage nobody looked whether the motion is stiff; "
-            "if it is, ask for radau5"
+            f"integrator dop853: with {unknowns} unknowns a stage, stiffness was not tested; if it is, ask for radau5"
         )
     if facts.stiffness <= STIFF_RATIO and facts.slow <= SLOW:
         name = TOGETHER if facts.together and forms & set(INTEGRATORS.get(TOGETHER).forms) else EXPLICIT
-        return name, f"integrator {name}: the fastest decay, {facts.fastest_decay:.3g} 1/s, asks for no implicit scheme"
+        return name, f"integrator {name}: the fastest decay, {facts.fastest_decay:.3g} 1/s, needs no implicit scheme"
     if not forms & set(INTEGRATORS.get("radau5").forms):
         return EXPLICIT, f"integrator dop853: stiff, but {method} has no form for implicit integrators"
     if facts.slow > SLOW:

@@ -302,7 +302,7 @@ def _rest(before: float, last: float) -> float:
 def gathered(names: Sequence[str], t: float) -> str:
     """Return why a run ended whose events of some names accumulate at a time [s]."""
     events = " and ".join(f"'{name}'" for name in names)
-    return f"events of {events} accumulate at t = {t:.13g} s: nothing says how the motion goes on behind that"
+    return f"events of {events} accumulate at t = {t:.13g} s: the model does not determine the motion after that"
 
 
 def undefined(name: str, t: float) -> str:

@@ -129,7 +129,7 @@ def crossings(
                 at = sorted_levels[np.concatenate([of_passes, of_twice, of_twice])]
                 return [float(x) for x in _bisected(over, low, high, at)]
         count, before = 2 * count, passed
-    raise InputError("inputs", f"at most {MOST_PIECES} jumps", f"{often} than can be told apart")
+    raise InputError("inputs", f"at most {MOST_PIECES} jumps", f"{often} than can be distinguished")
 
 
 def _below(levels: Array, samples: Array) -> Integers:

@@ -150,7 +150,7 @@ def refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> Assemb
         return _stays_open(info, held or Held(), joints_of(info)[where], size)
     if code == e.CONTRADICTION:
         speeds = held.speeds(info) if held else ""
-        beside = f" beside {speeds}, which the start holds" if speeds else ""
+        beside = f" together with {speeds}, which the start holds" if speeds else ""
         return AssemblyError(
             f"{info.name}: no velocities satisfy the constraints{beside}; drivers or conditions contradict each other"
         )

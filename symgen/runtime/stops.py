@@ -180,7 +180,7 @@ class Foreseen:
             The constant step [s]; none where steps are adaptive.
         """
         if not self._stops(values, until)[1]:
-            often = "formulas change, or pass points of tables, more often than can be told apart"
+            often = "formulas change, or pass points of tables, more often than can be distinguished"
             return [f"{often}: steps do not end there, and may miss what is short"]
         if step is None:
             return []

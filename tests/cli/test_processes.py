@@ -122,7 +122,7 @@ def test_an_interrupted_study_prints_its_rows(tmp_path):
     code, out, err = interrupt(("compare", "pendulum", *words, "--json"), integrating, tmp_path)
     assert code == 130
     assert err.splitlines()[-1] == (
-        "symgen: interrupted; the rows that were done are shown; --resume FILE would have kept them for another time"
+        "symgen: interrupted; the rows that were done are shown; with --resume FILE they would have been stored"
     )
     assert [row["step"] for row in json.loads(out)["rows"]] == [1e-2]
 

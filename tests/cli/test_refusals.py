@@ -83,7 +83,7 @@ REFUSED = {
     "inspect pendulum --format latex --document --select Psi": "nomenclature",
     "inspect pendulum --format latex --document --shape looped": "looped",
     "inspect pendulum -o x.pdf": "ending in .html",
-    "inspect pendulum -o x.html --json": "beside it",
+    "inspect pendulum -o x.html --json": "JSON with it",
     "draw pendulum -o x.gif": "ending in .svg",
     "draw pendulum -o no/x.svg": "folder that exists",
     "draw pendulum --at yesterday": "start, described or a time",

@@ -52,8 +52,8 @@ def test_a_false_success_of_auto_is_a_failure(cli, monkeypatch, method, code):
 @pytest.mark.parametrize(
     ("further", "says"),
     [
-        ((), "--resume FILE would have kept them for another time"),
-        (("--resume", "cells"), "the same command goes on behind them"),
+        ((), "with --resume FILE they would have been stored"),
+        (("--resume", "cells"), "the same command continues after them"),
     ],
 )
 def test_an_interrupted_study_shows_what_is_done(cli, monkeypatch, tmp_path, further, says):

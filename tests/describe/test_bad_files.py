@@ -188,7 +188,10 @@ CASES = [
     ("forces.motor.type", "torqe", "forces.motor.type: expected a force type, got 'torqe'; did you mean 'torque'?"),
     ("forces.motor.body", "ground", "forces.motor.body: expected a body that moves, got 'ground'"),
     ("forces.motor.body", "bob", ": expected a body with an angle for 'torque', got the point mass 'bob'"),
-    ("forces.motor.torque", "rod.alpha", "got 'alpha', which body 'rod' has not; it has x, y, theta, vx, vy, omega"),
+    (
+        *("forces.motor.torque", "rod.alpha"),
+        "got 'alpha', which body 'rod' does not have; it has x, y, theta, vx, vy, omega",
+    ),
     ("forces.motor.torque", "lambda: 1", "got the word 'lambda' at column 1"),
     ("forces.motor.torque", "rod.__class__", "got the character '_' at column 5"),
     ("forces.motor.potential", "angle*t", "expected an expression of parameters and angle, got 't', which has"),

@@ -68,7 +68,10 @@ FORCES = [
     ({"type": "torque", "body": "a"}, "torque: expected three numbers or expressions [x, y, z], got no such key"),
     ({"type": "torque", "body": "a", "torque": [0.0, 0.0, 1.0], "potential": "angle"}, "potential: expected"),
     ({"type": "torque", "joint": "pin", "torque": [0.0, 0.0, 1.0]}, "torque: expected one number or expression"),
-    ({"type": "torque", "joint": "pin", "frame": "body", "torque": 1.0}, "frame: expected no such key beside joint"),
+    (
+        {"type": "torque", "joint": "pin", "frame": "body", "torque": 1.0},
+        "frame: expected no such key together with joint",
+    ),
     ({"type": "torque", "joint": "weld", "torque": 1.0}, "joint: expected a joint that has an angle, got 'weld'"),
     ({"type": "torsional-spring-damper"}, "joint: expected a value, as 'torsional-spring-damper' needs it in space"),
     ({"type": "bushing", **GA, "stiffness": [1.0, 2.0]}, "stiffness: expected six numbers or expressions"),

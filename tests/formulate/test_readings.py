@@ -121,13 +121,13 @@ def test_an_angle_in_space_is_the_one_that_the_joint_reports():
 
 
 REFUSED = [
-    ("arm.tpi.x", "got 'tpi.x', which body 'arm' has not; it has x, y, theta, vx, vy, omega, foot.x"),
-    ("arm.tip.ax", "got 'tip.ax', which body 'arm' has not"),
-    ("arm.tip", "got 'tip', which body 'arm' has not"),
-    ("arm.tip.z", "got 'tip.z', which body 'arm' has not"),
+    ("arm.tpi.x", "got 'tpi.x', which body 'arm' does not have; it has x, y, theta, vx, vy, omega, foot.x"),
+    ("arm.tip.ax", "got 'tip.ax', which body 'arm' does not have"),
+    ("arm.tip", "got 'tip', which body 'arm' does not have"),
+    ("arm.tip.z", "got 'tip.z', which body 'arm' does not have"),
     ("pni.angle", "got the unknown body or joint 'pni'; did you mean 'pin'?"),
-    ("pin.angel", "got 'angel', which 'pin' has not; it has angle, angle.rate, rate"),
-    ("pin.angle.rate.rate", "got 'angle.rate.rate', which 'pin' has not"),
+    ("pin.angel", "got 'angel', which 'pin' does not have; it has angle, angle.rate, rate"),
+    ("pin.angle.rate.rate", "got 'angle.rate.rate', which 'pin' does not have"),
     ("ground.tip.x", "got the unknown body or joint 'ground'"),
 ]
 

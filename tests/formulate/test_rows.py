@@ -285,7 +285,7 @@ BAD = [
         "rows[0].position: expected an expression of t, parameters and positions, got one in which nothing moves",
     ),
     ([{"position": "rod.x + flat(rod.y)"}], "a motion needs two continuous derivatives"),
-    ([{"position": "rod.x + push"}], "an input may stand in forces, torques and actuators"),
+    ([{"position": "rod.x + push"}], "only forces, torques and actuators may use an input"),
     (
         [{"velocity": "rod.vx*rod.omega"}],
         "rows[0].velocity: expected a formula that is linear in velocities, got the term 'rod.vx*rod.omega'",

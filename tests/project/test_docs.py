@@ -267,13 +267,20 @@ def test_an_integrator_stands_in_its_page_with_its_order(integrator: str) -> Non
         assert float(row.split("|")[3]) == parameter.default
 
 
-def test_every_command_stands_in_the_readme_and_in_its_page() -> None:
+def test_every_command_is_in_the_table_of_commands_and_has_an_example() -> None:
     from symgen.cli import COMMANDS
 
-    readme, reference = (ROOT / "README.md").read_text(encoding="utf-8"), page("command-line")
+    reference = page("command-line")
+    table = section(reference, "The commands")
     for command in COMMANDS:
-        assert f"| `symgen {command}" in readme or f"`symgen {command}" in readme
+        assert f"| `{command}" in table or f", `{command}" in table
         assert f"$ symgen {command}" in reference
+
+
+def test_the_readme_takes_a_screen_and_a_half() -> None:
+    """What is read: words without addresses and marks."""
+    text = re.sub(r"\]\([^)]*\)", "]", (ROOT / "README.md").read_text(encoding="utf-8"))
+    assert len(re.sub(r"[^\w\s.,'-]|(?<!\w)[.-]+(?!\w)", " ", text).split()) <= 550
 
 
 def test_the_gallery_says_what_was_measured() -> None:

@@ -31,7 +31,7 @@ def test_durations_are_told_in_the_unit_that_they_round_to(duration, told):
 def test_the_reference_and_the_rows_below_it():
     text = one(findings(study()), "errors are distances")
     assert "a formula at 3×10⁻¹⁴" in text and "off by about 10⁻¹² m" in text
-    assert "1 row lies below that, marked *, and says no more than that" in text
+    assert "1 row lies below that (marked *), beyond what the reference resolves" in text
     assert "Note: they part" in one(findings(study(note="they part")), "errors are distances")
 
 

@@ -181,8 +181,8 @@ def test_a_mechanism_without_outputs_says_nothing_of_them():
 
 
 REFUSED = [
-    ("b0.P.q", "got 'P.q', which body 'b0' has not"),
-    ("strut.forse", "got 'forse', which 'strut' has not; it has length, rate, force, power"),
+    ("b0.P.q", "got 'P.q', which body 'b0' does not have"),
+    ("strut.forse", "got 'forse', which 'strut' does not have; it has length, rate, force, power"),
     ("nothing.x", "got the unknown body or joint 'nothing'"),
     ([1.0], "expected a number or an expression of t, parameters and what is known of the motion"),
     ({"value": "t", "units": "m"}, "got the unknown key 'units'; did you mean 'unit'?"),

@@ -90,7 +90,7 @@ def test_nothing_is_gathered_where_nothing_is_asked():
         ({"massless": True}, "direct-correction", "picard", "no mass"),
         ({"fastest_decay": 1e6}, "direct-correction", "radau5", "1e+06 1/s"),
         ({"fastest_decay": 1e6, "coordinates": 300}, "direct-correction", "radau5", "1e+06 1/s"),
-        ({"coordinates": 300}, "direct-correction", "dop853", "nobody looked"),
+        ({"coordinates": 300}, "direct-correction", "dop853", "stiffness was not tested"),
         ({"together": False}, "direct-correction", "dop853", "integrator dop853"),
         ({"slow": 0.9}, "direct-correction", "radau5", "converges slowly"),
         ({"rank": 7}, "direct-correction", "picard", "1 of 8 rows"),

@@ -249,8 +249,14 @@ def test_integrals_and_states_stand_side_by_side():
             {"states": {"i": {"rate": "U", "start": "wheel.omega"}}},
             "states.i.start: expected a number or an expression",
         ),
-        ({"states": {"i": {"rate": "U", "start": "i"}}}, "'i', which has no meaning here; a state may stand in forces"),
-        ({"states": {"i": {"rate": "wheel.alpha"}}}, "states.i.rate: expected .*'alpha', which body 'wheel' has not"),
+        (
+            {"states": {"i": {"rate": "U", "start": "i"}}},
+            "'i', which has no meaning here; only forces, torques, rates of states",
+        ),
+        (
+            {"states": {"i": {"rate": "wheel.alpha"}}},
+            "states.i.rate: expected .*'alpha', which body 'wheel' does not have",
+        ),
         (
             {"states": {"R": {"rate": "1"}}},
             "states.R: expected a name used once, got 'R', which is a parameter already",
@@ -258,7 +264,10 @@ def test_integrals_and_states_stand_side_by_side():
         ({"states": {"t": {"rate": "1"}}}, "a state name that has no meaning of its own"),
         ({"states": {"i": 3}}, "states.i: expected a table, got 3"),
         ({"outputs": {"i": "1"}}, "'i'"),
-        ({"joints": {"d": {"type": "driver", "joint": "pin", "value": "i*t"}}}, "a state may stand in forces"),
+        (
+            {"joints": {"d": {"type": "driver", "joint": "pin", "value": "i*t"}}},
+            "only forces, torques, rates of states",
+        ),
     ],
 )
 def test_bad_input_is_one_sentence(change, words):

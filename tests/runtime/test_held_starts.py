@@ -259,7 +259,7 @@ def test_a_start_that_cannot_be_held_is_refused_with_what_it_holds(held, words):
 def test_velocities_that_contradict_are_refused_with_what_is_held():
     with pytest.raises(AssemblyError) as caught:
         started(raw(), {"crank.theta": 0.5, "crank.omega": 1.0, "arm.omega": 1.0, "A.rate": 2.0})
-    beside = "beside crank.omega = 1 rad/s, arm.omega = 1 rad/s, A.angle.rate = 2 rad/s, which the start holds"
+    beside = "together with crank.omega = 1 rad/s, arm.omega = 1 rad/s, A.angle.rate = 2 rad/s, which the start holds"
     assert beside in str(caught.value)
 
 

@@ -462,11 +462,11 @@ def test_sweeps_take_numbers_as_parameters(model):
         ),
         (
             lambda m: m.joint("d", "driver", body="a", coordinate="x", value="push*t"),
-            "got 'push', which has no meaning here; an input may stand in forces, torques and actuators",
+            "got 'push', which has no meaning here; only forces, torques and actuators may use an input",
         ),
         (
             lambda m: m.force("f", "force", body="a", potential=("push*x", "0*y")),
-            "got 'push', which has no meaning here; an input may stand in forces, torques and actuators",
+            "got 'push', which has no meaning here; only forces, torques and actuators may use an input",
         ),
     ],
 )

@@ -193,7 +193,7 @@ def test_a_spike_of_a_long_table_is_seen(tmp_path: Path) -> None:
 @pytest.mark.parametrize("settings", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 0.01}])
 def test_what_cannot_be_told_apart_is_told(tmp_path: Path, settings: dict[str, Any]) -> None:
     model = pushed_point(tmp_path, "10 if sin(2e7*t) > 0.999 else 0", 1.0)
-    expected = "formulas change, or pass points of tables, more often than can be told apart"
+    expected = "formulas change, or pass points of tables, more often than can be distinguished"
     assert any(expected in warning for warning in model.simulate(method="lagrange", **settings).warnings)
     found = symgen.sweep(model, {"f": [1.0, 2.0]}, method="lagrange", **settings)
     assert all(expected in row[0] for row in found.warnings)

@@ -62,7 +62,7 @@ def pushed(tmp_path_factory: pytest.TempPathFactory) -> symgen.Model:
 
 def bounds(result: symgen.Result | symgen.SteppedRun) -> list[str]:
     """The notes of a run on a bound that nobody set."""
-    return [note for note in result.notes if "may pass something short" in note]
+    return [note for note in result.notes if "may have short features" in note]
 
 
 @pytest.mark.parametrize("integrator", SCHEMES)

@@ -200,5 +200,5 @@ def test_stiff_motions_in_space_have_a_reference():
 
 
 def test_implicit_references_end_with_the_size():
-    with pytest.raises(SimulationError, match="fastest decay, 1e\\+12 1/s, asks for implicit steps"):
+    with pytest.raises(SimulationError, match="fastest decay, 1e\\+12 1/s, needs implicit steps"):
         cell_references.two_routes(symgen.load("stewart-platform").mechanism, {}, np.linspace(0.0, 1.0, 3), decay=1e12)

@@ -74,13 +74,13 @@ PLACE = (
     *STATE,
     Option(
         "--at",
-        "About what: equilibrium, start, steady, a time of a run [s], or an equilibrium by coordinates: A=0,B=1.",
+        "The state: equilibrium, start, steady, a time of a run [s], or an equilibrium by coordinates: A=0,B=1.",
         "place",
         "PLACE",
         default="equilibrium",
     ),
-    Option("--states", "Quantities that are the states. [default: found]", "words", "NAME,NAME"),
-    Option("--cyclic", "With --at steady: coordinates that turn on. [default: found]", "words", "NAME,NAME"),
+    Option("--states", "Quantities that are the states.  [default: automatic]", "words", "NAME,NAME"),
+    Option("--cyclic", "With --at steady: coordinates that keep turning.  [default: automatic]", "words", "NAME,NAME"),
 )
 
 

@@ -138,13 +138,13 @@ KIND = Analysis(
         ),
         Option(
             "--times",
-            "When, of drivers' motion [s]: lin(0, 1, 101) or 0,0.25,0.5.  [default: outputs of a run of MODEL]",
+            "Times of the drivers' motion [s]: lin(0, 1, 101) or 0,0.25,0.5.  [default: outputs of a run of MODEL]",
             "times",
             "TIMES",
         ),
         Option(
             "--actuators",
-            "What exerts the motion: drivers, joints, forces, inputs.  [default: all drivers]",
+            "Actuators of the motion: drivers, joints, forces, inputs.  [default: all drivers]",
             "words",
             "NAME,...",
         ),
@@ -155,9 +155,9 @@ KIND = Analysis(
             "NAME=VALUE",
             "weights",
         ),
-        *of_motion("Of drivers' motion: of several ways to close MODEL that nearest to this coordinate is taken."),
+        *of_motion("Coordinate of the drivers' motion: of several closed positions of MODEL the nearest is used."),
         *of_tables(
-            "What to save and plot beside efforts: a column, a joint or a table, such as power or reactions.",
+            "What to save and plot in addition to efforts: a column, a joint or a table, such as power or reactions.",
             "efforts and power",
         ),
     ),

@@ -98,15 +98,18 @@ KIND = Analysis(
     command=command,
     options=(
         Option(
-            "--times", "When [s]: lin(0, 1, 101) or 0,0.25,0.5.  [default: outputs of a run of MODEL]", "times", "TIMES"
+            "--times",
+            "Times [s]: lin(0, 1, 101) or 0,0.25,0.5.  [default: outputs of a run of MODEL]",
+            "times",
+            "TIMES",
         ),
         Option(
             "--transmission",
-            "A pin whose transmission angle is wanted; C(B, D) where its bodies have several further joints.",
+            "A pin whose transmission angle to compute; C(B, D) if its bodies have several further joints.",
             "texts",
             "PIN",
         ),
-        *of_motion("Value of a coordinate: of several ways to close MODEL the nearest is taken."),
+        *of_motion("Value of a coordinate: of several closed positions of MODEL the nearest is used."),
         *of_tables("What to show, save and plot: a column, a body, a joint or a table, such as points.", "quantities"),
         Option("--curves", "Draw the paths of points into FILE: .png, .svg or .pdf.", "plot", "FILE"),
     ),

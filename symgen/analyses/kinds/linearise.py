@@ -91,7 +91,7 @@ KIND = Analysis(
     command=command,
     options=(
         *PLACE,
-        Option("--instantaneous", "Give the system of the instant where a motion is not steady.", "switch"),
+        Option("--instantaneous", "Give the system at an instant of a motion that is not steady.", "switch"),
         Option("--by", "Parameters that are inputs as well: constants, changed once.", "words", "NAME,NAME"),
     ),
     examples=("symgen linearise pendulum", "symgen linearise bicycle --at start --states lean,steer --json"),

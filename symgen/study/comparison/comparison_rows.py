@@ -259,7 +259,16 @@ class Study:
         return f"<Study of {self.mechanism}, {self.until:g} s: {len(self.rows)} rows of {methods} methods; {self.how}>"
 
     def _repr_html_(self) -> str:
-        headings = ("method", "integrator", "step or rtol", "status", "error [m]", "run [ms]", "x lagrange", "|Phi|")
+        headings = (
+            "method",
+            "integrator",
+            "step or rtol",
+            "status",
+            "error [m]",
+            "run [ms]",
+            "time / lagrange",
+            "|Phi|",
+        )
         rows = [
             (
                 *(row.label, row.integrator),

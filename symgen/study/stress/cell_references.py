@@ -241,7 +241,7 @@ def two_routes(mechanism: Mechanism, parameters: Mapping[str, float], times: Arr
     stiff = decay * float(times[-1]) * 12.0 / 6.39 > explicit_budget(mechanism, STIFF_FROM)
     if stiff and mechanism.body_coordinates > LARGEST_IMPLICIT_REFERENCE:
         raise SimulationError(
-            f"its fastest decay, {decay:.2g} 1/s, asks for implicit steps, whose dense matrices are too large for "
+            f"its fastest decay, {decay:.2g} 1/s, needs implicit steps, whose dense matrices are too large for "
             f"references from {LARGEST_IMPLICIT_REFERENCE} coordinates on"
         )
     if stiff:
