@@ -154,7 +154,10 @@ def _form_blocks(
     keys = [("k", i) for i in range(unknowns)] + [("q", i) for i in range(e.nq)] + [("v", i) for i in range(e.nv)]
     tangent: Outputs = []
     pattern: list[tuple[int, int]] = []
-    for i, derivatives in enumerate(jacobian(law.graph, [n for _, n in rows[:unknowns]], keys)):
+    derived = range(unknowns)
+    if form.form == "explicit":  # M and D are all that is needed
+        derived, keys = range(e.nq, e.nq + e.nv), keys[:unknowns]
+    for i, derivatives in zip(derived, jacobian(law.graph, [rows[i][1] for i in derived], keys), strict=True):
         for space, index in sorted(derivatives):
             tangent.append((Target("j", len(tangent)), derivatives[space, index]))
             pattern.append((i, index + first[space]))

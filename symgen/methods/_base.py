@@ -148,9 +148,10 @@ class Descriptor:
 
     Parameters
     ----------
-    level : {"acceleration", "position", "stabilised", "projected"}
-        ``D v' = g + e lambda``; ``Phi = 0``; ``Phi = 0`` and ``D v = nu`` with ``q' = N (v - D^T eta)``; or ``Phi =
-        0`` with what projections to the other levels need.
+    level : {"acceleration", "position", "stabilised", "projected", "explicit"}
+        ``D v' = g + e lambda``; ``Phi = 0``; ``Phi = 0`` and ``D v = nu`` with ``q' = N (v - D^T eta)``; ``Phi = 0``
+        with what projections to the other levels need; or ``Phi = 0`` and ``D v = nu`` with no derivatives but M and D,
+        for schemes that evaluate forces explicitly.
     target : Vector, optional
         g of the acceleration level.
     compliance : Scalar, optional
@@ -161,6 +162,9 @@ class Descriptor:
     target: Vector | None = None
     compliance: Scalar | None = None
 
+
+#: Forms of problems that explicit integrators solve with the law alone; all others have a descriptor form.
+EXPLICIT_FORMS = frozenset(("ode", "one-step", "semi-implicit"))
 
 Law = Acceleration | Iteration | Tangent | Dense
 

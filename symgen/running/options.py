@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from symgen.arguments import shown
 from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.errors import InputError, nearest
+from symgen.methods._base import EXPLICIT_FORMS
 
 if TYPE_CHECKING:
     from symgen.runtime.integrator import Integrator
@@ -45,7 +46,7 @@ def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[
             raise InputError(
                 f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", nearest(owner, known_owners)
             )
-    return choose_method(s.method, structural, not {"ode", "one-step"} & set(tableau.forms)), parameters, integrator
+    return choose_method(s.method, structural, not EXPLICIT_FORMS & set(tableau.forms)), parameters, integrator
 
 
 def _integrator_option(key: str, name: str, value: str | float, integrator: Integrator) -> str:

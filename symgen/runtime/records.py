@@ -366,6 +366,33 @@ class Projection(NamedTuple):
     masses: Any
 
 
+class ConstrainedStages(NamedTuple):
+    """An explicit scheme whose stages meet constraints by forces along D^T.
+
+    Attributes
+    ----------
+    a, c : Array
+        The tableau, row by row, its last row being b, and the nodes, the last one 1.
+    stages : int
+        How many.
+    spins : Array of int64
+        Where the angular velocities of bodies begin in v.
+    nonholonomic : Array
+        1 for rows without Phi, else 0.
+    slopes, numbers, plan : Array
+        Of M and D, see `symgen.runtime.newton.acceleration_plan`.
+    """
+
+    a: Any
+    c: Any
+    stages: int
+    spins: Any
+    nonholonomic: Any
+    slopes: Any
+    numbers: Any
+    plan: Any
+
+
 class Nodes(NamedTuple):
     """A collocation scheme whose rates are unknown at all nodes of a step at once.
 
@@ -427,4 +454,5 @@ MULTISTEP = types.RecordType((_A, _A, _K, _I), Multistep)
 STAGES = types.RecordType((_A, _A, _A, _A, _F, _I, _I, _I, _K, _A, _A, _K, _A, _K), Stages)
 ALPHA = types.RecordType((_F, _F, _F, _F, _A, _A, _K), Alpha)
 NODES = types.RecordType((abi.NODES, _I, _K, _A, _A, _A, _A, _A, _A, _K, _I, TABLEAU), Nodes)
+CONSTRAINED = types.RecordType((_A, _A, _I, _K, _A, _A, _A, _K), ConstrainedStages)
 PROJECTION = types.RecordType((_I, _A, _A, _K, _K, _K), Projection)
