@@ -356,6 +356,8 @@ class Projection(NamedTuple):
         Row, velocity and source of each entry of D^T.
     masses : Array of int64
         Sources of the diagonal of M.
+    nonholonomic : Array
+        1 for rows without Phi, else 0.
     """
 
     penalty: int
@@ -364,6 +366,7 @@ class Projection(NamedTuple):
     plan: Any
     pulls: Any
     masses: Any
+    nonholonomic: Any
 
 
 class ConstrainedStages(NamedTuple):
@@ -455,4 +458,4 @@ STAGES = types.RecordType((_A, _A, _A, _A, _F, _I, _I, _I, _K, _A, _A, _K, _A, _
 ALPHA = types.RecordType((_F, _F, _F, _F, _A, _A, _K), Alpha)
 NODES = types.RecordType((abi.NODES, _I, _K, _A, _A, _A, _A, _A, _A, _K, _I, TABLEAU), Nodes)
 CONSTRAINED = types.RecordType((_A, _A, _I, _K, _A, _A, _A, _K), ConstrainedStages)
-PROJECTION = types.RecordType((_I, _A, _A, _K, _K, _K), Projection)
+PROJECTION = types.RecordType((_I, _A, _A, _K, _K, _K, _A), Projection)
