@@ -122,7 +122,10 @@ def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
     g = model.graph
     with finite_numbers(f"joints.{joint}"):
         value, slope, curvature = time_function(model, row.value)
+        stiffness = None
         if isinstance(row, Holonomic):
+            if row.stiffness is not None:
+                stiffness = time_function(model, row.stiffness)[0]
             measure = model.measure(row.measure)
             phi, nu = g.sub(measure.value, value), slope
         else:
@@ -131,7 +134,7 @@ def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
         entries, bias, drift = model.pulled(measure.row, measure.bias)
         gamma, nu = g.sub(curvature, bias), g.sub(nu, drift)
         ordered, size = tuple(sorted(entries.items())), _size(model, row, measure.row)
-    return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, size)
+    return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, size, stiffness)
 
 
 def _size(model: ModelNodes, row: Row, entries: Mapping[int, int]) -> int | None:

@@ -74,6 +74,7 @@ def lower_law(
         level=level,
         tangent=pattern,
         operations={b.name: b.operations for b in blocks},
+        unique_multipliers=method.unique_multipliers,
     )
     closed = method.integrates == "independent"
     return LawProgram(info, record.form, closed, correction, layout, tuple(blocks), degrees)

@@ -191,6 +191,8 @@ class Method(ABC):
     velocities_follow : bool
         Whether every step holds the positions and velocities follow from them by the integrator's formula: they are off
         their constraint by its error, which does not grow with time.
+    unique_multipliers : bool
+        Whether the law determines multipliers where rows depend on each other; else results have those of minimum norm.
     """
 
     name: ClassVar[str]
@@ -203,6 +205,7 @@ class Method(ABC):
     integrates: ClassVar[str] = "all"
     dense: ClassVar[str] = ""
     velocities_follow: ClassVar[bool] = False
+    unique_multipliers: ClassVar[bool] = False
 
     @abstractmethod
     def law(self, system: System, options: Mapping[str, str]) -> Law:
@@ -293,15 +296,14 @@ def multiplier_law(system: System, gamma: Vector) -> Acceleration:
     return Acceleration(system.minv(system.f - system.D.transposed(multipliers)), multipliers)
 
 
-def augmented_iteration(system: System, penalty: Scalar | Vector, target: Vector) -> Iteration:
+def augmented_iteration(system: System, target: Vector, penalties: Vector) -> Iteration:
     """Return the augmented Lagrangian iteration for D v' = target.
 
     ``(M + a D^T D) dv' = f - M v' - D^T (lambda + a (D v' - target))``, ``v' += dv'``, ``lambda += a (D v' -
     target)``, from ``v' = M^-1 f`` (0 where M is singular) and ``lambda = 0``. It is the textbook's iteration (Bayo,
     Garcia de Jalon, Serna 1988) written for increments, so that rounding is that of the residual and not that of a
-    times it.
+    times it. a is `penalties`, by rows.
     """
-    penalties = system.penalties(penalty)
     factor = system.keep_factor(system.augmented_factor(penalties))
     penalties = system.keep("kept_penalties", penalties)
     constraints = system.keep_constraints()
@@ -353,7 +355,7 @@ class MultiplierMethod(Method):
     def law(self, system: System, options: Mapping[str, str]) -> Law:
         """Return the elimination of v', the iteration for light bodies, or the dense factorisation."""
         if options["solver"] == "augmented":
-            return augmented_iteration(system, system.heavy_penalty, self.target(system))
+            return augmented_iteration(system, self.target(system), system.penalties(system.heavy_penalty))
         if options["solver"] == "dense":
             return Dense(self.target(system))
         return multiplier_law(system, self.target(system))

@@ -169,13 +169,18 @@ class BladeSpeed(msgspec.Struct, frozen=True, tag="blade-speed"):
 Speed = PointSpeed | RollingSpeed | BladeSpeed
 
 
-class Holonomic(msgspec.Struct, frozen=True, tag="holonomic"):
-    """One row Phi = s - value(t, parameters); `label` ends the multiplier's name (``JOINT.label``)."""
+class Holonomic(msgspec.Struct, frozen=True, omit_defaults=True, tag="holonomic"):
+    """One row Phi = s - value(t, parameters); `label` ends the multiplier's name (``JOINT.label``).
+
+    `stiffness` says how redundant rows share a load [N/m]; it makes no row give.
+    """
 
     label: str
     measure: Measure
-    value: Expr = ZERO
-    unit: str = "m"
+    # kernels are known by the text of their elements: it stays what it was where no stiffness is named
+    value: Expr = msgspec.field(default_factory=lambda: ZERO)
+    unit: str = msgspec.field(default_factory=lambda: "m")
+    stiffness: Expr | None = None
 
 
 class Nonholonomic(msgspec.Struct, frozen=True, tag="nonholonomic"):

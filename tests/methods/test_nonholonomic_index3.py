@@ -30,7 +30,7 @@ def test_steady_turn_of_a_rolling_disc(keys):
 
 
 def test_a_knife_edge_on_a_slope_goes_along_a_cycloid():
-    """With spin w from rest the blade's point has x = g sin^2(w t) / (2 w^2), y = g (w t - sin(2 w t) / 2) / (2 w^2)."""
+    """From rest with spin w: x = g sin^2(w t) / (2 w^2), y = g (w t - sin(2 w t) / 2) / (2 w^2)."""
     w, g, until = 2.0, 3.0, 1.0
     builder = MechanismBuilder("sleigh", gravity=(g, 0.0))
     builder.body(
