@@ -2,7 +2,7 @@
 
 Positions and velocities are projected after each step with the pseudoinverse of D.
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 58295f5ab9fde3becf5f80d6335bd3cef590c0f36f2899f9efcc7615adc1d937, format 3, templates bb23d5a16442c950
+digest dc50b4bafc3843d522248ecf36306546216a47158252a42fd3a8f555947a7488, format 3, templates bb23d5a16442c950
 option solver = elimination
 option weight = mass
 p[0] tolerance (default 1e-13)

@@ -2,7 +2,7 @@
 
 Positions and velocities are projected after each step with the pseudoinverse of D.
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 6afe61df047d5e8557b0d7f1da19890ec98ad59af26f8f9bc16ed3856565d2d4, format 3, templates bb23d5a16442c950
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates bb23d5a16442c950
 option solver = elimination
 option weight = identity
 p[28] tolerance (default 1e-13)

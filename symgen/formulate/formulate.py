@@ -18,7 +18,7 @@ from symgen.formulate.of_time import time_function
 from symgen.formulate.tree import energies_on_tree
 from symgen.ir.program import of_table
 from symgen.vocabulary.expressions import ZERO
-from symgen.vocabulary.measures import Holonomic, Row
+from symgen.vocabulary.measures import Holonomic, Row, StiffHolonomic
 from symgen.vocabulary.quantities import Quantity
 
 
@@ -122,10 +122,8 @@ def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
     g = model.graph
     with finite_numbers(f"joints.{joint}"):
         value, slope, curvature = time_function(model, row.value)
-        stiffness = None
+        stiffness = time_function(model, row.stiffness)[0] if isinstance(row, StiffHolonomic) else None
         if isinstance(row, Holonomic):
-            if row.stiffness is not None:
-                stiffness = time_function(model, row.stiffness)[0]
             measure = model.measure(row.measure)
             phi, nu = g.sub(measure.value, value), slope
         else:

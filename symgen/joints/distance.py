@@ -8,7 +8,7 @@ from symgen.describe.fields import Scalar
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
 from symgen.joints._paired import Paired
-from symgen.vocabulary.measures import Holonomic, LinkStretch
+from symgen.vocabulary.measures import Holonomic, LinkStretch, StiffHolonomic
 
 
 class Distance(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -40,8 +40,11 @@ class Distance(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
         """Resolve to the stretch of the link."""
         bodies, ends = self.ends(scope, turns=(False, False))
         stretch = LinkStretch(*ends, scope.constant("length", self.length, positive=True))
-        stiffness = None if self.stiffness is None else scope.constant("stiffness", self.stiffness, positive=True)
-        return Joint(scope.name, scope.kind, bodies, (Holonomic("distance", stretch, stiffness=stiffness),))
+        row = Holonomic("distance", stretch)
+        if self.stiffness is not None:
+            stiffness = scope.constant("stiffness", self.stiffness, positive=True)
+            row = StiffHolonomic("distance", stretch, stiffness=stiffness)
+        return Joint(scope.name, scope.kind, bodies, (row,))
 
 
 KIND = Distance

@@ -24,7 +24,7 @@ class AugmentedLagrangian(Method):
 
     def law(self, system: System, options: Mapping[str, str]) -> Iteration:
         """Return the iteration for the stabilised constraints."""
-        return augmented_iteration(system, stabilised(system), system.penalties(system.parameter("penalty")))
+        return augmented_iteration(system, system.parameter("penalty"), stabilised(system))
 
 
 KIND = AugmentedLagrangian()

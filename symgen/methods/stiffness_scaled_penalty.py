@@ -38,7 +38,7 @@ class StiffnessScaledPenalty(Method):
         """Return the iteration for the constraints at acceleration level."""
         stiffness = system.row_stiffness(system.parameter("stiffness"))
         penalties = (system.parameter("period") ** 2) * stiffness
-        return augmented_iteration(system, system.gamma, penalties)
+        return augmented_iteration(system, penalties, system.gamma, every=True)
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return that of `direct-correction`."""

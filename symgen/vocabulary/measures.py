@@ -169,18 +169,19 @@ class BladeSpeed(msgspec.Struct, frozen=True, tag="blade-speed"):
 Speed = PointSpeed | RollingSpeed | BladeSpeed
 
 
-class Holonomic(msgspec.Struct, frozen=True, omit_defaults=True, tag="holonomic"):
-    """One row Phi = s - value(t, parameters); `label` ends the multiplier's name (``JOINT.label``).
-
-    `stiffness` says how redundant rows share a load [N/m]; it makes no row give.
-    """
+class Holonomic(msgspec.Struct, frozen=True, tag="holonomic"):
+    """One row Phi = s - value(t, parameters); `label` ends the multiplier's name (``JOINT.label``)."""
 
     label: str
     measure: Measure
-    # kernels are known by the text of their elements: it stays what it was where no stiffness is named
-    value: Expr = msgspec.field(default_factory=lambda: ZERO)
-    unit: str = msgspec.field(default_factory=lambda: "m")
-    stiffness: Expr | None = None
+    value: Expr = ZERO
+    unit: str = "m"
+
+
+class StiffHolonomic(Holonomic, frozen=True, kw_only=True, tag="stiff-holonomic"):
+    """One with a stiffness [N/m], which says how redundant rows share a load; the row does not give."""
+
+    stiffness: Expr
 
 
 class Nonholonomic(msgspec.Struct, frozen=True, tag="nonholonomic"):
@@ -192,7 +193,7 @@ class Nonholonomic(msgspec.Struct, frozen=True, tag="nonholonomic"):
     unit: str = "m/s"
 
 
-Row = Holonomic | Nonholonomic
+Row = Holonomic | StiffHolonomic | Nonholonomic
 
 
 class Effort(msgspec.Struct, frozen=True):
