@@ -285,6 +285,15 @@ class Rotations(NamedTuple):
     width: int
 
 
+class Screws(NamedTuple):
+    """A tableau applied to screws: as `Rotations`, and for each free body where its Euler parameters and omega begin."""
+
+    tableau: Any
+    spins: Any
+    bodies: Any
+    width: int
+
+
 class Multistep(NamedTuple):
     """An Adams scheme: its highest order, and Gauss' quadrature on (-1, 1); `count` holds 0, 1, 2, ..."""
 
@@ -453,6 +462,7 @@ KEPT_OF_RUN = types.RecordType((OUTPUTS, OBSERVED), Kept)
 CHUNK = types.RecordType((_K, _A, _A, _A, _A, _K, _A, _A, _A, _I, _I, _I, LAYOUT, _A), RowChunk)
 TABLEAU = types.RecordType((_K, _K, _A, _A, _A, _K, _I, _I, _I, _I, _I), TableauRecord)
 ROTATIONS = types.RecordType((TABLEAU, _K, _I), Rotations)
+SCREWS = types.RecordType((TABLEAU, _K, _K, _I), Screws)
 MULTISTEP = types.RecordType((_A, _A, _K, _I), Multistep)
 STAGES = types.RecordType((_A, _A, _A, _A, _F, _I, _I, _I, _K, _A, _A, _K, _A, _K), Stages)
 ALPHA = types.RecordType((_F, _F, _F, _F, _A, _A, _K), Alpha)

@@ -4,7 +4,7 @@
 PAIRS = [
     *(
         ("direct-correction", name)
-        for name in ("euler", "heun", "rk4", "rkmk4", "abm4", "abm", "dopri5", "dop853", "picard")
+        for name in ("euler", "heun", "rk4", "rkmk4", "rkmk4-screws", "abm4", "abm", "dopri5", "dop853", "picard")
     ),
     *(("direct-correction", name) for name in ("sdirk", "radau5", "trapezoidal", "newmark")),
     *(("ggl", "radau5"), ("generalized-alpha", "generalized-alpha"), ("index3-augmented-lagrangian", "trapezoidal")),
