@@ -6,6 +6,7 @@ python -m benchmarks.gallery --missing          measure what has no data yet
 python -m benchmarks.gallery --draw             draw what has no picture yet
 python -m benchmarks.gallery --pages            write the pages from the data that are there
 python -m benchmarks.gallery --pictures         the pictures of README in docs/pictures alone
+python -m benchmarks.pictures                   the pictures of guides in docs/pictures
 
 Data are kept as docs/gallery/data/NAME.json; a test holds the pages to them.
 """
@@ -22,8 +23,9 @@ from statistics import median
 from typing import Any
 
 from symgen.api import load
-from symgen.catalogue import CatalogueEntry, entries
+from symgen.catalogue import MACHINES, CatalogueEntry, entries
 from symgen.describe.digest import digest
+from symgen.drawing.traced import traced_points
 from symgen.report import words
 from symgen.report.document import Picture
 from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study
@@ -67,22 +69,35 @@ CHOICES = {
     "andrews": Choice(window=0.4),
     "bricard": Choice(window=0.08),
     "chain": Choice(methods=("lagrange", "direct-correction")),
+    "bicycle": Choice(window=0.1),
+    "cam-follower": Choice(window=0.25),
     "driven-four-bar": Choice(window=0.15),
+    "engine": Choice(window=0.05),
     "flyball-governor": Choice(
         methods=("lagrange", "baumgarte", "direct-correction", "ggl"), integrators=("rk4", "radau5"), until=2.0
     ),
     "four-bar": Choice(window=0.22),
     "free-rigid-body": Choice(methods=("lagrange", "direct-correction"), integrators=("rk4", "rkmk4", "dop853")),
     "heavy-top": Choice(window=0.25),
+    "jansen-leg": Choice(window=0.9),
+    "klann-leg": Choice(window=0.9),
     "n-four-bar": Choice(size=2),
+    "scissor-lift": Choice(window=0.75),
+    "shaper": Choice(window=0.2),
     "slider-crank": Choice(window=0.12),
     "stewart-platform": Choice(methods=("lagrange", "direct-correction"), window=0.5),
+    "wiper": Choice(window=0.15),
 }
 
 
 def choice(name: str) -> Choice:
     """Return what is measured of an entry."""
     return CHOICES.get(name, Choice())
+
+
+def every() -> tuple[CatalogueEntry, ...]:
+    """Return what is measured and drawn, and the machines, which are drawn."""
+    return (*entries(), *entries(MACHINES))
 
 
 def model_name(entry: CatalogueEntry) -> str:
@@ -132,9 +147,11 @@ def draw(entry: CatalogueEntry) -> None:
     window = own.window * (own.until or model.mechanism.defaults.until)
     result = model.simulate(method="direct-correction", until=window, shape="looped")
     picture = Drawing.of_motion(model.mechanism, result.q.values, result.parameters)
+    free = any(point.free for point in traced_points(model.mechanism, model.parameters()))
+    what = "paths of points that no joint ties" if free else "paths of the centres of mass"
     times = ", ".join(f"{k / 3.0 * window:.3g}" for k in range(4))
     caption = (
-        f"`{entry.name}` at {times} s, the start darkest; thin lines: ways of the centres of mass until then. Symbols "
+        f"`{entry.name}` at {times} s, the start darkest; thin lines: {what} until then. Symbols "
         "are those of [drawings](../drawing.md)."
     )
     words_for_it = f"{model.mechanism.title}, drawn at four times."
@@ -242,6 +259,14 @@ def page(entry: CatalogueEntry) -> str:
 
 
 def _unmeasured(entry: CatalogueEntry) -> list[str]:
+    if entry in entries(MACHINES):
+        guide = f"{entry.name}.md"
+        more = (
+            [f"A guide designs it: [{entry.name}](../tutorials/{guide}).", ""]
+            if (DOCS / "tutorials" / guide).exists()
+            else []
+        )
+        return ["```sh", f"symgen view {entry.name}", "```", "", *more]
     return [f"No rows have been measured for this page yet: `python -m benchmarks.gallery {entry.name}` does that.", ""]
 
 
@@ -304,7 +329,18 @@ def index() -> str:
         measured = data(entry.name)
         picture = f"![{entry.title}]({entry.name}.svg)" if measured else ""
         lines.append(f"| {picture} | [`{entry.name}`]({entry.name}.md): {entry.title} | {_best(measured)} |")
-    return "\n".join([*lines, "", *_across()])
+    lines += [
+        "",
+        *_across(),
+        "## Machines",
+        "",
+        "Described to start from; `symgen view` plays them.",
+        "",
+        "| | machine |",
+        "| --- | --- |",
+    ]
+    lines += [f"| ![{e.title}]({e.name}.svg) | [`{e.name}`]({e.name}.md): {e.title} |" for e in entries(MACHINES)]
+    return "\n".join([*lines, ""])
 
 
 def _across() -> list[str]:
@@ -345,7 +381,7 @@ def _best(measured: Mapping[str, Any] | None) -> str:
 
 def pages() -> dict[str, str]:
     """Return all pages by file name."""
-    return {"README.md": index(), **{f"{entry.name}.md": page(entry) for entry in entries()}}
+    return {"README.md": index(), **{f"{entry.name}.md": page(entry) for entry in every()}}
 
 
 def write_pages() -> None:
@@ -384,10 +420,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     for flag in ("missing", "draw", "pages", "pictures"):
         parser.add_argument(f"--{flag}", action="store_true")
     asked = parser.parse_args(arguments)
-    known = {entry.name: entry for entry in entries()}
+    known = {entry.name: entry for entry in every()}
     everything = not (asked.names or asked.missing or asked.draw or asked.pages or asked.pictures)
     chosen = [known[re.sub(r":\d+$", "", name)] for name in asked.names]
-    chosen += [e for e in known.values() if everything or (asked.missing and "rows" not in (data(e.name) or {}))]
+    chosen += [e for e in entries() if everything or (asked.missing and "rows" not in (data(e.name) or {}))]
     for entry in chosen:
         print(f"measuring {model_name(entry)}", flush=True)
         measure(entry)

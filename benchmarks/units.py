@@ -58,7 +58,7 @@ CARRY_UNITS = (
 #: Parameters of methods -> unit (docs/methods.md).
 PARAMETERS = {
     "baumgarte": {"alpha": (5.0, "1/s"), "beta": (5.0, "1/s")},
-    "adaptive-baumgarte": {"gain": (20.0, "1/s")},
+    "adaptive-baumgarte": {"gain": (5.0, "1/s")},
     "penalty": {"penalty": (1e9, "kg"), "omega": (10.0, "1/s")},
     "augmented-lagrangian": {"penalty": (1e7, "kg"), "omega": (10.0, "1/s")},
     "index1-augmented-lagrangian": {"penalty": (1e7, "kg")},

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from docutils import nodes
 from docutils.utils.math import latex2mathml
 
-from symgen import __version__
+from symgen import __version__, load
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
@@ -96,8 +96,15 @@ def _block(translator: Any, node: nodes.math_block) -> None:
     raise nodes.SkipNode
 
 
+def _play(app: Sphinx, error: Exception | None) -> None:
+    """Write the live page that stands at the head of the site."""
+    if error is None and app.builder.format == "html":
+        load("four-bar").simulate().view().save(Path(app.outdir) / "four-bar.html")
+
+
 def setup(app: Sphinx) -> None:
     """Connect what is written here."""
+    app.connect("build-finished", _play)
     app.connect("source-read", _navigate)
     app.add_html_math_renderer("mathml", inline_renderers=(_inline, None), block_renderers=(_block, None))
 

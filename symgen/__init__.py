@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from symgen.ensemble.sweep import sweep
     from symgen.ensemble.sweep_study import Sweep
     from symgen.errors import AssemblyError, InputError, SimulationError, StepError, SymgenError
+    from symgen.integrators import list_integrators
+    from symgen.methods import list_methods
+    from symgen.plugins import load_plugin
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
     from symgen.settings import Settings
@@ -46,7 +49,10 @@ _WHERE = {
     "Sweep": "symgen.ensemble.sweep_study",
     "SymgenError": "symgen.errors",
     "compare": "symgen.study.comparison.compare",
+    "list_integrators": "symgen.integrators",
+    "list_methods": "symgen.methods",
     "load": "symgen.api",
+    "load_plugin": "symgen.plugins",
     "simulate": "symgen.api",
     "sweep": "symgen.ensemble.sweep",
 }
@@ -68,7 +74,10 @@ __all__ = [
     "SymgenError",
     "__version__",
     "compare",
+    "list_integrators",
+    "list_methods",
     "load",
+    "load_plugin",
     "simulate",
     "sweep",
 ]

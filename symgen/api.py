@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
@@ -18,18 +18,19 @@ from symgen.describe.holds import holds_of
 from symgen.describe.load import load as load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
-from symgen.errors import AssemblyError, InputError, nearest
-from symgen.running.plan import Purpose
-from symgen.running.prepare import prepare
+from symgen.errors import InputError, nearest
+from symgen.keywords import RunKeywords, takes
+from symgen.reading.model_views import Shown
+from symgen.running.prepare import Prepared, prepare
 from symgen.running.starts import start_of
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.run import Array
 from symgen.settings import COORDINATES, SHAPES, Settings, changed, is_given
 
 if TYPE_CHECKING:
+    from symgen import compare as _compare
+    from symgen import sweep as _sweep
     from symgen.compiling.pipeline import MethodChoice
-    from symgen.drawing import Drawing, View
-    from symgen.reading.symbolic_equations import SymbolicEquations
     from symgen.result.result import Result
     from symgen.running.package import Package
     from symgen.runtime.assembly import Start
@@ -52,13 +53,40 @@ def load(model: str | Path | Mechanism | Model) -> Model:
     return Model(model if isinstance(model, Mechanism) else load_mechanism(model))
 
 
-def simulate(model: str | Path | Mechanism | Model, settings: Settings | None = None, **changes: object) -> Result:
-    """Load and run a model in one go; see `load` and `Model.simulate`."""
-    return load(model).simulate(settings, **changes)  # type: ignore[arg-type]  # names are checked by changed
+@takes
+def simulate(
+    model: str | Path | Mechanism | Model,
+    settings: Settings | None = None,
+    progress: Callable[[float], None] | None = None,
+    **changes: Unpack[RunKeywords],
+) -> Result:
+    """Load and run a model in one go.
+
+    Parameters
+    ----------
+    model
+        As for `load`.
+    settings, progress
+        As for `Model.simulate`.
+    **changes
+        Single settings by name, as listed above.
+    """
+    return load(model).simulate(settings, progress, **changes)
+
+
+class _OfPackage:
+    """A function of the package as a method; its module stands above this one and is imported when it is used."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __get__(self, model: object, owner: type) -> Any:
+        setattr(owner, self.name, getattr(import_module("symgen"), self.name))
+        return getattr(owner if model is None else model, self.name)
 
 
 @dataclass(frozen=True, repr=False)
-class Model(Analysed):
+class Model(Analysed, Shown):
     """A mechanism that can be compiled and run.
 
     Attributes
@@ -86,30 +114,6 @@ class Model(Analysed):
             If a name is not a parameter or a value is not finite.
         """
         return parameter_values(self.mechanism, changed)
-
-    @cached_property
-    def equations(self) -> SymbolicEquations:
-        """The derived equations in coordinates of bodies as SymPy matrices and symbols: exactly what is compiled."""
-        return self.equations_in("absolute")
-
-    def equations_in(self, coordinates: str) -> SymbolicEquations:
-        """Return the derived equations in some coordinates as SymPy matrices and symbols.
-
-        Parameters
-        ----------
-        coordinates : {"absolute", "joint"}
-            Those of bodies, or of the joints of a tree.
-
-        Raises
-        ------
-        InputError
-            If there are no such coordinates.
-        """
-        from symgen.compiling.choices import on_tree
-        from symgen.reading.symbolic_equations import SymbolicEquations
-
-        kind = arguments.one_of("coordinates", coordinates, ("absolute", "joint"))
-        return SymbolicEquations(on_tree(self.mechanism) if kind == "joint" else self.mechanism)
 
     def compile(
         self, method: str = "direct-correction", options: Mapping[str, str] | None = None, shape: str = "straight"
@@ -190,69 +194,6 @@ class Model(Analysed):
             held = holds_of(self.mechanism, "start", settings)  # type: ignore[assignment]  # of names, by index later
         return start_of(self.mechanism, compiled, parameters, method_parameters, strict, held, ask_light)  # type: ignore[arg-type]
 
-    def draw(
-        self,
-        parameters: Mapping[str, float] | None = None,
-        start: Mapping[str, float] | None = None,
-        *,
-        at: str = "start",
-        q: Sequence[float] | Array | None = None,
-        view: View | None = None,
-    ) -> Drawing:
-        """Return a picture of the mechanism, which notebooks show and ``.save("x.svg")`` writes.
-
-        Where the mechanism cannot be assembled the picture shows where that stopped, with the joints that stay open
-        marked and the reason below it.
-
-        Parameters
-        ----------
-        parameters : mapping, optional
-            Values of parameters that differ from the described ones.
-        start : mapping, optional
-            Values of coordinates that the start keeps, as for `simulate`.
-        at : {"start", "described"}
-            The assembled start, or the one that the description has, which may be open.
-        q : array, shape (nq,), optional
-            Coordinates of all bodies, in place of a start.
-        view : View, optional
-            From where a mechanism in space is seen.
-        """
-        from symgen.drawing.drawing import Drawing
-        from symgen.drawing.paper import View
-
-        if view is not None:
-            arguments.of_kind("view", view, View, "a symgen.drawing.View")
-        values = self.parameters(parameters)
-        described = self.initial_state(values)[0]
-        placed = arguments.one_of("at", at, ("start", "described")) == "described" or q is not None
-        if placed and start:
-            raise InputError("start", "a picture of the start", "one of other coordinates, which are kept as they are")
-        if q is None and placed:
-            q = described
-        if q is not None:
-            q = arguments.numbers("q", list(q) if isinstance(q, np.ndarray) else q)
-            return Drawing.of(self.mechanism, q, values, view=view)
-        try:
-            settings = Settings(start=start or {}, parameters=parameters or {})
-            closed_start = prepare(self.mechanism, settings, Purpose.STATE).start
-        except AssemblyError as error:
-            q = error.q or described
-            scene = Drawing.of(self.mechanism, q, values).scene
-            limit = 1e-3 * scene.unit
-            wide = [item.name for item, gap in zip(scene.pins, scene.gaps(q), strict=True) if gap > limit]
-            return Drawing.of(
-                *(self.mechanism, q, values),
-                open_joints=tuple(dict.fromkeys((*error.joints, *wide))),
-                view=view,
-                caption=str(error),
-            )
-        closed, words = closed_start.y[: len(described)], closed_start.warnings
-        ghosts = [described.tolist()] if words else []
-        return Drawing.of(self.mechanism, closed, values, view=view, ghosts=ghosts, caption="; ".join(words))
-
-    def _repr_svg_(self) -> str:
-        return self.draw().svg
-
     def __repr__(self) -> str:
         return repr(self.mechanism).replace("<Mechanism", "<Model", 1)
 
@@ -265,13 +206,14 @@ class Model(Analysed):
         coordinates: str = "absolute",
         shape: str = "straight",
         target: str = "cpu",
+        fmi: int = 2,
     ) -> Package:
         """Write the emitted code into a folder: modules that people read, and a script that simulates the mechanism.
 
         Parameters
         ----------
         path : path, optional
-            The folder, which is made if need be; by default that of the mechanism's name.
+            The folder, which is made if need be, or the FMU; by default of the mechanism's name.
         methods : str or sequence of str, optional
             Methods, each a module; None: all that suit the mechanism, the shape and the target.
         options : mapping, optional
@@ -280,8 +222,10 @@ class Model(Analysed):
             Coordinates of the state.
         shape : {"straight", "looped"}
             Code for this mechanism alone, or loops over tables that all mechanisms share.
-        target : {"cpu", "lanes", "cuda"}
-            What the code is for. Straight code for processors runs by itself, see its README.md.
+        target : str
+            What the code is for, one of `symgen.targets`: ``cpu``, ``lanes``, ``cuda``, ``javascript``, ``c``, ``fmu``.
+        fmi : {2, 3}
+            Version of the interface of an FMU.
 
         Returns
         -------
@@ -293,25 +237,36 @@ class Model(Analysed):
         InputError
             If an argument is wrong, or the folder cannot be written.
         """
-        from symgen.ir.program import TARGETS
-        from symgen.running.package import write_package
+        from symgen.targets import TARGETS, Request
 
+        kind = TARGETS.get(arguments.text("target", target, "the name of a target"), "target")
         texts = {
             name: arguments.text(f"option '{name}'", value)
             for name, value in arguments.mapping("options", options, "texts by the names of options").items()
         }
-        return write_package(
+        request = Request(
             self.mechanism,
-            arguments.path("path", self.name if path is None else path),
+            arguments.path("path", self.name + kind.ending if path is None else path),
             None if methods is None else arguments.words("methods", methods),
             texts,
             arguments.one_of("coordinates", coordinates, COORDINATES),
             arguments.one_of("shape", shape, SHAPES[1:]),
-            arguments.one_of("target", target, TARGETS),
+            fmi,
         )
+        return kind.write(request)
 
+    # editors and type checkers see the functions, which are imported when they are first called
+    if TYPE_CHECKING:
+        compare, sweep = _compare, _sweep
+    else:
+        compare, sweep = _OfPackage("compare"), _OfPackage("sweep")
+
+    @takes
     def simulate(
-        self, settings: Settings | None = None, progress: Callable[[float], None] | None = None, **changes: object
+        self,
+        settings: Settings | None = None,
+        progress: Callable[[float], None] | None = None,
+        **changes: Unpack[RunKeywords],
     ) -> Result:
         """Run the model.
 
@@ -322,20 +277,7 @@ class Model(Analysed):
         progress : callable, optional
             Called about ten times a second with the time reached.
         **changes
-            Single settings: ``method``, ``integrator``, ``step`` [s] (constant, or first of an adaptive run),
-            ``rtol``, ``atol``, ``until`` [s], ``output_step`` [s] or ``times`` [s], ``parameters`` (values by name),
-            ``inputs`` (by name a number, a formula of t, parameters and state, a pair of times and values, or a mapping
-            with ``t`` and ``u``, or ``file`` and ``column``, and ``interpolation``), ``start`` (values of coordinates
-            and velocities that the start keeps, by name, or a result that is gone on from), ``options``
-            (``"method.alpha": 5``), ``stop_when`` and ``record_when`` (conditions such as
-            ``"crank.theta > 2*pi"``, one or several, at which the run ends or which are noted), ``events`` (tables as
-            in ``[events]`` of a file, by name), ``strict`` (refuse an inconsistent start), ``verify`` (estimate
-            the error by a second run with finer steps, which also settles an `unverified` run; by default after an
-            adaptive run with default tolerances of less than 50 ms; False: never), ``max_violation`` and
-            ``max_energy_error`` (what ends a run as failed), ``max_step`` [s] (the largest one of an adaptive run),
-            ``max_attempts`` (attempts at steps after which a run has failed), ``repeat`` (warm up, then time that many
-            runs and report the shortest), ``shape`` (``auto``, ``straight`` or ``looped``), ``coordinates``
-            (``absolute``, ``joint`` or ``auto``: those of bodies, or of the joints of a tree).
+            Single settings by name, as listed above.
 
         Returns
         -------
@@ -356,11 +298,18 @@ class Model(Analysed):
         if is_verified(run, outcome.run_seconds):
             free = bool(run.plan.notes) and settings.rtol is None and settings.atol is None
             run, outcome, verification = verified(run, outcome, free)
+            if settings.verify and run.plan.mechanism.beams:
+                from symgen.reruns.discretisation import discretisation
+
+                words = discretisation(run, outcome, settings)
+                note = "; ".join(x for x in (verification.note, words) if x)
+                verification = replace(verification, note=note or None)
         # assembly calls emitted functions too: compiling them belongs to the run
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
         return build_result(run, outcome, runs.spread, verification)
 
-    def start(self, settings: Settings | None = None, **changes: object) -> SteppedRun:
+    @takes
+    def start(self, settings: Settings | None = None, **changes: Unpack[RunKeywords]) -> SteppedRun:
         """Return a run that goes on step by step, at its start.
 
         Parameters
@@ -368,11 +317,11 @@ class Model(Analysed):
         settings : Settings, optional
             All settings at once.
         **changes
-            Single settings, as for `simulate`. ``until`` is no end, but says in which time a motion that begins at rest
-            may be expected to cross the mechanism. In joint coordinates the state is that of the joints of the tree, by
-            their names, and `SteppedRun.bodies` says where bodies are. Where an integrator with constant steps is given
-            no ``step``, each call of `SteppedRun.step` is one step. Settings of outputs, of repetitions and of second
-            runs mean nothing here and are refused.
+            Single settings by name, as listed above. ``until`` is no end, but the time in which a motion that begins
+            at rest may be expected to cross the mechanism. In joint coordinates the state is that of the joints of the
+            tree, by their names, and `SteppedRun.bodies` has the places of bodies. Where an integrator with constant
+            steps is given no ``step``, each call of `SteppedRun.step` is one step. Settings of outputs, of repetitions
+            and of second runs mean nothing here and are refused.
 
         Raises
         ------
@@ -389,4 +338,9 @@ class Model(Analysed):
         for name in ("output_step", "times", "verify", "repeat"):
             if is_given(settings, name):
                 raise InputError(f"start: {name}", "settings of a run without outputs", f"one with {name}")
-        return SteppedRun(prepare(self.mechanism, replace(settings, times=())))
+        settings = replace(settings, times=())
+
+        def begun(start: Any) -> Prepared:
+            return prepare(self.mechanism, replace(settings, start=start))
+
+        return SteppedRun(begun(settings.start), begun)

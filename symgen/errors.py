@@ -138,6 +138,16 @@ def quoted(text: object, longest: int = LONGEST_QUOTE) -> str:
     return shown if len(shown) <= longest else shown[: longest - 4] + "...'"
 
 
+def fitting(count: int, most: int) -> int:
+    """Return how many of `count` lines to show: `most`, or all where only one would be left out."""
+    return count if count <= most + 1 else most
+
+
+def counted(n: int, one: str, many: str = "") -> str:
+    """Return a number of things: 1 run, 3 runs."""
+    return f"{n} {one if n == 1 else many or one + 's'}"
+
+
 def nearest(word: str, candidates: Iterable[str]) -> str:
     """Return the hint ``did you mean 'x'?`` for the closest known word, or the list of known words."""
     names = sorted(set(candidates))
@@ -148,5 +158,6 @@ def nearest(word: str, candidates: Iterable[str]) -> str:
         close = difflib.get_close_matches(word, alike[:MOST_COMPARED], n=1, cutoff=CLOSE)
         if close:
             return f"did you mean '{close[0]}'?"
-    more = f" and {len(names) - MOST_LISTED} more" if len(names) > MOST_LISTED else ""
-    return "known: " + ", ".join(names[:MOST_LISTED]) + more if names else ""
+    first = fitting(len(names), MOST_LISTED)
+    more = f" and {len(names) - first} more" if len(names) > first else ""
+    return "known: " + ", ".join(names[:first]) + more if names else ""

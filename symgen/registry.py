@@ -10,15 +10,31 @@ import importlib
 import pkgutil
 import re
 from collections.abc import Iterator, Mapping
+from html import escape
 from importlib.util import find_spec
 from typing import Generic, TypeVar, cast
 
 from symgen.arguments import text
 from symgen.errors import InputError, nearest, quoted
+from symgen.plugins import load_installed
 
 T = TypeVar("T")
 
+#: Characters of a list of kinds that is shown beside the nearest spelling.
+_LISTED = 400
 _NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+
+
+class Listing(dict[str, str]):
+    """Names with a line about each, which notebooks show as a table."""
+
+    def _repr_html_(self) -> str:
+        cells = (f"<tr><td><code>{escape(name)}</code></td><td>{escape(line)}</td></tr>" for name, line in self.items())
+        return f"<table>{''.join(cells)}</table>"
+
+    def __str__(self) -> str:
+        width = max(map(len, self), default=0)
+        return "\n".join(f"{name:<{width}}  {line}" for name, line in self.items())
 
 
 class Registry(Generic[T]):
@@ -81,11 +97,14 @@ class Registry(Generic[T]):
         article = "an" if self.what[0] in "aeiou" else "a"
         text(where or self.what, name, f"{article} {self.what}")
         resolved = self.aliases.get(name, name)
+        if resolved not in self:
+            load_installed()
         if resolved not in self._loaded and resolved not in self._scan():
             names = (*self.names, *self.aliases)
             hint = nearest(name, names)
-            if not hint.startswith("known"):
-                hint += " (known: " + ", ".join(sorted(names)) + ")"
+            known = " (known: " + ", ".join(sorted(names)) + ")"
+            if not hint.startswith("known") and len(known) <= _LISTED:  # a longer list buries the hint
+                hint += known
             raise InputError(where or self.what, f"{article} {self.what}", quoted(name), hint)
         return resolved
 
@@ -98,11 +117,20 @@ class Registry(Generic[T]):
         return self._loaded[resolved]
 
     def summary(self, name: str) -> str:
-        """Return the first line of the docstring of a kind's module, which is read and not imported."""
+        """Return the line about a kind: the first one of its module, which is read and not imported, or its own."""
+        if name not in self._scan():
+            kind = self._loaded[name]
+            text = getattr(kind, "summary", None) or kind.__doc__ or ""
+            return str(text).strip().partition("\n")[0]
         spec = find_spec(f"{self.package}.{self._scan()[name]}")
         assert spec is not None and spec.origin is not None, "the folder has it"
         with open(spec.origin, encoding="utf-8") as file:
             return file.readline().strip('"\n')
+
+    def listing(self) -> Listing:
+        """Return every name with its line, those of installed packages among them."""
+        load_installed()
+        return Listing((name, self.summary(name).rstrip(".")) for name in self.names)
 
     def items(self) -> Iterator[tuple[str, T]]:
         """Yield every name and kind in alphabetical order; imports all of them."""

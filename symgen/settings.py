@@ -254,8 +254,3 @@ def changed(settings: Settings | None, changes: Mapping[str, object]) -> Setting
 
 
 _ABOUT: dict[str, About] = {f.name: f.metadata["about"] for f in fields(Settings)}
-
-
-def told_constant(options: Mapping[str, str | float], integrator: str) -> bool:
-    """Whether options set constant steps for an integrator with an error estimate: ``adaptive=false``."""
-    return any(str(options.get(f"{name}.adaptive", "")).lower() == "false" for name in ("integrator", integrator))

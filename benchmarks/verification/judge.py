@@ -24,7 +24,8 @@ WRONG = 1e-3
 #: Methods whose accelerations or corrections are only near those of the equations of motion.
 NEARLY = (
     "baumgarte adaptive-baumgarte penalty augmented-lagrangian augmented-hamiltonian generalized-alpha "
-    "index3-augmented-lagrangian lagrange velocity-projection udwadia-kalaba"
+    "index3-augmented-lagrangian lagrange velocity-projection udwadia-kalaba energy-projection compliant-constraints "
+    "invariant-stabilization braun-goldfarb hamiltonian-baumgarte controllable-velocity-projection"
 ).split()
 
 

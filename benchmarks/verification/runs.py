@@ -163,9 +163,19 @@ METHODS: dict[str, tuple[str, float | None]] = {
     "ggl": ("radau5", 1e-8),
     "generalized-alpha": ("generalized-alpha", None),
     "index3-augmented-lagrangian": ("trapezoidal", None),
+    "energy-projection": ("rk4", None),
+    "compliant-constraints": ("rk4", None),
+    "invariant-stabilization": ("rk4", None),
+    "braun-goldfarb": ("rk4", None),
+    "hamiltonian-baumgarte": ("rk4", None),
+    "controllable-velocity-projection": ("rk4", None),
+    "dependent-correction": ("rk4", None),
 }
 #: Methods that have straight code only.
-DENSE = ("coordinate-partitioning", "null-space", "augmented-hamiltonian")
+DENSE = (
+    *("coordinate-partitioning", "dependent-correction", "null-space", "augmented-hamiltonian"),
+    *("hamiltonian-baumgarte", "invariant-stabilization", "braun-goldfarb"),
+)
 
 
 def every_method(shape: str) -> list[Asked]:

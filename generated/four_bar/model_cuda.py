@@ -1,6 +1,6 @@
 """Model `four-bar`: what every method of it shares, for CUDA. Emitted by symgen; do not edit.
 
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates bb23d5a16442c950
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 2f2faf4a02ce3130
 9 coordinates, 9 velocities, 8 constraint rows, 3 parameters,
 0 fill-ins in the factor of D D^T
 

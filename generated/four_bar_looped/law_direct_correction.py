@@ -1,7 +1,7 @@
 """Method `direct-correction`, for any mechanism, in the looped shape. Emitted by symgen; do not edit.
 
 Positions and velocities are projected after each step with the pseudoinverse of D.
-Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
+Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076; Yoon, Howe, Greenwood, J. Mech. D...
 format 3, generator of-golden-trees
 option solver = elimination
 option weight = identity

@@ -19,14 +19,13 @@ from numpy.typing import NDArray
 from symgen import arguments
 from symgen.analyses.prescribed import DRIVER, drivers_of, instantaneous, without
 from symgen.compiling.side import compile_side
-from symgen.describe.columns import PREFIX
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import Force, Joint, Mechanism, Parameter
 from symgen.describe.readings import is_turning
 from symgen.errors import InputError, nearest, quoted
 from symgen.lower.windings import winding_order
-from symgen.result.result import accelerations_of
 from symgen.result.saved import Recorded
+from symgen.result.signals import accelerated
 from symgen.running.plan import Purpose
 from symgen.running.prepare import make_plan
 from symgen.running.starts import closed_by, compiled_for
@@ -269,7 +268,7 @@ def _motions(
     info = code.info
     velocities = [v.name for v in info.velocities]
     q, v = record.table([c.name for c in info.coordinates]), record.table(velocities)
-    a = record.table(accelerations_of(velocities))
+    a = record.table([accelerated(name) for name in velocities])
     instant = (float(record.t[0]), ())
 
     def close(compiled: CompiledModel, ask_light: bool) -> Start:
@@ -281,8 +280,7 @@ def _motions(
     states[:, : info.nq], states[:, info.nq : info.work] = q, v
     # angles that count turns are those that joints have reported
     status = np.full((len(record.t), abi.N_STATUS + info.windings), np.nan)
-    prefix = PREFIX["joint_coordinates"]
-    names = {m: f"{prefix}{joint.name}.{label}" for joint in mechanism.joints for label, m in joint.coordinates}
+    names = {m: f"{joint.name}.{label}" for joint in mechanism.joints for label, m in joint.coordinates}
     for i, measure in enumerate(winding_order(mechanism, compiled.shape)):
         status[:, abi.N_STATUS + i] = record.columns.get(names.get(measure, ""), np.nan)
     still = PrescribedMotion(

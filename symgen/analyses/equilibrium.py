@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import ZERO, Complex, apart, plain, split, squares_along, symmetric
+from symgen.analyses.algebra import ZERO, Complex, apart, eigenvalues_of, plain, split, squares_along, symmetric
 from symgen.analyses.edges import edges
-from symgen.analyses.settle import Settled, settle
+from symgen.analyses.reduced import tangent
+from symgen.analyses.settle import Settled, at_balance, settle
 from symgen.analyses.subject import Subject
 from symgen.errors import AnalysisError, InputError
 
@@ -82,6 +83,16 @@ class Equilibrium:
         """Return the fields in types of JSON."""
         return dict(plain(self))
 
+    def __repr__(self) -> str:
+        squares = ", ".join(f"{x:.4g}" for x in self.omega_squared[:3]) + ", ..." * (len(self.omega_squared) > 3)
+        return f"<Equilibrium: {self.stability}, omega^2 = [{squares}] 1/s^2, {len(self.q)} coordinates in .q>"
+
+    def _repr_html_(self) -> str:
+        from symgen.analyses.kinds import in_notebook
+        from symgen.analyses.kinds.equilibrium import shown
+
+        return in_notebook(shown(self), self.notes)
+
 
 def judged(rest: Settled) -> Equilibrium:
     """Return an equilibrium with its smallest multipliers, its stiffness, and the reactions that are not unique."""
@@ -90,13 +101,15 @@ def judged(rest: Settled) -> Equilibrium:
     d = subject.rows(e)
     inverse, dependent = split(d, subject.loads)[1:]
     lam = -inverse.T @ e.value("balance")
-    e = subject.evaluated(y, lam=lam)
-    stiffness = e.by("balance", "q") @ e.by("motion", "v")
+    e, by_position = at_balance(subject, y, lam)
+    stiffness = by_position @ e.by("motion", "v")
     squares = reduced_squares(e.by("balance", "a"), stiffness, subject.split(d)[0])
     share = np.linalg.norm(dependent, axis=1) if dependent.size else np.zeros(info.m)
     return Equilibrium(
         q=subject.named(y),
-        stability=stability_of(squares),
+        stability=stability_in_motion(eigenvalues_of(tangent(subject, y).matrix)[0])
+        if subject.states
+        else stability_of(squares),
         omega_squared=tuple(float(x) for x in squares.real),
         residual=float(np.abs(e.value("balance")).max(initial=0.0)),
         iterations=rest.steps,
@@ -170,7 +183,7 @@ def rest_of(subject: Subject) -> Settled:
         If none is found.
     """
     y = subject.y.copy()
-    y[subject.nq :] = 0.0
+    y[subject.nq : subject.nq + subject.nv] = 0.0
     return settle(subject, y)
 
 
@@ -196,9 +209,9 @@ def scanned_rests(subject: Subject, name: str, values: Array) -> tuple[Equilibri
     if len(values) < 2:
         raise InputError(f"scan {name}", "two values or more", f"{len(values)}")
     if unit == "m":  # steps are bounded by the mechanism's length, and its start may have none
-        subject = subject.as_long_as(float(np.abs(values - _value(subject, subject.y, name)).max()))
+        subject = subject.as_long_as(float(np.abs(values - value_of(subject, subject.y, name)).max()))
     rests, before, y, reached = list[Equilibrium](), None, subject.y.copy(), False
-    y[subject.nq :] = 0.0
+    y[subject.nq : subject.nq + subject.nv] = 0.0
     for value in values:
         try:
             held = settle(subject, y, [(name, float(value))])
@@ -256,12 +269,13 @@ def _between(name: str, a: Held, b: Held) -> Settled | None:
             continue
         steps += rest.steps
         rest = replace(rest, steps=steps)
-        if low - slack <= _value(rest.subject, rest.y, name) <= high + slack:
+        if low - slack <= value_of(rest.subject, rest.y, name) <= high + slack:
             return rest
         elsewhere = rest
     return elsewhere
 
 
-def _value(subject: Subject, y: Array, name: str) -> float:
+def value_of(subject: Subject, y: Array, name: str) -> float:
+    """Return the value of a coordinate at a state."""
     space, at = subject.position(name)
     return float(y[at] if space == "q" else subject.evaluated(y).value("functions")[at])

@@ -78,7 +78,12 @@ class Inverse(Tables):
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the tables."""
-        return ("efforts", "power", "rates", "q", "lam", "reactions", "magnitudes")
+        return ("efforts", "power", "rates", "q", "lam", "reactions", "body_reactions", "magnitudes")
+
+    @property
+    def drawn(self) -> tuple[str, ...]:
+        """What a plot shows unless it is told."""
+        return ("efforts", "power")
 
     @property
     def title(self) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import msgspec
 import numpy as np
@@ -21,8 +21,8 @@ from symgen.analyses.transmission import transmission_angles
 from symgen.errors import InputError, nearest
 from symgen.memory import require
 from symgen.result.labelled import Labelled, labelled
-from symgen.result.reactions import Forces, multiplier_unit, seats
-from symgen.result.result import accelerations_of
+from symgen.result.reactions import Forces, seats
+from symgen.result.signals import accelerations, multiplier_unit
 from symgen.result.tables import Measured, MotionTables
 from symgen.running.outputs import multiples, output_size
 from symgen.runtime import abi
@@ -70,6 +70,8 @@ class Kinematics(MotionTables):
         What further tables are worked out from.
     """
 
+    cached: ClassVar[tuple[str, ...]] = ("non_unique_reactions", "efforts")
+
     mechanism: str
     t: Array
     q: Labelled
@@ -90,8 +92,8 @@ class Kinematics(MotionTables):
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the tables."""
-        own = ("q", "v", "a", "joint_coordinates", "energy", "violations", "transmission")
-        return (*own, "lam", "reactions", "magnitudes", "efforts", "points", "elements", "outputs")
+        own = ("q", "v", "a", "joint_coordinates", "energy", "violations", "transmission", "lam")
+        return (*own, "reactions", "body_reactions", "magnitudes", "points", "elements", "outputs")
 
     @property
     def title(self) -> str:
@@ -118,9 +120,10 @@ class Kinematics(MotionTables):
 
     @cached_property
     def energy(self) -> Labelled:
-        """Kinetic and potential energy [J]."""
-        status = self.motion.status_columns
-        return Labelled(status[:, [abi.KINETIC, abi.POTENTIAL]], ("kinetic", "potential"), ("J", "J"))
+        """Kinetic and potential energy, and their sum [J]."""
+        parts = self.motion.status_columns[:, [abi.KINETIC, abi.POTENTIAL]]
+        values = np.column_stack([parts, parts.sum(axis=1)])
+        return Labelled(values, ("kinetic", "potential", "total"), ("J", "J", "J"))
 
     @cached_property
     def violations(self) -> Labelled:
@@ -128,13 +131,28 @@ class Kinematics(MotionTables):
         status = self.motion.status_columns
         return Labelled(status[:, [abi.PHI, abi.DRIFT]], ("position", "velocity"), ("m", "m/s"))
 
+    def run_facts(self) -> dict[str, Any]:
+        """Return what a page says of the motion and begins its live part with, by the names of JSON."""
+        start = {"t": float(self.t[0]), "q": self.q.row(0), "v": self.v.row(0)} if len(self.t) else {}
+        return {
+            "method": "kinematics",
+            "integrator": f"{len(self.t)} times",
+            "status": "ok" if self.ok else "failed",
+            "reason": self.ended or None,
+            "events": [{"t": passage.t, "name": passage.words} for passage in self.passages],
+            **{"parameters": self.parameters, "inputs": self.inputs},
+            **{"coordinates": "absolute", "step": None, "start": start, "watched": ()},
+        }
+
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen kinematics --json``; numbers that are not finite become None."""
+        from symgen.result.contract import series
+
         tables = ("q", "v", "a", "points", "joint_coordinates", "reactions", "efforts", "transmission", "outputs")
         return {
             "mechanism": self.mechanism,
             "t": self.t.tolist(),
-            **{name: self.series(name) for name in tables},
+            **{name: series(getattr(self, name)) for name in tables},
             "not_unique": list(self.non_unique_reactions),
             "passages": [msgspec.to_builtins(p) | {"words": p.words} for p in self.passages],
             "ended": self.ended or None,
@@ -240,7 +258,7 @@ def kinematics(
         t=traced.times,
         q=labelled(q, info.coordinates),
         v=velocities,
-        a=Labelled(traced.accelerations, accelerations_of(velocities.names), tuple(f"{u}^2" for u in velocities.units)),
+        a=accelerations(traced.accelerations, velocities),
         transmission=transmission_angles(run.mechanism, motion, parameters, pins),
         passages=traced.passages,
         ended=traced.ended,

@@ -182,7 +182,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     names = tuple(q.name for q in sparse.compiled.info.coordinates)
     about = {name: float(x) for name, x in zip(names, y, strict=False)}
     shapes = (motion @ vectors).T.astype(np.complex128)
-    owners = np.array([v.name.partition(".")[0] for v in sparse.compiled.info.velocities])
+    owners = np.array([v.name.rpartition(".")[0] for v in sparse.compiled.info.velocities])
     notes, energy = edges(sparse, y), vectors * (mass @ vectors)
     bodies = {body: energy[owners == body].sum(axis=0) / energy.sum(axis=0) for body in dict.fromkeys(owners.tolist())}
     return Modes(

@@ -95,6 +95,20 @@ class LinearSystem:
         """Return the fields in types of JSON."""
         return dict(plain(self))
 
+    def __repr__(self) -> str:
+        parts = (("states", self.states), ("inputs", self.inputs), ("outputs", self.outputs))
+        return f"<LinearSystem: {'; '.join(f'{len(names)} {what}{_few(names)}' for what, names in parts)}>"
+
+    def _repr_html_(self) -> str:
+        from symgen.analyses.kinds import in_notebook
+        from symgen.analyses.kinds.linearise import shown
+
+        return in_notebook(shown(self), self.notes)
+
+
+def _few(names: Sequence[str]) -> str:
+    return f" ({', '.join(names[:4])}{', ...' * (len(names) > 4)})" if names else ""
+
 
 def linear_system(subject: Subject, y: Array, states: Sequence[str] = (), instantaneous: bool = False) -> LinearSystem:
     """Return the linear system about a state.
@@ -193,9 +207,9 @@ class Vibration:
 def vibration(x: StateTangent) -> Vibration | None:
     """Return the small motions about a state of rest.
 
-    None where something moves or has no mass, a force follows, or joints hold velocities alone.
+    None where something moves or has no mass, a force follows, joints hold velocities alone, or a file has states.
     """
-    if not x.size or x.positions != x.velocities or not at_rest(x.subject, x):
+    if not x.size or x.subject.states or x.positions != x.velocities or not at_rest(x.subject, x):
         return None
     e, basis = x.base, x.subject.split(x.subject.rows(x.base))[0]
     try:

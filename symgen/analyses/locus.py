@@ -78,6 +78,17 @@ class Locus:
         """Return the fields in types of JSON."""
         return dict(plain(self))
 
+    def __repr__(self) -> str:
+        first, last = self.values[[0, -1]]
+        count = self.branches.shape[1]
+        return f"<Locus: {count} eigenvalues over {self.name} = {first:g} to {last:g}, {len(self.crossings)} crossings>"
+
+    def _repr_html_(self) -> str:
+        from symgen.analyses.kinds import in_notebook
+        from symgen.analyses.kinds.modes import shown_locus
+
+        return in_notebook(shown_locus(self))
+
     def plot(self, path: str | Path) -> Path:
         """Draw real and imaginary parts over the parameter, and the plane of eigenvalues, into a file.
 

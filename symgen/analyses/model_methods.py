@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from symgen.analyses.kinds import ANALYSES
+from symgen.keywords import takes
 
 if TYPE_CHECKING:
     from symgen.analyses.kinds import equilibrium as _equilibrium
@@ -43,4 +44,4 @@ class Analysed:
 
 for _, _analysis in ANALYSES.items():
     for _method in _analysis.methods:
-        setattr(Analysed, _method.__name__, _method)
+        setattr(Analysed, _method.__name__, takes(_method))

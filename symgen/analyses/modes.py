@@ -100,6 +100,16 @@ class Modes:
         """Return the fields in types of JSON."""
         return {**plain(self), "frequencies": plain(self.frequencies), "damping": plain(self.damping)}
 
+    def __repr__(self) -> str:
+        shown = ", ".join(f"{x:.4g}" for x in self.eigenvalues[:4]) + ", ..." * (len(self.eigenvalues) > 4)
+        return f"<Modes: {self.degrees_of_freedom} degrees of freedom, eigenvalues {shown or 'none'} 1/s>"
+
+    def _repr_html_(self) -> str:
+        from symgen.analyses.kinds import in_notebook
+        from symgen.analyses.kinds.modes import shown
+
+        return in_notebook(shown(self), self.notes)
+
 
 def modes(subject: Subject, y: Array, states: Sequence[str] = (), bodies: Callable[[], Subject] | None = None) -> Modes:
     """Return the modes about a state of rest or of steady motion.
@@ -170,7 +180,7 @@ def _shares(
     e = subject.evaluated(y, a, lam, x.t)
     dr, mass = np.linalg.pinv(e.by("motion", "v")) @ dq, e.by("balance", "a")
     kinetic, momentum = dict[str, Array](), mass @ dv
-    owners = np.array([v.name.partition(".")[0] for v in subject.compiled.info.velocities])
+    owners = np.array([v.name.rpartition(".")[0] for v in subject.compiled.info.velocities])
     for body in dict.fromkeys(owners.tolist()):
         kinetic[body] = _work(dv[owners == body], momentum[owners == body])
     energy = np.maximum(sum(kinetic.values(), np.zeros(dq.shape[1])), 1e-300)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -11,11 +13,11 @@ from numpy.typing import NDArray
 
 from symgen import arguments
 from symgen.analyses.cyclic import steady_motion
-from symgen.analyses.equilibrium import Equilibrium, judged, rest_of, scanned_rests, stability_in_motion
+from symgen.analyses.equilibrium import Equilibrium, judged, rest_of, scanned_rests, stability_in_motion, value_of
 from symgen.analyses.linearise import LinearSystem, eigenvectors, linear_system
 from symgen.analyses.modes import Modes, modes
 from symgen.analyses.reduced import tangent
-from symgen.analyses.settle import Settled
+from symgen.analyses.settle import Settled, settle
 from symgen.analyses.steady import at_rest, named_states
 from symgen.analyses.subject import LARGE, Subject, subject_of
 from symgen.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
@@ -29,6 +31,8 @@ Array = NDArray[np.float64]
 
 #: Places that are asked for by a word; another one is a time of a run.
 PLACES = ("equilibrium", "start", "steady")
+#: How far an equilibrium may be from the coordinates that name it [rad, or the length of the mechanism].
+BESIDE = 0.1
 #: Tolerances of a run that leads to a state that is linearised about.
 FOLLOWED = {"method": "direct-correction", "integrator": "dop853", "rtol": 1e-12, "atol": 1e-14}
 
@@ -43,9 +47,9 @@ class NamedPlace:
         The description.
     settings : Settings
         ``parameters``, ``inputs``, ``start`` and ``coordinates`` are looked at.
-    at : {"equilibrium", "start", "steady"} or float
-        At the equilibrium that the start leads to, at the start, in the steady motion that the start leads to, or
-        at a time of the run from the start [s].
+    at : {"equilibrium", "start", "steady"}, float or mapping
+        At the equilibrium that the start leads to, at the start, in the steady motion that the start leads to, at
+        a time of the run from the start [s], or at the equilibrium with values of coordinates by name.
     run : callable
         Settings -> result of a run.
     cyclic : sequence of str
@@ -59,22 +63,29 @@ class NamedPlace:
 
     mechanism: Mechanism
     settings: Settings
-    at: str | float
+    at: str | float | Mapping[str, float]
     run: Callable[[Settings], Result]
     cyclic: Sequence[str] = ()
 
     def __post_init__(self) -> None:
-        at = self.at
-        if isinstance(at, str) and at not in PLACES:
-            try:
-                at = float(at)
-            except ValueError:
-                expected = f"{', '.join(PLACES)} or a time in s"
-                raise InputError("at", expected, quoted(self.at), nearest(str(at), PLACES)) from None
-        object.__setattr__(self, "at", at if isinstance(at, str) else arguments.number("at", at, positive=True))
+        object.__setattr__(self, "at", self._checked())
         object.__setattr__(self, "cyclic", arguments.words("cyclic", self.cyclic))
         if self.cyclic and self.at != "steady":
             raise InputError("cyclic", "names where a steady motion is searched (at steady)", ", ".join(self.cyclic))
+
+    def _checked(self) -> str | float | Mapping[str, float]:
+        at, time = self.at, math.nan
+        if isinstance(at, Mapping) and at:
+            return {name: arguments.number(f"at '{name}'", value) for name, value in at.items()}
+        if isinstance(at, str) and at in PLACES:
+            return at
+        with suppress(InputError, ValueError):
+            time = arguments.number("at", float(at) if isinstance(at, str) else at, positive=True)
+        if math.isnan(time):
+            expected = f"{', '.join(PLACES)}, a time above 0 in s, or coordinates of an equilibrium"
+            hint = nearest(at, PLACES) if isinstance(at, str) else ""
+            raise InputError("at", expected, arguments.shown(at), hint)
+        return time
 
 
 def arrived(place: NamedPlace) -> NamedPlace:
@@ -85,7 +96,7 @@ def arrived(place: NamedPlace) -> NamedPlace:
     AnalysisError
         If the run fails or does not come to the time.
     """
-    if isinstance(place.at, str):
+    if isinstance(place.at, str | Mapping):
         return place
     settings, at = place.settings, place.at
     result = place.run(replace(settings, until=at, output_step=None, times=(at,), **FOLLOWED))  # type: ignore[arg-type]  # of settings
@@ -121,8 +132,34 @@ def subject_at(place: NamedPlace, by: Sequence[str] = ()) -> tuple[Subject, Arra
             expected = "a start that closes the mechanism"
             raise InputError("at start", expected, "one that does not", "ask for an equilibrium")
         return subject, subject.y
-    rest = rest_of(subject) if place.at == "equilibrium" else steady_motion(subject, place.cyclic)
+    if isinstance(place.at, Mapping):
+        rest = rest_at(subject, place.at)
+    else:
+        rest = rest_of(subject) if place.at == "equilibrium" else steady_motion(subject, place.cyclic)
     return rest.subject, rest.y
+
+
+def rest_at(subject: Subject, values: Mapping[str, float]) -> Settled:
+    """Find the equilibrium with some coordinates: everything else comes to rest while these are held, then all does.
+
+    Raises
+    ------
+    InputError
+        If a name is no coordinate.
+    AnalysisError
+        If there is none within `BESIDE`.
+    """
+    y = subject.y.copy()
+    y[subject.nq :] = 0.0
+    held = settle(subject, y, tuple(values.items()))
+    rest = settle(held.subject, held.y)
+    for name, value in values.items():
+        there, unit = value_of(rest.subject, rest.y, name), subject.unit(name)
+        if abs(there - value) > BESIDE * (subject.length if unit == "m" else 1.0):
+            raise AnalysisError(
+                f"no equilibrium is near {name} = {value:g} {unit}: it comes to rest at {there:.6g} {unit}"
+            )
+    return rest
 
 
 def steady_from(mechanism: Mechanism, settings: Settings, cyclic: Sequence[str] = ()) -> Equilibrium:
@@ -191,6 +228,10 @@ def range_of(where: str, pair: object) -> tuple[str, Array]:
     return pair[0], np.array(arguments.numbers(f"{where} {pair[0]}", pair[1]), dtype=np.float64)
 
 
+def _shown(x: float) -> str:
+    return f"{x:.6g}" if abs(x) > 1e-12 else "0"
+
+
 def modes_at(place: NamedPlace, states: Sequence[str] = (), count: int | None = None) -> Modes:
     """Return the modes at a place; see `symgen.api.Model.modes`."""
     states = arguments.words("states", states)
@@ -217,4 +258,11 @@ def system_at(
     """Return the linear system at a place; see `symgen.api.Model.linearise`."""
     states = arguments.words("states", states)
     subject, y = subject_at(place, arguments.words("by", by))
-    return linear_system(subject, y, states, arguments.switch("instantaneous", instantaneous))
+    result = linear_system(subject, y, states, arguments.switch("instantaneous", instantaneous))
+    if place.at != "equilibrium" and not isinstance(place.at, Mapping):
+        return result
+    where = ", ".join(
+        f"{name} = {_shown(result.about[name])}" for name in result.states[: (len(result.states) + 1) // 2]
+    )
+    note = f"about the {stability_in_motion(result.eigenvalues())} equilibrium at {where}"
+    return replace(result, notes=(note, *result.notes) if where else result.notes)

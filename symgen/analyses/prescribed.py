@@ -245,7 +245,7 @@ def free_coordinates(run: PrescribedRun, count: int) -> list[str]:
     rates = np.vstack([np.column_stack([joint_rates(v) - still for v in basis.T]), basis])
     names = [q.name for q in info.joint_coordinates] + [v.name for v in info.velocities]
     grounded = {joint.name for joint in run.mechanism.joints if GROUND in joint.bodies}
-    weights = np.array([ON_GROUND if name.partition(".")[0] in grounded else 1.0 for name in names])
+    weights = np.array([ON_GROUND if name.rpartition(".")[0] in grounded else 1.0 for name in names])
     weights[len(info.joint_coordinates) :] = CUTOFF  # these where no joint moves
     order = linalg.qr((rates * weights[:, np.newaxis]).T, mode="r", pivoting=True)[1]
     return [names[k] for k in order[:count]]

@@ -24,7 +24,9 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class StateTangent:
-    """How everything changes with x = (s, u, inputs, parameters) near a state; all matrices have as many columns.
+    """How everything changes with x = (s, u, z, inputs, parameters) near a state; all matrices have as many columns.
+
+    z are the states of the file's own.
 
     Attributes
     ----------
@@ -42,8 +44,8 @@ class StateTangent:
         Numbers of s and u.
     q, q_rates, v, rates, multipliers : Array
         Changes of q, q', v, v' and lambda.
-    state_rates : Array, shape (positions + velocities, ...)
-        Changes of the rates of s and u.
+    state_rates : Array, shape (size, ...)
+        Changes of the rates of s, u and z.
     free, basis : Array, shape (nv, positions) and (nv, velocities)
         Z_q and Z.
     """
@@ -67,12 +69,19 @@ class StateTangent:
 
     @property
     def size(self) -> int:
-        """Number of s and u."""
-        return self.positions + self.velocities
+        """Number of s, u and z."""
+        return self.positions + self.velocities + self.subject.states
+
+    @property
+    def z(self) -> Array:
+        """Changes of the states of the file's own."""
+        changes = np.zeros((self.subject.states, self.q.shape[1]))
+        changes[:, self.positions + self.velocities : self.size] = np.eye(self.subject.states)
+        return changes
 
     @property
     def matrix(self) -> Array:
-        """A of (s, u)' = A (s, u)."""
+        """A of (s, u, z)' = A (s, u, z)."""
         return self.state_rates[:, : self.size]
 
     @property
@@ -95,16 +104,20 @@ class StateTangent:
 
     @property
     def sizes(self) -> Array:
-        """What counts as large of s and u, shape (size,)."""
-        return np.repeat([1.0, self.rate], [self.positions, self.velocities])
+        """What counts as large of s, u and z, shape (size,)."""
+        return np.append(np.repeat([1.0, self.rate], [self.positions, self.velocities]), self.subject.extents(self.y))
 
     def sizes_of(self, names: Sequence[str]) -> Array:
         """Return the large sizes of quantities: the mechanism's length or 1 rad, times `rate` for rates."""
         subject = self.subject
         units = {q.name: q.unit for q in (*subject.compiled.info.coordinates, *subject.compiled.info.velocities)}
         own = {o.name for o in subject.mechanism.outputs}
+        states = dict(zip((x.name for x in subject.mechanism.states), subject.extents(self.y), strict=True))
         sizes = list[float]()
         for name in names:
+            if name in states:
+                sizes.append(float(states[name]))
+                continue
             base = name.removesuffix(RATE)
             unit = units.get(name) or ("" if base in own else subject.form.units.get(base, ""))
             slow = 1.0 if not unit or (unit in ("m", "rad") and not name.endswith(RATE)) else self.rate
@@ -115,6 +128,7 @@ class StateTangent:
         """Return the value of a quantity of the state, and how it changes."""
         changes = self.base.by("functions", "q")[place] @ self.q + self.base.by("functions", "v")[place] @ self.v
         changes = changes + self.base.by("functions", "a")[place] @ self.rates
+        changes = changes + self.base.by("functions", "z")[place] @ self.z
         changes = changes + self.base.by("functions", "lam")[place] @ self.multipliers
         changes[self.size :] += self.base.by("functions", "p")[place][self.subject.places]
         return float(self.base.value("functions")[place]), changes
@@ -212,10 +226,10 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> StateTangent:
         If nothing determines the accelerations.
     """
     now = subject.t if t is None else t
-    first = subject.evaluated(y, t=now)
-    d = subject.rows(first)
+    still = subject.evaluated(y, t=now)
+    d = subject.rows(still)
     basis, inverse = subject.split(d, subject.loads)
-    a, lam = accelerations(first, basis, inverse)
+    a, lam = accelerations(still, basis, inverse)
     e = subject.evaluated(y, a, lam, now)
     places = subject.places
     for group in ("velocities", "positions"):
@@ -223,28 +237,33 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> StateTangent:
             raise InputError("inputs", "inputs of forces and outputs", "one that moves a joint")
     motion, mass = e.by("motion", "v"), e.by("balance", "a")
     free = subject.split(d[subject.holonomic])[0]
-    positions, velocities, inputs = free.shape[1], basis.shape[1], len(places)
-    width = positions + velocities + inputs
+    positions, velocities = free.shape[1], basis.shape[1]
+    first = positions + velocities + subject.states
+    width = first + len(places)
+    own = np.zeros((subject.states, width))
+    own[:, positions + velocities : first] = np.eye(subject.states)
     q, v = np.zeros((subject.nq, width)), np.zeros((subject.nv, width))
     q[:, :positions] = motion @ free
-    q[:, positions + velocities :] = motion @ _shifted(subject, e, d)
+    q[:, first:] = motion @ _shifted(subject, e, d)
     opened = e.by("velocities", "q") @ q
-    opened[:, positions + velocities :] += e.by("velocities", "p")[:, places]
+    opened[:, first:] += e.by("velocities", "p")[:, places]
     v -= inverse @ opened
     v[:, positions : positions + velocities] += basis
-    force = e.by("balance", "q") @ q + e.by("balance", "v") @ v
+    force = e.by("balance", "q") @ q + e.by("balance", "v") @ v + e.by("balance", "z") @ own
     gap = e.by("accelerations", "q") @ q + e.by("accelerations", "v") @ v
-    force[:, positions + velocities :] += e.by("balance", "p")[:, places]
-    gap[:, positions + velocities :] += e.by("accelerations", "p")[:, places]
+    force[:, first:] += e.by("balance", "p")[:, places]
+    gap[:, first:] += e.by("accelerations", "p")[:, places]
     rates = -inverse @ gap
     if velocities:
         rates = rates - basis @ _solved(basis.T @ mass @ basis, basis.T @ (force + mass @ rates))
     multipliers = -inverse.T @ (force + mass @ rates)
     q_rates = e.by("motion", "q") @ q + motion @ v
-    q_rates[:, positions + velocities :] += e.by("motion", "p")[:, places]
+    q_rates[:, first:] += e.by("motion", "p")[:, places]
     back = np.linalg.pinv((motion @ free) / subject.lengths[:, np.newaxis]) / subject.lengths
     along = (basis / subject.spans[:, np.newaxis] ** 2).T  # of orthonormal columns in spans
-    state_rates = np.vstack([back @ q_rates, along @ rates])
+    own_rates = e.by("states", "q") @ q + e.by("states", "v") @ v + e.by("states", "z") @ own
+    own_rates[:, first:] += e.by("states", "p")[:, places]
+    state_rates = np.vstack([back @ q_rates, along @ rates, own_rates])
     return StateTangent(
         *(subject, now, y, a, lam, e, positions, velocities, q, q_rates, v, rates, multipliers),
         *(state_rates, free, basis),

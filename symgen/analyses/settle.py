@@ -11,6 +11,7 @@ which is Newton's method where s = 0. Far from rest s is so large that a step st
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -19,10 +20,12 @@ from numpy.typing import NDArray
 
 from symgen.analyses.algebra import Solver, largest, level, solver
 from symgen.analyses.subject import Subject
+from symgen.compiling.linearised import Evaluated
 from symgen.errors import AnalysisError
 
 if TYPE_CHECKING:
     from symgen.analyses.large import Sparse
+    from symgen.describe.mechanism import Mechanism
 
 Array = NDArray[np.float64]
 
@@ -40,6 +43,14 @@ OPENED = 0.05
 SINGULAR, ASTRAY = 1e6, 0.01
 #: What s is multiplied with where a step is too long, and the least part of its root that is left behind a short one.
 FASTER, SLOWER = 4.0, 0.3
+#: Most iterations of Newton's method for states of the file at rest.
+MOST_ITERATIONS = 50
+#: Parts of what is not balanced at first that the first load step takes away, and the last one that is tried; Newton's
+#: steps in one.
+FIRST_LOAD, LEAST_LOAD, CORRECTIONS = 0.25, 1e-3, 20
+#: Newton's step that ends a load step, and the last one; below the third, steps that grow no shorter are rounding
+#: [lengths of the mechanism, rad].
+FOLLOWED, RESTING, ROUNDED = 1e-3, 1e-13, 1e-7
 
 
 #: A static problem over changes in lengths of the mechanism and radians: forces are work. So it is the same one in
@@ -63,6 +74,11 @@ class DenseStatics:
     held: Sequence[tuple[str, float]] = ()
 
     @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism."""
+        return self.subject.mechanism
+
+    @property
     def lengths(self) -> Array:
         """What changes of coordinates are compared with, shape (nq,)."""
         return self.subject.lengths
@@ -73,7 +89,7 @@ class DenseStatics:
 
     def _parts(self, y: Array, lam: Array) -> tuple[Array, Array, Array, Array, Array]:
         subject = self.subject
-        e = subject.evaluated(y, lam=lam[: subject.m])
+        e, by_position = at_balance(subject, y, lam[: subject.m])
         motion, active = e.by("motion", "v"), ~subject.redundant
         rows, gaps = [e.by("velocities", "v")[active]], [e.value("positions")[active]]
         force = e.value("balance")
@@ -87,7 +103,7 @@ class DenseStatics:
             rows.append(row[np.newaxis])
             gaps.append(np.array([now - value]))
         spans, units = subject.spans, self._units()[self._active]
-        stiffness = spans[:, np.newaxis] * (e.by("balance", "q") @ motion) * spans
+        stiffness = spans[:, np.newaxis] * (by_position @ motion) * spans
         return (
             spans * force,
             np.concatenate(gaps) / units,
@@ -122,6 +138,40 @@ class DenseStatics:
     def wound(self, y: Array) -> DenseStatics:
         """Return the same with the angles that count turns as they are at a state less than half a turn away."""
         return replace(self, subject=self.subject.wound(y))
+
+
+def at_balance(subject: Subject, y: Array, lam: Array | None = None) -> tuple[Evaluated, Array]:
+    """Evaluate where the states of the file have come to rest, which are set in `y`; their stiffness is included.
+
+    Returns
+    -------
+    e : Evaluated
+        The descriptor form there.
+    stiffness : Array, shape (nv, nq)
+        Derivatives of the balance by q, states of the file following.
+
+    Raises
+    ------
+    AnalysisError
+        If their rates do not determine them.
+    """
+    e = subject.evaluated(y, lam=lam)
+    if not subject.states:
+        return e, e.by("balance", "q")
+    own = subject.compiled.info.own_states
+    for _ in range(MOST_ITERATIONS):
+        try:
+            change = np.linalg.solve(e.by("states", "z"), e.value("states"))
+        except np.linalg.LinAlgError:
+            names = ", ".join(x.name for x in subject.compiled.info.states)
+            raise AnalysisError(f"no equilibrium: the rates of the states {names} do not determine them") from None
+        size = float(np.abs(change / subject.extents(y)).max())
+        y[own] -= change
+        e = subject.evaluated(y, lam=lam)
+        if not size > 1e-14:
+            break
+    following = np.linalg.solve(e.by("states", "z"), e.by("states", "q"))
+    return e, e.by("balance", "q") - e.by("balance", "z") @ following
 
 
 @dataclass(frozen=True)
@@ -171,12 +221,17 @@ def search(statics: S, y: Array) -> tuple[S, Array, Array, int]:
     """Return a static problem at an equilibrium, the state there, its multipliers, and the steps taken.
 
     Where forces have no potential, as those of a controller, downhill may lead nowhere: Newton's method alone follows.
+    Beams come to rest by load steps, if these lead somewhere: their stiffness along them is so large beside that of
+    bending that steps downhill are short.
 
     Raises
     ------
     AnalysisError
         If none is found.
     """
+    if any(force.flexures for force in statics.mechanism.forces):
+        with suppress(AnalysisError):
+            return _loaded(statics, y)
     try:
         return _search(statics, y, NEAR)
     except AnalysisError as error:
@@ -226,6 +281,43 @@ def _search(statics: S, y: Array, near: float) -> tuple[S, Array, Array, int]:
         f"no equilibrium was found from this start: after {MOST_STEPS} steps {error:.3g} of the forces is not "
         "balanced; another start may lead to one"
     )
+
+
+def _loaded(statics: S, y: Array) -> tuple[S, Array, Array, int]:
+    """Return the same by load steps: what is not balanced at first is taken away part by part, by Newton's method."""
+    statics, y, steps = _closed(statics, y)
+    force, gaps = statics.forces(y, statics.whole(None))
+    _, rows, stiffness = statics.derivatives(y, statics.whole(None))
+    solve = solver(level(stiffness), rows)
+    if solve is None:
+        raise AnalysisError("the rows cannot be told apart: some depend on others near the start")
+    work = solve(-force, np.zeros(len(gaps)))[1]
+    first, reached, part = force + rows.T @ work, 0.0, FIRST_LOAD
+    while part > LEAST_LOAD and steps < MOST_STEPS:
+        share = min(1.0, reached + part)
+        now, state, before, within = statics, (y, work), np.inf, False
+        for _ in range(CORRECTIONS):
+            steps += 1
+            force, gaps = now.forces(state[0], now.whole(state[1]))
+            motion, rows, stiffness = now.derivatives(state[0], now.whole(state[1]))
+            solve = solver(stiffness, rows)
+            change, more = (np.full(1, np.inf), work) if solve is None else solve((1.0 - share) * first - force, -gaps)
+            long = _length(now, motion, change) if np.all(np.isfinite(change)) else np.inf
+            if not long <= REACH:
+                break
+            state = now.moved(state[0], motion @ change), state[1] + more
+            now = now.wound(state[0])
+            within = long < (FOLLOWED if share < 1.0 else RESTING) or 0.5 * before <= long < ROUNDED
+            if within:
+                break
+            before = long
+        if not within:
+            part *= 0.25
+            continue
+        reached, part, statics, (y, work) = share, 2.0 * part, now, state
+        if reached == 1.0:
+            return statics, y, statics.whole(work), steps
+    raise AnalysisError("no equilibrium was found from this start by load steps")
 
 
 def _closed(statics: S, y: Array) -> tuple[S, Array, int]:

@@ -51,6 +51,9 @@ def at_rest(subject: Subject, x: StateTangent) -> bool:
     rows = subject.rows(e)
     carried = np.abs(rows).T @ np.abs(x.lam) + np.abs(e.by("balance", "q") @ e.by("motion", "v")) @ spans
     heavy = np.diag(e.by("balance", "a")) * spans
+    rates = np.abs(e.value("states"))
+    if np.any(e.by("states", "t")) or np.any(rates > STILL * np.abs(e.by("states", "z")) @ subject.extents(x.y)):
+        return False
     massive = heavy > 0.0  # what has no mass follows
     quick = carried[massive] / heavy[massive]
     # at a singular position, forces along what rows do not hold there balance only as well as a search makes them
@@ -68,7 +71,7 @@ def pace(x: StateTangent) -> float:
 
 def extents(x: StateTangent, quantities: Sequence[StateQuantity]) -> Array:
     """Return by how much quantities change where everything moves by a length, or a radian, or as fast as it does."""
-    going = np.repeat([1.0, pace(x)], [x.positions, x.velocities])
+    going = np.append(np.repeat([1.0, pace(x)], [x.positions, x.velocities]), x.subject.extents(x.y))
     sizes = np.array([np.abs(q.changes[: x.size] * going).max(initial=0.0) for q in quantities])
     return np.where(sizes > 0.0, sizes, 1.0)
 
@@ -115,7 +118,7 @@ def named_states(
     else:
         soon = _later(subject, x)
         names = _steady_quantities(subject, x, soon)
-        speeds = x.changes_of(names)[:, x.positions : x.size]
+        speeds = x.changes_of(names)[:, x.positions : x.positions + x.velocities]
         if np.linalg.matrix_rank(speeds) < x.velocities:  # some of them changes
             _check_steady(subject, x, _determining(subject, x), where)
             expected = "a steady motion, or states that are named"
@@ -137,7 +140,13 @@ def _rate_of(subject: Subject, name: str) -> str | None:
     names = [q.name for q in info.coordinates]
     if name in names and names.index(name) not in subject.spun:
         return info.velocities[velocity_of(names.index(name), info)].name
-    return name + RATE if subject.form.functions.get(name, (0, 0))[1] == 3 else None
+    return name + RATE if _of_second_order(subject, name) else None
+
+
+def _of_second_order(subject: Subject, name: str) -> bool:
+    """Whether a quantity is one of positions, so that its rate is a state as well."""
+    states = {x.name for x in subject.mechanism.states}
+    return name not in states and subject.form.functions.get(name, (0, 0))[1] == 3
 
 
 def _with_rates(subject: Subject, names: Sequence[str]) -> tuple[str, ...]:
@@ -158,7 +167,7 @@ def _with_rates(subject: Subject, names: Sequence[str]) -> tuple[str, ...]:
     }
     states = list(dict.fromkeys(names))
     for name in tuple(states):
-        if name in own or subject.form.functions.get(name, (0, 0))[1] == 3:
+        if name in own or _of_second_order(subject, name):
             rate, other = _rate_of(subject, name), name + RATE
             if rate is None:
                 expected = "a state whose rate has a name: a coordinate of a body or joint, or an output"
@@ -175,15 +184,17 @@ def _determining(subject: Subject, x: StateTangent) -> tuple[str, ...]:
     for i, q in enumerate(info.coordinates):
         weights[q.name] = 0.2 if i in subject.spun else 1.0 / subject.length if q.unit == "m" else 1.0
     joints = {name: unit for name, unit in subject.form.units.items() if functions[name][1] == 3}
-    outputs = {o.name for o in subject.mechanism.outputs}
+    states = tuple(x.name for x in subject.mechanism.states)
+    outputs = {*(o.name for o in subject.mechanism.outputs), *states}
     weights |= {n: 0.9 / subject.length if unit == "m" else 0.9 for n, unit in joints.items() if n not in outputs}
     positions = _independent(x, weights, x.positions, slice(0, x.positions))
     rates = [_rate_of(subject, name) for name in positions]
     if x.positions == x.velocities and None not in rates:
-        return (*positions, *(r for r in rates if r is not None))
+        return (*positions, *(r for r in rates if r is not None), *states)
     speeds = {v.name: 1.0 / subject.length if v.unit == "m/s" else 1.0 for v in info.velocities}
     speeds |= {name + RATE: weight for name, weight in weights.items() if name in joints}
-    return (*positions, *_independent(x, speeds, x.velocities, slice(x.positions, x.size)))
+    columns = slice(x.positions, x.positions + x.velocities)
+    return (*positions, *_independent(x, speeds, x.velocities, columns), *states)
 
 
 def _independent(x: StateTangent, weights: dict[str, float], count: int, columns: slice) -> list[str]:
@@ -290,22 +301,26 @@ def _later(subject: Subject, x: StateTangent) -> StateTangent:
     from scipy.integrate import solve_ivp
 
     nq, size, y, w = subject.nq, subject.nq + subject.nv, x.y.copy(), subject.w.copy()
+    own = subject.compiled.info.own_states
+    followed = [*range(size), *range(own.start, own.stop)]
     active = ~subject.redundant
     rates, iw, whole = rate_function(subject.compiled), np.zeros(len(COUNTERS), dtype=np.int64), np.zeros_like(y)
 
     def slope(t: float, z: Array) -> Array:
-        y[:size] = z
+        y[followed] = z
         rates(float(t), y, subject.p, w, iw, whole)
-        return whole[:size].copy()
+        return np.asarray(whole[followed])
 
     fastest = np.abs(np.linalg.eigvals(x.matrix)).max(initial=0.0)
     speed = max(pace(x), APART * fastest / FARTHEST)
     end = x.t + APART / speed
-    large: Any = np.append(subject.lengths, speed * subject.spans)  # SciPy's types do not know arrays of tolerances
-    run = solve_ivp(slope, (x.t, end), x.y[:size], "Radau", rtol=1e-8, atol=1e-10 * large)
+    large: Any = np.concatenate(
+        [subject.lengths, speed * subject.spans, subject.extents(x.y)]
+    )  # SciPy's types do not know arrays of tolerances
+    run = solve_ivp(slope, (x.t, end), x.y[followed], "Radau", rtol=1e-8, atol=1e-10 * large)
     if not run.success:
         raise AnalysisError(f"the motion cannot be followed beyond t = {run.t[-1]:.4g} s: {run.message}")
-    y[:size] = run.y[:, -1]
+    y[followed] = run.y[:, -1]
     y = subject.moved(y, np.zeros(nq))
     for _ in range(4):
         e = subject.evaluated(y, t=end)

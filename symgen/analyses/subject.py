@@ -22,7 +22,7 @@ from symgen.lower.windings import winding_order
 from symgen.running.inputs import Inputs, put_inputs
 from symgen.running.plan import Purpose
 from symgen.running.prepare import make_plan, prepare
-from symgen.running.starts import held_of
+from symgen.running.starts import held_of, states_at_start
 from symgen.runtime import abi
 from symgen.runtime.assembly import Start
 from symgen.runtime.model_arrays import lengths_of
@@ -161,6 +161,16 @@ class Subject(Yardsticks):
     def m(self) -> int:
         """Number of constraint rows."""
         return self.compiled.info.m
+
+    @property
+    def states(self) -> int:
+        """Number of states of the file's own."""
+        return len(self.compiled.info.states)
+
+    def extents(self, y: Array) -> Array:
+        """Return what changes of the states of the file's own are compared with: their values, 1 where these are 0."""
+        values = np.abs(y[self.compiled.info.own_states])
+        return np.where(values > 0.0, values, 1.0)
 
     @property
     def spun(self) -> set[int]:
@@ -321,7 +331,8 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
     by = tuple(name for name in dict.fromkeys(by) if name not in mechanism.inputs)
     varied = mechanism
     if placed.driven is not None and mechanism.input_formulas:  # what stands in an input's slot is added to its formula
-        varied = replaced(mechanism, forces=placed.driven.varied.forces, outputs=placed.driven.varied.outputs)
+        whole = placed.driven.varied
+        varied = replaced(mechanism, forces=whole.forces, states=whole.states, outputs=whole.outputs)
     if any(q.formula is not None and q.name in settings.parameters for q in varied.parameters):
         plain = (replaced(q, formula=None) if q.name in settings.parameters else q for q in varied.parameters)
         varied = replaced(varied, parameters=tuple(plain))
@@ -375,6 +386,7 @@ def at_start(mechanism: Mechanism, settings: Settings) -> tuple[Mechanism, Compi
     q, v = described_start(mechanism, numbers)
     y, w = np.zeros(info.ny), compiled.scratch()
     y[: info.nq] = q
+    y[info.own_states] = states_at_start(mechanism, numbers, plan.holds or ())
     for i, value in held_of(info, plan.holds or holds_of(mechanism), numbers, v).coordinates.items():
         y[i] = value
     # the largest coordinate that is a length, or of a point in its body

@@ -9,19 +9,23 @@ from __future__ import annotations
 import atexit
 import gc
 import os
+import re
 import signal
 import sys
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from difflib import SequenceMatcher
 from pathlib import Path
 from typing import Any
 
 import click
 
 from symgen.analyses.kinds import ANALYSES
-from symgen.errors import SymgenError, nearest, printable
+from symgen.errors import CLOSE, SymgenError, nearest, printable
+from symgen.plugins import load_plugins
 from symgen.registry import Registry
+from symgen.settings import flag, names
 from symgen.version import __version__
 
 OK, FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -34,6 +38,15 @@ ORDER = (
     *("equilibrium", "modes", "linearise", "kinematics", "inverse"),
     *("compare", "stress", "sweep", "schema", "cache", "completion"),
 )
+
+#: Arguments of studies and sweeps that are options, beside the settings.
+LISTS = {
+    **{name: f"--{name}" for name in ("methods", "integrators", "steps", "rtols", "cases", "scheduler")},
+    "reference_by": "--reference",
+}
+_ARGUMENT = re.compile("`([a-z][a-z_]*)`")
+#: Commands that know no kinds of joints, forces, methods or integrators.
+WITHOUT_PLUGINS = ("cache", "completion")
 
 #: Commands that are files of this folder; every analysis is one as well.
 OWN: Registry[click.Command] = Registry(__name__, "command", attribute="command")
@@ -58,6 +71,8 @@ class LazyGroup(click.Group):
 
             command = command_of(cmd_name)
         command.short_help = summary(cmd_name)
+        if cmd_name not in WITHOUT_PLUGINS and not any(p.name == "plugin" for p in command.params):
+            command.params.append(_plugin_option())
         return command
 
     def resolve_command(
@@ -72,6 +87,19 @@ class LazyGroup(click.Group):
         """Write the table without importing anything."""
         with formatter.section("Commands"):
             formatter.write_dl([(name, summary(name)) for name in COMMANDS])
+
+
+def _plugin_option() -> click.Option:
+    """Return the option that loads files before anything else of a command is looked at."""
+    return click.Option(
+        ["--plugin"],
+        multiple=True,
+        metavar="FILE.py",
+        is_eager=True,
+        expose_value=False,
+        callback=lambda context, parameter, paths: load_plugins(paths),
+        help="Run a Python file that registers methods, integrators, joints or forces of your own.",
+    )
 
 
 def summary(name: str) -> str:
@@ -137,8 +165,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def complain(sentence: str, code: int) -> int:
     """Write one sentence to standard error; return `code`."""
     with suppress(OSError):  # standard error may be closed, or full
-        click.echo(f"symgen: {printable(sentence)}", err=True)
+        click.echo(f"symgen: {printable(in_options(sentence))}", err=True)
     return code
+
+
+def in_options(sentence: str) -> str:
+    """Return a sentence of the package in the words of the command line.
+
+    Names of arguments are written as options: `verify` as ``--verify``, and so is the place that a sentence begins
+    with where it is a setting or one of `LISTS`.
+    """
+    place, colon, rest = sentence.partition(": ")
+    if colon and (place in names() or place in LISTS):
+        sentence = f"{_option_of(place)}: {rest}"
+    return _ARGUMENT.sub(lambda match: _option_of(match[1]), sentence)
+
+
+def _option_of(argument: str) -> str:
+    return flag(argument) if argument in names() else LISTS.get(argument) or f"--{argument.replace('_', '-')}"
 
 
 def write_files(
@@ -177,10 +221,33 @@ def _sentence(error: click.ClickException) -> str:
     context = getattr(error, "ctx", None)
     if isinstance(error, click.NoSuchOption):
         options = [o for p in context.command.params for o in p.opts] if context is not None else []
-        hint = nearest(error.option_name, [o for o in options if o.startswith("--")])
+        hint = _hint(error.option_name, [o for o in options if o.startswith("--")])
         text = f"there is no option '{error.option_name}'" + (f"; {hint}" if hint else "")
     help_at = f" (symgen {context.info_name} --help)" if context is not None and context.parent is not None else ""
     return text[:1].lower() + text[1:].rstrip(".") + help_at
+
+
+#: Words for options that people type, and what they mean: told where the command has that option.
+MEANT = {
+    **dict.fromkeys(("--param", "--parameter", "--parameters", "--params", "--p"), "--set"),
+    **dict.fromkeys(("--dt", "--h", "--step-size", "--timestep"), "--step"),
+    **dict.fromkeys(("--end", "--tend", "--t-end", "--time", "--duration"), "--until"),
+    **dict.fromkeys(("--out", "--outfile", "--file"), "--output"),
+    **dict.fromkeys(("--solver", "--scheme"), "--integrator"),
+    **dict.fromkeys(("--tol", "--tolerance"), "--rtol"),
+    **dict.fromkeys(("--initial", "--init", "--x0"), "--start"),
+    **dict.fromkeys(("--options", "--opt", "--alpha"), "--option"),
+}
+
+
+def _hint(option: str, options: Sequence[str]) -> str:
+    """Return what an option that there is none of may mean: a word for another one, or a spelling close to it."""
+    if (meant := MEANT.get(option)) in options:
+        return f"did you mean '{meant}'?"
+    hint = nearest(option, options)
+    # three letters in common are none in common
+    close = hint.startswith("did you mean") and SequenceMatcher(None, option[2:], hint[16:-2]).ratio() >= CLOSE
+    return hint if close else ""
 
 
 def sparing() -> None:

@@ -11,6 +11,7 @@ from symgen.analyses.kinds import ANALYSES, AnalysisTable, Option
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
 from symgen.cli._options import (
     assignments,
+    column_names,
     differ,
     examples,
     json_option,
@@ -34,6 +35,7 @@ OF_KIND: dict[str, dict[str, Any]] = {
     "switch": {"is_flag": True},
     "whole": {"type": int},
     "texts": {"multiple": True},
+    "columns": {"multiple": True},
     "numbers": {"multiple": True},
 }
 
@@ -84,8 +86,12 @@ def _read(option: Option, value: Any) -> Any:
     flag, kind = option.name, option.kind
     if kind == "words":
         return words(flag, value)
+    if kind == "columns":
+        return column_names(flag, value)
     if kind == "numbers":
         return assignments(flag, value)
+    if kind == "place":
+        return assignments(flag, value.split(",")) if "=" in value else value
     if kind in FILES:
         return output_file(flag, value, kind)
     if value is not None and kind in ("times", "range"):

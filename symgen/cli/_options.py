@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
@@ -11,6 +12,8 @@ from typing import Any, TypeVar
 import click
 
 from symgen import arguments
+from symgen.analyses.kinds import check_over
+from symgen.cli import in_options
 from symgen.errors import InputError, quoted
 from symgen.settings import about, default, flag
 
@@ -96,6 +99,51 @@ def target_option(text: str) -> Callable[[F], F]:
     from symgen.ir.program import TARGETS
 
     return click.option("--target", type=click.Choice(TARGETS), default="cpu", show_default=True, help=text)
+
+
+def quantity_options(shown: str, drawn: str, over: str = "[default: t]") -> Callable[[F], F]:
+    """Return a decorator that gives a command ``--quantity``, ``--plot`` and ``--over``.
+
+    Parameters
+    ----------
+    shown, drawn : str
+        What the help says of ``--quantity``, and what ``--plot`` draws.
+    over : str
+        What the help says is drawn over unless it is told.
+    """
+    options = (
+        click.option(
+            *("--quantity", "quantities"),
+            multiple=True,
+            metavar="NAME,NAME",
+            help=shown,
+            callback=lambda context, parameter, value: column_names("--quantity", value),
+        ),
+        click.option("--plot", metavar="FILE", help=f"Draw {drawn} into FILE: .png, .svg or .pdf."),
+        click.option("--over", metavar="NAME", help=f"Draw over NAME, such as crank.theta.  {over}"),
+    )
+
+    def decorate(function: F) -> F:
+        for option in reversed(options):
+            function = option(function)
+        return function
+
+    return decorate
+
+
+def column_names(option: str, texts: Sequence[str]) -> tuple[str, ...]:
+    """Return the names of comma-separated lists; commas in brackets are part of a name, as in ``C(B, D)``."""
+    names = [part.strip() for text in texts for part in re.split(r",(?![^(]*\))", text)]
+    if not all(names):
+        raise InputError(option, "names separated by commas", quoted(",".join(texts)))
+    return tuple(names)
+
+
+def plotted(plot: str | None, over: str | None) -> Path | None:
+    """Return where ``--plot`` draws; ``--over`` alone is refused."""
+    path = output_file("--plot", plot, "plot")
+    check_over(over, path)
+    return path
 
 
 def units_option(function: F) -> F:
@@ -211,7 +259,7 @@ def differ(files: Mapping[str, Path | None]) -> None:
 def tell(notes: Iterable[str]) -> None:
     """Say on standard error what belongs to an answer and is no part of it."""
     for sentence in notes:
-        click.echo(f"symgen: {sentence}", err=True)
+        click.echo(f"symgen: {in_options(sentence)}", err=True)
 
 
 def time_list(option: str, text: str) -> tuple[float, ...]:

@@ -24,6 +24,8 @@ F = TypeVar("F", bound=Callable[..., Any])
 MOST_BODIES = 200
 #: Options that say where or how fast to work, not what to do.
 _WORKING = ("--resume", "--journal", "--jobs")
+#: Options that name a file to write.
+_WRITTEN = ("--output", "--csv", "--plot")
 
 
 @dataclass(frozen=True)
@@ -108,7 +110,10 @@ def command_again() -> str:
             value = tuple(f"{name}={str(item).removesuffix('.0')}" for name, item in value.items())
         for item in value if isinstance(value, tuple) else (value,):
             # where the file lies is nobody's business
-            parts += [flag, Path(item).name if flag in ("--output", "--csv") else str(item).removesuffix(".0")]
+            parts += [
+                flag,
+                Path(item).name if flag in _WRITTEN else str(item).removesuffix(".0"),
+            ]
     return shlex.join(parts)
 
 

@@ -10,6 +10,9 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from symgen.digits import column, digits, scale_of
+from symgen.errors import fitting
+
 if TYPE_CHECKING:
     from symgen.ensemble.sweep_study import Sweep
     from symgen.result.result import Result
@@ -89,10 +92,11 @@ def show_facts(out: Console, facts: Iterable[tuple[str, str]]) -> None:
 
 def show_result(result: Result) -> None:
     """Print what a run gave."""
+    from symgen.cli import in_options
     from symgen.result.summary import lines
 
     out = console()
-    show_facts(out, lines(result))
+    show_facts(out, [(label, in_options(text)) for label, text in lines(result)])
     if len(result.t):
         labels, rows = _final(result)
         show_rows(out, ("body", *labels), rows, left=("body",), title="final state")
@@ -100,24 +104,29 @@ def show_result(result: Result) -> None:
 
 def show_quantities(quantities: Mapping[str, Mapping[str, Any]]) -> None:
     """Print last, smallest and largest values of quantities."""
-    rows = [
-        (name, *("" if entry[key] is None else f"{entry[key]:.6g}" for key in ("final", "min", "max")), entry["unit"])
-        for name, entry in quantities.items()
-    ]
+    rows = []
+    for name, entry in quantities.items():
+        values = [entry[key] for key in ("final", "min", "max")]
+        scale = scale_of((x for x in values if x is not None), entry["unit"])
+        rows.append((name, *("" if x is None else digits(x, scale) for x in values), entry["unit"]))
     headings = ("quantity", "final", "smallest", "largest", "unit")
     show_rows(console(), headings, rows, left=("quantity", "unit"))
 
 
 def _final(result: Result, most: int = 12) -> tuple[list[str], list[tuple[str, ...]]]:
     """Return the last positions and velocities, of the first bodies where there are many."""
+    from symgen.result.labelled import column_texts
+
     bodies = dict[str, dict[str, str]]()
-    for name, value in (result.q.row() | result.v.row()).items():
-        body, _, label = name.rpartition(".")
-        bodies.setdefault(body, {})[label] = f"{value:.6g}"
+    for table in (result.q, result.v):
+        for name, text in column_texts(table).items():
+            body, _, label = name.rpartition(".")
+            bodies.setdefault(body, {})[label] = text
+    first = fitting(len(bodies), most)
     labels = sorted({label for row in bodies.values() for label in row}, key=_LABELS.index)
-    rows = [(body, *(row.get(label, "") for label in labels)) for body, row in list(bodies.items())[:most]]
-    if len(bodies) > most:
-        rows.append((f"... {len(bodies) - most} more", *("" for _ in labels)))
+    rows = [(body, *(row.get(label, "") for label in labels)) for body, row in list(bodies.items())[:first]]
+    if len(bodies) > first:
+        rows.append((f"... {len(bodies) - first} more", *("" for _ in labels)))
     return labels, rows
 
 
@@ -215,7 +224,7 @@ def show_sweep(study: Sweep, written: Path | None) -> None:
         last = study.values[:, i, -1]
         last = last[np.isfinite(last)]
         if len(last):
-            rows.append((q.name, q.unit, *(f"{x:.6g}" for x in (last.min(), last.mean(), last.max()))))
+            rows.append((q.name, q.unit, *column([last.min(), last.mean(), last.max()], q.unit)))
     if rows:
         headings = ("quantity", "unit", "least", "mean", "largest")
         show_rows(out, headings, rows, headings[:2], "at the last output")

@@ -9,6 +9,7 @@ import click
 
 from symgen.cli import OK, write_json
 from symgen.cli._options import examples, json_option, setting_options
+from symgen.errors import counted
 
 
 @click.command(
@@ -44,8 +45,6 @@ def command(
     if as_json:
         write_json(facts)
         return OK
-    from symgen.report.words import counted
-
     sizes = facts["sizes"]
     click.echo(f"{facts['mechanism']}: valid, and it closes")
     parts = (("bodies", "body", "bodies"), ("joints", "joint", ""), ("forces", "force", ""))

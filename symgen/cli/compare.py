@@ -14,10 +14,13 @@ from symgen.cli._options import (
     jobs_option,
     json_option,
     number_list,
+    plotted,
+    quantity_options,
     setting_options,
     words,
 )
 from symgen.cli._report import StudyFiles, command_again, interrupted, sketches_of, study_files
+from symgen.errors import InputError
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -32,7 +35,11 @@ if TYPE_CHECKING:
     ),
 )
 @click.argument("models", metavar="MODEL...", nargs=-1, required=True)
-@click.option("--methods", metavar="A,B", help="Methods, or all; by default the six of the source.")
+@click.option(
+    "--methods",
+    metavar="A,B",
+    help="Methods, or all; by default the six of the source. With options, a line each: baumgarte:alpha=5:beta=5.",
+)
 @click.option("--integrators", metavar="A,B", help="Integrators, or all; rk4, dopri5 and dop853 by default.")
 @click.option("--steps", metavar="H,H", help="Constant steps [s]; multiples of the mechanism's own by default.")
 @click.option("--rtols", metavar="R,R", help="Relative tolerances of adaptive integrators.")
@@ -63,6 +70,11 @@ if TYPE_CHECKING:
     show_default=True,
     help="Where the reference comes from: scipy-dop853, scipy-radau, scipy-bdf or scipy-lsoda.",
 )
+@quantity_options(
+    "Columns of rows, such as error,evaluations: what --plot draws.  [default: error]",
+    "error against run time, or other columns,",
+    "[default: run_seconds]",
+)
 @study_files("row")
 @jobs_option("Processes for what is not timed.")
 @json_option
@@ -74,6 +86,9 @@ def command(
     rtols: str | None,
     states: str | None,
     reference_by: str,
+    quantities: tuple[str, ...],
+    plot: str | None,
+    over: str | None,
     files: StudyFiles,
     jobs: int | None,
     as_json: bool,
@@ -87,13 +102,20 @@ def command(
     """
     step_list, rtol_list = number_list("--steps", steps), number_list("--rtols", rtols)
     method_list, integrator_list = words("--methods", methods), words("--integrators", integrators)
+    plot_path = plotted(plot, over)
+    if quantities and plot_path is None:
+        raise InputError("--quantity", "--plot FILE, which draws it", "no --plot")
 
     from symgen.api import load
     from symgen.cli._progress import Lines
     from symgen.memory import processors
     from symgen.study.comparison.combinations import Combinations
     from symgen.study.comparison.compare import compare_all, save_csv
+    from symgen.study.comparison.comparison_rows import check_columns_of_rows, plot_rows
     from symgen.study.journal import Journal
+
+    what, along = quantities or ("error",), over or "run_seconds"
+    check_columns_of_rows(what, along)
 
     loaded = [load(model) for model in models]
     with ExitStack() as stack:
@@ -134,7 +156,11 @@ def command(
         click.echo(f"symgen: wrote {file}", err=True)
 
     report = files.report if any(study.rows for study in studies) else None
-    written = {files.csv: lambda file: save_csv(studies, file, files.units), report: write_report}
+    written = {
+        files.csv: lambda file: save_csv(studies, file, files.units),
+        plot_path: lambda file: plot_rows(studies, file, what, along),
+        report: write_report,
+    }
     return write_files(_exit_code(studies, files.journal is not None), written)
 
 

@@ -28,7 +28,13 @@ if TYPE_CHECKING:
 @click.option(
     "--at", default="start", show_default=True, metavar="WHEN", help="start, described, or a time in seconds."
 )
-@click.option("--view", "angles", metavar="TURN,TILT", help="In space: degrees about the vertical, and from above.")
+@click.option(
+    "--view",
+    "angles",
+    metavar="TURN,TILT",
+    show_default="where no body hides another",
+    help="In space: degrees about the vertical, and from above.",
+)
 @setting_options("parameters", "start")
 @json_option
 def command(

@@ -5,13 +5,19 @@ from __future__ import annotations
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import examples, json_option, setting_options, target_option
+from symgen.cli._options import examples, json_option, setting_options
 from symgen.errors import InputError
+from symgen.registry import Registry
+
+#: By name alone: files of targets are imported when one is chosen.
+_TARGETS: Registry[object] = Registry("symgen.targets", "target")
+_LISTED = [f"  {name:<12}{_TARGETS.summary(name)}" for name in _TARGETS.names]
 
 
 @click.command(
     "generate",
-    epilog=examples("symgen generate four-bar --output code", "symgen generate pendulum --target cuda --output code"),
+    epilog="\n".join(["\b", "Targets, and what their code needs:", *_LISTED, "", ""])
+    + examples("symgen generate four-bar --output code", "symgen generate four-bar --target c --output four-bar"),
 )
 @click.argument("model")
 @click.option(
@@ -26,8 +32,15 @@ from symgen.errors import InputError
     show_default=True,
     help="Code for this mechanism alone, or loops over tables that all mechanisms share.",
 )
-@target_option("What the code is for: processors, or device functions for CUDA.")
-@click.option("-o", "--output", metavar="DIR", help="Folder to write into; the mechanism's name by default.")
+@click.option(
+    "--target",
+    type=click.Choice(_TARGETS.names),
+    default="cpu",
+    show_default=True,
+    help="What the code is for: see the list below.",
+)
+@click.option("--fmi", type=click.Choice(["2", "3"]), default="2", show_default=True, help="Version of an FMU.")
+@click.option("-o", "--output", metavar="PATH", help="Folder, or FMU, to write; the mechanism's name by default.")
 @json_option
 def command(
     model: str,
@@ -37,6 +50,7 @@ def command(
     coordinates: str,
     shape: str,
     target: str,
+    fmi: str,
     output: str | None,
     as_json: bool,
 ) -> int:
@@ -51,7 +65,9 @@ def command(
         raise InputError("--all", "no --method beside it", ", ".join(methods))
     mechanism = load(model)
     wanted = None if every else methods or "direct-correction"
-    package = mechanism.generate(output, wanted, options, coordinates=coordinates, shape=shape, target=target)
+    package = mechanism.generate(
+        output, wanted, options, coordinates=coordinates, shape=shape, target=target, fmi=int(fmi)
+    )
     if as_json:
         files = [{"path": str(path), "bytes": path.stat().st_size} for path in package.files]
         seconds = {"derive": package.derive_seconds, "emit": package.emit_seconds}

@@ -1,23 +1,48 @@
-"""Show the mechanisms that come with symgen."""
+"""List mechanisms, methods, integrators, joints or forces."""
 
 from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
 
 import click
 
 from symgen.cli import OK, write_json
 from symgen.cli._options import examples, json_option
+from symgen.registry import Registry
 
 #: Terminals of so many characters show sources beside.
 WIDE = 120
 
 
+KINDS = ("methods", "integrators", "joints", "forces")
+
+
+def registry(kinds: str) -> Registry[Any]:
+    """Return the registry of a kind of kinds, such as ``methods``."""
+    registry: Registry[Any] = getattr(import_module(f"symgen.{kinds}"), kinds.upper())
+    return registry
+
+
 @click.command(
     "list",
-    epilog=examples("symgen list", "symgen list --json"),
+    epilog=examples("symgen list", "symgen list methods", "symgen list --json"),
 )
+@click.argument("what", type=click.Choice(("mechanisms", *KINDS)), default="mechanisms")
 @json_option
-def command(as_json: bool) -> int:
-    """Show the mechanisms that come with symgen, with their sources and what a run of them uses by default."""
+def command(what: str, as_json: bool) -> int:
+    """Show the mechanisms that come with symgen, with their sources and what a run of them uses by default.
+
+    Or WHAT is methods, integrators, joints or forces: names with a line about each, those of plugins among them.
+    """
+    if what != "mechanisms":
+        listing = registry(what).listing()
+        if as_json:
+            write_json({what: [{"name": name, "summary": line} for name, line in listing.items()]})
+        else:
+            click.echo(str(listing))
+        return OK
+
     from symgen import catalogue
 
     rows = []

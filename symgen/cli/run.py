@@ -13,6 +13,8 @@ from symgen.cli._options import (
     examples,
     json_option,
     output_file,
+    plotted,
+    quantity_options,
     setting_options,
     tell,
     units_option,
@@ -46,14 +48,11 @@ if TYPE_CHECKING:
     help="Go on from the last state of a saved result: .nc, or .parquet or .csv for its coordinates and velocities.",
 )
 @click.option("--save", metavar="FILE", help="Write the result to FILE: .nc, .parquet or .csv.")
-@click.option(
-    *("--quantity", "quantities"),
-    multiple=True,
-    metavar="NAME",
-    help="What to show beside: a column, a body or an element, such as spring.force. --save FILE.csv holds these only.",
+@quantity_options(
+    "Columns, bodies, joints or forces, such as motor.effort,knee.F: shown, drawn, and all that --save FILE.csv holds.",
+    "these quantities, or an overview,",
 )
 @units_option
-@click.option("--plot", metavar="FILE", help="Draw the result into FILE: .png, .svg or .pdf.")
 @json_option
 def command(
     model: str,
@@ -62,6 +61,7 @@ def command(
     quantities: tuple[str, ...],
     units: bool,
     plot: str | None,
+    over: str | None,
     as_json: bool,
     **values: Any,
 ) -> int:
@@ -76,13 +76,13 @@ def command(
     if whence is not None and settings.start:
         raise InputError("--from", "one way of saying where a run begins", "--start as well")
     save_path = output_file("--save", save, "data")
-    plot_path = output_file("--plot", plot, "plot")
+    plot_path = plotted(plot, over)
     if units and (save_path is None or save_path.suffix.lower() != ".csv"):
         raise InputError("--units", "--save FILE.csv, whose headings carry them", save or "no --save")
 
     from symgen.api import load
     from symgen.cli._progress import Bar
-    from symgen.result.select import extremes
+    from symgen.result.summary import extremes
 
     loaded = load(model)
     if whence is not None:
@@ -93,7 +93,7 @@ def command(
         from symgen.running.outputs import check_saving
 
         check_saving(loaded.mechanism, settings)
-    _prepare(loaded, settings, quantities)
+    _prepare(loaded, settings, quantities, over or "t")
     solver = settings.method + (f", {settings.integrator}" if settings.integrator else "")
     with Bar(f"{loaded.name}, {solver}", settings.until or loaded.mechanism.defaults.until) as bar:
         result = loaded.simulate(settings, progress=bar)
@@ -109,22 +109,28 @@ def command(
         show_result(result)
         if quantities:
             show_quantities(chosen)
-    files = {save_path: lambda path: result.save(path, quantities, units), plot_path: result.plot}
+    files = {
+        save_path: lambda path: result.save(path, quantities, units),
+        plot_path: lambda path: result.plot(path, quantities, over or "t"),
+    }
     return write_files(_exit_code(result), files, None if as_json else lambda path: click.echo(f"written: {path}"))
 
 
-def _prepare(model: Model, settings: Settings, quantities: tuple[str, ...]) -> None:
+def _prepare(model: Model, settings: Settings, quantities: tuple[str, ...], over: str) -> None:
     """Refuse quantities that no result will have."""
-    if not quantities:
+    if not quantities and over == "t":
         return
-    from symgen.result.select import columns_of
-    from symgen.result.tables import choose
+    from symgen.result.signals import check_single, choose, of_run
     from symgen.running.plan import Purpose
     from symgen.running.prepare import make_plan
     from symgen.running.starts import compiled_for
 
     plan = make_plan(model.mechanism, settings, Purpose.ROWS)
-    choose(columns_of(plan.mechanism, compiled_for(plan.mechanism, plan.choice).info), quantities, model.name)
+    tables = of_run(plan.mechanism, compiled_for(plan.mechanism, plan.choice).info)
+    columns = {s.name: table for table, signals in tables.items() for s in signals}
+    choose(columns, quantities, model.name, (*tables,))
+    if over != "t":
+        check_single(over, choose(columns, [over], model.name, (*tables,)))
 
 
 def _exit_code(result: Result) -> int:

@@ -7,8 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import examples, jobs_option, json_option, pairs, setting_options, target_option, tell
+from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
+from symgen.cli._options import (
+    examples,
+    jobs_option,
+    json_option,
+    pairs,
+    plotted,
+    quantity_options,
+    setting_options,
+    target_option,
+    tell,
+)
 from symgen.errors import InputError
 from symgen.settings import Settings
 
@@ -43,7 +53,11 @@ if TYPE_CHECKING:
     },
     otherwise={"output_step": "(only the end is kept)"},
 )
-@click.option("--quantity", "quantities", multiple=True, metavar="NAME", help="What to keep, such as crank.theta or q.")
+@quantity_options(
+    "What to keep: columns, bodies, joints or forces, such as crank.theta,knee.F.  [default: q,v]",
+    "what is kept",
+    "[default: t, or what varies where only the end is kept]",
+)
 @click.option(
     "-o", "--output", metavar="PATH", help="Write results to a NetCDF file (.nc), a CSV file with units, or a folder."
 )
@@ -57,6 +71,8 @@ def command(
     varied: tuple[str, ...],
     together: bool,
     quantities: tuple[str, ...],
+    plot: str | None,
+    over: str | None,
     output: str | None,
     resume: bool,
     jobs: int | None,
@@ -81,7 +97,10 @@ def command(
         raise InputError("--resume", "the output that was begun", "no --output")
     if jobs is not None and scheduler is not None:
         raise InputError("--jobs", "threads of this machine", "--scheduler as well", "the cluster has its own")
-    path = None if output is None else Path(output)
+    path, plot_path = None if output is None else Path(output), plotted(plot, over)
+    drawn = [name for name in quantities if name.partition(".")[0] != "event"]
+    if over not in (None, "t", *axes):  # what is drawn over is kept as well
+        quantities = (*(quantities or ("q", "v")), str(over))
 
     from symgen.ensemble.device_runs import check_target
     from symgen.ensemble.sweep import folder_of
@@ -122,7 +141,8 @@ def command(
         from symgen.cli._tables import show_sweep
 
         show_sweep(study, path)
-    return _exit_code(study, path)
+    draw = {plot_path: lambda file: study.plot(file, drawn, over or "")}
+    return write_files(_exit_code(study, path), draw, None if as_json else lambda file: click.echo(f"written: {file}"))
 
 
 def _axes(words: tuple[str, ...]) -> dict[str, str]:

@@ -42,15 +42,16 @@ def checked(compiled: CompiledModel, names: Container[str] = NAMES) -> dict[str,
     model, law, functions = compiled.model, compiled.law_module, dict[str, Function]()
     for module, table in ((law, _LAW), (model, _MODEL)):
         own = [name for name in table if name in names and hasattr(module, name)]
-        functions |= {name: _read(getattr(module, name), table[name]) for name in own}
-    functions |= {"prepareModel": _read(model.prepare, PREPARE), "prepareLaw": _read(law.prepare, PREPARE)}
+        functions |= {name: read(getattr(module, name), table[name]) for name in own}
+    functions |= {"prepareModel": read(model.prepare, PREPARE), "prepareLaw": read(law.prepare, PREPARE)}
     if "geometry" in names and "geometry" not in functions:
-        functions["geometry"] = _read(model.geometry, abi.MEASURE)
+        functions["geometry"] = read(model.geometry, abi.MEASURE)
     return functions
 
 
-def _read(function: Any, kind: Any) -> Function:
+def read(function: Any, kind: Any) -> Function:
+    """Return an emitted function in the checked language, by the type that loops call it by."""
     if not hasattr(function, "read"):
         raise Foreign("been left to Python, by NUMBA_DISABLE_JIT")
-    read: Function = function.read(kind.signature.arguments)
-    return read
+    result: Function = function.read(kind.signature.arguments)
+    return result

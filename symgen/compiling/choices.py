@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from symgen.compiling.pipeline import MethodChoice, for_coordinates
+from symgen.compiling.pipeline import MethodChoice, for_coordinates, refuse_loops
 from symgen.compiling.side import module_beside
 from symgen.describe.mechanism import Mechanism, Topology
 from symgen.describe.topology import loops_of, spanning_tree, state_names, with_joint_coordinates
@@ -138,6 +138,10 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
     InputError
         If there is no such shape, or the method cannot have it at this size.
     """
+    if mechanism.states or mechanism.rotors:
+        if shape == "looped":
+            refuse_loops(mechanism)
+        return Taken("straight", "loops have no states of a file and no rotors")
     coordinates, choice = mechanism.body_coordinates, for_coordinates(mechanism, choice)
     size = f"{coordinates} coordinates, about {evaluations:.2g} evaluations"
     faster = Taken("straight", f"faster runs outweigh compilation ({size})")

@@ -45,7 +45,7 @@ class Evaluated:
         return self.out[first : first + size]
 
     def by(self, group: str, space: str) -> Array:
-        """Return the derivatives of a group by ``t``, ``q``, ``v``, ``a``, ``lam`` or ``p``, shape (values, size)."""
+        """Return the derivatives of a group by one of `symgen.vocabulary.infos.BY`, shape (values, size)."""
         first, size = self.form.places[group]
         derivatives = np.zeros((size, self.form.widths[space]))
         entries, rows, columns = self.form.entries(group, space)
@@ -149,7 +149,7 @@ def compile_linearised(mechanism: Mechanism, compiled: CompiledModel, by: tuple[
 
 
 #: Groups that say how a motion near a state grows or decays.
-GROWTH = ("motion", "balance", "accelerations")
+GROWTH = ("motion", "balance", "accelerations", "states")
 
 
 def compile_growth(mechanism: Mechanism, compiled: CompiledModel) -> DescriptorForm | None:
@@ -197,7 +197,7 @@ def _compiled(
     return DescriptorForm(
         function=getattr(load_module(path), NAME),
         places=places,
-        widths=dict(zip(BY, (1, of_model.nq, nv, nv, m, parameters), strict=True)),
+        widths=dict(zip(BY, (1, of_model.nq, nv, nv, m, parameters, len(of_model.states)), strict=True)),
         functions=functions,
         units={name: unit for name, unit, _ in info.functions},
         elements=info.elements,

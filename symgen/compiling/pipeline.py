@@ -77,7 +77,7 @@ def choose_method(name: str, options: Mapping[str, str] | None = None, implicit:
     InputError
         If there is no such method or option.
     """
-    method = METHODS.get(name, "--method")
+    method = METHODS.get(name, "method")
     implicit = implicit or not EXPLICIT_FORMS & set(method.forms)  # some methods have no other form
     return MethodChoice(method, method.complete_options(options or {}), implicit)
 
@@ -125,6 +125,19 @@ def _sympy_version() -> str:
     return (Path(spec.origin).parent / "release.py").read_text(encoding="utf-8").split('"')[1]
 
 
+def refuse_loops(mechanism: Mechanism) -> None:
+    """Refuse looped code for what exists as straight code only.
+
+    Raises
+    ------
+    InputError
+        If the file has states of its own, or rotors on joints.
+    """
+    for what, some in (("states of its own", mechanism.states), ("rotors on joints", mechanism.rotors)):
+        if some:
+            raise InputError("shape", f"straight code where a file has {what}", "looped")
+
+
 def generate(
     mechanism: Mechanism,
     choices: tuple[MethodChoice, ...],
@@ -162,6 +175,7 @@ def generate(
     if target != "cpu":
         _refuse_target(target, choices, shape)
     if shape == "looped":
+        refuse_loops(mechanism)
         from symgen.compiling.looped import generate_looped, shared_folder
 
         began = time.perf_counter()
@@ -224,10 +238,10 @@ def _without_method(mechanism: Mechanism, target: str) -> tuple[Any, Any, str, M
 
 def _refuse_target(target: str, choices: tuple[MethodChoice, ...], shape: str) -> None:
     if shape == "looped":
-        raise InputError(f"--target {target}", "the straight shape", "looped")
+        raise InputError(f"target '{target}'", "the straight shape", "looped")
     for choice in choices:
         if choice.implicit:
-            expected = f"a method that explicit integrators solve (--target {target})"
+            expected = f"a method that explicit integrators solve (target {target})"
             raise InputError(f"method '{choice.method.name}'", expected, "one for implicit ones")
 
 
@@ -343,6 +357,7 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
         operations={b.name: b.operations for b in program.blocks},
         inputs=equations.inputs,
         alone=_alone(program, len(equations.rows)),
+        states=equations.states,
     )
 
 

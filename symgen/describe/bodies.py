@@ -147,10 +147,10 @@ def _inertia(scope: Scope, section: SpatialBodySection, mass: Expr, centre: Vec,
             raise scope.error("inertia_axes", "numbers, no expressions of parameters", "an expression")
         numbers = Scalars(lambda x, _: scope.value(x, "inertia_axes"))
         e = euler_parameters(axes, numbers, scope.where("inertia_axes"))
-        tensor = _turned(tensor, matrix(e))
+        tensor = turned(tensor, matrix(e))
     if section.inertia_at is not None:
         ends = zip(_point(scope, section.inertia_at, points, centre), centre, strict=True)
-        tensor = _shifted(tensor, mass, tuple(call("sub", x, y) for x, y in ends))
+        tensor = shifted(tensor, mass, tuple(call("sub", x, y) for x, y in ends))
     for name, entry in zip(("Ixx", "Iyy", "Izz"), tensor, strict=False):
         value = scope.value(entry, "inertia")
         if not value > 0 and entry != ZERO:
@@ -199,7 +199,7 @@ def _times(*factors: Expr) -> Expr:
     return product
 
 
-def _turned(tensor: Tensor, a: Matrix) -> Tensor:
+def turned(tensor: Tensor, a: Matrix) -> Tensor:
     """Return A I A^T."""
     xx, yy, zz, xy, xz, yz = tensor
     rows = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
@@ -211,7 +211,7 @@ def _turned(tensor: Tensor, a: Matrix) -> Tensor:
     return entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)
 
 
-def _shifted(tensor: Tensor, mass: Expr, d: Vec) -> Tensor:
+def shifted(tensor: Tensor, mass: Expr, d: Vec) -> Tensor:
     """Return the tensor about the centre of mass, given about a point at distance d from it (Huygens, Steiner)."""
 
     def entry(i: int, j: int) -> Expr:

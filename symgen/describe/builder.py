@@ -5,13 +5,15 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
-from typing import Any, Self
+from typing import Any, Self, Unpack
 
 from symgen.arguments import shown, text
+from symgen.describe.builder_keys import BodyKeys, EventKeys, ForceKeys, JointKeys, MechanismKeys, RunKeys, TableKeys
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.sections import NAMED, SECTIONS
 from symgen.describe.validate import validate
 from symgen.errors import InputError
+from symgen.keywords import explicit
 
 
 class MechanismBuilder:
@@ -39,7 +41,7 @@ class MechanismBuilder:
     ('x', 'y', 'theta')
     """
 
-    def __init__(self, name: str, **keys: Any) -> None:
+    def __init__(self, name: str, **keys: Unpack[MechanismKeys]) -> None:
         self._raw: dict[str, dict[str, Any]] = {"mechanism": {"name": name} | _plain(keys)}
 
     def __repr__(self) -> str:
@@ -48,7 +50,7 @@ class MechanismBuilder:
         )
         return f"<MechanismBuilder {str(self._raw['mechanism']['name'])[:60]}: {counts or 'nothing yet'}>"
 
-    def run(self, **keys: float | str) -> Self:
+    def run(self, **keys: Unpack[RunKeys]) -> Self:
         """Set run defaults: ``integrator``, ``verify``, and the times of ``[run]`` in a file [s]."""
         self._raw["run"] = self._raw.get("run", {}) | _plain(keys)
         return self
@@ -63,13 +65,17 @@ class MechanismBuilder:
         keys = {"default": default, "unit": unit, "note": note}
         return self._add("inputs", name, {key: item for key, item in keys.items() if item != ""})
 
-    def table(self, name: str, x: Any, y: Any, **keys: Any) -> Self:
+    def table(self, name: str, x: Any, y: Any, **keys: Unpack[TableKeys]) -> Self:
         """Add a function of one argument by interpolation: ``interpolation``, ``periodic`` as in a file."""
         return self._add("tables", name, {"x": x, "y": y} | keys)
 
-    def body(self, name: str, **keys: Any) -> Self:
+    def body(self, name: str, **keys: Unpack[BodyKeys]) -> Self:
         """Add a body: ``mass``, ``inertia``, ``points``, ``position``, ``angle``, ... as in a file."""
-        return self._add("bodies", name, keys)
+        return self._add("bodies", name, {**keys})
+
+    def beam(self, name: str, **keys: Any) -> Self:
+        """Add a beam: ``start``, ``end``, ``elements``, ``section``, ``material``, ... as in a file."""
+        return self._add("beams", name, keys)
 
     def joint(self, name: str, type: str, **keys: Any) -> Self:
         """Add a joint of a type, with that type's keys."""
@@ -79,9 +85,14 @@ class MechanismBuilder:
         """Add a force element of a type, with that type's keys."""
         return self._add("forces", name, {"type": type} | keys)
 
-    def event(self, name: str, **keys: Any) -> Self:
+    def event(self, name: str, **keys: Unpack[EventKeys]) -> Self:
         """Add an event: ``when``, ``direction``, ``action``, ``reset`` as in a file."""
-        return self._add("events", name, keys)
+        return self._add("events", name, {**keys})
+
+    def state(self, name: str, rate: float | str, start: float | str = 0.0, unit: str = "") -> Self:
+        """Add a state with a rate of its own, such as the current of a motor, which every formula may read."""
+        keys = {"rate": rate, "start": start, "unit": unit}
+        return self._add("states", name, {key: item for key, item in keys.items() if item != ""})
 
     def output(self, name: str, value: str, unit: str = "") -> Self:
         """Add a formula that results report, such as ``"integral(motor.power)"``."""
@@ -112,6 +123,18 @@ class MechanismBuilder:
             raise InputError(f"{self.source}: {section}.{name}", "a name used once", f"'{name}' twice")
         entries[name] = _plain(content)
         return self
+
+
+for _method, _keys, _open in (
+    (MechanismBuilder.__init__, MechanismKeys, False),
+    (MechanismBuilder.run, RunKeys, False),
+    (MechanismBuilder.table, TableKeys, False),
+    (MechanismBuilder.body, BodyKeys, False),
+    (MechanismBuilder.event, EventKeys, False),
+    (MechanismBuilder.joint, JointKeys, True),
+    (MechanismBuilder.force, ForceKeys, True),
+):
+    explicit(_method, _keys, dict.fromkeys(_keys.__annotations__), _open)
 
 
 def _plain(value: Any) -> Any:

@@ -1,7 +1,8 @@
-"""What columns are called where all tables stand side by side: in data frames, files and quantities that are chosen.
+"""What a column of a table is called wherever all tables meet: in frames, files, plots, pages and commands.
 
-Bodies, joints and forces have names of their own, so that most tables need nothing else; those of joints and of the
-whole mechanism say what they hold. A body called as one of these is headed is refused: two columns might have one name.
+Bodies, joints and forces have names of their own, so that most columns need no more than these. Multipliers, energies
+and violations say which they are. A body, force or driver with the name of one of these heads is refused where two
+columns could have one name.
 """
 
 from __future__ import annotations
@@ -15,38 +16,33 @@ from symgen.errors import InputError
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
 
-#: Table -> what its columns are prefixed with. Bodies and joints may share names, so all but the tables of bodies say
-#: whose they are.
-PREFIX: Mapping[str, str] = MappingProxyType(
+#: Table -> how the name of a column is formed from its key there: `key`, or the parts of it before and after its last
+#: dot. Columns of other tables are called as in the table.
+FORMS: Mapping[str, str] = MappingProxyType(
     {
-        "q": "",
-        "v": "",
-        "a": "",
-        "joint_coordinates": "joint.",
-        "lam": "lam.",
-        "reactions": "reaction.",
-        "body_reactions": "reaction.body.",
-        "magnitudes": "reaction.",
-        "points": "",
-        "elements": "",
-        "outputs": "",
-        "energy": "energy.",
-        "violations": "violation.",
+        "lam": "multiplier.{key}",
+        "body_reactions": "{owner}.body.{label}",
+        "energy": "energy.{key}",
+        "violations": "violation.{key}",
         # of analyses along a motion
-        "efforts": "effort.",
-        "power": "power.",
-        "rates": "rate.",
-        "transmission": "transmission.",
+        "efforts": "{key}.effort",
+        "power": "{key}.power",
+        "rates": "{key}.rate",
+        "transmission": "transmission.{key}",
     }
 )
+#: Heads of columns behind which the rest may be that of a column of a body.
+_HEADS = ("multiplier", "transmission")
 
 
-#: How columns of joints and of actuators begin, behind which a name of a body's columns may follow.
-_HEADS = tuple(PREFIX[table].rstrip(".") for table in ("joint_coordinates", "lam", "efforts", "transmission", "power"))
+def column_name(table: str, key: str) -> str:
+    """Return the name of a column of a table: ``multiplier.A.x`` of ``A.x`` among the multipliers."""
+    owner, _, label = key.rpartition(".")
+    return FORMS.get(table, "{key}").format(key=key, owner=owner, label=label)
 
 
 def check_columns(mechanism: Mechanism, source: str) -> None:
-    """Refuse bodies, forces and drivers with a name that columns of joints or actuators begin with.
+    """Refuse bodies, forces and drivers with a name that columns of joints begin with.
 
     Parameters
     ----------
@@ -65,5 +61,5 @@ def check_columns(mechanism: Mechanism, source: str) -> None:
     names = {section: [x.name for x in owned] for section, owned in owners.items()} | {"joints": drivers}
     for section, owned in names.items():
         for name in (name for name in owned if name in _HEADS):
-            expected = f"another name, as columns of results of joints and actuators begin with '{name}.'"
+            expected = f"another name, as columns of results of joints begin with '{name}.'"
             raise InputError(f"{source}: {section}.{name}", expected, f"'{name}'", f"for example '{name}_'")

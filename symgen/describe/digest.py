@@ -14,6 +14,8 @@ from symgen.describe.tables import Table
 
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
+#: Fields that are younger than the form: one that is empty is left out.
+_LATER = ("flexures",)
 
 
 def canonical(mechanism: Mechanism) -> str:
@@ -43,6 +45,10 @@ def canonical(mechanism: Mechanism) -> str:
         ["joints", [_text(joint) for joint in mechanism.joints]],
         ["forces", [_text(force) for force in mechanism.forces]],
     ]
+    if mechanism.states:
+        parts.append(["states", [[x.name, x.unit, _text(x.rate)] for x in mechanism.states]])
+    if mechanism.rotors:
+        parts.append(["rotors", [_text(rotor) for rotor in mechanism.rotors]])
     if mechanism.topology is not None:
         parts.append(["topology", _text(mechanism.topology)])
     return "\n".join(_text(part) for part in parts)
@@ -63,9 +69,11 @@ def identity(mechanism: Mechanism) -> str:
     """
     import hashlib
 
-    plain = msgspec.structs.replace(mechanism, shapes=(), input_formulas=())
+    plain = msgspec.structs.replace(mechanism, shapes=(), input_formulas=(), beams=b"")
     # the text of structs, which older folders of sweeps and journals were named by
-    text = msgspec.Struct.__repr__(plain).replace(", shapes=()", "").replace(", input_formulas=()", "")
+    text = msgspec.Struct.__repr__(plain)
+    for absent in (", shapes=()", ", input_formulas=()", ", states=()", ", rotors=()", ", beams=b''"):
+        text = text.replace(absent, "")
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -78,7 +86,8 @@ def _table(table: Table) -> list[str]:
 def _text(value: object) -> str:
     """Return `value` as text that differs wherever values differ: strings quoted, floats to the last digit."""
     if isinstance(value, msgspec.Struct):
-        inner = " ".join(f"{field}={_text(getattr(value, field))}" for field in value.__struct_fields__)
+        fields = [field for field in value.__struct_fields__ if field not in _LATER or getattr(value, field)]
+        inner = " ".join(f"{field}={_text(getattr(value, field))}" for field in fields)
         return f"{type(value).__name__}({inner})"
     if isinstance(value, list | tuple):
         return "[" + " ".join(_text(item) for item in value) + "]"

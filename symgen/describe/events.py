@@ -123,7 +123,8 @@ def in_words(events: Iterable[Event]) -> str:
 def _switching(scope: Scope, key: str, text: str) -> tuple[Expr, bool]:
     """Return a function that is above 0 where the condition holds, and whether there is one."""
     expression = scope.of_state(key, text, conditions=True)
-    if not any(name in ("t", *scope.context.inputs) or "." in name for name in names(expression)):
+    changing = ("t", *scope.context.inputs, *scope.context.state_names)
+    if not any(name in changing or "." in name for name in names(expression)):
         raise scope.error(key, "a condition that time or motion changes", quoted(text))
     condition = isinstance(expression, Call) and expression.function in _LOGIC
     return (_positive(expression), True) if condition else (expression, False)

@@ -61,6 +61,10 @@ AxisPair = Annotated[
     tuple[float | str | _Components, ...],
     Meta(description="a direction [x, y], in space [x, y, z] or two such, one in the frame of each body"),
 ]
+Across = Annotated[
+    float | str | tuple[float | str, ...],
+    Meta(description="a number or an expression of parameters, in space also a list, one for each axis of the section"),
+]
 DirectionPair = Annotated[
     tuple[_Components, _Components], Meta(description="two directions, one in the frame of each body")
 ]
@@ -72,9 +76,13 @@ Tensor = Annotated[
         max_length=6,
     ),
 ]
-SixBySix = Annotated[
+SquareMatrix = Annotated[
     tuple[float | str | tuple[float | str, ...], ...],
-    Meta(description="six numbers or expressions of parameters, or six rows of six", min_length=6, max_length=6),
+    Meta(
+        description="six numbers or expressions of parameters, or six rows of six; in the plane three",
+        min_length=3,
+        max_length=6,
+    ),
 ]
 Points = Annotated[
     dict[str, Vector], Meta(description="a table of points, name = [x, y] or [x, y, z] in the body's frame")
@@ -94,7 +102,22 @@ Condition = Annotated[
 NewVelocities = Annotated[
     dict[str, StateFunction], Meta(description='a table of new velocities, such as "ball.vy" = "-0.7*ball.vy"')
 ]
+Rows = Annotated[
+    tuple[dict[str, float | str], ...],
+    Meta(description="a list of rows, { position = EXPRESSION } or { velocity = EXPRESSION }", min_length=1),
+]
+Weights = Annotated[
+    dict[str, float | str],
+    Meta(description="a table of factors of joint coordinates, such as { left = 1.0, right = -1.0 }", min_length=1),
+]
+Scalars = Annotated[
+    tuple[float | str, ...], Meta(description="a list of numbers or expressions of parameters", min_length=2)
+]
+BodyNames = Annotated[tuple[str, ...], Meta(description="names of bodies", min_length=1)]
 PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
+
+#: Keys that joints of any kind may have beside their own, and their types.
+OF_ANY_JOINT: Mapping[str, Any] = {"start": JointStart, "cut": Flag, "rotor_inertia": Scalar, "gear_ratio": Scalar}
 
 T = TypeVar("T")
 

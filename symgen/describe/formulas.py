@@ -35,6 +35,8 @@ class Formulas:
                 self.names[f"{body.name}.{speed}"] = g.input("v", index)
                 index += 1
         self.size = index
+        for i, state in enumerate(self.mechanism.states, 1):  # behind the work
+            self.names[state.name] = g.input("z", i)
         #: Body -> the point that points of it are relative to: its centre of mass, unless a joint holds it elsewhere.
         self.references = {b.name: b.centre_of_mass for b in self.mechanism.bodies}
 

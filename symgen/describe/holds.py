@@ -132,7 +132,7 @@ def holds_of(mechanism: Mechanism, where: str = "start", values: Mapping[str, fl
     for joint in mechanism.joints:
         joints |= _of_joint(joint)
         same |= _as_body(joint)
-    coordinates = bodies | joints
+    coordinates = bodies | joints | {x.name: x.name for x in mechanism.states}
 
     def gathered(pairs: Iterable[tuple[str, Hold]]) -> dict[str, Hold]:
         unique: dict[str, tuple[str, Hold]] = {}
@@ -145,7 +145,8 @@ def holds_of(mechanism: Mechanism, where: str = "start", values: Mapping[str, fl
 
     for name in values or {}:
         if name not in coordinates:
-            expected = f"a coordinate or velocity of a body or joint of {mechanism.name}"
+            expected = f"a coordinate or velocity of a body or joint, or a state, of {mechanism.name}"
+            expected = expected if mechanism.states else expected.replace(", or a state,", "")
             raise InputError(f"{where} '{name}'", expected, "none of that name", nearest(name, coordinates))
         if name in bodies and name.rpartition(".")[2] in _EULER:
             raise InputError(

@@ -29,7 +29,7 @@ from symgen.vocabulary.expressions import BENT, ZERO, Call, Expr, Name, Number, 
 
 T = TypeVar("T")
 #: Parts of a mechanism whose formulas may read inputs.
-_READING = ("forces", "outputs", "events")
+_READING = ("forces", "states", "outputs", "events")
 _COMPARISONS = ("lt", "le", "gt", "ge")
 
 
@@ -180,6 +180,7 @@ def _number(text: str) -> float | None:
 def _names(mechanism: Mechanism) -> FormulaNames:
     """Return the names that the formula of an input may use."""
     plain = {p.name: p.name for p in mechanism.parameters if not p.input} | {"t": "t"}
+    plain |= {x.name: x.name for x in mechanism.states}
     bodies = {body.name: body.coordinates + body.speeds for body in mechanism.bodies}
     what = "a number or an expression of t, parameters and body coordinates"
     hints = dict.fromkeys(mechanism.inputs, "an input does not depend on others")

@@ -34,6 +34,11 @@ class ForceKind(Protocol):
 
 
 JOINTS: Registry[type[JointKind]] = Registry(
-    "symgen.joints", "joint type", aliases={"prismatic": "translational", "point-on-line": "pin-in-slot"}
+    "symgen.joints",
+    "joint type",
+    aliases={
+        **{"prismatic": "translational", "point-on-line": "pin-in-slot"},
+        **{"inline": "pin-in-slot", "in-plane": "point-on-plane"},
+    },
 )
 FORCES: Registry[type[ForceKind]] = Registry("symgen.forces", "force type")

@@ -195,7 +195,7 @@ def longest_step(
     longest = length / PARTS
     return longest, (
         f"formulas of t in {' and '.join(groups)} may pass something short: adaptive steps are at most {longest:.3g} s,"
-        f" a thousandth of the run; what is shorter needs --max-step"
+        f" a thousandth of the run; what is shorter needs a smaller `max_step`"
     )
 
 

@@ -11,7 +11,7 @@ from symgen.arguments import shown
 from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import ZERO, Expr
-from symgen.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Row
+from symgen.vocabulary.measures import GROUND, Direction, Effort, Flexure, Marker, Measure, Row
 from symgen.vocabulary.rotations import IDENTITY, Orientation
 
 T = TypeVar("T")
@@ -26,6 +26,12 @@ ACCELERATIONS = {
     "wy": "alphay",
     "wz": "alphaz",
 }
+
+
+def is_speed(name: str) -> bool:
+    """Whether a coordinate or velocity of a body, such as ``rod.vx``, is a velocity."""
+    return name.rpartition(".")[2] in ACCELERATIONS
+
 
 #: Components of a vector: two in the plane, three in space.
 Vec = tuple[Expr, ...]
@@ -252,13 +258,31 @@ class Joint(msgspec.Struct, frozen=True):
         return "rad" if label.startswith("angle") else "m"
 
 
-class Force(msgspec.Struct, frozen=True):
-    """A force element of any kind, resolved to efforts along measures."""
+class Rotor(msgspec.Struct, frozen=True):
+    """A rotor that turns with the angle of a joint: its energy is half of `inertia` times the square of that rate."""
+
+    joint: str
+    angle: Measure
+    inertia: Expr
+
+
+class Force(msgspec.Struct, frozen=True, omit_defaults=True, repr_omit_defaults=True):
+    """A force element of any kind, resolved to efforts along measures and to beam elements."""
 
     name: str
     kind: str
     bodies: tuple[str, ...]
     efforts: tuple[Effort, ...]
+    flexures: tuple[Flexure, ...] = ()  # texts of what has none stay what they were
+
+
+class StateVariable(msgspec.Struct, frozen=True):
+    """A state of the file's own, x' = `rate`, a formula of t, parameters, inputs, the motion and all such states."""
+
+    name: str
+    start: Expr
+    rate: Expr
+    unit: str = ""
 
 
 class Output(msgspec.Struct, frozen=True):
@@ -343,6 +367,9 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     shapes: tuple[tuple[str, Shape], ...] = ()  # body -> what it looks like, several entries for several shapes
     topology: Topology | None = None  # where joint coordinates are the state; joints of the tree have no rows then
     input_formulas: tuple[tuple[str, Expr], ...] = ()  # input -> the formula that a run has put in its place
+    states: tuple[StateVariable, ...] = ()
+    rotors: tuple[Rotor, ...] = ()
+    beams: bytes = b""  # the description as JSON where it has beams, so that these can have other elements
 
     def __repr__(self) -> str:
         counted = (

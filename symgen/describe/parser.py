@@ -41,12 +41,14 @@ LARGEST_EXPONENT = 64.0
 _TOKEN = re.compile(
     r"""(?P<space>\s+)
       | (?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![A-Za-z0-9_.]))
-      | (?P<word>[A-Za-z][A-Za-z0-9_]*)
+      | (?P<word>[A-Za-z][A-Za-z0-9_]*|(?<=\.)_[0-9]+)
       | (?P<operator>\*\*|<=|>=|[-+*/<>(),.](?!=))""",
     re.VERBOSE,
 )
 #: A number with a unit that people write behind it.
 _WITH_UNIT = re.compile(r"\s*[-+]?[\d.]+(e[-+]?\d+)?\s*([cmk]?m(/s)?|km/h|k?g|ms|min|k?N ?m?|(rad|deg)(/s)?|°|rpm)\s*")
+#: The number of a beam's node between dots, to which Python's grammar gives no meaning.
+_NODE = re.compile(r"(?<=[A-Za-z0-9_])\.([0-9]+)(?=\.[A-Za-z])")
 _WORDS = frozenset({"and", "or", "not", "if", "else"})
 _HINTS = {
     "^": "a power is written **",
@@ -131,6 +133,7 @@ class _Reader:
             raise self.fail(f"{len(text)} characters", expected=f"a formula of at most {LONGEST_TEXT} characters")
         if not text.strip():
             raise self.fail("an empty text")
+        text = _NODE.sub(r"._\1", text)
         self.scan(text)
         try:
             # A formula may span lines in the file; Python's grammar would take the line end for the formula's.
@@ -248,7 +251,10 @@ class _Reader:
 
     def dotted(self, path: tuple[str, ...]) -> Expr:
         """Return a body's coordinate, or what else has a name with dots."""
-        owner, text, readings = path[0], ".".join(path), self.names.readings
+        text, readings = ".".join(path), self.names.readings
+        if (node := ".".join(path[:2])) in self.names.coordinates or (readings is not None and readings.has(node)):
+            path = (node, *path[2:])  # a node or an element of a beam
+        owner = path[0]
         own = self.names.coordinates.get(owner, ())
         if len(path) == 2 and path[1] in own:
             return Name(text)
@@ -339,7 +345,7 @@ def _path(node: ast.expr) -> tuple[str, ...] | None:
     """Return the parts of a name with dots, None where something else stands before a dot."""
     parts: list[str] = []
     while isinstance(node, ast.Attribute):
-        parts.append(node.attr)
+        parts.append(node.attr.lstrip("_"))
         node = node.value
     return (node.id, *reversed(parts)) if isinstance(node, ast.Name) else None
 

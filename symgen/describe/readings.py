@@ -5,10 +5,14 @@
 | ``arm.tip.x``, ``.y``, in space ``.z`` | a point's coordinate in the ground frame [m] | everywhere |
 | ``arm.tip.vx``, ``.vy``, ``.vz`` | its velocity [m/s] | everywhere |
 | ``arm.tip.ax``, ``.ay``, ``.az`` | its acceleration [m/s^2] | outputs |
+| ``arm.ex.x`` ..., ``arm.ez.z`` | in space, component of an axis of a body's frame in the ground frame | everywhere |
+| ``arm.ex.vx`` ..., ``arm.ez.vz`` | its rate [1/s] | everywhere |
 | ``motor.angle``, ``slide.displacement``, ... | a coordinate that a joint reports, or a driver drives | everywhere |
 | ``motor.angle.rate``, ``motor.rate`` | its rate; the short form where there is one coordinate | everywhere |
 | ``motor.effort``, ``motor.power`` | what a driver exerts along its coordinate | outputs |
 | ``spring.length``, ``.angle``, ``.rate`` | of a force along one measure | outputs, events |
+| ``rod.e3.strain``, ``.shear``, ``.curvature`` | of a beam element in its middle | outputs, events |
+| ``rod.e3.N``, ``.Q``, ``.M`` | force and moment of the section there | outputs, events |
 | ``spring.force``, ``.torque``, ``.Fx`` ..., ``.power`` | what a force exerts | outputs |
 
 `symgen.describe.readings` makes columns of results from the same table.
@@ -21,16 +25,21 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from symgen.describe.mechanism import Force, Joint, Mechanism
-from symgen.vocabulary.expressions import ZERO, Expr, Reading, readings
+from symgen.vocabulary.expressions import ZERO, Call, Expr, Name, Reading, call, number, readings
 from symgen.vocabulary.measures import (
     GROUND,
     AnyAngle,
     Component,
+    Direction,
     Distance,
     Dot,
     Driven,
     Effort,
     Exerted,
+    Flexed,
+    Flexure,
+    FormulaMeasure,
+    HalfSquare,
     Holonomic,
     Integral,
     Marker,
@@ -49,6 +58,15 @@ ORDERS = {"": "m", "v": "m/s", "a": "m/s^2"}
 #: Largest order that functions of state may read, and outputs, which know v' and what is exerted.
 STATE, OUTPUT = 1, 2
 
+#: Axes of a body's frame in space.
+AXES = ("ex", "ey", "ez")
+#: Components of the strain of a beam element, and of force and moment, in the plane and in space.
+PLANE = ("strain", "shear", "curvature"), ("N", "Q", "M")
+SPACE = (
+    ("strain", "shear_y", "shear_z", "twist", "curvature_y", "curvature_z"),
+    ("N", "Qy", "Qz", "T", "My", "Mz"),
+)
+
 #: Names behind an owner's -> what is read, and its unit.
 Table = dict[str, tuple[Reading, str]]
 
@@ -60,6 +78,15 @@ def of_point(name: str, marker: Marker, dimension: int, order: int) -> Table:
         for axis, direction in zip("xyz", axes(GROUND, dimension), strict=False):
             label = f"{letter}{axis}"
             table[label] = Reading(f"{name}.{label}", Component(origin, marker, direction), derivative), unit
+    return table
+
+
+def of_axis(name: str, axis: Direction) -> Table:
+    """Return the components of an axis of a body in the ground frame, and their rates; `name` is the axis' own."""
+    table = Table()
+    for letter, direction in zip("xyz", axes(GROUND, 3), strict=True):
+        table[letter] = Reading(f"{name}.{letter}", Dot(direction, axis)), ""
+        table[f"v{letter}"] = Reading(f"{name}.v{letter}", Dot(direction, axis), 1), "1/s"
     return table
 
 
@@ -85,21 +112,36 @@ def of_joint(joint: Joint, order: int) -> Table:
 def of_force(force: Force, order: int) -> Table:
     """Return the measure of a force along one measure, and at outputs what a force exerts."""
     table, name = Table(), force.name
-    single = force.efforts[0] if len(force.efforts) == 1 else None
+    efforts = tuple(map(_along_length, force.efforts))
+    single = efforts[0] if len(efforts) == 1 else None
     word = "" if single is None else _extent(single.measure)
     if single is not None and word:
         unit = "m" if word == "length" else "rad"
         table[word] = Reading(f"{name}.{word}", single.measure), unit
         table["rate"] = Reading(f"{name}.rate", single.measure, 1), f"{unit}/s"
-    if order == OUTPUT and force.efforts:
+    for flexure in force.flexures:
+        table |= _of_flexure(name, flexure)
+    if order == OUTPUT and (efforts or force.flexures):
         components: dict[str, list[Effort]] = {}
-        for effort in force.efforts:
+        for effort in efforts:
             for component in _components(effort, word):
                 components.setdefault(component, []).append(effort)
-        for component, efforts in components.items():
-            unit = "N m" if is_turning(efforts[0].measure) else "N"
-            table[component] = Reading(f"{name}.{component}", Exerted(tuple(efforts))), unit
-        table["power"] = Reading(f"{name}.power", Exerted(force.efforts, power=True)), "W"
+        for component, parts in components.items():
+            unit = "N m" if is_turning(parts[0].measure) else "N"
+            table[component] = Reading(f"{name}.{component}", Exerted(tuple(parts))), unit
+        table["power"] = Reading(f"{name}.power", Exerted(efforts, True, force.flexures)), "W"
+    return table
+
+
+def _of_flexure(name: str, flexure: Flexure) -> Table:
+    """Return the strain in the middle of a beam element, and the force and moment of the section there."""
+    strains, stresses = PLANE if len(flexure.compliances) == 3 else SPACE
+    bends = len(strains) // 2
+    table = Table()
+    for stress, labels, units in ((False, strains, ("", "1/m")), (True, stresses, ("N", "N m"))):
+        for i, label in enumerate(labels):
+            unit = units[i > bends] if len(labels) == 3 else units[i >= bends]
+            table[label] = Reading(f"{name}.{label}", Flexed(flexure, i, stress)), unit
     return table
 
 
@@ -108,13 +150,27 @@ def _with_rate(owner: str, label: str, measure: Source, unit: str) -> Table:
     return {label: (Reading(name, measure), unit), f"{label}.rate": (Reading(f"{name}.rate", measure, 1), f"{unit}/s")}
 
 
+def _along_length(effort: Effort) -> Effort:
+    """Return an effort along half the square of a length, U = k s, as one along the length, U = k s^2 / 2."""
+    if not isinstance(effort.measure, HalfSquare) or not isinstance(effort.potential, Call):
+        return effort
+    half, stiffness = Reading("half", effort.measure), effort.potential.arguments[0]
+    length = FormulaMeasure(call("sqrt", call("mul", number(2.0), half)))
+    squared = call("pow", Name("s"), number(2.0))
+    return Effort(effort.label, length, potential=call("mul", call("div", stiffness, number(2.0)), squared))
+
+
 def _extent(measure: Source) -> str:
     """Return the name of the measure of a force, empty where it has none."""
-    return "length" if isinstance(measure, Distance) else "angle" if isinstance(measure, AnyAngle) else ""
+    return (
+        "length" if isinstance(measure, Distance | FormulaMeasure) else "angle" if isinstance(measure, AnyAngle) else ""
+    )
 
 
 def _components(effort: Effort, extent: str) -> list[str]:
     """Return the whole that an effort is part of: the force or torque along a measure, or components along axes."""
+    if not effort.label:
+        return []
     if extent:
         return ["force" if extent == "length" else "torque"]
     kind = "M" if is_turning(effort.measure) else "F"
@@ -126,6 +182,8 @@ def is_turning(measure: Source) -> bool:
     """Whether what works along a measure is a torque."""
     if isinstance(measure, Sum):
         return is_turning(measure.terms[0][1])
+    if isinstance(measure, FormulaMeasure):
+        return all(is_turning(r.source) for r in readings(measure.of))
     return isinstance(measure, AnyAngle | Spin | Dot)
 
 
@@ -150,6 +208,10 @@ class Readings:
         yield from self._context.joint_names
         yield from self._context.forces
 
+    def has(self, name: str) -> bool:
+        """Return whether a force is called so."""
+        return name in self._context.forces
+
     def names_of(self, owner: str, where: str) -> tuple[str, ...]:
         """Return the readings of a body, joint or force beside a body's own coordinates."""
         if owner in self._context.bodies:
@@ -172,6 +234,9 @@ class Readings:
             entry = self._of_element(owner, where).get(".".join(words))
         elif len(words) == 2 and words[0] in self._context.points[owner]:
             entry = self._of_point(owner, words[0]).get(words[1])
+        elif len(words) == 2 and words[0] in AXES and self._dimension == 3 and not self._context.bodies[owner].is_point:
+            axis = axes(owner, 3)[AXES.index(words[0])]
+            entry = of_axis(f"{owner}.{words[0]}", axis).get(words[1])
         else:
             entry = None
         return None if entry is None else entry[0]
@@ -213,8 +278,9 @@ def elements(mechanism: Mechanism) -> tuple[Column, ...]:
 
 
 def outputs(mechanism: Mechanism) -> tuple[Column, ...]:
-    """Return the formulas of ``[outputs]``."""
-    return tuple(Column(o.name, o.unit, o.value) for o in mechanism.outputs)
+    """Return the states of the file's own, and the formulas of ``[outputs]``."""
+    states = (Column(x.name, x.unit, Name(x.name)) for x in mechanism.states)
+    return (*states, *(Column(o.name, o.unit, o.value) for o in mechanism.outputs))
 
 
 def integrals(mechanism: Mechanism) -> dict[Integral, int]:
@@ -224,8 +290,9 @@ def integrals(mechanism: Mechanism) -> dict[Integral, int]:
 
 
 def integrated(mechanism: Mechanism) -> tuple[Any, ...]:
-    """Return the integrands of a run: joints, forces, and the formulas of integrals."""
-    return mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
+    """Return the integrands of a run: joints, forces, and the rates of states with the formulas of integrals."""
+    rates = *(x.rate for x in mechanism.states), *(integral.of for integral in integrals(mechanism))
+    return mechanism.joints, mechanism.forces, rates
 
 
 def _columns(table: Table) -> Iterator[Column]:

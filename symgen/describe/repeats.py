@@ -10,7 +10,18 @@ from symgen.describe.formulas import Formulas
 from symgen.describe.mechanism import Joint, Mechanism
 from symgen.describe.remembered import remembered
 from symgen.vocabulary.expressions import Call, Name, Number
-from symgen.vocabulary.measures import GROUND, Angle, Component, Direction, Dot, Marker, RimHeight, Sum
+from symgen.vocabulary.measures import (
+    GROUND,
+    Angle,
+    Component,
+    Direction,
+    Dot,
+    FormulaMeasure,
+    FormulaSpeed,
+    Marker,
+    RimHeight,
+    Sum,
+)
 
 
 def without_repeats(mechanism: Mechanism) -> tuple[Mechanism, tuple[tuple[str, str], ...]]:
@@ -58,6 +69,8 @@ class _Contents:
 
     def of(self, value: Any) -> Any:
         """Return something hashable that is equal for equal content."""
+        if isinstance(value, FormulaMeasure | FormulaSpeed):
+            return value  # which readings are equal is a question of their measures: rank decides
         if isinstance(value, Number | Name | Call):
             return self.formulas.expression(value)
         if isinstance(value, Marker):

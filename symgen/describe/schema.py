@@ -8,8 +8,9 @@ from typing import Any
 
 import msgspec
 
+from symgen.describe.beam_sections import BeamSection
 from symgen.describe.events import EventSection
-from symgen.describe.fields import Flag, JointStart
+from symgen.describe.fields import OF_ANY_JOINT
 from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.sections import (
     BodySection,
@@ -19,6 +20,7 @@ from symgen.describe.sections import (
     ParameterSection,
     RunSection,
     SpatialBodySection,
+    StateSection,
     TableSection,
 )
 
@@ -34,16 +36,18 @@ def schema() -> dict[str, Any]:
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "symgen mechanism",
         "type": "object",
-        "required": ["mechanism", "bodies"],
+        "required": ["mechanism"],
         "additionalProperties": False,
         "properties": {
             "mechanism": _table(MechanismSection),
             "run": _table(RunSection),
             "parameters": _named(parameter),
             "inputs": _named({"anyOf": [{"type": ["number", "string"]}, _table(InputSection)]}),
+            "states": _named(_table(StateSection)),
             "tables": _named(_table(TableSection)),
             "bodies": _named({"anyOf": [_table(BodySection), _table(SpatialBodySection)]}) | {"minProperties": 1},
-            "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases, start=JointStart, cut=Flag)}),
+            "beams": _named(_table(BeamSection)),
+            "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases, **OF_ANY_JOINT)}),
             "outputs": _named({"anyOf": [{"type": ["number", "string"]}, _table(OutputSection)]}),
             "forces": _named({"oneOf": _kinds(FORCES.items(), FORCES.aliases)}),
             "events": _named(_table(EventSection)),

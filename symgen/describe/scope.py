@@ -17,7 +17,7 @@ from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import OUTPUT, Readings
 from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest, quoted
-from symgen.vocabulary.expressions import ZERO, Expr, Number, call
+from symgen.vocabulary.expressions import ZERO, Expr, Number, call, moving, readings
 from symgen.vocabulary.measures import GROUND, Direction, Marker, Measure
 
 #: The name by which a file means a body's centre of mass.
@@ -41,6 +41,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
     joint_names: frozenset[str] = frozenset()
     forces: Mapping[str, Force] = {}  # empty while forces are resolved
     inputs: tuple[str, ...] = ()
+    state_names: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, mechanism: Mechanism, source: str = "") -> Context:
@@ -56,6 +57,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
             frozenset(joints),
             {force.name: force for force in mechanism.forces},
             mechanism.inputs,
+            tuple(state.name for state in mechanism.states),
         )
 
     @cached_property
@@ -72,10 +74,8 @@ class Context(msgspec.Struct, frozen=True, dict=True):
     def constants(self) -> FormulaNames:
         """Names of a formula of parameters."""
         plain = {name: name for name in self.values}
-        elsewhere = frozenset({"t", *self.tables, *self.inputs})
-        return FormulaNames(
-            "a number or an expression of parameters", plain, elsewhere=elsewhere, hints=self._of_inputs
-        )
+        elsewhere = frozenset({"t", *self.tables, *self._changing})
+        return FormulaNames("a number or an expression of parameters", plain, elsewhere=elsewhere, hints=self._changing)
 
     @cached_property
     def times(self) -> FormulaNames:
@@ -85,18 +85,19 @@ class Context(msgspec.Struct, frozen=True, dict=True):
         others = frozenset(self.tables) - frozenset(smooth)
         hints = dict.fromkeys(others, "a motion needs two continuous derivatives, which interpolation = 'cubic' has")
         what = "a number or an expression of t and parameters"
-        elsewhere = others | frozenset(self.inputs)
-        return FormulaNames(what, plain, tables=smooth, elsewhere=elsewhere, hints=hints | self._of_inputs)
+        elsewhere = others | frozenset(self._changing)
+        return FormulaNames(what, plain, tables=smooth, elsewhere=elsewhere, hints=hints | self._changing)
 
     @cached_property
     def states(self) -> dict[str, str]:
         """Names of a formula of t, parameters, inputs and state, coordinates apart."""
-        return {name: name for name in (*self.values, *self.inputs, "t")}
+        return {name: name for name in (*self.values, *self.inputs, *self.state_names, "t")}
 
     @property
-    def _of_inputs(self) -> dict[str, str]:
-        """What is said of inputs where they may not stand."""
-        return dict.fromkeys(self.inputs, "an input may stand in forces, torques and actuators")
+    def _changing(self) -> dict[str, str]:
+        """Hints on inputs and states where they may not stand."""
+        hints = dict.fromkeys(self.state_names, "a state may stand in forces, torques, rates of states and outputs")
+        return hints | dict.fromkeys(self.inputs, "an input may stand in forces, torques and actuators")
 
     @cached_property
     def functions(self) -> dict[str, str]:
@@ -285,6 +286,32 @@ class Scope:
         """Return a number or an expression of t and parameters, with smooth tables: it must have two derivatives."""
         return self._expression(key, value, self.context.times)
 
+    def of_row(self, key: str, value: float | str, speeds: bool) -> Expr:
+        """Return an expression of t, parameters and positions, and with `speeds` velocities, with smooth tables.
+
+        Two derivatives of it are wanted, so that inputs and Euler parameters have no place in it.
+        """
+        times, what = self.context.times, "positions and velocities" if speeds else "positions"
+        coordinates = {
+            name: tuple(c for c in (*body.coordinates, *(body.speeds if speeds else ())) if c[0] != "e")
+            for name, body in self.context.bodies.items()
+        }
+        names = FormulaNames(
+            f"an expression of t, parameters and {what}",
+            *(times.plain, coordinates, times.tables, times.elsewhere),
+            readings=Readings(self.context),
+            hints=times.hints,
+        )
+        expression = self._expression(key, value, names)
+        for reading in readings(expression):
+            if reading.order and not speeds:
+                raise self.error(
+                    key, names.what, f"'{reading.name}', a velocity", "a row of velocities is { velocity = ... }"
+                )
+        if not moving(expression):
+            raise self.error(key, names.what, "one in which nothing moves")
+        return expression
+
     def of_state(
         self, key: str, value: float | str, words: Mapping[str, str] | None = None, *, conditions: bool = False
     ) -> Expr:
@@ -349,7 +376,8 @@ class Scope:
         own = dict(words or {})
         for word in own:
             if word in self.context.states and isinstance(value, str) and _mentions(value, word):
-                what = "input" if word in self.context.inputs else "parameter"
+                kinds = {"input": self.context.inputs, "state": self.context.state_names}
+                what = next((kind for kind, names in kinds.items() if word in names), "parameter")
                 got = f"'{word}', which is {'an' if what == 'input' else 'a'} {what} too"
                 raise self.error(key, f"'{word}' to mean the element's own", got, f"rename the {what}")
         return own

@@ -15,6 +15,7 @@ from symgen.describe.fields import (
     Points,
     PositiveNumber,
     Scalar,
+    StateFunction,
     Tensor,
     Text,
     Vector,
@@ -100,6 +101,24 @@ class InputSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     default: Scalar
     unit: Text = ""
     note: Text = ""
+
+
+class StateSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A state of your own, such as a current or a pressure, which every formula of the state may read by its name.
+
+    Parameters
+    ----------
+    rate : state function
+        Its rate of change, a formula of t, parameters, inputs, the motion and all states [its unit a second].
+    start : scalar
+        Its value where a run begins; 0 by default.
+    unit : str
+        For people.
+    """
+
+    rate: StateFunction
+    start: Scalar = 0.0
+    unit: Text = ""
 
 
 class TableSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -287,8 +306,10 @@ NAMED = {
     "inputs": "input",
     "tables": "table",
     "bodies": "body",
+    "beams": "beam",
     "joints": "joint",
     "forces": "force",
+    "states": "state",
     "outputs": "output",
     "events": "event",
 }

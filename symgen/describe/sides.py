@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
+from symgen.describe.kinds import JOINTS
 from symgen.describe.mechanism import Joint, Mechanism, SpatialBody
 from symgen.describe.remembered import remembered
 from symgen.describe.topology import articulation_of
@@ -90,6 +91,12 @@ def _of_joint(joint: Joint) -> Iterator[tuple[bool, tuple[tuple[Direction, Direc
         (_, one), (_, other) = row.measure.terms
         if isinstance(one, Dot) and isinstance(other, Dot):
             yield True, ((other.u, one.v), (one.u, other.v))
+    held_frames = getattr(JOINTS.get(joint.kind, joint.name), "frames", None)
+    if held_frames is not None and len(joint.rows) > 1:
+        of_a, of_b = held_frames(joint)
+        yield False, ((of_a[2], of_b[2]),)
+        if len(joint.rows) == 3:
+            yield True, ((of_a[0], of_b[0]),)
     if articulation is not None and articulation.of_a and articulation.turn in ("axis", "fixed"):
         yield False, ((articulation.of_a[2], articulation.of_b[2]),)
         if articulation.turn == "fixed":

@@ -98,6 +98,9 @@ def _prescribed(mechanism: Mechanism, tree: Topology) -> tuple[Prescribed, ...]:
             places.setdefault(Angle(GROUND, link.body), (link.body, "theta", 1.0))
     prescribed, taken = list[Prescribed](), set[str]()
     integrated = {r.source.row for x in integrals(mechanism) for r in readings(x.of) if isinstance(r.source, Driven)}
+    for rotor in mechanism.rotors:  # a driver of such a coordinate exerts what the rotor takes: it keeps its row
+        for measure, _ in _alike(rotor.angle):
+            places.pop(measure, None)
     for joint in mechanism.joints:
         row = joint.rows[0] if len(joint.rows) == 1 and not joint.coordinates else None
         if isinstance(row, Holonomic) and row.measure in places and f"{joint.name}.{row.label}" not in integrated:

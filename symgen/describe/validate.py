@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -12,10 +12,21 @@ from symgen.describe.bodies import planar_body, shapes_of, spatial_body
 from symgen.describe.columns import check_columns
 from symgen.describe.evaluate import evaluate, in_order
 from symgen.describe.events import read_event
-from symgen.describe.fields import Flag, JointStart, OutputFunction, Scalar, read, read_value, words_of
+from symgen.describe.fields import OF_ANY_JOINT, Flag, JointStart, OutputFunction, Scalar, read, read_value, words_of
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.kinds import FORCES, JOINTS
-from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter
+from symgen.describe.mechanism import (
+    AnyBody,
+    Defaults,
+    Force,
+    Hold,
+    Joint,
+    Mechanism,
+    Output,
+    Parameter,
+    Rotor,
+    StateVariable,
+)
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.scope import Context, Scope
@@ -27,13 +38,17 @@ from symgen.describe.sections import (
     OutputSection,
     ParameterSection,
     RunSection,
+    StateSection,
     TableSection,
 )
 from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
 from symgen.errors import InputError, nearest, quoted
-from symgen.vocabulary.expressions import names
+from symgen.vocabulary.expressions import ONE, call, names
 from symgen.vocabulary.measures import Marker
+
+if TYPE_CHECKING:
+    from symgen.describe.beams import Beams
 
 Raw = Mapping[str, Any]
 #: Levels of tables in a file, and joints in a chain of references.
@@ -65,7 +80,9 @@ class _Validator:
         self._seats: dict[str, Marker] = {}
         self._open = 0  # joints being resolved, each because the one before refers to it
         self._cuts: list[str] = []
+        self._rotors: dict[str, Rotor] = {}
         self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
+        self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams
 
     def where(self, path: str) -> str:
         return f"{self.source}: {path}"
@@ -94,13 +111,17 @@ class _Validator:
             head.space,
             frozenset(name for name, _ in self.entries("joints")),
             inputs=tuple(p.name for p in parameters if p.input),
+            state_names=tuple(name for name, _ in self.entries("states")),
         )
         scope = Scope(self.context, "mechanism")
-        gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
         read_body = spatial_body if head.space == "spatial" else planar_body
+        written = self.raw
+        beams = self.beams(read_body)
+        gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
         bodies = tuple(read_body(self.scope("bodies", name), value) for name, value in self.entries("bodies"))
         if not bodies:
             raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
+        bodies = bodies if beams is None else tuple(map(beams.clamped, bodies))
         self.context = msgspec.structs.replace(self.context, bodies={body.name: body for body in bodies})
         joints = tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints"))
         forces = tuple(self.force(name, value) for name, value in self.entries("forces"))
@@ -119,11 +140,14 @@ class _Validator:
             joints=joints,
             forces=forces,
             defaults=self.defaults(line(head.source)),
+            rotors=tuple(self._rotors[joint.name] for joint in joints if joint.name in self._rotors),
+            states=tuple(self.state(name, value) for name, value in self.entries("states")),
             outputs=tuple(self.output(name, value) for name, value in self.entries("outputs")),
             seats=tuple(self._seats.items()),
             cuts=tuple(self._cuts),
             holds=tuple(holds),
             shapes=tuple((body.name, shape) for scope, raw, body in described for shape in shapes_of(scope, raw)),
+            beams=b"" if beams is None else msgspec.json.encode(written),
             events=tuple(read_event(self.scope("events", n), n, event) for n, event in self.entries("events")),
         )
         check_columns(mechanism, self.source)
@@ -138,11 +162,17 @@ class _Validator:
         if not isinstance(content, Mapping):
             raise InputError(self.where(section), f"a table of {section}, one entry a name", words_of(content))
         for name, value in content.items():
-            yield check_identifier(name, self.where(section), NAMED[section]), value
+            if name not in self._parts:
+                check_identifier(name, self.where(section), NAMED[section])
+            yield name, value
 
     def unique(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
-        for group in (("bodies", "joints", "forces"), ("parameters", "inputs", "tables")):
+        for group in (
+            ("bodies", "beams", "joints", "forces"),
+            ("parameters", "inputs", "states", "tables"),
+            ("states", "outputs"),
+        ):
             sections: dict[str, str] = {}
             for section in group:
                 for name, _ in self.entries(section):
@@ -150,6 +180,18 @@ class _Validator:
                         got = f"'{name}', which is a {NAMED[sections[name]]} already"
                         raise InputError(self.where(f"{section}.{name}"), "a name used once", got)
                     sections[name] = section
+
+    def beams(self, read_body: Callable[[Scope, object], AnyBody]) -> Beams | None:
+        """Put the nodes and elements of beams into the description; return the beams, None where there are none."""
+        if not any(self.entries("beams")):
+            return None
+        from symgen.describe.beams import Beams
+
+        for section in ("bodies", "joints", "forces"):
+            any(self.entries(section))
+        beams = Beams(self.raw, self.scope, read_body)
+        self.raw, self._parts = beams.expanded(), frozenset((*beams.bodies, *beams.forces))
+        return beams
 
     # Sections ------------------------------------------------------------------------------------------------------
 
@@ -241,6 +283,12 @@ class _Validator:
             raise InputError(where, "points between which curves have finite coefficients", "points too close or far")
         return table
 
+    def state(self, name: str, raw: object) -> StateVariable:
+        where, scope = self.where(f"states.{name}"), self.scope("states", name)
+        section = read(StateSection, raw, where)
+        start, rate = scope.constant("start", section.start), scope.of_state("rate", section.rate)
+        return StateVariable(name, start, rate, check_unit(section.unit, f"{where}.unit"))
+
     def output(self, name: str, raw: object) -> Output:
         where = self.where(f"outputs.{name}")
         if isinstance(raw, Mapping):
@@ -278,11 +326,11 @@ class _Validator:
         if self._open > DEEPEST:
             raise InputError(where, f"joints that refer to each other in at most {DEEPEST} steps", "more")
         path = f"joints.{name}"
-        kind, table = self.split(path, self.raw["joints"][name], "joint type", "start", "cut")
+        kind, table = self.split(path, self.raw["joints"][name], "joint type", *OF_ANY_JOINT)
         struct = JOINTS.get(kind, self.where(f"{path}.type"))
         scope = Scope(self.context, path, name, JOINTS.canonical(kind))
         scope.check_space(struct.SPACES)
-        section = read(struct, table, self.where(path), ("type", "start", "cut"))
+        section = read(struct, table, self.where(path), ("type", *OF_ANY_JOINT))
         joint = section.build(scope)
         at = getattr(section, "at", None)
         if at is not None:
@@ -296,9 +344,29 @@ class _Validator:
                 got = f"a {joint.kind} joint, which has rows in any case"
                 raise InputError(self.where(f"{path}.cut"), "a joint that can carry a body", got)
             self._cuts.append(name)
+        self.rotor(scope, joint, self.raw["joints"][name])
         self._joints[name] = joint
         self._open -= 1
         return joint
+
+    def rotor(self, scope: Scope, joint: Joint, raw: Raw) -> None:
+        """Note the rotor of a joint, where it has one."""
+        if "rotor_inertia" not in raw:
+            if "gear_ratio" in raw:
+                raise scope.error("gear_ratio", "the key rotor_inertia beside it", "no such key")
+            return
+        angles = [measure for label, measure in joint.coordinates if Joint.unit(label) == "rad"]
+        if len(angles) != 1:
+            got = f"a {joint.kind} joint with {len(angles) or 'none'}"
+            raise scope.error("rotor_inertia", "a joint with one angle", got)
+        given = {
+            key: read_value(Scalar, raw.get(key, 1.0), scope.where(key)) for key in ("rotor_inertia", "gear_ratio")
+        }
+        inertia = scope.constant("rotor_inertia", given["rotor_inertia"], positive=True)
+        ratio = scope.constant("gear_ratio", given["gear_ratio"])
+        if ratio != ONE:
+            inertia = call("mul", inertia, call("mul", ratio, ratio))
+        self._rotors[joint.name] = Rotor(joint.name, angles[0], inertia)
 
     def force(self, name: str, raw: object) -> Force:
         path = f"forces.{name}"

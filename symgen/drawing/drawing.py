@@ -19,6 +19,8 @@ from symgen.drawing.paper import Drawn, View, axes, on_paper
 from symgen.drawing.paper import Path as Stroke
 from symgen.drawing.pictures import svg, write_pixels
 from symgen.drawing.scene import COLOURS, Array, Item, Look, Point, Scene
+from symgen.drawing.traced import traced_points
+from symgen.drawing.viewpoint import USUAL, viewpoint
 from symgen.files import check_path, write_whole
 
 if TYPE_CHECKING:
@@ -28,8 +30,6 @@ if TYPE_CHECKING:
 PICTURES: Mapping[str, tuple[str, ...]] = {".svg": (), ".png": ("matplotlib",), ".pdf": ("matplotlib",)}
 #: Positions in a picture of a motion, and points of a way.
 POSES, PATH = 4, 300
-#: From where scenes in space are seen.
-ABOVE = View()
 
 
 @dataclass(frozen=True, repr=False)
@@ -56,7 +56,7 @@ class Drawing:
 
     scene: Scene
     q: tuple[float, ...]
-    view: View = ABOVE
+    view: View = USUAL
     ghosts: tuple[tuple[float, ...], ...] = ()
     paths: tuple[tuple[Point, ...], ...] = ()
     labels: bool | None = None
@@ -81,13 +81,15 @@ class Drawing:
         scene = build_scene(mechanism, q, values, open_joints)
         where = tuple(float(x) for x in np.asarray(q, dtype=np.float64).ravel())
         behind = tuple(tuple(map(float, ghost)) for ghost in ghosts)
-        return cls(scene, where, view or ABOVE, behind, (), labels, caption)
+        return cls(scene, where, view or viewpoint(scene, np.array(where)), behind, (), labels, caption)
 
     @classmethod
     def of_motion(
         cls, mechanism: Mechanism, q: Array, values: Mapping[str, float] | None = None, view: View | None = None
     ) -> Drawing:
-        """Return the picture of a mechanism in motion: its start, a few later positions, the ways of its bodies.
+        """Return the picture of a mechanism in motion: its start, a few later positions, and paths.
+
+        Paths are those of points that no joint ties, and of the centres of mass where there is no such point.
 
         Parameters
         ----------
@@ -103,10 +105,12 @@ class Drawing:
         scene = build_scene(mechanism, q, values)
         later = np.unique(np.linspace(0, len(q) - 1, POSES).round().astype(int))[1:]
         ghosts = tuple(tuple(q[k].tolist()) for k in reversed(later))
-        rows = [scene.poses(row).centres for row in q[:: max(1, len(q) // PATH)]]
-        ways = np.stack(rows)[:, : len(scene.frames)].transpose(1, 0, 2)
+        points = traced_points(mechanism, parameter_values(mechanism, values))
+        shown = [p for p in points if p.free] or [p for p in points if not any(p.at)]
+        poses = [scene.poses(row) for row in q[:: max(1, len(q) // PATH)]]
+        ways = [np.concatenate([at.out(p.body, [p.at]) for at in poses]) for p in shown]
         paths = tuple(tuple((float(x), float(y), float(z)) for x, y, z in way) for way in ways)
-        return cls(scene, tuple(q[0].tolist()), view or ABOVE, ghosts, paths, labels=False)
+        return cls(scene, tuple(q[0].tolist()), view or viewpoint(scene, q[0]), ghosts, paths, labels=False)
 
     @cached_property
     def svg(self) -> str:
@@ -121,7 +125,7 @@ class Drawing:
         eye = axes(self.scene, self.view)
         for i, path in enumerate(self.paths):
             points = np.array(path) @ eye.T
-            look = Look(COLOURS[i % len(COLOURS)], "", 0.8)
+            look = Look(COLOURS[i % len(COLOURS)], "", 1.6)
             way = Item("path", "", "", ())
             drawn.append(Drawn(way, (Stroke(points[:, :2], look, False),), 0.0, None))
         for ghost in self.ghosts:

@@ -9,22 +9,25 @@ import numpy as np
 from symgen.describe.mechanism import Force
 from symgen.drawing.joint_parts import DRIVE, turned_about
 from symgen.drawing.pen import PLAIN, BodyPoint, Pen, across, parts
-from symgen.drawing.scene import GROUNDED, INK, Array, BodyFrame, Item, Look, Mark, Poses
+from symgen.drawing.scene import GROUNDED, INK, Array, BodyFrame, Item, Line, Look, Mark, Poses
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import ZERO, Number, names
-from symgen.vocabulary.measures import Angle, Component, Distance, Effort, PointSpeed, Spin, Turn
+from symgen.vocabulary.measures import Angle, Component, Distance, Effort, HalfSquare, PointSpeed, Spin, Sum, Turn
 
 PUSH = Look("#a0522d", "", 1.8)
 COIL = Look(INK, "", 1.2)
+BENT = Look("#2f5d8a", "", 2.4)
 
 
 def force_item(pen: Pen, force: Force) -> Item:
     """Return the symbol of a force element; one without points is drawn at its bodies."""
     numbers = pen.numbers
-    stretched = [m for m in parts(force.efforts) if isinstance(m, Distance)]
+    stretched = [m for m in parts(force.efforts) if isinstance(m, Distance | HalfSquare)]
     turned = [m for m in parts(force.efforts) if isinstance(m, Angle | Turn | Spin)]
     marks: list[Mark]
-    if stretched:
+    if force.flexures:
+        marks = _bent(pen, force)
+    elif stretched:
         a, b = numbers.place(stretched[0].a), numbers.place(stretched[0].b)
         marks = [pen.stretch(_kind(pen, force), a, b, COIL), pen.dot(a, 0.2), pen.dot(b, 0.2)]
     elif force.kind == "bushing":
@@ -34,6 +37,22 @@ def force_item(pen: Pen, force: Force) -> Item:
     else:
         marks = _pushes(pen, force)
     return Item("force", force.name, force.kind, tuple(marks))
+
+
+def _bent(pen: Pen, force: Force) -> list[Mark]:
+    """Return the polygon of the cubic curve through the ends of beam elements: along their axes, and between."""
+    numbers, marks = pen.numbers, list[Mark]()
+    for flexure in force.flexures:
+        first = next(m for m in parts(flexure.measures) if isinstance(m, Sum))
+        along = [m for _, m in first.terms if isinstance(m, Component)]
+        ends = numbers.place(along[0].a), numbers.place(along[0].b)
+        third, inner = numbers.number(flexure.length) / 3.0, list[BodyPoint]()
+        for place, component, sign in zip(ends, along, (1.0, -1.0), strict=True):
+            x, y, z = np.array(place.at) + sign * third * numbers.vector(component.along.vector)
+            inner.append(BodyPoint(place.body, (float(x), float(y), float(z))))
+            marks.append(Line(place.body, (place.at, inner[-1].at), BENT))
+        marks.append(pen.stretch("rod", inner[0], inner[1], BENT))
+    return marks
 
 
 def _kind(pen: Pen, force: Force) -> str:

@@ -19,8 +19,11 @@ Z = np.array([0.0, 0.0, 1.0])
 
 
 def plain(pen: Pen, joint: Joint) -> list[Mark]:
-    """Return the points that a joint ties, for kinds without a symbol."""
-    return [pen.dot(place, 0.35, PLAIN) for place in pen.numbers.markers(joint)]
+    """Return the points that a joint ties, for kinds without a symbol; of rows those of bodies."""
+    places = pen.numbers.markers(joint)
+    if joint.kind == "rows":  # formulas read points as they are seen from the origin
+        places = [place for place in places if place.body != GROUNDED]
+    return [pen.dot(place, 0.35, PLAIN) for place in places]
 
 
 def ends_of(numbers: PlacedMechanism, joint: Joint) -> tuple[BodyPoint, BodyPoint]:

@@ -12,8 +12,23 @@ from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.mechanism import AnyBody, Mechanism, Shape, SpatialBody, Vec
 from symgen.describe.start import described_start
 from symgen.drawing.force_parts import force_item
+from symgen.drawing.joint_parts import along_of
 from symgen.drawing.pen import RIGID, BodyPoint, Pen, PlacedMechanism, across, parts
-from symgen.drawing.scene import COLOURS, Array, Disc, Item, Line, Look, Mark, Point, Scene, Solid, Tube, upwards
+from symgen.drawing.scene import (
+    COLOURS,
+    GROUNDED,
+    Array,
+    Disc,
+    Item,
+    Line,
+    Look,
+    Mark,
+    Point,
+    Scene,
+    Solid,
+    Tube,
+    upwards,
+)
 from symgen.drawing.symbols import gap_item, joint_item
 from symgen.errors import InputError
 from symgen.vocabulary.measures import Marker
@@ -90,6 +105,16 @@ def _points(numbers: PlacedMechanism) -> dict[str, list[Point]]:
             if isinstance(marker, Marker) and marker.body in by_body:
                 place = numbers.place(marker)
                 by_body[names[place.body]][_rounded(place.at)] = None
+    for joint in numbers.mechanism.joints:
+        if joint.kind != "pin-in-slot" or numbers.spatial:
+            continue
+        pin, slot = numbers.markers(joint.rows[0])
+        if slot.body != GROUNDED:  # which is as long as its slot
+            along = along_of(numbers, joint)
+            own = numbers.now.turns[slot.body].T @ along
+            for reach in numbers.span(slot, pin, along):
+                x, y, z = np.array(slot.at) + reach * own
+                by_body[names[slot.body]][_rounded((x, y, z))] = None
     for body in numbers.mechanism.bodies:
         for _, point in body.points:
             by_body[body.name][_rounded(numbers.place(Marker(body.name, point)).at)] = None
@@ -127,6 +152,8 @@ def _body_item(pen: Pen, body: AnyBody, points: list[Point], guided: set[str]) -
     i = numbers.index[body.name]
     colour = COLOURS[i % len(COLOURS)]
     centre = BodyPoint(i, (0.0, 0.0, 0.0))
+    if "." in body.name:  # a node of a beam, whose elements draw it
+        return Item("body", body.name, "node", (pen.dot(centre, 0.18, RIGID),), label=(i, (0.0, 0.0, 0.0)))
     shapes = [shape for name, shape in numbers.mechanism.shapes if name == body.name]
     marks: list[Mark]
     if body.is_point and not shapes:

@@ -122,8 +122,12 @@ class PlacedMechanism:
 
         The guide of a body that moves begins at the body's own point; that of the ground is only as long as it is used.
         """
-        own = self.now.turns[a.body].T @ along
-        places = [] if a.body == GROUNDED else [0.0]
+        places = [*self.travel(a, b, along), *([] if a.body == GROUNDED else [0.0])]
+        return min(places), max(places)
+
+    def travel(self, a: BodyPoint, b: BodyPoint, along: Array) -> tuple[float, float]:
+        """Return the ends of b's displacement from a along a direction that a's body carries [m]."""
+        own, places = self.now.turns[a.body].T @ along, list[float]()
         for poses in self.all:
             d = poses.out(b.body, [b.at])[0] - poses.out(a.body, [a.at])[0]
             places.append(float(d @ (poses.turns[a.body] @ own)))

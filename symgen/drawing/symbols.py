@@ -49,11 +49,31 @@ def _slide(pen: Pen, joint: Joint) -> list[Mark]:
     block = np.stack([along, side, Z]), np.array([2.4, 1.3, 1.3]) * u
     start = numbers.out(a)
     on = start + ((numbers.out(b) - start) @ along) * along
+    if a.body != GROUNDED != b.body:
+        stroke = [float(x) for x in numbers.travel(a, b, along)]
+        if min(stroke) * max(stroke) > 0.0 and min(map(abs, stroke)) > 6.0 * u:
+            return _telescope(pen, a, b, along, side, sorted(stroke, key=abs))
     marks = pen.rail(a.body, start + 0.65 * u * side, along, span, side)
     if a.body != GROUNDED:
         marks += pen.rail(a.body, start - 0.65 * u * side, along, span, -side)
     marks.append(pen.box(b.body, on, *block, Look("#20262e", "#dfe4ea", 1.2)))
     return [*marks, *(pen.earth(on + 0.65 * u * side, along, side) if b.body == GROUNDED else [])]
+
+
+def _telescope(pen: Pen, a: BodyPoint, b: BodyPoint, along: Array, side: Array, stroke: list[float]) -> list[Mark]:
+    """Return a cylinder whose rod never goes back to its foot: a barrel as long as the shortest length, and a rod."""
+    u, start, (short, long) = pen.unit, pen.numbers.out(a), stroke
+    on = start + ((pen.numbers.out(b) - start) @ along) * along
+    way = float(np.sign(short)) * along
+    end = start + (abs(short) - 1.5 * u) * way
+    back = on - min(abs(long - short) + 3.0 * u, 0.9 * abs(short)) * way
+    corners = [start + 0.8 * u * side, end + 0.8 * u * side, end - 0.8 * u * side, start - 0.8 * u * side]
+    piston = [back + 0.8 * u * side, back - 0.8 * u * side]
+    return [
+        pen.line(a.body, corners, Look("#20262e", "#dfe4ea", 1.2, 0.6), closed=True),
+        pen.line(b.body, [back, on], Look("#20262e", "", 2.6)),
+        pen.line(b.body, piston, Look("#20262e", "", 2.0)),
+    ]
 
 
 def _lower(pen: Pen, along: Array, body: int) -> Array:

@@ -42,7 +42,7 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu",
     layout = program.layout
     numbers = sum(table.numbers for table in program.tables)
     if target == "cuda" and numbers > MOST_CONSTANTS:
-        room = f"at most {MOST_CONSTANTS // 2} points in all (--target cuda)"
+        room = f"at most {MOST_CONSTANTS // 2} points in all (target cuda)"
         raise InputError("tables", room, f"what takes the room of {numbers // 2}")
     header = [
         versions(program.digest),
@@ -222,7 +222,10 @@ def straight(
     names |= {("p", i): f"{p.name} [{p.unit}]" for i, p in enumerate(equations.parameters)}
     names = (further or {}) | names
     names |= of_hoisted(blocks, ElementAccess(layout, names))
-    observed = of_observed(equations) if isinstance(equations, Equations) else {}
+    observed: Names = {}
+    if isinstance(equations, Equations):
+        observed = of_observed(equations)
+        names |= {("z", i): f"{x.name} [{x.unit}]" for i, x in enumerate(equations.states, 1)}
     codes = []
     for block in blocks:
         lines = Printer(block, ElementAccess(layout, names | observed if block.name == "observe" else names)).lines()
@@ -242,6 +245,7 @@ def _symbols(equations: Equations, computed: Mapping[str, tuple[int, int]]) -> l
     table = [(f"y[{i}]", q.name, q.unit) for i, q in enumerate(equations.coordinates)]
     table += [(f"y[{nq + i}]", v.name, v.unit) for i, v in enumerate(equations.velocities)]
     table.append((f"y[{nq + equations.nv}]", "work of forces without potential and of drivers", "J"))
+    table += [(f"y[{nq + equations.nv + i}]", x.name, x.unit) for i, x in enumerate(equations.states, 1)]
     table += [(f"p[{i}]", p.name, p.unit) for i, p in enumerate(equations.parameters)]
     table += [(f"p[{i}:{j}]", f"numbers computed by {function}", "") for function, (i, j) in computed.items() if i < j]
     table += [(f"row {i}", r.name, r.unit) for i, r in enumerate(equations.rows)]

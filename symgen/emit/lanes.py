@@ -73,9 +73,11 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
         If the method is more than a formula with one correction.
     """
     layout, correction, info, made = program.layout, program.correction, program.info, versions(model.digest)
-    if program.form != "direct" or program.closed or correction.metric not in ("identity", "scaled", "mass"):
-        expected = "a method that is a formula with at most one correction (--target lanes)"
-        raise InputError(f"method '{info.method}'", expected, "one that iterates, or chooses coordinates")
+    simple = correction.metric in ("identity", "scaled", "mass") and not correction.energy
+    if program.form != "direct" or program.closed or not simple:
+        expected = "a method that is a formula with at most one correction (target lanes)"
+        got = "one that iterates, chooses coordinates, or scales velocities to the energy"
+        raise InputError(f"method '{info.method}'", expected, got)
     n_p = info.parameter_offset + len(info.parameters) + info.hoisted
     bases = bases_of(layout.ny, n_p, layout.nw)
     access = LaneAccess(layout, {}, bases, LANES)

@@ -113,8 +113,10 @@ class Parts:
 
 
 def accept_kind(correction: Correction) -> str:
-    """Return how accepted states are treated: ``measured``, ``augmented`` or ``corrected``."""
-    return "measured" if not correction.any else "augmented" if correction.metric == "augmented" else "corrected"
+    """Return how accepted states are treated: ``measured``, ``augmented``, ``balanced`` or ``corrected``."""
+    if not correction.any:
+        return "measured"
+    return "augmented" if correction.metric == "augmented" else "balanced" if correction.energy else "corrected"
 
 
 #: Parts of laws, each a module, in an order in which each needs earlier ones only: how its stem begins, and what it is.
@@ -209,9 +211,11 @@ def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: b
     if form == "tangent":
         parts.add("choose", "acceleration")
         parts.add("tangent", "acceleration")
-    if law.closed:
+    if law.correction.metric == "independent":
         parts.add("choose", "correction")
-        parts.add("closed", "closed", close="correction")
+        parts.add("close", "correction")
+    if law.closed:
+        parts.add("closed", "closed")
     if flagged:
         parts.add("confirm", "confirmation")
     by_metric = "partition" if law.correction.metric == "independent" else accept_kind(law.correction)

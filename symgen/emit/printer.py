@@ -285,7 +285,9 @@ def of_model(equations: Equations, jacobian: Sequence[JacobianEntry]) -> Names:
     names |= {("status", i): name for i, name in enumerate(STATUS)}
     names |= {("jacobian", e.slot): f"D {rows[e.row]}, {speeds[e.column]}" for e in jacobian if e.slot is not None}
     state = [q.name for q in (*equations.coordinates, *equations.velocities)]
-    return names | {("ydot", i): f"rate of {name}" for i, name in enumerate((*state, "work"))}
+    return names | {
+        ("ydot", i): f"rate of {name}" for i, name in enumerate((*state, "work", *(x.name for x in equations.states)))
+    }
 
 
 def of_observed(equations: Equations) -> Names:

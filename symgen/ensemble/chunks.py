@@ -7,7 +7,7 @@ fail.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +21,7 @@ from symgen.vocabulary.expressions import Expr
 
 if TYPE_CHECKING:
     from symgen.runtime.stops import Stop
+    from symgen.vocabulary.infos import LawInfo
 
 Array = NDArray[np.float64]
 
@@ -37,18 +38,34 @@ class Rows:
         Described coordinates, not closed; given velocities, nan where they are to be completed.
     targets : Array, shape (k, h)
         Values of what the runs hold: coordinates, then joint coordinates, then rates of these.
+    states : Array, shape (k, number of states)
+        Values of the states of the file's own.
     stops : tuple of tuple of Stop
         Of each run, or of all of them, where an input jumps; none where nothing does.
+    method : mapping of str to Array, shape (k,)
+        Values of the method's parameters that vary, by their own names.
     """
 
     parameters: Array
     q: Array
     v: Array
     targets: Array
+    states: Array
     stops: tuple[tuple[Stop, ...], ...] = ()
+    method: Mapping[str, Array] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.parameters)
+
+    def put_method(self, law: LawInfo, p: Array) -> None:
+        """Write the method's parameters into ``p`` of these runs, as the code of a law has them."""
+        places = {name: law.parameter_offset + i for i, (name, _) in enumerate(law.parameters)}
+        for name, values in self.method.items():
+            p[: len(self), places[name]] = values
+
+    def method_of(self, r: int) -> dict[str, float]:
+        """Return the method's parameters of a run that vary."""
+        return {name: float(values[r]) for name, values in self.method.items()}
 
     def stops_of(self, r: int) -> tuple[Stop, ...]:
         """Return the stops of a run."""
@@ -101,7 +118,10 @@ def make_rows(
     targets = np.zeros((k, len(held)))
     for i, name in enumerate(held):
         targets[:, i] = chosen[name]
-    return Rows(parameters, q, v, targets)
+    states = np.empty((k, len(mechanism.states)))
+    for i, x in enumerate(mechanism.states):
+        states[:, i] = chosen[x.name] if x.name in chosen else numbers.value(x.start)
+    return Rows(parameters, q, v, targets, states)
 
 
 @dataclass(frozen=True)

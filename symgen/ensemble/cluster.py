@@ -15,6 +15,7 @@ from symgen.ensemble.chunks import Chunk, Rows
 from symgen.ensemble.kernel import kernel_of, new_control
 from symgen.ensemble.recipe import Recipe, code_identity
 from symgen.errors import InputError, SimulationError
+from symgen.plugins import load_plugins
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -38,7 +39,7 @@ def connect(address: str) -> Client:
     """
     from symgen.files import need
 
-    need("--scheduler", "distributed", extra="dask")
+    need("scheduler", "distributed", extra="dask")
     from distributed import Client
 
     try:
@@ -46,7 +47,7 @@ def connect(address: str) -> Client:
     except (OSError, ValueError, TimeoutError) as error:
         why = str(error).splitlines()[0] if str(error) else "nothing there"
         raise InputError(
-            "--scheduler", "the address of a running Dask scheduler, such as tcp://host:8786", f"'{address}' ({why})"
+            "scheduler", "the address of a running Dask scheduler, such as tcp://host:8786", f"'{address}' ({why})"
         ) from None
 
 
@@ -63,6 +64,7 @@ def run_chunk(recipe: Recipe, rows: Rows) -> Chunk:
     SimulationError
         If the worker has another version of symgen.
     """
+    load_plugins(recipe.plugins)
     if recipe.code != code_identity():
         raise SimulationError("a worker of the cluster has another version of symgen")
     kernel = kernel_of(recipe)

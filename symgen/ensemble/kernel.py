@@ -79,9 +79,9 @@ class RowKernel:
                 return
             info, held = self.first.compiled.info, self.recipe.held
             targets = sum(map(len, (held.coordinates, held.joints, held.rates)))
-            sizes = len(info.parameters), info.nq, info.nv, targets
-            parameters, q, v, values = (np.zeros((0, size)) for size in sizes)
-            self.run(Rows(parameters, q, v, values), new_control())
+            sizes = len(info.parameters), info.nq, info.nv, targets, len(info.states)
+            parameters, q, v, values, states = (np.zeros((0, size)) for size in sizes)
+            self.run(Rows(parameters, q, v, values, states), new_control())
             if isinstance(self.first.runs, DeviceRuns):
                 self.first.runs.compile()
             self._warm = True
@@ -116,6 +116,8 @@ class RowKernel:
             np.zeros((room, info.ny)), np.tile(model.p, (room, 1)), np.empty((room, max(1, model.compiled.law.nw)))
         )
         now.p[:k, : len(info.parameters)], now.y[:k, : info.nq] = rows.parameters, rows.q
+        now.y[:k, info.own_states] = rows.states
+        rows.put_method(model.compiled.law, now.p)
         return now
 
     def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:

@@ -17,10 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.side import compile_side
-from symgen.describe.columns import PREFIX
 from symgen.describe.readings import TABLES
-from symgen.ensemble.row_quantities import RowQuantity
 from symgen.result.reactions import Acting, Seat
+from symgen.result.signals import Signal
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.vocabulary.expressions import readings
@@ -36,28 +35,9 @@ Integers = NDArray[np.int64]
 
 #: What the function is called in its module.
 NAME, PURPOSE = "measured", "what is kept of the runs of sweeps"
-#: Tables of reactions: their sources.
-_REACTIONS = {"reactions": e.REACTION, "body_reactions": e.BODY_REACTION, "magnitudes": e.MAGNITUDE}
 
 
-def measurable(mechanism: Mechanism, info: ModelInfo) -> dict[str, tuple[RowQuantity, ...]]:
-    """Return the quantities of each table that no loop leaves; `RowQuantity.column` is their place there."""
-    quantities: dict[str, tuple[RowQuantity, ...]] = {
-        table: tuple(RowQuantity(PREFIX[table] + c.name, c.unit, e.SIDE, i) for i, c in enumerate(columns(mechanism)))
-        for table, columns in TABLES.items()
-    }
-    seats = {name: Seat(body, np.zeros((0, 3))) for name, body in _bodies(mechanism).items()}
-    acting = Acting(info, seats, np.zeros((0, info.ny)))  # of no states: for the names alone
-    entries = np.zeros((0, info.sections["jacobian"][1]))
-    for table, labelled in _tables(acting, entries, np.zeros((0, info.m))).items():
-        named = zip(labelled.names, labelled.units, strict=True)
-        quantities[table] = tuple(
-            RowQuantity(PREFIX[table] + n, unit, _REACTIONS[table], i) for i, (n, unit) in enumerate(named)
-        )
-    return quantities
-
-
-def integrated(mechanism: Mechanism, chosen: Sequence[RowQuantity]) -> str | None:
+def integrated(mechanism: Mechanism, chosen: Sequence[Signal]) -> str | None:
     """Return the first of some quantities that reads an integral, None where none does."""
     names = {q.name for q in chosen if q.source == e.SIDE}
     for output in mechanism.outputs:
@@ -66,13 +46,11 @@ def integrated(mechanism: Mechanism, chosen: Sequence[RowQuantity]) -> str | Non
     return None
 
 
-def _bodies(mechanism: Mechanism) -> dict[str, str]:
-    return {joint.name: joint.bodies[0] for joint in mechanism.joints}
-
-
-def _tables(acting: Acting, entries: Array, multipliers: Array) -> dict[str, Any]:
+def _tables(acting: Acting, entries: Array, multipliers: Array) -> dict[int, Array]:
+    """Return the tables of reactions by source."""
     table = acting.reactions(entries, multipliers)
-    return {"reactions": table, "body_reactions": acting.in_body_axes(table), "magnitudes": acting.magnitudes(table)}
+    further = {e.BODY_REACTION: acting.in_body_axes(table), e.MAGNITUDE: acting.magnitudes(table)}
+    return {source: labelled.values for source, labelled in ({e.REACTION: table} | further).items()}
 
 
 def stored(folder: str, modules: Mapping[str, tuple[str, Mapping[str, Any]]]) -> Path:
@@ -115,7 +93,7 @@ class Measures:
         Of the side module.
     length : int
         Numbers that its function writes.
-    reads : tuple of RowQuantity
+    reads : tuple of Signal
         What loops leave for it.
     places : tuple of int
         Where each of these goes, see `symgen.runtime.observe.Left`.
@@ -128,7 +106,7 @@ class Measures:
     source: str
     metadata: Mapping[str, Any]
     length: int
-    reads: tuple[RowQuantity, ...]
+    reads: tuple[Signal, ...]
     places: tuple[int, ...]
     joints: Mapping[str, Place]
 
@@ -152,7 +130,7 @@ class Measures:
     def work_out(
         self,
         compiled: CompiledModel,
-        quantities: Sequence[RowQuantity],
+        quantities: Sequence[Signal],
         times: Array,
         selected: Integers,
         columns: Array,
@@ -165,7 +143,7 @@ class Measures:
         ----------
         compiled : CompiledModel
             What was run.
-        quantities : sequence of RowQuantity
+        quantities : sequence of Signal
             Those that no loop leaves.
         times : Array
             Output times [s].
@@ -216,11 +194,10 @@ class Measures:
             point = formulas[:, list(place.point)] if place.point else np.zeros((len(states), 3))
             centre = formulas[:, list(place.centre)] if place.centre else 0.0
             seats[name] = Seat(place.body, point - centre)
-        tables = _tables(Acting(info, seats, states), flat(entries), flat(np.swapaxes(columns[:, multipliers], 1, 2)))
-        return {_REACTIONS[name]: table.values for name, table in tables.items()}
+        return _tables(Acting(info, seats, states), flat(entries), flat(np.swapaxes(columns[:, multipliers], 1, 2)))
 
 
-def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequence[RowQuantity]) -> Measures | None:
+def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequence[Signal]) -> Measures | None:
     """Return how the quantities that no loop leaves are worked out beside a compiled model, None where there are none.
 
     Parameters
@@ -229,7 +206,7 @@ def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequenc
         What is run.
     compiled : CompiledModel
         Its code for a processor.
-    chosen : sequence of RowQuantity
+    chosen : sequence of Signal
         All that is kept.
 
     Raises
@@ -240,19 +217,19 @@ def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequenc
     if all(q.source < e.SIDE for q in chosen):
         return None
     info = compiled.info
-    definitions = {PREFIX[table] + c.name: c.formula for table, columns in TABLES.items() for c in columns(mechanism)}
+    definitions = {c.name: c.formula for columns in TABLES.values() for c in columns(mechanism)}
     formulas = [(q.name, definitions[q.name]) for q in chosen if q.source == e.SIDE]
     joints = _places(mechanism, formulas) if any(q.source > e.SIDE for q in chosen) else {}
     side = compile_side(mechanism, compiled, NAME, PURPOSE, formulas)
-    reads = [(RowQuantity(f"y{i}", "", e.STATE, i), e.OF_Y, i) for i in range(info.ny)]
+    reads = [(Signal("", f"y{i}", "", e.STATE, i), e.OF_Y, i) for i in range(info.ny)]
     if "ydot" in side.reads:
-        reads += [(RowQuantity(f"v'{i}", "", e.ACCELERATION, i), e.OF_RATES, info.nq + i) for i in range(info.nv)]
+        reads += [(Signal("", f"v'{i}", "", e.ACCELERATION, i), e.OF_RATES, info.nq + i) for i in range(info.nv)]
     if "multipliers" in side.reads or joints:
         at, _ = info.sections["multipliers"]
-        reads += [(RowQuantity(f"lambda{i}", "", e.MULTIPLIER, i), e.OF_W, at + i) for i in range(info.m)]
+        reads += [(Signal("", f"lambda{i}", "", e.MULTIPLIER, i), e.OF_W, at + i) for i in range(info.m)]
     if "winding" in side.reads:
         n, at = abi.N_STATUS, abi.WINDING
-        reads += [(RowQuantity(f"angle{i}", "", e.STATUS, n + i), e.OF_W, at + i) for i in range(info.windings)]
+        reads += [(Signal("", f"angle{i}", "", e.STATUS, n + i), e.OF_W, at + i) for i in range(info.windings)]
     return Measures(
         folder=side.path.parent.name,
         stem=side.path.stem,
@@ -274,7 +251,8 @@ def _places(mechanism: Mechanism, formulas: list[tuple[str, Expr]]) -> dict[str,
         formulas.extend((f"{label} {axis}", x) for axis, x in zip("xyz", expressions, strict=False))
         return tuple(range(first, len(formulas)))
 
-    for name, body in _bodies(mechanism).items():
+    for joint in mechanism.joints:
+        name, body = joint.name, joint.bodies[0]
         point: tuple[int, ...] = ()
         centre: tuple[int, ...] = ()
         if name in markers:

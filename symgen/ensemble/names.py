@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import ModelInfo
     from symgen.vocabulary.expressions import Expr
 
+#: What names of the method's parameters begin with.
+METHOD = "method."
 _EULER = ("e0", "e1", "e2", "e3")
 
 
@@ -33,6 +35,10 @@ class Names:
         Of bodies, in the order of q and v.
     joints : mapping of str to str
         Names of joint coordinates and rates, each with the one name of what it is.
+    states : tuple of str
+        Of the file's own.
+    options : tuple of str
+        Parameters of the method: ``method.alpha``.
     """
 
     model: str
@@ -40,6 +46,8 @@ class Names:
     coordinates: tuple[str, ...]
     velocities: tuple[str, ...]
     joints: Mapping[str, str]
+    states: tuple[str, ...] = ()
+    options: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, mechanism: Mechanism) -> Names:
@@ -48,12 +56,13 @@ class Names:
         coordinates = tuple(f"{body.name}.{name}" for body in bodies for name in body.coordinates)
         velocities = tuple(f"{body.name}.{name}" for body in bodies for name in body.speeds)
         parameters = tuple(p.name for p in mechanism.parameters)
-        return cls(mechanism.name, parameters, coordinates, velocities, joint_names(mechanism))
+        states = tuple(x.name for x in mechanism.states)
+        return cls(mechanism.name, parameters, coordinates, velocities, joint_names(mechanism), states)
 
     @property
     def starts(self) -> tuple[str, ...]:
         """All names of the start."""
-        return (*self.coordinates, *self.velocities, *self.joints)
+        return (*self.coordinates, *self.velocities, *self.joints, *self.states)
 
     def one(self, name: str) -> str:
         """Return the one name of what a name of the start means."""
@@ -75,12 +84,15 @@ class Names:
         InputError
             If a name is none, means what another one does, or is given otherwise.
         """
-        names, written, taken = (*self.parameters, *self.starts), dict[str, str](), set(map(self.one, taken_names))
+        names = (*self.parameters, *self.starts, *self.options)
+        written, taken = dict[str, str](), set(map(self.one, taken_names))
         for name in varied:
             where = f"vary '{name}'"
             if name not in names:
                 expected = f"a parameter, or an initial coordinate or velocity of {self.model}"
-                raise InputError(where, expected, "none of that name", nearest(name, names))
+                if name.startswith(METHOD):
+                    names, expected = self.options, "a parameter of the method, which is a number"
+                raise InputError(where, expected, "none of that name", nearest(name, names) or "it has none")
             if name in self.coordinates and name.rpartition(".")[2] in _EULER:
                 raise InputError(
                     where,
@@ -156,7 +168,7 @@ def targets_of(names: Names, varied: Sequence[str], holds: Sequence[Hold], info:
 
 def _columns(name: str, info: ModelInfo) -> tuple[int, ...]:
     """Return the velocities that change a coordinate, or the orientation of a body in space."""
-    body, _, what = name.partition(".")
+    body, _, what = name.rpartition(".")
     if what == ORIENTATION:
         at = next(at for first, at in info.spins if info.coordinates[first].name == f"{body}.e0")
         return at, at + 1, at + 2

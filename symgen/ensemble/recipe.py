@@ -22,8 +22,9 @@ from symgen.describe.events import in_words
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.sides import SidedJoint
 from symgen.ensemble.measures import Measures, stored
-from symgen.ensemble.row_quantities import RowQuantity
 from symgen.ir.numerics import WARN
+from symgen.plugins import stamps
+from symgen.result.signals import Signal
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.ensemble_abi import SIDE
@@ -164,7 +165,7 @@ class Recipe:
         Steps, tolerances, limits and output times.
     method_parameters : mapping
         Values of the method's parameters that differ from the defaults.
-    quantities : tuple of RowQuantity
+    quantities : tuple of Signal
         What is kept.
     tree : Mechanism or None
         The mechanism with its tree, where runs are in joint coordinates.
@@ -182,6 +183,8 @@ class Recipe:
         From `code_identity`: what computes it.
     target : {"cpu", "lanes", "cuda"}
         What runs it.
+    plugins : tuple of str
+        Files that workers load before.
     """
 
     first: Code
@@ -189,7 +192,7 @@ class Recipe:
     integrator: str
     spec: RunSpec
     method_parameters: Mapping[str, float]
-    quantities: tuple[RowQuantity, ...]
+    quantities: tuple[Signal, ...]
     held: Held
     strict: bool
     code: str
@@ -198,6 +201,7 @@ class Recipe:
     watch: Watch | None = None
     sides: tuple[SidedJoint, ...] = ()
     stops: bool = False
+    plugins: tuple[str, ...] = ()
 
     @property
     def times(self) -> Array:
@@ -225,14 +229,14 @@ class Recipe:
         return 0 if self.watch is None else self.watch.width
 
     @property
-    def columns(self) -> tuple[RowQuantity, ...]:
+    def columns(self) -> tuple[Signal, ...]:
         """What loops leave of a run: the quantities, or those of them that loops know and then what others need."""
         if self.measures is None:
             return self.quantities
         return (*(q for q in self.quantities if q.source < SIDE), *self.measures.reads)
 
     @property
-    def behind(self) -> tuple[RowQuantity, ...]:
+    def behind(self) -> tuple[Signal, ...]:
         """The quantities that are worked out behind the loops."""
         return tuple(q for q in self.quantities if q.source >= SIDE)
 
@@ -269,4 +273,4 @@ class Recipe:
 
 def code_identity() -> str:
     """Return a digest of all that computes runs: the version, and the sources of loops, schemes and ensembles."""
-    return digest(__version__, sources_digest(*SOURCES["rows"]))
+    return digest(__version__, sources_digest(*SOURCES["rows"]), *stamps())

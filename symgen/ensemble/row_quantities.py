@@ -6,108 +6,45 @@ Names are those of results and data frames. What a mechanism names gives way to 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from symgen.describe.columns import PREFIX
-from symgen.describe.mechanism import ACCELERATIONS
-from symgen.errors import InputError, nearest
-from symgen.result.reactions import multiplier_unit
+from symgen.result.signals import TABLES, UNSWEPT, Signal, choose, of_run
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 
 if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.axes import Axis
     from symgen.runtime.compiled import ModelInfo
 
 
-@dataclass(frozen=True)
-class RowQuantity:
-    """A named scalar over time: its unit, and the column of the outputs that it is."""
-
-    name: str
-    unit: str
-    source: int
-    column: int
+#: How near an output is to a singular position: of the table of quantities, what results have as an attribute.
+PIVOT = Signal("smallest_pivot", "smallest_pivot", "1", e.STATUS, abi.PIVOT)
 
 
-def own_quantities(info: ModelInfo) -> tuple[RowQuantity, ...]:
-    """Return all quantities that runs of a model can keep, those of bodies first."""
-    quantities = [RowQuantity(q.name, q.unit, e.STATE, i) for i, q in enumerate(info.coordinates)]
-    quantities += [RowQuantity(v.name, v.unit, e.STATE, info.nq + i) for i, v in enumerate(info.velocities)]
-    for i, v in enumerate(info.velocities):
-        body, _, component = v.name.rpartition(".")
-        quantities.append(RowQuantity(f"{body}.{ACCELERATIONS[component]}", f"{v.unit}^2", e.ACCELERATION, i))
-    for i, c in enumerate(info.joint_coordinates):
-        name = PREFIX["joint_coordinates"] + c.name
-        quantities.append(RowQuantity(name, c.unit, e.JOINT, 2 * i))
-        quantities.append(RowQuantity(f"{name}.rate", f"{c.unit}/s", e.JOINT, 2 * i + 1))
-    for i, row in enumerate(info.rows):
-        quantities.append(RowQuantity(PREFIX["lam"] + row.name, multiplier_unit(row.unit), e.MULTIPLIER, i))
-    quantities += [
-        RowQuantity("energy.kinetic", "J", e.STATUS, abi.KINETIC),
-        RowQuantity("energy.potential", "J", e.STATUS, abi.POTENTIAL),
-        RowQuantity("energy.work", "J", e.STATE, info.work),
-        RowQuantity("energy.total", "J", e.ENERGY, 0),
-        RowQuantity("energy.error", "J", e.ENERGY_ERROR, 0),
-        RowQuantity("violation.position", "m", e.STATUS, abi.PHI),
-        RowQuantity("violation.velocity", "m/s", e.STATUS, abi.DRIFT),
-        RowQuantity("smallest_pivot", "1", e.STATUS, abi.PIVOT),
-    ]
-    return tuple(quantities)
-
-
-def choose_quantities(
-    info: ModelInfo, names: Sequence[str] | None, measurable: Callable[[], Mapping[str, Sequence[RowQuantity]]]
-) -> tuple[RowQuantity, ...]:
-    """Return the quantities called `names`; coordinates and velocities where None are named.
+def choose_quantities(mechanism: Mechanism, info: ModelInfo, names: Sequence[str] | None) -> tuple[Signal, ...]:
+    """Return the quantities called `names`, as `symgen.result.tables.Tables.select` takes them.
 
     Parameters
     ----------
+    mechanism : Mechanism
+        What is run.
     info : ModelInfo
-        The model.
+        Its model.
     names : sequence of str or None
-        ``crank.theta``; ``crank``, all coordinates and velocities of a body; ``q``, ``v``, ``energy``, ``violation``,
-        ``joint``, ``lam``, all of a table; and names, tables and what names begin with of `measurable`.
-    measurable : callable
-        Returns what no loop leaves, by table (`symgen.ensemble.measures.measurable`); not called unless a name needs
-        it.
+        None: coordinates and velocities.
 
     Raises
     ------
     InputError
         If there is none of a name; with the nearest one.
     """
-    quantities = {q.name: q for q in own_quantities(info)}
-    states = [q for q in quantities.values() if q.source == e.STATE and q.column < info.work]
-    groups: dict[str, list[RowQuantity]] = {
-        "q": [q for q in states if q.column < info.nq],
-        "v": [q for q in states if q.column >= info.nq],
-    }
-    for q in quantities.values():
-        table, dot, _ = q.name.partition(".")
-        if dot and (q in states or table in ("energy", "violation", "joint", "lam")):
-            groups.setdefault(table, []).append(q)
-    requested = ("q", "v") if names is None else names
-    if any(name not in quantities and name not in groups for name in requested):
-        own = set(groups)
-        for table, q in ((table, q) for table, further in measurable().items() for q in further):
-            quantities.setdefault(q.name, q)
-            parts = q.name.split(".")  # each name, its table, and all that names begin with, up to a dot
-            for head in sorted({table, *(".".join(parts[:i]) for i in range(1, len(parts)))} - own):
-                groups.setdefault(head, []).append(q)
-    chosen: dict[str, RowQuantity] = {}
-    for name in requested:
-        if name in quantities:
-            chosen[name] = quantities[name]
-        elif name in groups:
-            chosen.update({q.name: q for q in groups[name]})
-        else:
-            all_of_them = len(quantities) <= 60 or "." in name
-            hint = nearest(name, [*groups, *(other for other in quantities if all_of_them or "." not in other)])
-            raise InputError(f"quantity '{name}'", f"a quantity of {info.name}", "none of that name", hint)
-    return tuple(chosen.values())
+    signals = (*(s for table in of_run(mechanism, info).values() for s in table if s.source != UNSWEPT), PIVOT)
+    by_name = {s.name: s for s in signals}
+    tables = {name: s.table for name, s in by_name.items()}
+    chosen = choose(tables, ("q", "v") if names is None else names, info.name, (*TABLES,))
+    return tuple(by_name[name] for name in chosen)
 
 
 #: Numbers of every run that data sets hold: name -> (unit, whether it is a whole number).

@@ -110,7 +110,7 @@ class SingleRuns:
         for r in selected:
             if control[abi.STOP] != 0:
                 return False
-            began = self._begun(int(r), starts)
+            began = self._begun(int(r), rows, starts)
             if isinstance(began, TreeRun) and began.over >= 0:
                 out.summary[r, [e.START, e.START_WHERE]] = e.TURNED_OVER, began.over
                 continue
@@ -119,13 +119,14 @@ class SingleRuns:
             control[e.RUNS_DONE] += 1
         return True
 
-    def _begun(self, r: int, starts: Instant) -> Start | TreeRun:
+    def _begun(self, r: int, rows: Rows, starts: Instant) -> Start | TreeRun:
         y, p, w = (array[r].copy() for array in starts)
         start = Start(y, p, w, self.compiled.rank(w), self.compiled.redundant(w), ())
         if self.tree is None:
             return start
+        method = {**self.recipe.method_parameters, **rows.method_of(r)}
         return begin_on_tree(
-            *(self.watch.mechanism, *self.tree, start, self.recipe.method_parameters, self.watch.events),
+            *(self.watch.mechanism, *self.tree, start, method, self.watch.events),
             watched=lambda: self._of_bodies,
         )
 

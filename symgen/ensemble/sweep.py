@@ -11,7 +11,7 @@ from itertools import islice
 from os import PathLike
 from pathlib import Path
 from queue import SimpleQueue
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 from numpy.typing import ArrayLike
 
@@ -24,6 +24,7 @@ from symgen.ensemble.sweep_study import SAVED, Sweep
 from symgen.ensemble.table import FolderTable, RowTable, check_folder
 from symgen.errors import InputError
 from symgen.files import check_path
+from symgen.keywords import RunKeywords, takes
 from symgen.memory import processors, require, require_disk
 from symgen.runtime import abi
 from symgen.runtime.ensemble_abi import N_SUMMARY, RUNS_DONE
@@ -41,6 +42,7 @@ PARTS = ".parts"
 MOST_JOBS = 4096
 
 
+@takes
 def sweep(
     model: str | Path | Mechanism | Model,
     vary: Mapping[str, ArrayLike | str] | None = None,
@@ -54,7 +56,7 @@ def sweep(
     target: str = "cpu",
     settings: Settings | None = None,
     progress: Callable[[float, int], None] | None = None,
-    **changes: object,
+    **changes: Unpack[RunKeywords],
 ) -> Sweep:
     """Run a model for every combination of values, on all cores, on a CUDA device or on a Dask cluster.
 
@@ -66,7 +68,7 @@ def sweep(
         Name -> values: an array, or a text such as ``"lin(1, 3, 21)"``, ``"log(0.1, 10, 21)"``, ``"values(1, 2, 5)"``
         or ``"uniform(0, 1, 100, 7)"``. Names are parameters, and coordinates and velocities of bodies and joints at
         the start (``crank.theta``, ``crank.omega``, ``motor.angle``): a coordinate that varies is held while
-        the others are closed. Each name is a dimension of the grid.
+        the others are closed; and parameters of the method (``method.alpha``). Each name is a dimension of the grid.
     runs : mapping, optional
         The same for names that vary together, all with as many values: one dimension, ``run``.
     quantities : sequence of str, optional
@@ -91,7 +93,7 @@ def sweep(
     progress : callable, optional
         Called about ten times a second with the runs done and all.
     **changes
-        Single settings, as for `Model.simulate`. Without ``times`` or ``output_step``, only the end of each run is
+        Single settings by name, as listed above. Without ``times`` or ``output_step``, only the end of each run is
         kept. ``verify`` and ``repeat`` are for single runs.
 
     Returns
@@ -193,7 +195,7 @@ def folder_of(path: Path, resume: bool) -> Path:
     check_path("output", path, SAVED, "data")
     parts = path.with_name(path.name + PARTS)
     if resume and path.exists() and not parts.exists():
-        hint = "leave --resume out to compute it again"
+        hint = "leave `resume` out to compute it again"
         raise InputError(f"output '{path}'", "one that is not finished", "a finished one", hint)
     check_folder(parts, resume)
     return parts

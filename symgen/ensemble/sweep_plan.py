@@ -6,7 +6,7 @@ import hashlib
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from msgspec import structs
@@ -25,13 +25,14 @@ from symgen.ensemble.chunks import Rows, make_rows
 from symgen.ensemble.driving import Driving, read_by_motions
 from symgen.ensemble.kernel import kernel_of
 from symgen.ensemble.loop_runs import PLAIN
-from symgen.ensemble.measures import integrated, make_measures, measurable
-from symgen.ensemble.names import Names, Targets, targets_of
+from symgen.ensemble.measures import integrated, make_measures
+from symgen.ensemble.names import METHOD, Names, Targets, targets_of
 from symgen.ensemble.recipe import Code, Module, Recipe, Watch, code_identity
 from symgen.ensemble.row_quantities import choose_quantities
 from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import LANES
+from symgen.plugins import loaded_files
 from symgen.running.automatic import AUTO, CONSTANT, EXPLICIT
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import make_plan
@@ -45,7 +46,8 @@ if TYPE_CHECKING:
     from symgen.api import Model
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Event, Mechanism
-    from symgen.ensemble.row_quantities import RowQuantity
+    from symgen.methods._base import Method
+    from symgen.result.signals import Signal
     from symgen.runtime.compiled import CompiledModel
 
 #: A chunk should take about so many seconds, and its arrays no more than so many bytes.
@@ -145,7 +147,9 @@ class Ensemble:
         """Return the same without the stops of runs."""
         varied, targets, settled = self.grid.values(first, last), self.targets, self.plan.settings.parameters
         held = targets.names, targets.velocities, settled, targets.constant
-        return make_rows(self.model.mechanism, self.parameters, varied, *held)
+        rows = make_rows(self.model.mechanism, self.parameters, varied, *held)
+        options = {name.removeprefix(METHOD): x for name, x in varied.items() if name.startswith(METHOD)}
+        return replace(rows, method=options) if options else rows
 
     @cached_property
     def description(self) -> dict[str, Any]:
@@ -215,9 +219,11 @@ def make_ensemble(
         refuse_events(f"target '{target}'", model.mechanism, settings)
     plan = make_plan(model.mechanism, settings, Purpose.ROWS)
     mechanism, spec = plan.mechanism, plan.spec
-    names = Names.of(mechanism)
-    names.check((*vary, *runs), taken)
+    options = tuple(METHOD + parameter.name for parameter in plan.choice.method.parameters)
+    names = replace(Names.of(mechanism), options=options)
+    names.check((*vary, *runs), (*taken, *(METHOD + name for name in plan.method_parameters)))
     grid = make_grid(vary, runs, names.starts)
+    _check_method(plan.choice.method, grid)
     moving = read_by_motions(mechanism, grid.names)
     if not moving:  # before anything is derived; where it depends on what varies, rows fail one by one
         refuse_jumps(mechanism, plan.parameters, spec.until)
@@ -238,13 +244,16 @@ def make_ensemble(
         expected = "one with a loop over many runs" + f" on target '{target}'" * (target != "cpu")
         raise InputError(f"integrator '{name}'", expected, "one without", f"{others} have one")
     if target == "lanes" and spec.adaptive:  # runs side by side take the same steps
-        got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with --step, or rk4"
+        got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with `step`, or rk4"
         raise InputError("target 'lanes'", "a constant step", got, hint)
-    kept = choose_quantities(compiled.info, kept_names, partial(measurable, mechanism, compiled.info))
+    kept = choose_quantities(mechanism, compiled.info, kept_names)
+    if mechanism.states and target != "cpu":
+        names_of_states = ", ".join(x.name for x in mechanism.states)
+        raise InputError(f"target '{target}'", "cpu, where a file has states", names_of_states, "leave --target out")
     integral = integrated(mechanism, kept)
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
-        raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave --target out, or name others")
+        raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave `target` out, or name others")
     resets = any(event.action == RESET for event in events)
     late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in kept)
     # what Python does something between; and measures behind the loops know the inputs of one part
@@ -280,6 +289,7 @@ def make_ensemble(
         watch=watch,
         sides=tuple(side for side in sides_of(mechanism) if side.held),
         stops=driving.jumps,
+        plugins=loaded_files(),
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first
@@ -305,7 +315,7 @@ def _code(
     compiled: CompiledModel,
     target: str,
     joint: bool,
-    kept: Sequence[RowQuantity],
+    kept: Sequence[Signal],
 ) -> Code:
     """Return the code that runs use for one solver, with how quantities behind the loops are worked out."""
     return Code(
@@ -339,16 +349,25 @@ def _check_settings(settings: Settings, target: str) -> None:
     if settings.shape == "looped":
         raise InputError("shape", "straight code for an ensemble", "looped")
     if settings.coordinates == "joint" and target != "cpu":
-        raise InputError(f"target '{target}'", "absolute coordinates", "joint", "leave --target out")
+        raise InputError(f"target '{target}'", "absolute coordinates", "joint", "leave `target` out")
+
+
+def _check_method(method: Method, grid: Grid) -> None:
+    """Refuse values of the method's parameters that single runs refuse."""
+    values = {name: x for axis in grid.axes for name, x in axis.values.items()}
+    for parameter in method.parameters:
+        least = values[name].min() if (name := METHOD + parameter.name) in values else parameter.minimum
+        if least < parameter.minimum:
+            raise InputError(f"vary '{name}'", f"at least {parameter.minimum:g}", f"{least:g}")
 
 
 def _check_target(target: str, jumps: bool, passed: bool, events: bool) -> None:
     """Refuse what needs something to be done between two parts of a run, where nothing but loops can run."""
-    constant = "leave --target out, or take constant steps: integrator.adaptive=false with --step"
+    constant = "leave `target` out, or take constant steps: integrator.adaptive=false with `step`"
     for what, there, hint in (
-        ("inputs that jump", jumps, "leave --target out"),
+        ("inputs that jump", jumps, "leave `target` out"),
         ("jumps and kinks of formulas, at which adaptive steps end", passed, constant),
-        ("events", events, "leave --target out"),
+        ("events", events, "leave `target` out"),
     ):
         if there:
             raise InputError(f"target '{target}'", f"no {what}", "some", hint)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
 from os import PathLike
@@ -16,14 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.arguments import path as argument_path
-from symgen.arguments import shown, whole
+from symgen.arguments import shown, text, whole, words
 from symgen.ensemble.names import Names
 from symgen.ensemble.row_quantities import NUMBERS, event_columns, of_dimension, of_number, of_quantities, of_varied
 from symgen.ensemble.verdicts import NOT_RUN, column, judge_all, warnings_all
 from symgen.errors import InputError, nearest
 from symgen.files import check_path, headed, need, write_csv, write_whole
 from symgen.result.contract import finite
-from symgen.result.export import netcdf
+from symgen.result.export import PLOTTED, netcdf
 from symgen.result.labelled import html_table
 from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.runtime.ensemble_abi import ASSEMBLED
@@ -77,6 +77,10 @@ class Sweep:
 
     def _repr_html_(self) -> str:
         facts = [("mechanism", self.ensemble.model.name), ("runs", str(len(self)))]
+        for axis in self.ensemble.grid.axes:
+            facts += [(name, f"{len(x)} values from {x.min():g} to {x.max():g}") for name, x in axis.values.items()]
+        names = [q.name for q in self.ensemble.recipe.quantities]
+        facts.append(("quantities", ", ".join(names[:8]) + ", ..." * (len(names) > 8)))
         facts += [(status, str(count)) for status, count in self.counts.items() if count]
         return html_table((), [*facts, ("seconds", f"{self.seconds:.3g}")])
 
@@ -272,6 +276,31 @@ class Sweep:
         if file.suffix.lower() == ".csv":
             return write_csv(file, *lines_of(self))
         return write_whole(file, netcdf(self.to_xarray()))
+
+    def plot(self, path: str | PathLike[str], what: Sequence[str] = (), over: str = "") -> Path:
+        """Draw quantities that were kept into a PNG, SVG or PDF file, a panel for each.
+
+        Parameters
+        ----------
+        path : path
+            The file; its ending says the kind.
+        what : sequence of str, optional
+            Quantities, or all of a body, a joint or a table; all by default.
+        over : str
+            ``t`` or a quantity, every run being a line; or something that varies, which the last outputs are drawn
+            over. By default ``t``, and what varies first where only the ends were kept.
+
+        Raises
+        ------
+        InputError
+            If a name is none, the ending is not known, matplotlib is missing, or the file cannot be written.
+        """
+        from symgen.ensemble.sweep_plot import sweep_figure
+        from symgen.result.plots import write_figure
+
+        file = argument_path("plot", path)
+        check_path("plot", file, PLOTTED, "plot")
+        return write_figure(sweep_figure(self, words("plot", what), text("over", over)), file)
 
     def units(self) -> dict[str, str]:
         """Return the units of what varies, by name; empty where there is none."""

@@ -311,7 +311,7 @@ def check_folder(folder: Path, resume: bool) -> bool:
     if form != FORM:
         raise InputError(where, f"a sweep of form {FORM}", f"one of form {form}")
     if not resume:
-        raise InputError(where, "one in which no sweep was begun", "one with a sweep", "--resume continues it")
+        raise InputError(where, "one in which no sweep was begun", "one with a sweep", "`resume` continues it")
     return True
 
 

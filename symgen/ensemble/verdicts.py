@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 #: Status of a run that has not been done.
 NOT_RUN = "not run"
 #: What is said of velocities that could not be what they were given as.
-_PROJECTED = "given velocities contradicted the constraints and were projected; --strict lets such runs fail"
+_PROJECTED = "given velocities contradicted the constraints and were projected; `strict` lets such runs fail"
 
 
 def column(summary: Array, name: str) -> Array:
@@ -66,7 +66,7 @@ def judge_all(
     status[~done] = NOT_RUN
     passed = (column(summary, "rank_event_count") > 0.0) | (column(summary, "smallest_pivot") < WARN)
     doubtful = (column(summary, "start") != e.ASSEMBLED) | (column(summary, "code") != abi.DONE)
-    doubtful |= passed if not law.position_correction else _jumped(summary)
+    doubtful |= passed if not law.position_correction else law.energy_correction | _jumped(summary)
     for i in np.flatnonzero(done & doubtful):
         row = summary[i]
         if column(row, "start") != e.ASSEMBLED:
@@ -75,7 +75,7 @@ def judge_all(
         if (why := _of_events(row, events)) is not None:
             status[i], reason[i] = FAILED, why
             continue
-        verdict = judge_alone(_ended(row, spec), law.position_correction)
+        verdict = judge_alone(_ended(row, spec), law)
         status[i], reason[i] = verdict.status, verdict.reason or ""
     return status, reason
 
@@ -93,7 +93,7 @@ def warnings_all(summary: Array, done: NDArray[np.bool_], law: LawInfo, spec: Ru
     ready, projected = done & (column(summary, "start") == e.ASSEMBLED), column(summary, "start_velocities") == 1.0
     warnings: dict[int, tuple[str, ...]] = {int(i): (_PROJECTED,) for i in np.flatnonzero(ready & projected)}
     for i in np.flatnonzero(ready & odd).tolist():
-        warnings[i] = (*warnings.get(i, ()), *judge_alone(_ended(summary[i], spec), law.position_correction).warnings)
+        warnings[i] = (*warnings.get(i, ()), *judge_alone(_ended(summary[i], spec), law).warnings)
     return warnings
 
 

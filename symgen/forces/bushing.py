@@ -2,99 +2,144 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import msgspec
 
-from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair, SixBySix, words_of
+from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair, Scalar, SquareMatrix, words_of
 from symgen.describe.mechanism import Force
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
 from symgen.forces._parts import damper, spring
-from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, number, total
-from symgen.vocabulary.measures import Component, Dot, Effort, Measure, Sum
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, Reading, call, number, total
+from symgen.vocabulary.measures import (
+    GROUND,
+    Angle,
+    Component,
+    Direction,
+    Dot,
+    Effort,
+    FormulaMeasure,
+    Measure,
+    Sum,
+    axes,
+)
 
-_LABELS = ("x", "y", "z", "turn_x", "turn_y", "turn_z")
+_LABELS = {False: ("x", "y", "turn_z"), True: ("x", "y", "z", "turn_x", "turn_y", "turn_z")}
+#: Numbers in words.
+_COUNTS = {3: "three", 6: "six"}
 _Matrix = tuple[tuple[Expr, ...], ...]
 
 
 class Bushing(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """An elastic joint: six linear springs and dampers, coupled or not, between a frame of either body; in space only.
+    """An elastic joint: linear springs and dampers, coupled or not, between a frame of either body.
+
+    There are six in space and three in the plane.
 
     Parameters
     ----------
     between : pair of body names
-        The two bodies.
+        The two bodies; point masses may be among them where nothing works on rotations.
     at : pair of points
         The origins of the two frames.
+    frame : str
+        Axes of the translations: ``"body"``, those of the first body's frame, by default, or ``"ground"``.
     axis, reference : direction, or pairs of directions
-        z and x axis of the frames in the bodies' frames; the first body's own axes by default. They coincide where
-        the bushing is unloaded: as the bodies start, or for each body as given.
-    stiffness : list of 6 or six rows
+        In space: z and x axis of the frames in the bodies' frames; the first body's own axes by default. They coincide
+        where the bushing is unloaded: as the bodies start, or for each body as given.
+    angle : scalar
+        In the plane: angle of the second body less that of the first where the bushing is unloaded [rad]; 0 by default.
+    stiffness : list of 6 or six rows, in the plane of 3 or three rows
         Diagonal or whole of a symmetric matrix: [N/m] for translations, [N m/rad] for rotations, [N/rad] between the
         two; 0 by default.
-    damping : list of 6 or six rows
+    damping : list of 6 or six rows, in the plane of 3 or three rows
         The same for the rates [N s/m], [N m s/rad], [N s/rad]; 0 by default.
 
     Notes
     -----
-    The six displacements u are those of the second frame's origin along the first frame's axes [m], and half the vector
-    of R - R^T of the rotation R of the second frame against the first: for small rotations the angles, generally the
-    axis times the sine [rad], so that rotations should stay well below 90 degrees. The potential is u^T K u / 2, and
+    In space the six displacements u are those of the second frame's origin along the first frame's axes, or the
+    ground's [m], and half the vector of R - R^T of the rotation R of the second frame against the first: for small
+    rotations the angles, generally the axis times the sine [rad], so that rotations should stay well below 90 degrees.
+    In the plane they are two displacements [m] and the angle [rad], turns counted. The potential is u^T K u / 2, and
     forces are its derivatives: conservative however large the displacements.
     """
 
-    SPACES: ClassVar[tuple[str, ...]] = ("spatial",)
+    SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
     between: BodyPair
     at: PointPair
+    frame: Literal["body", "ground"] = "body"
     axis: AxisPair | None = None
     reference: DirectionPair | None = None
-    stiffness: SixBySix | None = None
-    damping: SixBySix | None = None
+    angle: Scalar | None = None
+    stiffness: SquareMatrix | None = None
+    damping: SquareMatrix | None = None
 
     def build(self, scope: Scope) -> Force:
-        """Resolve to efforts along the six displacements and, where they are coupled, along sums of two.
+        """Resolve to efforts along the displacements and, where they are coupled, along sums of two.
 
         A product is a difference of squares, 2 u w = (u + w)^2 - u^2 - w^2, so that every effort has a potential of its
         own coordinate alone.
         """
-        a, b = scope.pair("between", self.between, turns=(True, True))
-        measures = self._displacements(scope, a, b)
-        k, c = (_matrix(scope, key, getattr(self, key)) for key in ("stiffness", "damping"))
+        size, labels = 6 if scope.spatial else 3, _LABELS[scope.spatial]
+        k, c = (_matrix(scope, key, getattr(self, key), size) for key in ("stiffness", "damping"))
+        turning = any(row[j] != ZERO for m in (k, c) for row in m for j in range(scope.dimension, size))
+        a, b = scope.pair("between", self.between, turns=(turning, turning))
+        measures = self._displacements(scope, (a, b), turning)
         efforts = []
-        for i in range(6):
-            own = [[m[i][i], *(call("neg", m[i][j]) for j in range(6) if j != i and m[i][j] != ZERO)] for m in (k, c)]
-            efforts += _effort(_LABELS[i], measures[i], total(*own[0]), total(*own[1]))
+        for i in range(len(measures)):
+            own = [
+                [m[i][i], *(call("neg", m[i][j]) for j in range(size) if j != i and m[i][j] != ZERO)] for m in (k, c)
+            ]
+            efforts += _effort(labels[i], measures[i], total(*own[0]), total(*own[1]))
             for j in range(i):
                 both = Sum(((ONE, measures[i]), (ONE, measures[j])))
-                efforts += _effort(f"{_LABELS[j]}_{_LABELS[i]}", both, k[i][j], c[i][j])
+                efforts += _effort(f"{labels[j]}_{labels[i]}", both, k[i][j], c[i][j])
         return Force(scope.name, scope.kind, (a, b), tuple(efforts))
 
-    def _displacements(self, scope: Scope, a: str, b: str) -> tuple[Measure, ...]:
-        ends = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
-        of_a, of_b = make_triads(scope, (a, b), self.axis or (0.0, 0.0, 1.0), self.reference, fixed=True)
-        u, v = ((t.first, t.second, t.axis) for t in (of_a, of_b))
-        half = number(0.5), number(-0.5)
-        turns = (
-            Sum(((half[0], Dot(u[(i + 2) % 3], v[(i + 1) % 3])), (half[1], Dot(u[(i + 1) % 3], v[(i + 2) % 3]))))
-            for i in range(3)
-        )
-        return (*(Component(*ends, direction) for direction in u), *turns)
+    def _displacements(self, scope: Scope, bodies: tuple[str, str], turning: bool) -> tuple[Measure, ...]:
+        """Return the displacements, those of rotations only where something works on them."""
+        ends = scope.marker("at", bodies[0], self.at[0]), scope.marker("at", bodies[1], self.at[1])
+        grounded = self.frame == "ground"
+        directions = axes(GROUND if grounded else bodies[0], scope.dimension)
+        turns: tuple[Measure, ...] = ()
+        if not scope.spatial:
+            scope.only(axis=self.axis, reference=self.reference)
+            turn, rest = Angle(*bodies), scope.constant("angle", self.angle or 0.0)
+            turns = (turn if rest == ZERO else FormulaMeasure(call("sub", Reading("angle", turn), rest)),)
+        else:
+            scope.only(angle=self.angle)
+            if turning or not grounded:
+                triads = make_triads(scope, bodies, self.axis or (0.0, 0.0, 1.0), self.reference, fixed=True)
+                u, v = ((t.first, t.second, t.axis) for t in triads)
+                directions, turns = directions if grounded else u, _sines(u, v)
+        return (*(Component(*ends, direction) for direction in directions), *(turns if turning else ()))
 
 
-def _matrix(scope: Scope, key: str, entries: tuple[float | str | tuple[float | str, ...], ...] | None) -> _Matrix:
-    """Return a symmetric matrix given as its diagonal or as six rows."""
+def _sines(u: tuple[Direction, ...], v: tuple[Direction, ...]) -> tuple[Measure, ...]:
+    """Return half the vector of R - R^T of the rotation of one frame against another."""
+    half = number(0.5), number(-0.5)
+    return tuple(
+        Sum(((half[0], Dot(u[(i + 2) % 3], v[(i + 1) % 3])), (half[1], Dot(u[(i + 1) % 3], v[(i + 2) % 3]))))
+        for i in range(3)
+    )
+
+
+def _matrix(
+    scope: Scope, key: str, entries: tuple[float | str | tuple[float | str, ...], ...] | None, size: int
+) -> _Matrix:
+    """Return a symmetric matrix given as its diagonal or by its rows."""
     if entries is None:
-        return ((ZERO,) * 6,) * 6
+        return ((ZERO,) * size,) * size
     rows = [e for e in entries if isinstance(e, tuple)]
     diagonal = [scope.constant(key, e) for e in entries if not isinstance(e, tuple)]
-    if len(diagonal) == 6 and not rows:
-        return tuple(tuple(diagonal[i] if i == j else ZERO for j in range(6)) for i in range(6))
-    if len(rows) != 6 or diagonal or any(len(row) != 6 for row in rows):
-        raise scope.error(key, "six numbers or six rows of six", words_of(entries))
+    if len(diagonal) == size and not rows:
+        return tuple(tuple(diagonal[i] if i == j else ZERO for j in range(size)) for i in range(size))
+    if len(rows) != size or diagonal or any(len(row) != size for row in rows):
+        count = _COUNTS[size]
+        raise scope.error(key, f"{count} numbers or {count} rows of {count}", words_of(entries))
     matrix = tuple(tuple(scope.constant(key, e) for e in row) for row in rows)
-    for i in range(6):
+    for i in range(size):
         for j in range(i):
             if matrix[i][j] != matrix[j][i]:
                 raise scope.error(key, "a symmetric matrix", f"different entries {i + 1}{j + 1} and {j + 1}{i + 1}")

@@ -9,8 +9,9 @@ import msgspec
 from symgen.describe.fields import BodyPair, PointPair, Potential, Scalar, StateFunction
 from symgen.describe.mechanism import Force
 from symgen.describe.scope import Scope
-from symgen.forces._parts import sprung
-from symgen.vocabulary.measures import Distance
+from symgen.forces._parts import spring, sprung
+from symgen.vocabulary.expressions import ZERO, Name, call
+from symgen.vocabulary.measures import Distance, Effort, HalfSquare
 
 
 class SpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -21,7 +22,7 @@ class SpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     between : pair of body names
         The two bodies.
     at : pair of points
-        The ends, a point of each body; singular where they meet.
+        The ends, a point of each body; singular where they meet, unless there is nothing but a spring of free length 0.
     stiffness, damping : scalar
         [N/m] and [N s/m]; 0 by default.
     free_length : scalar
@@ -51,8 +52,12 @@ class SpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     def build(self, scope: Scope) -> Force:
         """Resolve to an effort along the distance of the points."""
         a, b = scope.pair("between", self.between)
-        ends = Distance(scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1]))
-        effort = sprung(scope, self, "force", ends, "length", self.free_length)
+        ends = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
+        effort = sprung(scope, self, "force", Distance(*ends), "length", self.free_length)
+        stiffness = scope.constant("stiffness", self.stiffness)
+        if effort.magnitude == ZERO and effort.potential == spring(stiffness):
+            # k s^2 / 2 is k times half the square, which has derivatives where the ends meet
+            effort = Effort("force", HalfSquare(*ends), potential=call("mul", stiffness, Name("s")))
         return Force(scope.name, scope.kind, (a, b), (effort,))
 
 

@@ -132,6 +132,10 @@ class Equations(Counted):
         Where drivers prescribe coordinates of a tree, their power; no part of `power`.
     metric : tuple of MassBlock
         Where joints of a tree carry the bodies, the identity in the velocities of these, pulled back.
+    states : tuple of Quantity
+        States of the file's own.
+    state_rates : tuple of int
+        Nodes of their rates; as inputs of the graph states are ``z``, from 1 on.
     """
 
     name: str
@@ -156,6 +160,8 @@ class Equations(Counted):
     bodies: tuple[int, ...] = ()
     driving: DriverPower | None = None
     metric: tuple[MassBlock, ...] = ()
+    states: tuple[Quantity, ...] = ()
+    state_rates: tuple[int, ...] = ()
 
     def nodes(self, rows: Iterable[ConstraintRow] | None = None) -> dict[str, list[int]]:
         """Return the nodes that quantities are made of, by their names; of all rows, unless some are given."""

@@ -12,8 +12,9 @@ from symgen.describe.mechanism import Mechanism, SpatialBody
 from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import UNITS, quantities
 from symgen.errors import finite_numbers
-from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission
-from symgen.formulate.measures import ModelNodes, exertion
+from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, mass_blocks
+from symgen.formulate.flexure import exertions
+from symgen.formulate.measures import ModelNodes
 from symgen.formulate.of_time import time_function
 from symgen.formulate.tree import energies_on_tree
 from symgen.ir.program import of_table
@@ -51,7 +52,9 @@ def formulate(mechanism: Mechanism) -> Equations:
     else:
         kinetic, gravity_potential = energies_on_tree(model, forces)
         mass, forces, driving = model.tree.dynamics(forces)
+    mass, rotating = with_rotors(model, mass, forces)
     joint_coordinates = _joint_coordinates(model)
+    rates = tuple(model.expression(x.rate) for x in mechanism.states)
     coordinates, velocities = quantities(mechanism)
     read = {of_table(o.payload)[0] for o in model.graph.nodes if o.op == "table"}
     return Equations(
@@ -66,7 +69,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         rows=rows,
         forces=tuple(forces),
         power=power,
-        kinetic=kinetic,
+        kinetic=model.graph.add(kinetic, rotating),
         potential=model.graph.add(potential, gravity_potential),
         joint_coordinates=tuple(joint_coordinates),
         windings=tuple(model.windings),
@@ -80,6 +83,8 @@ def formulate(mechanism: Mechanism) -> Equations:
         bodies=_bodies(model),
         driving=driving,
         metric=() if model.tree is None else model.tree.metric(),
+        states=tuple(Quantity(x.name, x.unit) for x in mechanism.states),
+        state_rates=rates,
     )
 
 
@@ -130,7 +135,7 @@ def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
             measure = model.speed(row.speed)
             phi, nu, curvature = None, value, slope
         entries, bias, drift = model.pulled(measure.row, measure.bias)
-        gamma, nu = g.sub(curvature, bias), g.sub(nu, drift)
+        gamma, nu = g.sub(curvature, bias), g.sub(g.sub(nu, drift), measure.drift)
         ordered, size = tuple(sorted(entries.items())), _size(model, row, measure.row)
     return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, size, stiffness)
 
@@ -156,11 +161,10 @@ def _forces(model: ModelNodes) -> tuple[list[int], int, int]:
     forces, power, potential = [g.zero] * len(model.velocities), g.zero, g.zero
     for force in model.mechanism.forces:
         with finite_numbers(f"forces.{force.name}"):
-            for effort in force.efforts:
-                exerted = exertion(model, effort)
+            for exerted in exertions(model, force):
                 for i, entry in sorted(exerted.row.items()):
                     forces[i] = g.add(forces[i], g.mul(entry, exerted.total))
-                power = g.add(power, g.mul(exerted.magnitude, exerted.rate))
+                power = g.add(power, exerted.power)
                 potential = g.add(potential, exerted.energy)
     return forces, power, potential
 
@@ -193,6 +197,36 @@ def _inertia(model: ModelNodes, forces: list[int]) -> tuple[tuple[MassBlock, ...
                     forces[i] = g.add(forces[i], weight)
                     potential = g.sub(potential, g.mul(weight, g.input("q", first_q + offset)))
     return tuple(sorted(blocks, key=lambda block: block.columns)), kinetic, potential
+
+
+def with_rotors(model: ModelNodes, mass: tuple[MassBlock, ...], forces: list[int]) -> tuple[tuple[MassBlock, ...], int]:
+    """Return M with the rotors of joints, and their energy; adds to `forces` what their angles' rows change by.
+
+    A rotor of inertia J adds J r^T r to M and -J r^T b to f, where the angle has the rate r v and the second derivative
+    r v' + b.
+    """
+    g, energy = model.graph, model.graph.zero
+    if not model.mechanism.rotors:
+        return mass, energy
+    entries = {
+        (i, j): node
+        for block in mass
+        for i, line in zip(block.columns, block.entries, strict=True)
+        for j, node in zip(block.columns, line, strict=True)
+        if node != g.zero
+    }
+    for rotor in model.mechanism.rotors:
+        with finite_numbers(f"joints.{rotor.joint}"):
+            inertia, angle = model.expression(rotor.inertia), model.measure(rotor.angle)
+            rate = angle.rate(g, model.velocities)
+            row, bias, _ = model.pulled(angle.row, angle.bias)
+            energy = g.add(energy, g.mul(g.mul(g.constant(0.5), inertia), g.mul(rate, rate)))
+            for i, of_i in row.items():
+                momentum = g.mul(inertia, of_i)
+                forces[i] = g.sub(forces[i], g.mul(momentum, bias))
+                for j, of_j in row.items():
+                    entries[i, j] = g.add(entries.get((i, j), g.zero), g.mul(momentum, of_j))
+    return mass_blocks(entries, len(forces), g.zero), energy
 
 
 def _turning(model: ModelNodes, first: int, tensor: tuple[int, ...], blocks: list[MassBlock], forces: list[int]) -> int:

@@ -71,6 +71,10 @@ def _distance(f: Frames, k: Constants) -> Any:
     return sp.sqrt(_squared(f, k))
 
 
+def _half_square(f: Frames, k: Constants) -> Any:
+    return _squared(f, k) / 2
+
+
 def _link_stretch(f: Frames, k: Constants) -> Any:
     return (_squared(f, k) - k[2] ** 2) / (2 * k[2])
 
@@ -139,6 +143,7 @@ def _spatial(f: Frames) -> tuple[SpatialFrame, ...]:
 _MEASURES: dict[str, tuple[_Build, int, str, bool]] = {
     "component": (_component, 3, "vvv", False),
     "distance": (_distance, 2, "vv", False),
+    "half-square": (_half_square, 2, "vv", False),
     "link-stretch": (_link_stretch, 2, "vvs", False),
     "point-speed": (_point_speed, 2, "vv", True),
     "dot": (_direction_product, 2, "vv", False),
@@ -157,8 +162,8 @@ def derive(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
     Parameters
     ----------
     kind : str
-        ``component``, ``distance``, ``link-stretch``, ``point-speed``; in space also ``dot``, ``spin``, ``rim-height``,
-        ``sphere-speed``, ``disc-speed`` or ``blade-speed``.
+        ``component``, ``distance``, ``half-square``, ``link-stretch``, ``point-speed``; in space also ``dot``,
+        ``spin``, ``rim-height``, ``sphere-speed``, ``disc-speed`` or ``blade-speed``.
     frames : tuple of (slot, kind)
         For each frame argument of the measure, which of the kernel's frames it is and what that frame is.
     """

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from symgen.describe.formulas import Formulas
+from symgen.describe.mechanism import is_speed
 from symgen.formulate.euler_parameters import matrix_of, turning
 from symgen.formulate.frames import FRAME_SLOTS, SPATIAL_SLOTS
 from symgen.formulate.measure_kernels import derive
@@ -14,8 +15,9 @@ from symgen.formulate.of_time import potential_of
 from symgen.formulate.tree import Tree
 from symgen.formulate.tree_plane import PlanarTree
 from symgen.formulate.tree_space import SpatialTree
+from symgen.ir.derivative import jacobian
 from symgen.ir.graph import Graph
-from symgen.vocabulary.expressions import ZERO, Reading
+from symgen.vocabulary.expressions import ZERO, Name, Reading, moving, with_names
 from symgen.vocabulary.measures import (
     GROUND,
     Angle,
@@ -26,11 +28,13 @@ from symgen.vocabulary.measures import (
     Driven,
     Effort,
     Exerted,
+    Flexed,
+    FormulaMeasure,
+    FormulaSpeed,
     Integral,
     Marker,
     Measure,
     PointSpeed,
-    RollingSpeed,
     Speed,
     Spin,
     Sum,
@@ -41,11 +45,15 @@ from symgen.vocabulary.measures import (
 
 @dataclass(frozen=True)
 class DerivedMeasure:
-    """A measure in the model: value, row (velocity index -> node) and quadratic velocity term b of s'' = J v' + b."""
+    """A measure in the model: value, row (velocity index -> node) and quadratic velocity term b of s'' = J v' + b.
+
+    `drift` is what s' has beside J v where s is a formula of t: 0 in all graphs but for those.
+    """
 
     value: int
     row: Mapping[int, int]
     bias: int
+    drift: int = Graph.ZERO
 
     def rate(self, graph: Graph, velocities: tuple[int, ...]) -> int:
         """Return the node of s' = J v."""
@@ -131,6 +139,10 @@ class ModelNodes(Formulas):
 
     def reading(self, r: Reading) -> int:
         """Return the node of a measure's value, rate, or second derivative, which needs v'."""
+        if isinstance(r.source, Flexed):
+            from symgen.formulate.flexure import flexed
+
+            return flexed(self, r.source)
         assert not isinstance(r.source, Exerted | Driven | Integral), "what is exerted is read at outputs only"
         derived, g = self.motion(r.source), self.graph
         if r.order == 0:
@@ -185,6 +197,8 @@ class ModelNodes(Formulas):
         return DerivedMeasure(g.mul(factor, g.input("q", coordinate)), {self.size + velocity: factor}, g.zero)
 
     def _measure(self, m: Measure) -> DerivedMeasure:
+        if isinstance(m, FormulaMeasure):
+            return self._formula(m)
         if isinstance(m, Sum):
             return self._sum(m)
         if isinstance(m, Angle):
@@ -211,7 +225,7 @@ class ModelNodes(Formulas):
 
     def motion(self, m: Measure | Speed) -> DerivedMeasure:
         """Return a measure, or a velocity that is no rate of one, whose value is 0."""
-        if isinstance(m, PointSpeed | RollingSpeed | BladeSpeed):
+        if isinstance(m, Speed):
             derived = self.speed(m)
             return DerivedMeasure(self.graph.zero, derived.row, derived.bias)
         return self.measure(m)
@@ -229,6 +243,8 @@ class ModelNodes(Formulas):
 
     def speed(self, speed: Speed) -> DerivedMeasure:
         """Return the velocity measure of a nonholonomic row; `value` is the kernel's u = J v."""
+        if isinstance(speed, FormulaSpeed):
+            return self._formula(speed)
         if isinstance(speed, PointSpeed):
             constants = [*self.local(speed.at), *self.direction(speed.along)]
             return self._kernel("point-speed", (speed.at.body, speed.along.body), constants)
@@ -241,6 +257,53 @@ class ModelNodes(Formulas):
         if speed.axis is None:
             return self._kernel("sphere-speed", bodies, constants)
         return self._kernel("disc-speed", bodies, [*constants, *self.direction(speed.axis)])
+
+    def _formula(self, m: FormulaMeasure | FormulaSpeed) -> DerivedMeasure:
+        """Return a formula of what moves, x: s' = c x' + d with c = ds/dx, s'' = c x'' + (ds'/dx) x' + ds'/dt.
+
+        Of a velocity u = c x' + d the rate is u' = c x'' + (du/dx) x' + du/dt.
+        """
+        g, leaves = self.graph, moving(m.of)
+        derived = [self._leaf(leaf) for leaf in leaves]
+        orders = [int(leaf.order > 0 if isinstance(leaf, Reading) else is_speed(leaf.name)) for leaf in leaves]
+        keys = [(("rate" if order else "value"), i) for i, order in enumerate(orders)]
+        rates = [g.input("rate", i) for i in range(len(leaves))]
+        names = {leaf: f"leaf {i}" for i, leaf in enumerate(leaves)}
+        places = {names[leaf]: g.input(*key) for leaf, key in zip(leaves, keys, strict=True)}
+        value = self.expression(with_names(m.of, names), **places)
+
+        def along(node: int) -> int:
+            """Return the derivative along the motion, rates held."""
+            slopes = jacobian(g, [node], [key for key in keys if key[0] == "value"] + [("t", 0)])[0]
+            return g.total(
+                slope if key == ("t", 0) else g.mul(slope, rates[key[1]]) for key, slope in sorted(slopes.items())
+            )
+
+        speed = value if isinstance(m, FormulaSpeed) else along(value)
+        factors = jacobian(g, [speed], [("rate", i) for i in range(len(leaves))])[0]
+        drift = g.replaced([speed], {("rate", i): g.zero for i in range(len(leaves))})[0]
+        at: dict[tuple[str, int], int] = {}
+        for i, leaf in enumerate(derived):
+            at |= {("value", i): leaf.value, ("rate", i): leaf.rate(g, self.velocities)}
+        value, drift, bias = g.replaced([value, drift, along(speed)], at)
+        row = dict[int, int]()
+        for (_, i), factor in sorted(factors.items()):
+            (factor,) = g.replaced([factor], at)
+            bias = g.add(bias, g.mul(factor, derived[i].bias))
+            for j, entry in derived[i].row.items():
+                row[j] = g.add(row.get(j, g.zero), g.mul(factor, entry))
+        return DerivedMeasure(value, {j: n for j, n in sorted(row.items()) if n != g.zero}, bias, drift)
+
+    def _leaf(self, leaf: Name | Reading) -> DerivedMeasure:
+        """Return what moves in a formula: a coordinate of a body, whose row is that of its velocity, or a measure."""
+        if isinstance(leaf, Reading):
+            assert not isinstance(leaf.source, Exerted | Driven | Integral | Flexed), "rows read measures"
+            return self.motion(leaf.source)
+        body, _, label = leaf.name.partition(".")
+        known = self.mechanism.body(body)
+        labels = known.speeds if is_speed(leaf.name) else known.coordinates
+        value = self.names[leaf.name]
+        return DerivedMeasure(value, {self.first[body] + labels.index(label): self.graph.one}, self.graph.zero)
 
     def _turn(self, m: Turning) -> DerivedMeasure:
         """Return an angle in space, on the branch nearest to the angle that the section ``winding`` remembers.
@@ -311,8 +374,8 @@ class Exertion:
         s'.
     total : int
         -dU/ds + F.
-    magnitude : int
-        F, the part without potential.
+    power : int
+        F s', the power of the part without potential.
     energy : int
         U.
     """
@@ -320,7 +383,7 @@ class Exertion:
     row: Mapping[int, int]
     rate: int
     total: int
-    magnitude: int
+    power: int
     energy: int
 
 
@@ -333,4 +396,5 @@ def exertion(model: ModelNodes, effort: Effort) -> Exertion:
         (zero, zero) if effort.potential == ZERO else potential_of(model, effort.potential, measure.value)
     )
     magnitude = model.expression(effort.magnitude, s=measure.value, rate=rate)
-    return Exertion(measure.row, rate, model.graph.add(conservative, magnitude), magnitude, energy)
+    total, power = model.graph.add(conservative, magnitude), model.graph.mul(magnitude, rate)
+    return Exertion(measure.row, rate, total, power, energy)

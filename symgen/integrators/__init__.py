@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from symgen.registry import Registry
+from symgen.registry import Listing, Registry
 
 if TYPE_CHECKING:
     from symgen.runtime.integrator import Integrator
 
 INTEGRATORS: Registry[Integrator] = Registry("symgen.integrators", "integrator")
+
+
+def list_integrators() -> Listing:
+    """Return the names of all integrators, with a line about each."""
+    return INTEGRATORS.listing()

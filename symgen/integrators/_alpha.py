@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
+from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions, refuse_states
 from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
@@ -32,6 +32,10 @@ class AlphaFamily:
         What shapes the scheme.
     coefficients : callable
         Gives (alpha_m, alpha_f, gamma, beta) for values of the parameters.
+    estimates : bool
+        Whether it can choose its steps, which it does where that is asked for.
+    rtol : float
+        Its relative tolerance by default.
     """
 
     row_targets: ClassVar[tuple[str, ...]] = ()
@@ -43,6 +47,8 @@ class AlphaFamily:
     parameters: tuple[IntegratorParameter, ...]
     coefficients: Callable[[Mapping[str, float]], tuple[float, float, float, float]]
     adaptive: bool = False
+    estimates: bool = False
+    rtol: float = 1e-4
     real_boundary: float = np.inf
 
     @property
@@ -54,20 +60,21 @@ class AlphaFamily:
         """Return the loop of the family."""
         from symgen.runtime.schemes import alpha
 
-        return alpha.constant
+        return alpha.adaptive if adaptive else alpha.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
+        refuse_states(self, compiled)
         from symgen.runtime.newton import Pattern, alpha_plan
         from symgen.runtime.records import Alpha
         from symgen.runtime.schemes import alpha
 
         values = {q.name: spec.integrator_parameters.get(q.name, q.default) for q in self.parameters}
-        assert spec.step is not None, "a constant step is given"
+        step = spec.step if spec.step is not None else 1e-5 * spec.until
         plan, numbers, sources = alpha_plan(Pattern.of(compiled, w))
         slopes = np.zeros(sources)
         slopes[-1] = 1.0
         scheme = Alpha(*self.coefficients(values), slopes, numbers, plan)
         functions = law_functions(compiled, "turn", "residual", "tangent")
         memory, room = alpha.memory(padded(compiled.info.ny), compiled.info.nv, compiled.law.unknowns)
-        return Setup(alpha.constant, functions, scheme, spec.step, memory, room)
+        return Setup(self.loop(spec.adaptive), functions, scheme, step, memory, room)

@@ -84,6 +84,20 @@ class Tableau:
         return int(self.b.shape[0])
 
     @property
+    def zero(self) -> complex:
+        """The zero of the stability function R(z) nearest to the negative real axis, within reach of that axis.
+
+        One beyond the region of stability is alone there: what is damped next to it grows.
+        """
+        powers, terms = np.ones(self.stages), [1.0]
+        for _ in range(self.stages):
+            terms.append(float(self.b @ powers))
+            powers = self.a @ powers
+        roots = np.roots([x if abs(x) > 1e-14 else 0.0 for x in reversed(terms)])
+        near = roots[(roots.real < 0.0) & (roots.imag >= 0.0) & (np.abs(roots) <= self.real_boundary)]
+        return complex(min(near, key=lambda z: float(z.imag)))
+
+    @property
     def adaptive(self) -> bool:
         """Whether the scheme estimates its error."""
         return bool(self.errors)

@@ -29,4 +29,5 @@ KIND = AlphaFamily(
         ),
     ),
     coefficients=_coefficients,
+    estimates=True,
 )

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.integrators._implicit import ImplicitTableau
-from symgen.runtime.integrator import Array, Setup, law_functions
+from symgen.runtime.integrator import Array, Setup, law_functions, refuse_states
 from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ class Trapezoidal(ImplicitTableau):
         """Return the arguments of the loop."""
         if compiled.law.level != "projected":
             return super().setup(compiled, spec, w)
+        refuse_states(self, compiled)
         from symgen.runtime.newton import Pattern, constraint_forces, mass_diagonal, projection_plan
         from symgen.runtime.records import Projection
         from symgen.runtime.schemes import projected

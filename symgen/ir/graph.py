@@ -39,6 +39,9 @@ class Operation(NamedTuple):
 class Graph:
     """Operations on scalars, shared and simplified while they are built."""
 
+    #: Node of the number 0 in every graph.
+    ZERO = 0
+
     def __init__(self) -> None:
         self.nodes: list[Operation] = []
         self.depends: list[int] = []

@@ -21,6 +21,9 @@ NUMBERS: dict[str, float] = {
     "tighter": 1e-2,  # part of the tolerance of violations near a singular position
     "falling": 0.9,  # the same part for mass-orthogonal projections, which converge linearly
     "most_projections": 20,
+    # the free part of the kinetic energy, over what it was, beyond which velocities are not scaled to the balance
+    "least_energy": 0.25,
+    "most_energy": 4.0,
     # iterated laws
     "most_iterations": 30,
     "floor": 1e-6,  # a change of v', relative to v', below which an iteration may end because it stalls

@@ -96,6 +96,7 @@ COUNTERS = (
     "degrees",  # columns of a tangent basis
     "dense_solves",  # evaluations by a dense factorisation
     "dense_rank",  # smallest rank found by them
+    "balanced",  # 1 once the energy is known that velocities are scaled to
 )
 
 
@@ -183,11 +184,12 @@ class ModelLayout:
     m: int
     parameters: int
     sections: Mapping[str, tuple[int, int]]  # name -> (offset in w, size)
+    states: int = 0
 
     @property
     def ny(self) -> int:
-        """Length of the state: q, v and the work of forces without potential and of drivers."""
-        return self.nq + self.nv + 1
+        """Length of the state: q, v, the work of forces without potential and of drivers, and states of a file."""
+        return self.nq + self.nv + 1 + self.states
 
     @property
     def nw(self) -> int:
@@ -249,11 +251,18 @@ class Correction:
         Norm in which the correction is smallest; ``scaled`` is that in which rank is decided, where 1 rad weighs as
         much as the body's length; ``independent`` keeps the independent coordinates, ``augmented`` is the metric of M
         reached by iterations with M + a D^T D.
+    share : str
+        Parameter of the method that the correction is multiplied by; none by default.
+    energy : bool
+        Whether the velocities that the constraints leave free are then scaled to the balance of energy. The energy of
+        such a run is no measure of its error.
     """
 
     position: str = "none"
     velocity: bool = False
     metric: str = "identity"
+    share: str = ""
+    energy: bool = False
 
     @property
     def rounds(self) -> int:

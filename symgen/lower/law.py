@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+from symgen.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.derivative import jacobian
 from symgen.ir.program import Block, LawProgram, ModelLayout, ModelProgram, Target
@@ -39,7 +40,16 @@ def lower_law(
         Its structural options, complete.
     implicit : bool
         Whether the descriptor form for implicit integrators is added.
+
+    Raises
+    ------
+    InputError
+        If velocities shall be scaled to the energy where drivers prescribe coordinates of a tree.
     """
+    correction = method.correction(options)
+    if correction.energy and equations.driving is not None:  # T is not quadratic in v then
+        expected = f"coordinates in which no driver prescribes one of the state, for '{method.name}'"
+        raise InputError("--coordinates", expected, "those of joints that are driven", "--coordinates absolute")
     record, names = record_law(method, options, equations.driving is not None), [p.name for p in method.parameters]
     scalars = ScalarNodes(equations, record.operations, names)
     scalars.run(range(len(record.operations)))
@@ -55,11 +65,11 @@ def lower_law(
     if implicit:
         form = record_form(method, options, driven=equations.driving is not None)
         unknowns, level = equations.nq + equations.nv + equations.m * (2 if form.form == "stabilised" else 1), form.form
+        unknowns += len(equations.states)
         form_blocks, pattern = _form_blocks(hoister, scalars, form, unknowns)
         blocks += form_blocks
     blocks.insert(0, replace(hoister.prepare(), role="preparation"))
     layout = replace(model.layout, sections=_sections(model.layout, record, blocks, degrees))
-    correction = method.correction(options)
     info = LawInfo(
         method=method.name,
         key=method.stem(options, implicit),
@@ -69,6 +79,7 @@ def lower_law(
         hoisted=len(hoister.slots) - hoister.reserved,
         position_correction=correction.position != "none",
         velocity_correction=correction.velocity,
+        energy_correction=correction.energy,
         nw=layout.nw,
         unknowns=unknowns,
         level=level,
@@ -93,6 +104,9 @@ def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
     if scalars.mass_entries and "y" not in ARGUMENTS[part.name]:
         scalars = scalars.with_stored_mass
     outputs = [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
+    if any(place == "rates.work" for place, _ in part.outputs):
+        space, work = scalars.places["rates.work"]
+        outputs += [(Target(space, work + i), node) for i, node in enumerate(scalars.equations.state_rates, 1)]
     if part.name in _KEEPS_MASS:
         outputs += [(Target("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
     return outputs
@@ -121,7 +135,7 @@ def _sections(
     layout: ModelLayout, record: RecordedLaw, blocks: list[Block], degrees: int
 ) -> dict[str, tuple[int, int]]:
     """Return the sections of ``w``: those of the model, and the law's own behind them."""
-    sizes = {"nv": layout.nv, "m": layout.m, "degrees": degrees}
+    sizes = {"one": 1, "nv": layout.nv, "m": layout.m, "degrees": degrees}
     sections, offset = dict(layout.sections), layout.nw
     for name, factors in record.sections:
         size = 1
@@ -141,18 +155,22 @@ def _form_blocks(
 
     ``residual(t, y, k, p, w, r)`` writes F to r and the power of forces without potential and of drivers to the status;
     ``tangent(t, y, k, p, w, j)`` the structural nonzeros of dF/dk and dF/dy, equation by equation; from `unknowns` on,
-    unknowns are q and v.
+    unknowns are q and v. Rates of states are the last unknowns, and stand last among the derivatives by the state.
     """
     e, scalars = law.equations, law.following(form.operations)
     scalars.run(range(len(form.operations)))
     (part,) = form.parts
     groups = {place: scalars.values[index] for place, index in part.outputs}
     rows = [(group, node) for group in EQUATIONS if group in groups for node in groups[group]]
+    own = unknowns - len(e.states)
+    g = law.graph
+    rows[own:own] = [("states", g.sub(g.input("k", own + i), rate)) for i, rate in enumerate(e.state_rates)]
     arguments = ("t", "y", "k", "p", "w", "r")
     residual = [(Target("r", i), node) for i, (_, node) in enumerate(rows)]
     residual.append(to_status("power", groups["power"]))
-    first = {"k": 0, "q": unknowns, "v": unknowns + e.nq}
+    first = {"k": 0, "q": unknowns, "v": unknowns + e.nq, "z": unknowns + own - 1}
     keys = [("k", i) for i in range(unknowns)] + [("q", i) for i in range(e.nq)] + [("v", i) for i in range(e.nv)]
+    keys += [("z", i) for i in range(1, len(e.states) + 1)]
     tangent: Outputs = []
     pattern: list[tuple[int, int]] = []
     derived = range(unknowns)

@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 from symgen.describe.evaluate import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.formulate.equations import Equations
+from symgen.formulate.flexure import exertions
 from symgen.formulate.formulate import formulate
-from symgen.formulate.measures import exertion
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Target
@@ -23,10 +23,10 @@ from symgen.vocabulary.infos import BY, LinearisedInfo
 from symgen.vocabulary.measures import Holonomic
 
 #: What is differentiated, in this order: ``motion``, q' = N v, ``balance``, M v' + D^T lambda - f, ``accelerations``,
-#: D v' - gamma, ``velocities``, D v - nu, and ``positions``, Phi.
+#: D v' - gamma, ``velocities``, D v - nu, ``positions``, Phi, and ``states``, rates of the states of the file.
 #: What single forces add to the balance follows as ``elements``.
 #: Groups that are differentiated by time as well; the third derivative of a cubic table does not exist.
-TIMED = ("motion", "balance", "velocities", "positions")
+TIMED = ("motion", "balance", "velocities", "positions", "states")
 #: Name of the emitted function.
 NAME = "linearised"
 
@@ -68,6 +68,7 @@ def lower_linearised(
     nq, nv = equations.nq, equations.nv
     keys: list[Key] = [("q", i) for i in range(nq)] + [("v", i) for i in range(nv)]
     keys += [("ydot", nq + i) for i in range(nv)] + [("multipliers", i) for i in range(equations.m)]
+    keys += [("z", i) for i in range(1, len(mechanism.states) + 1)]
     following = _following(model, by)
     keys += [("p", names.index(name)) for name in (*by, *following)]
     timed = [] if groups else [node for group in TIMED for node in values[group]]
@@ -77,7 +78,7 @@ def lower_linearised(
         slopes = _followed(g, slopes, following, names, by)
         slopes = {**slopes, **(by_time.get(outputs[i], {}) if i < count else {})}
         for space, index in sorted(slopes):
-            pattern.append((i, places[space], index - nq if space == "ydot" else index))
+            pattern.append((i, places[space], index - {"ydot": nq, "z": 1}.get(space, 0)))
             derivatives.append(slopes[space, index])
     graph, images = moved(g, [*outputs, *derivatives])
     targets = tuple((Target("out", i), image) for i, image in enumerate(images))
@@ -126,12 +127,12 @@ def _followed(
 
 
 def can_decay(mechanism: Mechanism, beside: Beside) -> bool:
-    """Whether a force depends on velocities, or a joint is a condition on them: else motions at rest only oscillate."""
-    if any(not isinstance(row, Holonomic) for joint in mechanism.joints for row in joint.rows):
+    """Whether a force depends on velocities, a joint is a condition on them, or a file has states."""
+    if mechanism.states or any(not isinstance(row, Holonomic) for joint in mechanism.joints for row in joint.rows):
         return True
     model = SideModel(mechanism, beside=beside)
     for force in mechanism.forces:
-        totals = [exertion(model, effort).total for effort in force.efforts]
+        totals = [exerted.total for exerted in exertions(model, force)]
         if any(space == "v" for space, _ in model.graph.keys(totals)):
             return True
     return False
@@ -157,6 +158,7 @@ def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:
                 balance[i] = g.add(balance[i], g.mul(image[n], rates[j]))
     groups: dict[str, list[int]] = {"motion": [image[n] for n in e.q_rates], "balance": balance}
     groups |= {"accelerations": [], "velocities": [], "positions": []}
+    groups |= {"states": [model.expression(x.rate) for x in model.mechanism.states]}
     for k, row in enumerate(e.rows):
         own = [(j, image[n]) for j, n in row.entries]
         for j, n in own:
@@ -173,8 +175,7 @@ def _elements(model: SideModel) -> tuple[tuple[tuple[str, int], ...], list[int]]
         return (), []
     g, entries = model.graph, dict[tuple[str, int], int]()
     for force in model.mechanism.forces:
-        for effort in force.efforts:
-            exerted = exertion(model, effort)
+        for exerted in exertions(model, force):
             for i, entry in sorted(exerted.row.items()):
                 key = force.name, i
                 entries[key] = g.sub(entries.get(key, g.zero), g.mul(entry, exerted.total))
@@ -195,10 +196,13 @@ def _functions(model: SideModel) -> tuple[list[tuple[str, str, int]], list[int]]
             for b in model.mechanism.bodies
             for c in (*b.coordinates, *b.speeds)
         ]
+    named += [(x.name, x.unit, model.names[x.name]) for x in model.mechanism.states]
     named += [(o.name, o.unit, model.expression(o.value)) for o in model.mechanism.outputs]
+    own = len(model.mechanism.states)
     for name, unit, value in named:
-        spaces = {space for space, _ in model.graph.keys([value])}
-        if spaces & {"z", "status"}:
+        keys = model.graph.keys([value])
+        spaces = {space for space, _ in keys}
+        if "status" in spaces or any(space == "z" and i > own for space, i in keys):
             continue  # an integral has a history, not a value of the state
         chain = [value]
         for last in ("v", "ydot")[len(spaces & {"v"}) :] if not spaces & {"ydot", "multipliers"} else ():

@@ -40,7 +40,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         if size or name not in ("winding", "mass_entry"):
             sections[name] = (offset, size)
             offset += size
-    layout = ModelLayout(equations.nq, equations.nv, m, len(equations.parameters), sections)
+    layout = ModelLayout(equations.nq, equations.nv, m, len(equations.parameters), sections, len(equations.states))
     hoister = Hoister(scalars.graph, layout.parameters)
     blocks = [
         law_block(hoister, scalars, geometry),

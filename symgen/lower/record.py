@@ -83,7 +83,10 @@ def record_law(method: Method, options: Mapping[str, str], driven: bool = False)
     correction = method.correction(options)
     recording.role = "metric"
     if correction.any and correction.metric != "scaled":  # which is the model's own
+        recording.share = correction.share
         getattr(recording, f"{correction.metric}_metric")()
+    if correction.energy:
+        recording.sections["balance"] = ("one",)  # the energy that velocities are scaled to
     return recording.record()
 
 
@@ -93,7 +96,7 @@ class _Law:
         self.system = System()
         self.parts: list[Part] = []
         self.sections: dict[str, tuple[str, ...]] = {}
-        self.form, self.role = "", "acceleration"
+        self.form, self.role, self.share = "", "acceleration", ""
 
     def record(self) -> RecordedLaw:
         return RecordedLaw(
@@ -107,7 +110,8 @@ class _Law:
     def law(self, law: Law) -> None:
         if isinstance(law, Acceleration):
             self.form, flag = "direct", self.system.flag()
-            outputs = [*self.rates(law.acceleration, law.multipliers), ("multipliers", law.multipliers)]
+            rates = self.rates(law.acceleration, law.multipliers, law.position)
+            outputs = [*rates, ("multipliers", law.multipliers)]
             self.add("rhs", "q', v', power and multipliers", *outputs, flag=flag)
         elif isinstance(law, Iteration):
             self.iterated(law)
@@ -222,6 +226,8 @@ class _Law:
         self.metric("refactor", purpose, ("law_", factor))
 
     def spread(self, change: Vector) -> None:
+        if self.share:
+            change = self.system.parameter(self.share) * change
         self.add("spread", "the correction -D^+ times the section `residual`, of v, or of q by N", ("change", change))
 
     def identity_metric(self) -> None:

@@ -34,6 +34,15 @@ class ScalarNodes(OfMass):
         """Return the factor of S = D M^-1 D^T; masked rows get a reciprocal pivot of 0, small pivots a flag."""
         return self._masked_factor(self.mass_gram(self.rows))
 
+    def _on_compliant(self, operation: FormulaStep, compliance: int) -> FactorNodes:
+        """Return the factor of S + e: what is added to a diagonal entry is added to its pivot."""
+        g = self.graph
+
+        def reciprocal(row: int, pivot: int, _: int) -> int:
+            return g.div(g.one, g.add(pivot, g.add(compliance, self.mask[row])))
+
+        return factorise(g, self.mass_gram(self.rows), self.order, reciprocal)
+
     def _on_pseudoinverse(self, operation: FormulaStep, matrix: Rows) -> FactorNodes:
         return self._masked_factor(self.gram(matrix))
 

@@ -13,7 +13,8 @@ from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import ACCELERATIONS, Mechanism
 from symgen.describe.readings import integrals
 from symgen.describe.topology import quantities
-from symgen.formulate.measures import ModelNodes, exertion
+from symgen.formulate.flexure import exertions
+from symgen.formulate.measures import ModelNodes
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.interpolation import Interpolation
@@ -71,10 +72,11 @@ class SideModel(ModelNodes):
         """Return the node of what is read: a measure, or what is exerted along measures."""
         g, source = self.graph, r.source
         if isinstance(source, Exerted):
-            exerted = [exertion(self, effort) for effort in source.efforts]
+            exerted = exertions(self, source)
             return g.total(g.mul(e.total, e.rate) if source.power else e.total for e in exerted)
         if isinstance(source, Integral):
-            return g.input("z", 1 + integrals(self.mechanism)[source])  # behind the work
+            own = len(self.mechanism.states)
+            return g.input("z", 1 + own + integrals(self.mechanism)[source])  # behind the work and states
         if isinstance(source, Driven):
             place = self.beside.rows.get(source.row)
             # a row that repeats another one is left out: the other one carries all
@@ -92,6 +94,7 @@ class SideModel(ModelNodes):
         rates = {("t", 0): g.one}
         rates |= {("q", i): rate for i, rate in enumerate(self.q_rates())}
         rates |= {("v", i): node for i, node in enumerate(self.state_rates)}
+        rates |= {("z", i): self.expression(x.rate) for i, x in enumerate(self.mechanism.states, 1)}
         return [
             g.total(g.mul(slope, rates[key]) for key, slope in sorted(slopes.items()))
             for slopes in jacobian(g, nodes, rates)
@@ -110,6 +113,7 @@ class SideModel(ModelNodes):
         for space, part in zip("qv", quantities(self.mechanism), strict=True):
             for i, quantity in enumerate(part):
                 of[space, i] = g.add(g.call("abs", g.input(space, i)), least.get(quantity.unit, g.one))
+        of |= {("z", i): g.call("abs", g.input("z", i)) for i in range(1, len(self.mechanism.states) + 1)}
         sizes = list[int]()
         for node, slopes in zip(nodes, jacobian(g, nodes, of), strict=True):
             op, terms, _ = g.nodes[node]
@@ -187,14 +191,14 @@ def lower_integrands(mechanism: Mechanism, beside: Beside) -> SideProgram:
     integrands = integrals(mechanism)
     nodes = [model.expression(integral.of) for integral in integrands]
     coordinates, velocities = quantities(mechanism)
-    first = len(coordinates) + len(velocities)
+    first, work = len(coordinates) + len(velocities), len(coordinates) + len(velocities) + len(mechanism.states)
 
     def unknown(key: Key) -> Key:
         """Return where a residual has v' and lambda."""
         return {"ydot": ("k", key[1]), "multipliers": ("k", first + key[1])}.get(key[0], key)
 
     graph, images = moved(model.graph, nodes)
-    rates = tuple((Target("ydot", first + 1 + i), image) for i, image in enumerate(images))
+    rates = tuple((Target("ydot", work + 1 + i), image) for i, image in enumerate(images))
     stage, inside = moved(model.graph, nodes, unknown)
     stored = tuple((Target("auxiliary", 1 + i), image) for i, image in enumerate(inside))
     blocks = (
@@ -211,7 +215,10 @@ def side_program(mechanism: Mechanism, blocks: tuple[Block, ...], beside: Beside
     return SideProgram(
         mechanism=mechanism.name,
         blocks=blocks,
-        layout=ModelLayout(len(coordinates), len(velocities), 0, len(mechanism.parameters), dict(beside.sections)),
+        layout=ModelLayout(
+            *(len(coordinates), len(velocities), 0, len(mechanism.parameters), dict(beside.sections)),
+            len(mechanism.states),
+        ),
         parameters=tuple(Quantity(p.name, p.unit) for p in mechanism.parameters),
         coordinates=coordinates,
         velocities=velocities,

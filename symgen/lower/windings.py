@@ -9,8 +9,8 @@ from typing import Any
 from symgen.describe.mechanism import Force, Joint, Mechanism
 from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import known_coordinates
-from symgen.vocabulary.expressions import readings
-from symgen.vocabulary.measures import Measure, Sum, Turning
+from symgen.vocabulary.expressions import Reading, moving, readings
+from symgen.vocabulary.measures import FormulaMeasure, FormulaSpeed, Holonomic, Measure, Sum, Turning
 
 
 @dataclass(frozen=True)
@@ -39,6 +39,8 @@ def turns(measures: Iterable[Any]) -> tuple[Measure, ...]:
         measure = waiting.pop(0)
         if isinstance(measure, Sum):
             waiting = [part for _, part in measure.terms] + waiting
+        elif isinstance(measure, FormulaMeasure | FormulaSpeed):
+            waiting = [r.source for r in moving(measure.of) if isinstance(r, Reading)] + waiting
         elif isinstance(measure, Turning):
             angles[measure] = None
     return tuple(angles)
@@ -67,6 +69,7 @@ def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
     coordinates = {} if mechanism.topology is None else known_coordinates(mechanism, mechanism.topology)
     distinct, _ = without_repeats(mechanism)
     efforts = [m for force in distinct.forces for m in measures_of(force)]
+    efforts += [rotor.angle for rotor in distinct.rotors]
     if shape == "looped":
         return turns([m for joint in distinct.joints for m in turns(measures_of(joint))] + efforts)
     rows = [m for joint in distinct.joints for m in _held(joint)]
@@ -79,4 +82,4 @@ def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
 
 
 def _held(joint: Joint) -> list[Any]:
-    return [getattr(row, "measure", None) for row in joint.rows]
+    return [row.measure if isinstance(row, Holonomic) else row.speed for row in joint.rows]

@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 from symgen.methods._base import Method
-from symgen.registry import Registry
+from symgen.registry import Listing, Registry
 
 METHODS: Registry[Method] = Registry("symgen.methods", "method")
+
+
+def list_methods() -> Listing:
+    """Return the names of all methods, with a line about each."""
+    return METHODS.listing()

@@ -68,10 +68,13 @@ class Acceleration:
         v'.
     multipliers : Vector
         lambda.
+    position : Vector, optional
+        q' where it is not N v.
     """
 
     acceleration: Vector
     multipliers: Vector
+    position: Vector | None = None
 
 
 @dataclass(frozen=True)
@@ -268,6 +271,20 @@ class Method(ABC):
         """
         return None
 
+    def placed(self, options: Mapping[str, str], zero: complex | None, integrator: str) -> dict[str, float]:
+        """Return parameters that follow from the integrator where nothing else is set; none unless overridden.
+
+        Parameters
+        ----------
+        options : mapping
+            The structural options, complete.
+        zero : complex or None
+            The zero of the integrator's stability function that is nearest to the negative real axis.
+        integrator : str
+            Its name.
+        """
+        return {}
+
 
 @lru_cache(maxsize=32)
 def _version(kind: type[Method]) -> tuple[str, ...]:
@@ -353,14 +370,17 @@ class MultiplierMethod(Method):
         """Return the right-hand side of D v'; gamma unless overridden."""
         return system.gamma
 
+    def chosen_target(self, system: System, options: Mapping[str, str]) -> Vector:
+        """Return the right-hand side of D v' for some options; `target` unless overridden."""
+        return self.target(system)
+
     def law(self, system: System, options: Mapping[str, str]) -> Law:
         """Return the elimination of v', the iteration for light bodies, or the dense factorisation."""
+        target = self.chosen_target(system, options)
         if options["solver"] == "augmented":
-            return augmented_iteration(system, system.heavy_penalty, self.target(system))
-        if options["solver"] == "dense":
-            return Dense(self.target(system))
-        return multiplier_law(system, self.target(system))
+            return augmented_iteration(system, system.heavy_penalty, target)
+        return Dense(target) if options["solver"] == "dense" else multiplier_law(system, target)
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
         """Return the same equations, kept together."""
-        return Descriptor("acceleration", self.target(system))
+        return Descriptor("acceleration", self.chosen_target(system, options))

@@ -267,6 +267,13 @@ class System:
         """
         return self.solve(self.tape.named(Factor, "schur"), right)
 
+    def compliant_factor(self, compliance: Scalar) -> Factor:
+        """Return the factor of ``S + e``, e the compliance of each row, infinite where the runtime leaves one out.
+
+        It is positive definite whatever the rank of D, so no pivot is suspicious.
+        """
+        return compliance.applied(Factor, "compliant", compliance)
+
     def pseudoinverse_factor(self, matrix: Matrix) -> Factor:
         """Return the factor of B B^T for a scaled constraint matrix B, with masks and flags as for `solve_schur`."""
         return matrix.applied(Factor, "pseudoinverse", matrix)

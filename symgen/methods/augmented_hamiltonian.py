@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import ClassVar
 
 from symgen.ir.program import Correction
 from symgen.methods._augmented import ITERATION_TOLERANCE, PENALTY
-from symgen.methods._base import Iteration, IterationState, Method, Rates, multiplier_law
-from symgen.methods._formula import System
+from symgen.methods._base import Iteration, IterationState, Method, MethodParameter, Rates, multiplier_law
+from symgen.methods._formula import System, Vector
 
 
 class AugmentedHamiltonian(Method):
@@ -27,18 +28,22 @@ class AugmentedHamiltonian(Method):
     reference = "Bayo, Avello, Nonlinear Dyn. 5 (1994) 209-231, doi 10.1007/BF00045677"
     forms = ("one-step",)
     default_integrator = "dop853"
-    parameters = (PENALTY, ITERATION_TOLERANCE)
+    parameters: ClassVar[tuple[MethodParameter, ...]] = (PENALTY, ITERATION_TOLERANCE)
 
     def needs_regular_mass(self, options: Mapping[str, str]) -> bool:
         """Return True: M is inverted."""
         return True
+
+    def target(self, system: System) -> Vector:
+        """Return what D v is in every evaluation."""
+        return system.nu
 
     def law(self, system: System, options: Mapping[str, str]) -> Iteration:
         """Return the iteration for v and sigma, and the rates of q and M^-1 p."""
         penalties = system.penalties(system.parameter("penalty"))
         factor = system.keep_factor(system.augmented_factor(penalties))
         penalties = system.keep("kept_penalties", penalties)
-        constraints, target = system.keep_constraints(), system.keep("kept_target", system.nu)
+        constraints, target = system.keep_constraints(), system.keep("kept_target", self.target(system))
         momentum = system.keep("kept_momentum", system.mass(system.v))
         v = system.variable("kept_velocity", momentum.size)
         impulse = system.variable("kept_impulse", target.size)

@@ -21,7 +21,10 @@ class CoordinatePartitioning(MultiplierMethod):
     name = "coordinate-partitioning"
     dense = "which chooses its partition on a dense matrix"
     summary = "independent coordinates are integrated, dependent ones follow from the constraints"
-    reference = "Wehage, Haug, J. Mech. Des. 104 (1982) 247-255, doi 10.1115/1.3256318"
+    reference = (
+        "Wehage, Haug, J. Mech. Des. 104 (1982) 247-255, doi 10.1115/1.3256318; "
+        "Nikravesh, Haug, J. Mech. Trans. Autom. Des. 105 (1983) 379-384"
+    )
     forms = ("ode",)
     default_integrator = "dop853"
     integrates = "independent"

@@ -19,7 +19,8 @@ class DirectCorrection(MultiplierMethod):
     summary = "positions and velocities are projected after each step with the pseudoinverse of D"
     reference = (
         "Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; "
-        "Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064"
+        "Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076; "
+        "Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064; Yu, Chen, Comput. Mech. 26 (2000) 52-57"
     )
     parameters = (TOLERANCE,)
     options = (

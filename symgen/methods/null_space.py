@@ -24,7 +24,9 @@ class NullSpace(Method):
     summary = "accelerations in a tangent basis that is carried on from step to step"
     reference = (
         "Mani, Haug, Atkinson, J. Mech. Trans. Autom. Des. 107 (1985) 82-87; "
-        "Kim, Vanderploeg, J. Mech. Trans. Autom. Des. 108 (1986) 183-188"
+        "Singh, Likins, J. Appl. Mech. 52 (1985) 943-948; "
+        "Kim, Vanderploeg, J. Mech. Trans. Autom. Des. 108 (1986) 183-188; "
+        "Blajer, Comput. Methods Appl. Mech. Eng. 121 (1995) 45-57"
     )
     default_integrator = "dop853"
     parameters = (TOLERANCE,)

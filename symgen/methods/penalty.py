@@ -20,7 +20,7 @@ class Penalty(Method):
     summary = "constraints as stiff elements; the error falls like 1 / penalty"
     reference = (
         "Bayo, Garcia de Jalon, Serna, Comput. Methods Appl. Mech. Eng. 71 (1988) 183-195; "
-        "Ruzzeh, Kovecses, J. Comput. Nonlinear Dyn. 6 (2011) 021011"
+        "Ruzzeh, Kovecses, J. Comput. Nonlinear Dyn. 6 (2011) 021008"
     )
     forms = ("ode", "index-1")
     parameters = (

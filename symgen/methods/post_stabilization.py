@@ -19,7 +19,8 @@ class PostStabilization(MultiplierMethod):
     summary = "one correction of positions and velocities after each step, not iterated"
     reference = (
         "Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; "
-        "Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157"
+        "Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157; "
+        "Cline, Pai, Proc. IEEE Int. Conf. Robotics and Automation (2003)"
     )
     options = (WEIGHT, SOLVER)
 

@@ -18,7 +18,10 @@ class UdwadiaKalaba(Method):
 
     name = "udwadia-kalaba"
     summary = "accelerations closest to the free ones in the metric of M, by a pseudoinverse"
-    reference = "Udwadia, Kalaba, Proc. R. Soc. Lond. A 439 (1992) 407-410, doi 10.1098/rspa.1992.0158"
+    reference = (
+        "Udwadia, Kalaba, Proc. R. Soc. Lond. A 439 (1992) 407-410, doi 10.1098/rspa.1992.0158; "
+        "Arabyan, Wu, Multibody Syst. Dyn. 2 (1998) 49-69"
+    )
 
     def needs_regular_mass(self, options: Mapping[str, str]) -> bool:
         """Return True: M is inverted."""

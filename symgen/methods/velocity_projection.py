@@ -17,7 +17,7 @@ class VelocityProjection(MultiplierMethod):
 
     name = "velocity-projection"
     summary = "velocities are projected after each step; positions are left"
-    reference = "Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076"
+    reference = "Garcia Orden, Nonlinear Dyn. 60 (2010) 49-62"
     options = (WEIGHT, SOLVER)
 
     def correction(self, options: Mapping[str, str]) -> Correction:

@@ -138,7 +138,7 @@ class _Blocks:
                 stored = True
                 self._read_all()
             self._put(line)
-            if self.length >= self.longest:
+            if self.length >= self.longest and line is not lines[-1]:  # which leaves the function
                 self._end()
         if self.block:
             self.lines += [Instruction.of(".never:"), Instruction.of("  unreachable")]

@@ -7,9 +7,11 @@ are indices and counters, far below 2^53. Arrays are ``Float64Array``, of intege
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
+from typing import ClassVar
 
 from symgen.native import language as lang
+from symgen.native.printing import FunctionPrinter, ordered
 
 #: What printed functions call beside ``Math``. Sines and cosines of browsers are rounded wrongly once in thirty times,
 #: those of C libraries once in a thousand: here the first terms of their series have twice the digits.
@@ -71,10 +73,8 @@ RESERVED = frozenset(
     "low times sineOf cosineOf quarter sine cosine".split()
 )
 
-_SIGNS = {"add": ("+", 12), "sub": ("-", 12), "mul": ("*", 13), "div": ("/", 13), "and": ("&&", 5), "or": ("||", 4)}
-_SIGNS |= {"lt": ("<", 10), "le": ("<=", 10), "gt": (">", 10), "ge": (">=", 10), "eq": ("===", 9), "ne": ("!==", 9)}
 _CALLED = {"floordiv": "floored", "mod": "rest", "min": "least", "max": "greatest", "abs": "Math.abs"}
-_CALLED |= {"math.sin": "sine", "math.cos": "cosine"}
+_CALLED |= {"math.sin": "sine", "math.cos": "cosine", "pow": "Math.pow"}
 _CALLED |= {"math.fabs": "Math.abs", "math.copysign": "copysign", "math.pow": "Math.pow"}
 
 
@@ -86,143 +86,51 @@ def javascript(functions: Mapping[str, lang.Function]) -> str:
     functions : mapping of str to Function
         What the text shall define, by the names that it shall have there.
     """
-    names: dict[object, str] = {function.key: name for name, function in functions.items()}
-    texts: list[str] = []
-
-    def define(function: lang.Function) -> None:
-        for called in function.called:
-            if called.key not in names:
-                names[called.key] = _free(_word(called.name), names.values())
-                define(called)
-        for array in function.tables:
-            names[function.key, array] = _free(f"{names[function.key]}_{_word(array)}", names.values())
-        texts.append(_Printer(function, names).text())
-
-    for function in functions.values():
-        define(function)
-    return "\n".join(texts)
+    order, names = ordered(functions, RESERVED)
+    return "\n".join(_Printer(function, names).text() for function in order)
 
 
-def _free(name: str, taken: Iterable[str]) -> str:
-    names, free, k = set(taken), name, 2
-    while free in names:
-        free, k = f"{name}_{k}", k + 1
-    return free
-
-
-def _word(name: str) -> str:
-    """Return a variable's name; those that the reader made have dots."""
-    name = name.replace(".", "_") if not name[0].isdigit() else f"held{name.replace('.', '_')}"
-    return f"{name}_" if name in RESERVED else name
-
-
-def _literal(value: float | int | bool) -> tuple[str, int]:
-    if isinstance(value, bool):
-        return ("true" if value else "false"), 20
-    if isinstance(value, float) and not math.isfinite(value):
-        return ("NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"), 20 if value > 0 else 14
-    text = repr(value).removesuffix(".0")
-    return text, 14 if text.startswith("-") else 20
-
-
-class _Printer:
+class _Printer(FunctionPrinter):
     """Prints one function."""
 
-    def __init__(self, function: lang.Function, names: dict[object, str]) -> None:
-        self.function, self.names = function, names
-        self.counters = 0
+    reserved = RESERVED
+    signs: ClassVar = {"eq": ("===", 9), "ne": ("!==", 9)}
 
     def text(self) -> str:
-        """Return the definition, with the tables that it reads before it."""
+        """Return the definition, after the tables that it reads."""
         f = self.function
         tables = [
-            f"const {self.names[f.key, name]} = [{', '.join(_literal(x)[0] for x in values)}];"
+            f"const {self.names[f.key, name]} = [{', '.join(self.literal(x)[0] for x in values)}];"
             for name, values in f.tables.items()
         ]
         parameters = {p.name for p in f.parameters}
-        local = [_word(name) for name in f.variables if name not in parameters and name not in f.fixed]
+        local = [self.word(name) for name in f.variables if name not in parameters and name not in f.fixed]
         lines = [f"let {', '.join(local)};"] if local else []
         lines += self.lines(f.body)
-        head = f"function {self.names[f.key]}({', '.join(_word(p.name) for p in f.parameters)}) {{"
+        head = f"function {self.names[f.key]}({', '.join(self.word(p.name) for p in f.parameters)}) {{"
         return "\n".join([*tables, head, *lines, "}"])
 
-    def lines(self, statements: tuple[lang.Statement, ...]) -> list[str]:
-        """Return statements as lines."""
-        return [line for statement in statements for line in self.statement(statement)]
+    def literal(self, value: float | int | bool) -> tuple[str, int]:
+        """Return a number and how strongly its text binds."""
+        if isinstance(value, bool):
+            return ("true" if value else "false"), 20
+        if isinstance(value, float) and not math.isfinite(value):
+            return ("NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"), 20 if value > 0 else 14
+        text = repr(value).removesuffix(".0")
+        return text, 14 if text.startswith("-") else 20
 
-    def statement(self, s: lang.Statement) -> list[str]:
-        """Return one statement."""
-        if isinstance(s, lang.Assign):
-            once = "const " if s.name in self.function.fixed else ""
-            return [f"{once}{_word(s.name)} = {self.value(s.value)};"]
-        if isinstance(s, lang.Store):
-            return [f"{_word(s.array)}[{self.value(s.index)}] = {self.value(s.value)};"]
-        if isinstance(s, lang.Evaluate):
-            return [f"{self.value(s.call)};"]
-        if isinstance(s, lang.Return):
-            return [f"return {self.value(s.value)};"]
-        if isinstance(s, lang.Leave):
-            return [f"{s.how};"]
-        if isinstance(s, lang.If):
-            lines = [f"if ({self.value(s.test)}) {{", *self.lines(s.then)]
-            return [*lines, *(["} else {", *self.lines(s.otherwise)] if s.otherwise else []), "}"]
-        if isinstance(s, lang.While):
-            return [f"while ({self.value(s.test)}) {{", *self.lines(s.body), "}"]
-        assert isinstance(s, lang.For), "all kinds of statements are known"
-        self.counters += 1
-        i, sign = f"counter{self.counters}", "<" if s.step > 0 else ">"
-        head = f"for (let {i} = {self.value(s.start)}, end = {self.value(s.stop)}; {i} {sign} end; {i} += {s.step}) {{"
-        return [head, f"{_word(s.name)} = {i};", *self.lines(s.body), "}"]
+    def defined(self, s: lang.Assign) -> str:
+        """Return what precedes the name of a variable that is assigned once, where it is assigned."""
+        return "const "
 
-    def value(self, e: lang.Expression, level: int = 0) -> str:
-        """Return an expression, in parentheses where it binds weaker than `level`."""
-        text, own = self.expression(e)
-        return text if own >= level else f"({text})"
+    def loop_head(self, s: lang.For, counter: str) -> str:
+        """Return the head of a loop whose counter has a name of its own."""
+        first, last, sign = self.value(s.start), self.value(s.stop), "<" if s.step > 0 else ">"
+        return f"for (let {counter} = {first}, end = {last}; {counter} {sign} end; {counter} += {s.step}) {{"
 
-    def expression(self, e: lang.Expression) -> tuple[str, int]:
-        """Return an expression and how strongly it binds."""
-        if isinstance(e, lang.Constant):
-            return _literal(e.value)
-        if isinstance(e, lang.Variable):
-            return _word(e.name), 20
-        if isinstance(e, lang.ArrayElement):
-            constant = e.array in self.function.tables
-            array = self.names[self.function.key, e.array] if constant else _word(e.array)
-            return f"{array}[{self.value(e.index)}]", 20
-        if isinstance(e, lang.FunctionCall):
-            arguments = (_word(a) if isinstance(a, str) else self.value(a) for a in e.arguments)
-            return f"{self.names[e.function.key]}({', '.join(arguments)})", 20
-        if isinstance(e, lang.Logic):
-            sign, own = _SIGNS[e.name]
-            return f"{self.value(e.first, own)} {sign} {self.value(e.second, own + 1)}", own
-        if isinstance(e, lang.Choice):
-            return f"{self.value(e.test, 4)} ? {self.value(e.chosen, 3)} : {self.value(e.otherwise, 3)}", 2
-        assert isinstance(e, lang.ScalarOperation), "emitted functions have no other expressions"
-        return self.operation(e)
-
-    def operation(self, e: lang.ScalarOperation) -> tuple[str, int]:
-        """Return an operation."""
-        name, first = e.name, e.arguments[0]
-        if name in ("and", "or") and e.type != "bool":
-            return f"{self.value(first, 8)} {'&' if name == 'and' else '|'} {self.value(e.arguments[1], 8)}", 7
-        if name in _SIGNS:
-            sign, own = _SIGNS[name]
-            room = "" if sign in "*/" else " "  # a sign may stand behind + and -
-            return f"{self.value(first, own)}{room}{sign}{room}{self.value(e.arguments[1], own + 1)}", own
-        if name == "neg":
-            return f"-{self.value(first, 15)}", 14
-        if name == "not":
-            return f"!{self.value(first, 15)}", 14
-        if name in ("float", "int", "bool"):
-            return self.converted(name, first)
-        if name == "pow" and e.arguments[1].type == "int":
-            exponent = e.arguments[1]
-            assert isinstance(exponent, lang.Constant), "a power with a literal exponent"
-            if exponent.value == 2:
-                return f"square({self.value(first)})", 20
-            return f"power({self.value(first)}, {int(exponent.value)})", 20
-        called = _CALLED.get(name, "Math.pow" if name == "pow" else f"Math.{name.removeprefix('math.')}")
-        return f"{called}({', '.join(self.value(a) for a in e.arguments)})", 20
+    def called(self, e: lang.ScalarOperation) -> str:
+        """Return the name of the function that an operation is."""
+        return _CALLED.get(e.name, f"Math.{e.name.removeprefix('math.')}")
 
     def converted(self, kind: str, value: lang.Expression) -> tuple[str, int]:
         """Return a value in another type."""

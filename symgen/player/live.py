@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,108 +13,16 @@ from symgen.describe.evaluate import derived, independent_values
 from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
 from symgen.drawing.scene import Array
-from symgen.errors import SymgenError
+from symgen.native.formula_lines import FormulaLines, NotInLines
 from symgen.native.javascript import HELPERS, javascript
 from symgen.native.read import Foreign
 from symgen.runtime import abi
 from symgen.runtime.model_arrays import lengths_of
-from symgen.vocabulary.expressions import Expr, Name, Number, Reading
-from symgen.vocabulary.functions import ELEMENTARY
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
-
-
-_FORMS = {
-    **{"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}", "neg": "-{}", "not": "{} ? 0 : 1"},
-    **{"lt": "{} < {} ? 1 : 0", "le": "{} <= {} ? 1 : 0", "gt": "{} > {} ? 1 : 0", "ge": "{} >= {} ? 1 : 0"},
-    **{"and": "{} && {} ? 1 : 0", "or": "{} || {} ? 1 : 0", "where": "{} ? {} : {}"},
-    **{name: f"Math.{name}({{}})" for name in (*ELEMENTARY, "abs", "sign")},
-    **{name: f"Math.{name}({{}}, {{}})" for name in ("atan2", "min", "max", "pow")},
-}
-
-
-class NotInPages(SymgenError):
-    """A formula has something that pages do not."""
-
-
-def _operator(function: str, turned: bool = False) -> Callable[[Script, object], Script]:
-    return lambda self, other: self._with(function, *((other, self) if turned else (self, other)))
-
-
-@dataclass(frozen=True)
-class Script:
-    """A number in a script: what it is called there. Arithmetic with it writes further lines."""
-
-    lines: list[str] = field(repr=False)
-    text: str
-
-    def _with(self, function: str, *operands: object) -> Script:
-        return let(self.lines, _FORMS[function].format(*map(_text, operands)))
-
-    def __add__(self, other: object) -> Script:
-        return self if _text(other) == "0" else self._with("add", self, other)
-
-    def __radd__(self, other: object) -> Script:
-        return self if _text(other) == "0" else self._with("add", other, self)
-
-    __sub__, __rsub__ = _operator("sub"), _operator("sub", turned=True)
-    __mul__, __rmul__ = _operator("mul"), _operator("mul", turned=True)
-    __truediv__, __rtruediv__ = _operator("div"), _operator("div", turned=True)
-
-
-def _text(value: object) -> str:
-    if isinstance(value, Script):
-        return value.text
-    number = repr(float(value)).removesuffix(".0")  # type: ignore[arg-type]  # numbers and scripts only
-    return f"({number})" if number.startswith("-") else number
-
-
-def let(lines: list[str], text: str) -> Script:
-    """Write a line that gives a value a name; return the name."""
-    name = f"a{len(lines)}"
-    lines.append(f"const {name} = {text};")
-    return Script(lines, name)
-
-
-class ScriptLines:
-    """Numbers of `symgen.describe.numbers` that write down how they are worked out.
-
-    Parameters
-    ----------
-    places : dict of str to str
-        What names of parameters are in the script.
-    """
-
-    def __init__(self, places: dict[str, str]) -> None:
-        self.places, self.lines = places, list[str]()
-
-    def value(self, expression: Expr, where: str) -> Any:
-        """Return the value of a formula."""
-        if isinstance(expression, Number):
-            return expression.value
-        if isinstance(expression, Name):
-            return Script(self.lines, self.places[expression.name])
-        if isinstance(expression, Reading):
-            raise NotInPages(f"{where}: a reading")
-        return self.apply(expression.function, *(self.value(a, where) for a in expression.arguments))
-
-    def apply(self, function: str, *arguments: Any) -> Any:
-        """Return a function of formulas."""
-        if function not in _FORMS:
-            raise NotInPages(f"the function {function}")
-        return let(self.lines, _FORMS[function].format(*map(_text, arguments)))
-
-    def above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
-        """Return `x`; what is not above the limit shows in the page as a start that is not finite."""
-        return let(self.lines, f"{_text(x)} > {_text(limit)} ? {_text(x)} : NaN")
-
-    def result(self, value: Any) -> str:
-        """Return the text of a value."""
-        return _text(value)
-
 
 #: Characters of emitted code that a page holds at most, in the plane and in space, and what these are in operations.
 MOST = {False: 76_000, True: 270_000}
@@ -187,7 +95,7 @@ def live_part(
     begin = None if joint or begun is None or np.array_equal(begun, start.y[: len(begun)]) else begun
     try:
         script = _script(mechanism, joint, begin)
-    except NotInPages:
+    except NotInLines:
         return None, f"{NONE}: a formula of the start is not one that pages know"
     if begin is not None:
         start = replace(start, y=np.concatenate([begin, start.y[len(begin) :]]))
@@ -221,7 +129,7 @@ def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
     places = {p.name: f"p[{i}]" for i, p in enumerate(mechanism.parameters)}
     formulas = []
     for name, expression in derived(mechanism.parameters):
-        lines = ScriptLines(places)
+        lines = FormulaLines(places)
         value = lines.result(lines.value(expression, name))
         formulas.append(
             f"if (!given.has({_index(places[name])})) {{ {' '.join(lines.lines)} {places[name]} = {value}; }}"
@@ -234,7 +142,7 @@ def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
         numbers = [repr(float(x)) for x in begun]
         texts = f"q: [{', '.join(numbers[:nq])}], v: [{', '.join(numbers[nq:])}]"
         return f"{text}function describe(p) {{ return {{ {texts} }}; }}\n"
-    lines = ScriptLines(places)
+    lines = FormulaLines(places)
     q, v = described_start(mechanism, lines)
     own = {h.name: h.value for h in holds_of(mechanism)}
     _held_values(mechanism, own, lines, q, v)
@@ -243,7 +151,7 @@ def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
     return f"{text}function describe(p) {{\n{body}\nreturn {{ q: [{places_of_bodies}], v: [{texts}] }};\n}}\n"
 
 
-def _held_values(mechanism: Mechanism, own: Mapping[str, Any], lines: ScriptLines, q: list[Any], v: list[Any]) -> None:
+def _held_values(mechanism: Mechanism, own: Mapping[str, Any], lines: FormulaLines, q: list[Any], v: list[Any]) -> None:
     """Put values that the description holds in the place of described ones; those of joints are left to closing."""
     names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
     speeds = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]

@@ -15,22 +15,29 @@ from typing import Any
 import numpy as np
 
 from symgen.arguments import path as argument_path
-from symgen.describe.evaluate import evaluate
-from symgen.describe.mechanism import AnyBody
 from symgen.drawing.mechanism_scene import build_scene
+from symgen.drawing.paper import View
 from symgen.drawing.scene import Array, Disc, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
+from symgen.drawing.traced import traced_points
+from symgen.drawing.viewpoint import viewpoint
 from symgen.files import check_path, write_whole
 from symgen.player.live import Live
-from symgen.player.recording import Recording, fitted, frames_within, packed, shorts
+from symgen.player.recording import (
+    Recording,
+    frames_within,
+    is_coarse,
+    packed,
+    shorts,
+    with_further,
+    without_further,
+)
 
 #: The ending of pages, which need no library.
 PAGES: Mapping[str, tuple[str, ...]] = {".html": ()}
-#: Largest page in the plane and in space [characters]; what a page holds beside its data is taken off.
-LARGEST = {False: 145_000, True: 480_000}
-#: Characters for data at most.
-MOST_DATA = {False: 60_000, True: 150_000}
-#: How a page says that it has no forces.
-BARE = "forces are left out, as the page would be too large with them"
+#: Characters for the data of motions in the plane and in space; a large mechanism has more, for its fewest frames.
+MOST_DATA = {False: 100_000, True: 180_000}
+#: Characters for plots of what a page need not have, beside these.
+MOST_PLOTS = {False: 120_000, True: 200_000}
 SCRIPTS = {False: ("draw.js", "plots.js", "player.js"), True: ("solid.js", "draw.js", "plots.js", "player.js")}
 
 
@@ -64,25 +71,26 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
     data: dict[str, Any] = {
         "title": recording.mechanism.title or recording.mechanism.name,
         "name": recording.mechanism.name,
-        "scene": scene_data(scene),
-        "points": _points(recording, scene),
+        "scene": scene_data(scene, viewpoint(scene, recording.q[0])),
+        "points": _points(recording),
         "names": [f"{b.name}.{c}" for b in recording.mechanism.bodies for c in b.coordinates],
         "live": None if live is None else live.spec,
         "note": note,
     }
     script = _script(live, spatial)
-    held = len(_web("page.html")) + len(_web("style.css")) + len(script) + len(as_json(data))
-    room = min(MOST_DATA[spatial], LARGEST[spatial] - held)
     motions = [recording] if second is None else [recording, second]
-    share = room // len(motions)
+    share = MOST_DATA[spatial] // len(motions)
     pins = scene.pins
     data["motions"] = []
     for each in motions:
-        shown, coarse = fitted(each, share, len(pins))
-        if shown is not each and not data["note"].endswith(BARE):
-            data["note"] = f"{data['note']}; {BARE}" if data["note"] else BARE
-        keep = frames_within(shown, share, coarse, len(pins))
-        data["motions"].append(packed(shown, keep, coarse) | _gaps(scene, shown.q[keep]))
+        played = without_further(each)
+        coarse = is_coarse(played, share, len(pins))
+        keep = frames_within(played, share, coarse, len(pins))
+        shown, missing = with_further(each, len(keep), MOST_PLOTS[spatial] // len(motions))
+        if missing:
+            words = f"no plots of {', '.join(dict.fromkeys(missing))}: the page would be too large"
+            data["note"] = "; ".join(dict.fromkeys([*filter(None, [data["note"]]), words]))
+        data["motions"].append(packed(shown, keep, coarse) | _gaps(scene, each.q[keep]))
     text = _web("page.html")
     parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": as_json(data), "SCRIPT": script}
     for name, part in parts.items():
@@ -108,8 +116,7 @@ def _script(live: Live | None, spatial: bool) -> str:
     own = "".join(_web(name) for name in SCRIPTS[spatial])
     if live is None:
         return f"(() => {{\n'use strict';\nconst emitted = null, makeLive = null;\n{own}}})();"
-    functions = "rhs accept geometry masses prepareModel prepareLaw derive describe confirm move bodies"
-    return f"(() => {{\n'use strict';\n{_emitted(live, functions)}{_web('live.js')}{own}}})();"
+    return f"(() => {{\n'use strict';\n{model_script(live)}{own}}})();"
 
 
 def _emitted(live: Live, functions: str, *further: str) -> str:
@@ -118,14 +125,20 @@ def _emitted(live: Live, functions: str, *further: str) -> str:
     return f"{live.code}const emitted = {{ {', '.join([*names, *further])} }};\n{_web('rates.js')}"
 
 
+def model_script(live: Live) -> str:
+    """Return a script that defines ``emitted``, the functions of a mechanism, and ``makeLive``, which runs them."""
+    functions = "rhs accept geometry masses prepareModel prepareLaw derive describe confirm move bodies"
+    return f"{_emitted(live, functions)}{_web('live.js')}"
+
+
 def rates_script(live: Live) -> str:
     """Return a script that is a function: the rates of a state, given time, state and parameters."""
     code = _emitted(live, "confirm rhs masses prepareModel prepareLaw", "derive: () => {}")
     return f"(() => {{\n'use strict';\n{code}return makeRates({as_json(live.spec)}, emitted).rates;\n}})()"
 
 
-def scene_data(scene: Scene) -> dict[str, Any]:
-    """Return a scene as JSON has it: marks by letters, looks by number, points to a two-hundredth of a symbol."""
+def scene_data(scene: Scene, view: View) -> dict[str, Any]:
+    """Return a scene and its view for JSON: marks by letters, looks by number, points to 1/200 of a symbol."""
     looks: dict[Look, int] = {}
     size = 3 if scene.spatial else 2
     grid = 10.0 ** math.floor(math.log10(scene.unit / 200.0))
@@ -166,6 +179,7 @@ def scene_data(scene: Scene) -> dict[str, Any]:
     ]
     return {
         "spatial": scene.spatial,
+        "view": [round(view.turn, 3), round(view.tilt, 3)],
         "up": list(scene.up),
         "unit": scene.unit,
         "frames": [[frame.name, frame.first, frame.size] for frame in scene.frames],
@@ -176,18 +190,13 @@ def scene_data(scene: Scene) -> dict[str, Any]:
     }
 
 
-def _points(recording: Recording, scene: Scene) -> list[list[Any]]:
-    """Return the points whose traces a page can draw: those with names, and centres of mass."""
-    points: list[list[Any]] = []
-    size = 3 if scene.spatial else 2
-    bodies: tuple[AnyBody, ...] = recording.mechanism.bodies
-    for i, body in enumerate(bodies):
-        points.append([f"{body.name}.centre", i, [0.0] * size])
-        centre = np.array([evaluate(e, recording.values) for e in body.centre_of_mass])
-        for name, p in body.points:
-            at = np.array([evaluate(e, recording.values) for e in p]) - centre
-            points.append([f"{body.name}.{name}", i, [float(f"{x:.6g}") for x in at]])
-    return points
+def _points(recording: Recording) -> list[list[Any]]:
+    """Return the points whose traces a page can draw."""
+    size = 3 if recording.mechanism.space == "spatial" else 2
+    return [
+        [p.name, p.body, [float(f"{x:.6g}") for x in p.at[:size]], *([1] if p.free else [])]
+        for p in traced_points(recording.mechanism, recording.values)
+    ]
 
 
 @dataclass(frozen=True, repr=False)

@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.drawing.mechanism_scene import build_scene
-from symgen.drawing.paper import Drawn, View, on_paper
+from symgen.drawing.paper import Drawn, on_paper
 from symgen.drawing.pictures import fitted, paint
+from symgen.drawing.viewpoint import viewpoint
 from symgen.errors import InputError
 from symgen.files import check_path, write_whole
 from symgen.player.recording import Recording
@@ -92,9 +93,10 @@ def _pictures(recording: Recording, count: int) -> Iterator[Image.Image]:
     from PIL import Image
 
     scene = build_scene(recording.mechanism, recording.q, recording.values)
+    view = viewpoint(scene, recording.q[0])
     times = np.linspace(recording.t[0], recording.t[-1], count)
     rows = [recording.q[int(np.argmin(np.abs(recording.t - time)))] for time in times]
-    pages = [on_paper(scene, row, View()) for row in rows]
+    pages = [on_paper(scene, row, view) for row in rows]
     everything: list[Drawn] = [each for drawn in pages for each in drawn]
     frame = fitted(everything)
     for drawn in pages:

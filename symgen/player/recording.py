@@ -9,15 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.digits import cleaned, scale_of
 from symgen.drawing.scene import Array
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
 
-#: Fewest and most frames of a page.
-FEWEST, MOST = 60, 1500
-#: Columns of one plot at most.
-LONGEST_KEY = 14
+#: Fewest and most frames of a page, and most samples of a further group, which is plotted and not played.
+FEWEST, MOST, SAMPLES = 60, 1500, 300
+#: Columns of one plot at most, and those of one unit that pages plot of one table.
+LONGEST_KEY, MOST_OF_UNIT = 14, 112
 
 
 @dataclass(frozen=True)
@@ -34,6 +35,10 @@ class PlottedGroup:
         One row an output.
     logarithmic : bool
         Whether they are plotted so.
+    places : tuple of int
+        Which coordinates of the recording they are; empty for other columns, which a page holds by themselves.
+    further : bool
+        Whether a page has them only where there is room.
     """
 
     title: str
@@ -41,6 +46,8 @@ class PlottedGroup:
     names: tuple[str, ...]
     values: Array
     logarithmic: bool = False
+    places: tuple[int, ...] = ()
+    further: bool = False
 
 
 @dataclass(frozen=True)
@@ -107,22 +114,29 @@ class Recording:
     moments: tuple[Moment, ...] = ()
 
 
+def parts_of(title: str, count: int) -> Iterator[tuple[str, slice]]:
+    """Yield titles and columns of the groups that so many columns of one unit make."""
+    for i in range(0, min(count, MOST_OF_UNIT), LONGEST_KEY):
+        yield title if i == 0 else f"{title} {1 + i // LONGEST_KEY}", slice(i, i + LONGEST_KEY)
+
+
 def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
-    """Return positions and angles of the first bodies over time."""
+    """Return positions and angles of bodies over time."""
     groups = []
     names = [(f"{b.name}.{c}", c) for b in mechanism.bodies for c in b.coordinates]
-    for title, unit, wanted in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
-        chosen = [i for i, (_, c) in enumerate(names) if c in wanted][:LONGEST_KEY]
-        if chosen:
-            groups.append(PlottedGroup(title, unit, tuple(names[i][0] for i in chosen), q[:, chosen]))
+    for meaning, unit, wanted in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
+        columns = [i for i, (_, c) in enumerate(names) if c in wanted]
+        for title, some in parts_of(meaning, len(columns)):
+            chosen = columns[some]
+            own = tuple(names[i][0] for i in chosen)
+            groups.append(PlottedGroup(title, unit, own, q[:, chosen], places=tuple(chosen)))
     return groups
 
 
-def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording, bool]:
-    """Return the part of a recording that a page holds, and whether its coordinates have 16 bits.
+def is_coarse(recording: Recording, room: int, further: int = 0) -> bool:
+    """Whether the coordinates of a page have 16 bits, between the smallest and the largest value, instead of 32.
 
-    Where `FEWEST` frames are too many characters, coordinates have 16 bits instead of 32 between the smallest and the
-    largest value, and where that is not enough, forces are left out.
+    They have where `FEWEST` frames would be too many characters otherwise.
 
     Parameters
     ----------
@@ -133,16 +147,41 @@ def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording
     further : int
         Columns of 16 bits beside those of the recording.
     """
-    for candidate, coarse in ((recording, False), (recording, True)):
-        if FEWEST * _characters(candidate, coarse, further) <= room:
-            return candidate, coarse
-    return replace(recording, reactions=None, pushed=(), pulls=None, pulling=()), True
+    return FEWEST * _characters(recording, False, further) > room
 
 
 def _characters(recording: Recording, coarse: bool, further: int) -> float:
     """Return the characters of a frame."""
     wide = sum((4 if exact and not coarse else 2) * int(part.shape[1]) for part, exact in _parts(recording))
     return (wide + 2 * further) * 4 / 3
+
+
+def without_further(recording: Recording) -> Recording:
+    """Return a recording without the groups that a page has only where there is room."""
+    return replace(recording, groups=tuple(group for group in recording.groups if not group.further))
+
+
+def with_further(recording: Recording, frames: int, room: int) -> tuple[Recording, list[str]]:
+    """Return what a page holds with those further groups that there is room for, and the titles of the others.
+
+    Parameters
+    ----------
+    recording : Recording
+        The motion.
+    frames : int
+        How many outputs the page holds.
+    room : int
+        Characters that further groups may take.
+    """
+    groups, missing = list[PlottedGroup](), list[str]()
+    for group in recording.groups:
+        taken = min(frames, SAMPLES) * 8 / 3 * group.values.shape[1] if group.further else 0.0
+        if taken <= room:
+            room -= int(taken)
+            groups.append(group)
+        else:
+            missing.append(group.title)
+    return replace(recording, groups=tuple(groups)), missing
 
 
 def frames_within(recording: Recording, room: int, coarse: bool = False, further: int = 0) -> Array:
@@ -170,7 +209,8 @@ def _parts(recording: Recording) -> Iterator[tuple[Array, bool]]:
     yield recording.t.reshape(k, 1), True
     yield recording.q, True
     for group in recording.groups:
-        yield group.values, False
+        if not group.places:
+            yield group.values, False
     for further in (recording.reactions, recording.pulls):
         if further is not None:
             yield further.reshape(k, -1), False
@@ -190,9 +230,7 @@ def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str,
                 "unit": group.unit,
                 "names": list(group.names),
                 "log": group.logarithmic,
-                **shorts(
-                    np.log10(np.maximum(np.abs(group.values[keep]), 1e-17)) if group.logarithmic else group.values[keep]
-                ),
+                **({"places": list(group.places)} if group.places else _plotted(group, keep)),
             }
             for group in recording.groups
         ],
@@ -205,6 +243,17 @@ def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str,
         if values is not None and len(owners):
             data[name] = {"names": list(owners), **shorts(values[keep].reshape(len(keep), -1))}
     return data
+
+
+def _plotted(group: PlottedGroup, keep: Array) -> dict[str, Any]:
+    """Return the columns of a group; of a further one every so many frames, and the last."""
+    every = -(-len(keep) // SAMPLES) if group.further else 1
+    values = group.values[keep[np.minimum(np.arange(0, len(keep) + every - 1, every), len(keep) - 1)]]
+    if group.logarithmic:
+        values = np.log10(np.maximum(np.abs(values), 1e-17))
+    else:
+        values = cleaned(values, scale_of(group.values.ravel(), group.unit))
+    return {"every": every, **shorts(values)}
 
 
 def floats(values: Array) -> str:

@@ -269,15 +269,27 @@ def _index(text: str) -> str:
 
 _SIGNS = {"-": "−", "<=": "≤", ">=": "≥", "!=": "≠", "and": "∧", "or": "∨", "not": "¬", "*": "·"}
 _AROUND = {"sqrt": "<msqrt>%s</msqrt>", "abs": "<mrow><mo>|</mo>%s<mo>|</mo></mrow>"}
-_BRACKET = "<mrow><mo>(</mo>%s<mo>)</mo></mrow>"
+#: Brackets of one line, and tall ones, which the page's style draws as borders: fonts without them for mathematics
+#: have none that grow.
+_BRACKET, _TALL = "<mrow><mo>(</mo>%s<mo>)</mo></mrow>", '<mrow class="tall">%s</mrow>'
+
+
+def _bracketed(inside: str) -> str:
+    return (_TALL if "<mfrac" in inside or "<mtable" in inside else _BRACKET) % inside
 
 
 class _Mathml(_Notation):
     forms: ClassVar = {
         "over": "<mfrac>%s%s</mfrac>",
         "power": "<msup>%s%s</msup>",
-        "dot": '<mover accent="true">%s<mo>˙</mo></mover>',
     }
+
+    def dot(self, box: Box) -> str:
+        """Write a rate: the dot is above the letter, its index beside both."""
+        (base,) = box.parts
+        if base.kind != "name":
+            return f"<mover>{self.part(base)}<mo>˙</mo></mover>"
+        return self._indexed(base, f"<mover>{self._letter(base)}<mo>˙</mo></mover>")
 
     def part(self, box: Box) -> str:
         """Write what has to be one element."""
@@ -286,7 +298,12 @@ class _Mathml(_Notation):
         return f"<mrow>{text}</mrow>" if several else text
 
     def name(self, box: Box) -> str:
-        base = f"<mi>{escape(GREEK[box.text][1] if box.text in GREEK else box.text)}</mi>"
+        return self._indexed(box, self._letter(box))
+
+    def _letter(self, box: Box) -> str:
+        return f"<mi>{escape(GREEK[box.text][1] if box.text in GREEK else box.text)}</mi>"
+
+    def _indexed(self, box: Box, base: str) -> str:
         return f"<msub>{base}<mtext>{escape(box.index)}</mtext></msub>" if box.index else base
 
     def number(self, box: Box) -> str:
@@ -302,24 +319,24 @@ class _Mathml(_Notation):
         return _beside(box, self.write, '<mspace width="0.17em"/>')
 
     def bracket(self, box: Box) -> str:
-        return _BRACKET % self.listed(box)
+        return _bracketed(self.listed(box))
 
     def call(self, box: Box) -> str:
         inside = self.listed(box, "<mo>,</mo>")
         if box.text in _AROUND:
             return _AROUND[box.text] % inside
-        return f"<mi>{escape(box.text)}</mi><mo>&#8289;</mo>" + (inside if bare(box) else _BRACKET % inside)
+        return f"<mi>{escape(box.text)}</mi><mo>&#8289;</mo>" + (inside if bare(box) else _bracketed(inside))
 
     def cases(self, box: Box) -> str:
         lines = []
         for value, when in _pairs(box):
             condition = "<mi>otherwise</mi>" if when is None else f"<mtext>if </mtext>{self.write(when)}"
             lines.append(f"<mtr><mtd>{self.write(value)}</mtd><mtd>{condition}</mtd></mtr>")
-        return f"<mrow><mo>{{</mo><mtable>{''.join(lines)}</mtable></mrow>"
+        return f'<mtable class="cases">{"".join(lines)}</mtable>'
 
     def matrix(self, box: Box) -> str:
         lines = self.lines(box, "<mtr><mtd>%s</mtd></mtr>", "</mtd><mtd>")
-        return _BRACKET % f"<mtable>{''.join(lines)}</mtable>"
+        return f'<mtable class="tall">{"".join(lines)}</mtable>'
 
 
 # -- text ------------------------------------------------------------------------------------------------------

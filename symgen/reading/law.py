@@ -247,6 +247,7 @@ _FORMS: dict[str, Callable[..., Box]] = {
     "free_acceleration": lambda x: _times(_inverse(_M), x),
     "inverse_mass_root": lambda: power(_M, name("-1/2")),
     "schur": lambda: row(_D, _inverse(_M), transposed(_D)),
+    "compliant": lambda e: row(_D, _inverse(_M), transposed(_D), sign("+"), e),
     "pseudoinverse": lambda b: row(_factor(b), transposed(_factor(b))),
     "augmented": lambda a: row(_M, sign("+"), transposed(_D), a, _D),
     "augmented_metric": lambda a: row(_M, sign("+"), transposed(_D), a, _D),

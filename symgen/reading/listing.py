@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from symgen import catalogue
 from symgen.emit.printer import ElementAccess
+from symgen.errors import printable
 from symgen.ir.program import Target
 from symgen.reading.html import attribute, fold
 
@@ -126,9 +127,9 @@ def file_listing(text: str, places: Mapping[str, int], joints: Container[str]) -
     back = {number: name.removeprefix("joints.") for name, number in places.items() if name.startswith("joints.")}
     lines = []
     for number, line in enumerate(text.splitlines(), 1):
-        name = back.get(number, "")
+        name, own = back.get(number, ""), escape(printable(line.expandtabs(4)))  # what turns text around is seen
         link = f'  <a href="#rows-{attribute(name)}">rows</a>'
-        lines.append(f'<span id="file-{number}">{escape(line)}{link}</span>' if name in joints else escape(line))
+        lines.append(f'<span id="file-{number}">{own}{link}</span>' if name in joints else own)
     return [fold(f"{len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
 
 

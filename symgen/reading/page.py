@@ -72,7 +72,7 @@ def check_size(mechanism: Mechanism) -> None:
     speeds = sum(len(body.speeds) for body in mechanism.bodies)
     if max(rows, speeds) > MOST_ROWS:
         expected = f"at most {MOST_ROWS} constraint rows and velocities for a page"
-        raise InputError("inspect: -o", expected, f"{rows} rows and {speeds} velocities", "--json has no such limit")
+        raise InputError("page", expected, f"{rows} rows and {speeds} velocities", "text and JSON have no such limit")
 
 
 @dataclass(eq=False)
@@ -136,7 +136,7 @@ class EquationPage:
             if len(text.encode()) <= LARGEST:
                 return text
         expected, got = f"a mechanism whose page has at most {LARGEST} bytes", f"one with {len(text.encode())}"
-        raise InputError("inspect: -o", expected, f"{got} without its code", "--json has no such limit")
+        raise InputError("page", expected, f"{got} without its code", "text and JSON have no such limit")
 
     @cached_property
     def _computed(self) -> dict[str, list[Computed]]:

@@ -39,6 +39,7 @@ def input_names(e: Equations) -> dict[tuple[str, int], str]:
     """Return the names of time, coordinates, velocities, parameters and of angles as they were last."""
     spaces = {"q": e.coordinates, "v": e.velocities, "p": e.parameters}
     names = {(space, i): x.name for space, quantities in spaces.items() for i, x in enumerate(quantities)}
+    names |= {("z", i): x.name for i, x in enumerate(e.states, 1)}
     return {("t", 0): "t", **names, **{("winding", i): f"turned_{i}" for i in range(len(e.windings))}}
 
 

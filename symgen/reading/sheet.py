@@ -154,10 +154,12 @@ class Sheet:
         return [Equation(row(name("f"), _of(v.name)), self.writer.sum(n), v.name) for v, n in pairs if n != g.zero]
 
     def rates(self) -> list[Equation]:
-        """Return ``q' = N v`` where it is not ``q' = v``."""
+        """Return ``q' = N v`` where it is not ``q' = v``, and the rates of the states of the file."""
         g, e = self.equations.graph, self.equations
         pairs = zip(e.coordinates, e.q_rates, strict=True)
-        return [Equation(dot(name(q.name)), self.writer.sum(n), q.name) for q, n in pairs if g.nodes[n].op != "input"]
+        moving = [(q, n) for q, n in pairs if g.nodes[n].op != "input"]
+        whole = (*moving, *zip(e.states, e.state_rates, strict=True))
+        return [Equation(dot(name(x.name)), self.writer.sum(n), x.name) for x, n in whole]
 
     def energies(self) -> list[Equation]:
         """Return T, V, the power of forces without potential, and that of drivers without rows, b v' + c."""
@@ -190,7 +192,7 @@ class Sheet:
     def nodes(self, what: Iterable[str]) -> list[int]:
         """Return the nodes that some quantities are made of, by `QUANTITIES`' names."""
         e = self.equations
-        nodes = e.nodes(self.rows) | {"N": list(e.q_rates), "energies": self._energies}
+        nodes = e.nodes(self.rows) | {"N": [*e.q_rates, *e.state_rates], "energies": self._energies}
         keys = {"Phi": "phi", "D": "jacobian", "M": "mass", "f": "forces"}
         return [n for part in what for n in nodes.get(keys.get(part, part), ())]
 
@@ -198,7 +200,9 @@ class Sheet:
         """Return coordinates, velocities, parameters and inputs under their headings."""
         e = self.equations
         own, inputs = (tuple(p for p in e.parameters if (p.name in e.inputs) == is_input) for is_input in (False, True))
-        return [("Coordinates", e.coordinates), ("Velocities", e.velocities), ("Parameters", own), ("Inputs", inputs)]
+        states = [("States", e.states)] if e.states else []
+        known = [("Coordinates", e.coordinates), ("Velocities", e.velocities)]
+        return [*known, *states, ("Parameters", own), ("Inputs", inputs)]
 
 
 def indexed(letter: str, index: str) -> Box:

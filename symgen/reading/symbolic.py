@@ -13,7 +13,7 @@ from symgen.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.formulate.translate import TO_SYMPY, NotReal, Translator, table_function
 from symgen.ir.graph import Graph
-from symgen.reading.boxes import Box, dot, matrix, name
+from symgen.reading.boxes import Box, dot, latex, matrix, name
 from symgen.reading.quantity_names import input_names
 from symgen.reading.typeset import Writer
 
@@ -23,6 +23,15 @@ _CONDITIONS = {
 }
 #: What SymPy leaves as it is: to compare expressions takes it long.
 _UNEVALUATED = {"floor": sp.floor, "min": sp.Min, "max": sp.Max}
+
+
+class FileSymbol(sp.Symbol):  # type: ignore[misc]  # SymPy has no types
+    """A symbol with a name of the file, which SymPy prints in LaTeX as documents and pages have it."""
+
+    __slots__ = ()
+
+    def _latex(self, printer: Any) -> str:
+        return latex(name(self.name))
 
 
 class Symbolic:
@@ -37,9 +46,9 @@ class Symbolic:
     """
 
     def __init__(self, equations: Equations, named: Mapping[int, str] | None = None) -> None:
-        self.named = {node: sp.Symbol(text, real=True) for node, text in (named or {}).items()}
+        self.named = {node: FileSymbol(text, real=True) for node, text in (named or {}).items()}
         self.graph = equations.graph
-        self.symbols = {key: sp.Symbol(text, real=True) for key, text in input_names(equations).items()}
+        self.symbols = {key: FileSymbol(text, real=True) for key, text in input_names(equations).items()}
         self._built: dict[int, Any] = {}
 
     def expression(self, node: int) -> Any:

@@ -6,6 +6,8 @@ import math
 import re
 from collections.abc import Sequence
 
+from symgen.errors import counted as counted
+
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 #: What stands where there is no number.
 NONE = "–"
@@ -72,11 +74,6 @@ def listed(words: Sequence[str], last: str = "and") -> str:
     if len(words) < 2:
         return "".join(words)
     return f"{', '.join(words[:-1])} {last} {words[-1]}"
-
-
-def counted(n: int, one: str, many: str = "") -> str:
-    """Return a number of things: 1 run, 3 runs."""
-    return f"{n} {one if n == 1 else many or one + 's'}"
 
 
 def sentence(text: str) -> str:

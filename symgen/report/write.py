@@ -99,9 +99,12 @@ def html(document: Document) -> str:
 
 
 #: What Markdown takes for more than text: emphasis, code, tags, entities, links, the columns of a table, and marks at
-#: the beginning of a line. Underscores inside words, and brackets that no address follows, are text.
+#: the beginning of a line. Underscores inside words, brackets that no address follows, and numbers that no space
+#: follows, are text.
 _MARKED = re.compile(
-    r"[\\`*<|~$]|&(?=\w+;|#)|(?<![^\W_])_|_(?![^\W_])|\[(?=[^\]]*\]\s*[(\[:])|^(?:[#>+-]|\d+(?=[.)]))", re.MULTILINE
+    r"[\\`*<|~$]|&(?=\w+;|#)|(?<![^\W_])_|_(?![^\W_])|\[(?=[^\]]*\]\s*[(\[:])"
+    r"|^(?:#{1,6}(?=\s|$)|>|\+(?=\s|$)|-(?=[\s-]|$)|\d+(?=[.)](?:\s|$)))",
+    re.MULTILINE,
 )
 
 

@@ -14,7 +14,7 @@ from symgen.describe.evaluate import parameter_values
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
 from symgen.result.reactions import Forces, seats
-from symgen.result.result import FAILED, Rank, Result, Seconds
+from symgen.result.result import FAILED, UNVERIFIED, Rank, Result, Seconds
 from symgen.result.tables import Measured
 from symgen.running.automatic import stiff_by_steps
 from symgen.running.continuation import made_of
@@ -61,6 +61,11 @@ def build_result(
     forces = Forces(outcome, seats(mechanism, values))
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(run, outcome, verification)
+    if verdict.status != FAILED and any(force.flexures for force in mechanism.forces):
+        from symgen.result.bending import overbent
+
+        doubt = overbent(mechanism, values, outcome.states[:, : info.nq])
+        verdict = verdict if doubt is None else replace(verdict, status=UNVERIFIED, reason=doubt)
     if verdict.status == FAILED and (undefined := undefined_at_end(mechanism, outcome)):
         verdict = replace(verdict, reason=f"{str(verdict.reason).partition('; ')[0]}: {undefined}")
     stiff = () if verdict.status == FAILED else stiff_by_steps(run, outcome)
@@ -136,6 +141,7 @@ def _last_state(run: Prepared, outcome: Outcome) -> LastState:
     else:
         arrays = _arrays(outcome)
         y, work, w = arrays["y"], arrays["y"][info.work], arrays["w"]
+    own = arrays["y"][run.compiled.info.own_states].tolist()
     whole = outcome.code in (abi.DONE, abi.STOPPED)
     return LastState(
         mechanism=mechanism.name,
@@ -150,6 +156,7 @@ def _last_state(run: Prepared, outcome: Outcome) -> LastState:
         made=made_of(run.compiled, run.plan, run.spec),
         failed="" if whole else outcome.reason,
         arrays=arrays,
+        states=dict(zip((x.name for x in info.states), own, strict=True)) or None,
     )
 
 

@@ -7,7 +7,10 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 if TYPE_CHECKING:
+    from symgen.result.labelled import Labelled
     from symgen.result.result import Result
 
 
@@ -60,3 +63,9 @@ def finite(value: Any) -> Any:
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value
+
+
+def series(table: Labelled) -> dict[str, list[float | None]]:
+    """Return a table as JSON has it: lists by key; numbers that are not finite are None."""
+    columns = {name: table.values[:, i].tolist() for i, name in enumerate(table.names)}
+    return columns if np.all(np.isfinite(table.values)) else finite(columns)

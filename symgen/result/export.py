@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.describe.columns import column_name
 from symgen.files import headed, need, write_whole
 from symgen.result.contract import contract
+from symgen.result.signals import TABLES
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -34,23 +36,6 @@ PLOTTED: Mapping[str, tuple[str, ...]] = {".png": ("matplotlib",), ".svg": ("mat
 
 #: Attribute of a NetCDF file that describes the last state, and what its variables begin with.
 LAST_HEADER, LAST_PREFIX = "last_state", "last_"
-
-#: Table -> name of its second dimension in a dataset.
-DIMENSIONS = {
-    "q": "coordinate",
-    "v": "velocity",
-    "a": "acceleration",
-    "joint_coordinates": "joint_coordinate",
-    "lam": "multiplier",
-    "reactions": "reaction",
-    "body_reactions": "body_reaction",
-    "magnitudes": "magnitude",
-    "points": "point_coordinate",
-    "elements": "element_quantity",
-    "outputs": "output",
-    "energy": "kind_of_energy",
-    "violations": "level",
-}
 
 
 def netcdf(dataset: xr.Dataset) -> Callable[[io.BytesIO], object]:
@@ -112,9 +97,9 @@ def to_xarray(result: Result) -> xr.Dataset:
     variables: dict[str, Any] = {}
     coordinates: dict[str, Any] = {"time": ("time", result.t, {"units": "s"})}
     for name, table in result.tables().items():
-        dimension = DIMENSIONS[name]
+        dimension, names = TABLES[name], tuple(column_name(name, key) for key in table.names)
         variables[name] = (("time", dimension), table.values)
-        coordinates[dimension] = (dimension, _texts(table.names), {})
+        coordinates[dimension] = (dimension, _texts(names), {})
         coordinates[f"{dimension}_unit"] = (dimension, _texts(table.units), {})
     variables["smallest_pivot"] = (("time",), result.smallest_pivot)
     facts = {

@@ -18,9 +18,12 @@ if TYPE_CHECKING:
     from symgen.result.points import Verification
     from symgen.running.prepare import Prepared
     from symgen.runtime.outcome import Ended, Outcome
+    from symgen.vocabulary.infos import LawInfo
 
 #: Energy jump over a passage, as a fraction of the energy in motion: from the first on a warning, the second failure.
 JUMP_WARNING, JUMP_FAILURE = 1e-6, 1e-3
+#: Why a run whose velocities are scaled to its energy is not ok.
+HELD = "velocities are scaled to the energy, which then shows no error: a second run with finer steps has to agree"
 
 
 @dataclass(frozen=True)
@@ -43,7 +46,7 @@ def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -
     second : Verification, optional
         What a run with finer steps says of it; it settles doubts.
     """
-    verdict = judge_alone(outcome, run.compiled.law.position_correction)
+    verdict = judge_alone(outcome, run.compiled.law)
     verdict = replace(verdict, warnings=(*verdict.warnings, *_velocity_warning(run, outcome)))
     if second is None or verdict.status == FAILED:
         return verdict
@@ -54,15 +57,15 @@ def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -
     return replace(verdict, status=OK, reason=None, notes=notes)
 
 
-def judge_alone(outcome: Ended, position_correction: bool) -> Verdict:
+def judge_alone(outcome: Ended, law: LawInfo) -> Verdict:
     """Judge a run by what its loop saw, without a second opinion.
 
     Parameters
     ----------
     outcome : Ended
         What the loop gave.
-    position_correction : bool
-        Whether the method corrects positions.
+    law : LawInfo
+        What the method corrects.
     """
     passed = _passed(outcome)
     warnings = tuple(_warnings(outcome, passed))
@@ -73,7 +76,9 @@ def judge_alone(outcome: Ended, position_correction: bool) -> Verdict:
     jump = relative_jump(outcome)
     if jump > JUMP_FAILURE:
         return Verdict(FAILED, _jumped(outcome), warnings)
-    if not passed or position_correction:
+    if law.energy_correction:
+        return Verdict(UNVERIFIED, HELD, warnings)
+    if not passed or law.position_correction:
         return Verdict(OK, None, warnings)
     reason = (
         f"passed near a singular position{_when(outcome)} and positions are not corrected: "

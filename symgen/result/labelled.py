@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import Any, Protocol
@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.arguments import shown, whole
-from symgen.errors import InputError, nearest, quoted
+from symgen.digits import digits, scale_of
+from symgen.errors import InputError, fitting, nearest, quoted
 
 Array = NDArray[np.float64]
 
@@ -92,16 +93,33 @@ class Labelled:
         return len(self.names)
 
     def _repr_html_(self) -> str:
-        def extremes(i: int) -> tuple[str, str, str]:
-            column = self.values[:, i]
-            return (f"{column.min():.6g}", f"{column.max():.6g}", f"{column[-1]:.6g}") if len(column) else ("", "", "")
-
-        rows = [(name, self.units[i], *extremes(i)) for i, name in enumerate(self.names)]
+        ends = (column_texts(self, np.min), column_texts(self, np.max), column_texts(self))
+        rows = [(name, self.units[i], *(texts.get(name, "") for texts in ends)) for i, name in enumerate(self.names)]
         return html_table(("", "unit", "smallest", "largest", "last"), rows, most=60)
 
     def __repr__(self) -> str:
         shown = ", ".join(self.names[:6]) + (", ..." if len(self.names) > 6 else "")
         return f"Labelled({self.values.shape[0]} outputs of {len(self.names)}: {shown})"
+
+
+def column_texts(table: Labelled, of: Callable[[Array], float] = lambda column: float(column[-1])) -> dict[str, str]:
+    """Return a number of each column as people read it, by the names; empty where there are no rows.
+
+    What rounding leaves beside the largest number of all columns of its unit is 0.
+
+    Parameters
+    ----------
+    table : Labelled
+        The columns.
+    of : callable
+        The number of a column, the last one by default.
+    """
+    if not len(table.values):
+        return {}
+    units = np.array(table.units)
+    scales = {unit: scale_of(table.values[:, units == unit].ravel(), unit) for unit in set(table.units)}
+    columns = zip(table.names, table.units, table.values.T, strict=True)
+    return {name: digits(of(values), scales[unit]) for name, unit, values in columns}
 
 
 def html_table(headings: Sequence[str], rows: Sequence[Sequence[str]], most: int = 200) -> str:
@@ -111,8 +129,9 @@ def html_table(headings: Sequence[str], rows: Sequence[Sequence[str]], most: int
         return "<tr>" + "".join(f"<{tag} style='text-align:left'>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
 
     head = row(headings, "th") if headings else ""
-    left = [f"<tr><td>... {len(rows) - most} more</td></tr>"] if len(rows) > most else []
-    return f"<table>{head}{''.join([row(cells, 'td') for cells in rows[:most]] + left)}</table>"
+    first = fitting(len(rows), most)
+    left = [f"<tr><td>... {len(rows) - first} more</td></tr>"] if len(rows) > first else []
+    return f"<table>{head}{''.join([row(cells, 'td') for cells in rows[:first]] + left)}</table>"
 
 
 class Quantity(Protocol):

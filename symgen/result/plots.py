@@ -1,55 +1,58 @@
-"""Plots of a result: panels over time, with units, in colours that can be told apart by everybody."""
+"""Plots of quantities: panels with units, in colours that can be told apart by everybody."""
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from symgen.errors import InputError, nearest
-from symgen.files import check_path, write_whole
-from symgen.result.export import PLOTTED
+from symgen.errors import fitting
+from symgen.files import write_whole
 from symgen.result.labelled import Labelled
-
-if TYPE_CHECKING:
-    from symgen.result.result import Result
 
 #: Okabe and Ito's colours, told apart with every kind of colour vision; dashes tell repeats apart.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#F0E442")
 DASHES = ("-", "--", ":", "-.")
 #: Lines of a panel at most: those that change most are drawn, all of them with a key.
 LONGEST_LEGEND = 14
-#: Label of the axis, lines, and whether their sizes are drawn on a logarithmic scale.
-Panel = tuple[str, Labelled, bool]
 #: Smaller violations are drawn here: a logarithm has no zero.
 FLOOR = 1e-17
+#: Curves that are nowhere further apart than this part of the picture are one line.
+APART = 1e-6
+#: Unit -> what has it.
+MEANINGS = {
+    **{"m": "length", "rad": "angle", "m/s": "velocity", "rad/s": "angular velocity", "m/s^2": "acceleration"},
+    **{"rad/s^2": "angular acceleration", "N": "force", "N m": "moment", "W": "power", "J": "energy"},
+}
 
 
-def plot(result: Result, path: Path, what: tuple[str, ...] = ("positions", "energy", "violations")) -> Path:
-    """Draw panels over time into a file.
+def panel_of(name: str, unit: str) -> tuple[str, str, bool]:
+    """Return title and unit of the panel that a quantity belongs to, and whether its size is drawn as a logarithm."""
+    if name.startswith("violation."):
+        return "violation", "m, m/s, m/s^2", True
+    if name == "energy.error":
+        return "|energy error|", unit, True
+    if unit == "m" and name.endswith((".x", ".y", ".z")):
+        return "position", unit, False
+    return MEANINGS.get(unit, ""), "" if unit == "1" else unit, False
 
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-    path : Path
-        A ``.png``, ``.svg`` or ``.pdf`` file.
-    what : tuple of str
-        Keys of `PANELS`.
 
-    Raises
-    ------
-    InputError
-        If the ending or a panel is not known, matplotlib is missing, or the file cannot be written.
-    """
-    check_path("plot", path, PLOTTED, "plot")
-    for name in what:
-        if name not in PANELS:
-            raise InputError("plot", "the name of a panel", f"'{name}'", nearest(name, PANELS))
-    return write_figure(draw(result, what), path)
+def panels(table: Labelled) -> Iterator[tuple[str, str, bool, Labelled]]:
+    """Yield the panels of a table: title, unit, whether sizes are drawn as logarithms, and columns."""
+    places: dict[tuple[str, str, bool], list[int]] = {}
+    for i, (name, unit) in enumerate(zip(table.names, table.units, strict=True)):
+        places.setdefault(panel_of(name, unit), []).append(i)
+    for (title, unit, logarithmic), chosen in places.items():
+        names, units = (tuple(of[i] for i in chosen) for of in (table.names, table.units))
+        yield title, unit, logarithmic, Labelled(table.values[:, chosen], names, units)
+
+
+def label(title: str, unit: str) -> str:
+    """Return the label of an axis: ``angular velocity [rad/s]``."""
+    return f"{title} [{unit.replace('^2', '$^2$')}]".strip() if unit else title
 
 
 def write_figure(figure: Any, path: Path) -> Path:
@@ -59,109 +62,104 @@ def write_figure(figure: Any, path: Path) -> Path:
     return write_whole(path, lambda file: figure.savefig(file, format=kind, dpi=150, metadata=metadata))
 
 
-def draw(result: Result, what: tuple[str, ...]) -> Any:
-    """Return a matplotlib figure with one panel, or several, for each word of `what`."""
-    panels = [panel for name in what for panel in PANELS[name](result)]
-    status = result.status if result.status == "ok" else f"{result.status}: {result.reason}"
-    return over_time(result.t, panels, f"{result.mechanism}, {result.method}, {result.integrator} ({status})")
+def drawing(along: Labelled, table: Labelled, title: str) -> Any:
+    """Return a matplotlib figure of columns over another column, a panel for each unit."""
+    parts = [*panels(table)]
+    figure, axes = empty(title, len(parts))
+    for ax, (meaning, unit, logarithmic, columns) in zip(axes, parts, strict=False):
+        _lines(ax, along.values[:, 0], columns, logarithmic)
+        ax.set_ylabel(label(columns.names[0] if len(columns.names) == 1 else meaning, unit))
+    axes[-1].set_xlabel(label(along.names[0], along.units[0]))
+    return figure
 
 
-def over_time(t: Any, panels: list[Panel], title: str) -> Any:
-    """Return a matplotlib figure of panels over time."""
+def empty(title: str, count: int) -> tuple[Any, Any]:
+    """Return a matplotlib figure with panels below each other."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(8.0, 0.8 + 2.4 * max(1, len(panels))), layout="constrained")
-    axes = np.atleast_1d(figure.subplots(max(1, len(panels)), 1, sharex=True))
-    for ax, (label, table, logarithmic) in zip(axes, panels, strict=False):
-        _lines(ax, t, table, logarithmic)
-        ax.set_ylabel(label)
+    count = max(1, count)
+    figure = Figure(figsize=(8.0, 1.2 + 2.4 * count), layout="constrained")
+    axes = np.atleast_1d(figure.subplots(count, 1, sharex=True))
+    for ax in axes:
         ax.grid(True, alpha=0.3)
-    axes[-1].set_xlabel("t [s]")
+        ax.margins(x=0.01)
     figure.suptitle("\n".join(textwrap.wrap(title, 95)), fontsize=10)
-    return figure
+    figure.align_ylabels()
+    return figure, axes
 
 
 def paths(curves: Mapping[str, Any], title: str) -> Any:
     """Return a matplotlib figure of curves in the plane of x and y, arrays of shape (k, 2 or more) [m], by name."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(7.0, 6.0), layout="constrained")
+    figure = Figure(figsize=(8.5, 6.0), layout="constrained")
     ax = figure.subplots()
-    for i, (name, curve) in enumerate(curves.items()):
-        style = DASHES[i // len(COLOURS) % len(DASHES)]
-        ax.plot(curve[:, 0], curve[:, 1], style, color=COLOURS[i % len(COLOURS)], linewidth=1.2, label=name)
-    ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
+    distinct = _distinct({name: curve[:, :2] for name, curve in curves.items()})
+    for i, (name, curve) in enumerate(distinct.items()):
+        still = np.ptp(curve, axis=0).max(initial=0.0) == 0.0  # a point that does not move
+        ax.plot(curve[:, 0], curve[:, 1], label=name, marker="o" if still else None, **style(i))
+    ax.set(xlabel="x [m]", ylabel="y [m]")
+    ax.set_aspect("equal", adjustable="datalim")
     ax.grid(True, alpha=0.3)
-    if 0 < len(curves) <= LONGEST_LEGEND:
-        ax.legend(fontsize=7)
+    if 0 < len(distinct) <= LONGEST_LEGEND:
+        legend(ax)
     figure.suptitle("\n".join(textwrap.wrap(title, 80)), fontsize=10)
     return figure
 
 
+def style(index: int, count: int = 1) -> dict[str, Any]:
+    """Return colour and dashes of the line with a number; lines that are too many for a legend shade one scale."""
+    if count > LONGEST_LEGEND:
+        from matplotlib import colormaps
+
+        return {"color": colormaps["viridis"](index / (count - 1)), "linewidth": 0.7}
+    dashes = DASHES[index // len(COLOURS) % len(DASHES)]
+    return {"color": COLOURS[index % len(COLOURS)], "linestyle": dashes, "linewidth": 1.2}
+
+
+def _distinct(curves: Mapping[str, Any]) -> dict[str, Any]:
+    """Return curves without those that lie on another one, which has their names as well."""
+    whole = np.concatenate([curve.ravel() for curve in curves.values()]) if curves else np.zeros(0)
+    whole = whole[np.isfinite(whole)]
+    room = APART * float(np.ptp(whole)) if len(whole) else 0.0
+    merged: dict[str, tuple[list[str], Any]] = {}
+    for name, curve in curves.items():
+        same = (n for n, (_, other) in merged.items() if np.allclose(curve, other, 0.0, room, equal_nan=True))
+        first = next(same, None)
+        if first is None:
+            merged[name] = [name], curve
+        else:
+            merged[first][0].append(name)
+    return {"\n".join(textwrap.wrap(", ".join(names), 28)): curve for names, curve in merged.values()}
+
+
 def _most_moving(table: Labelled) -> tuple[Labelled, int]:
     """Return the columns that change most, in their own order, as many as a key holds, and how many are left out."""
-    left = len(table.names) - LONGEST_LEGEND
-    if left <= 0 or not len(table.values):
+    first = fitting(len(table.names), LONGEST_LEGEND)
+    left = len(table.names) - first
+    if not left or not len(table.values):
         return table, 0
     change = np.nan_to_num(np.ptp(table.values, axis=0))
-    chosen = sorted(np.argsort(-change, kind="stable")[:LONGEST_LEGEND].tolist())
+    chosen = sorted(np.argsort(-change, kind="stable")[:first].tolist())
     names, units = (tuple(of[i] for i in chosen) for of in (table.names, table.units))
     return Labelled(table.values[:, chosen], names, units), left
 
 
-def _lines(ax: Any, t: Any, table: Labelled, logarithmic: bool) -> None:
+def _lines(ax: Any, along: Any, table: Labelled, logarithmic: bool) -> None:
     table, left = _most_moving(table)
     if left:
-        ax.set_title(f"the {len(table.names)} that change most; {left} more are left out", fontsize=8, loc="left")
-    for i, name in enumerate(table.names):
-        values = table.values[:, i]
-        if logarithmic:
-            values = np.maximum(np.abs(values), FLOOR)
-        style = DASHES[i // len(COLOURS) % len(DASHES)]
-        ax.plot(t, values, style, color=COLOURS[i % len(COLOURS)], linewidth=1.2, label=name)
+        count = len(table.names)
+        ax.set_title(f"the {count} that change most; {left} more are left out", fontsize=8, loc="left")
+    values = np.maximum(np.abs(table.values), FLOOR) if logarithmic else table.values
+    curves = {name: values[:, i] for i, name in enumerate(table.names)}
+    for i, (name, curve) in enumerate(curves.items() if logarithmic else _distinct(curves).items()):
+        ax.plot(along, curve, label=name, **style(i))
     if logarithmic:
         ax.set_yscale("log")
     if len(table.names) > 1:
-        ax.legend(fontsize=7, ncols=1, loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
-    elif table.names:
-        ax.legend(fontsize=7, loc="best")
+        legend(ax)
 
 
-def by_unit(table: Labelled, what: str) -> list[Panel]:
-    """Return one panel for each unit in a table."""
-    panels = []
-    for unit in dict.fromkeys(table.units):
-        chosen = [i for i, u in enumerate(table.units) if u == unit]
-        part = Labelled(table.values[:, chosen], tuple(table.names[i] for i in chosen), (unit,) * len(chosen))
-        panels.append((f"{what} [{unit}]", part, False))
-    return panels
-
-
-def _positions(result: Result) -> list[Panel]:
-    return [(f"{_quantity(p[0])}", p[1], p[2]) for p in by_unit(result.q, "position")]
-
-
-def _quantity(label: str) -> str:
-    return label.replace("position [rad]", "angle [rad]").replace("position [1]", "Euler parameter [1]")
-
-
-def _energy(result: Result) -> list[Panel]:
-    energy = result.energy
-    balance = Labelled(energy.values[:, :3], energy.names[:3], energy.units[:3])
-    error = Labelled(energy.values[:, 3:], ("error",), ("J",))
-    return [("energy [J]", balance, False), ("|energy error| [J]", error, True)]
-
-
-def _violations(result: Result) -> list[Panel]:
-    return [("violation [m, m/s, m/s$^2$]", result.violations, True)]
-
-
-#: Panels by name.
-PANELS: dict[str, Callable[[Result], list[Panel]]] = {
-    "positions": _positions,
-    "velocities": lambda result: by_unit(result.v, "velocity"),
-    "accelerations": lambda result: by_unit(result.a, "acceleration"),
-    "reactions": lambda result: by_unit(result.reactions, "reaction"),
-    "energy": _energy,
-    "violations": _violations,
-}
+def legend(ax: Any) -> None:
+    """Put the legend of a panel to the right of it, where it hides nothing."""
+    ax.legend(fontsize=7, ncols=1, loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)

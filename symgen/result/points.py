@@ -51,10 +51,13 @@ class Points:
         For each body where its coordinates begin, and its own length; 0 for a point mass.
     dimension : int
         2 in the plane, 3 in space.
+    slender : bool
+        Whether some bodies are nodes of beams, whose own lengths say nothing of these.
     """
 
     bodies: tuple[tuple[int, float], ...]
     dimension: int = 2
+    slender: bool = False
 
     @classmethod
     def of(cls, mechanism: Mechanism, parameters: Mapping[str, float]) -> Points:
@@ -63,13 +66,14 @@ class Points:
         for body in mechanism.bodies:
             bodies.append((first, own_length(body, parameters)))
             first += len(body.coordinates)
-        return cls(tuple(bodies), 3 if mechanism.space == "spatial" else 2)
+        slender = any(force.flexures for force in mechanism.forces)
+        return cls(tuple(bodies), 3 if mechanism.space == "spatial" else 2, slender)
 
     def size(self, q: Array) -> float:
         """Return the mechanism's size [m]: the longest body's own length.
 
-        Where all bodies are point masses it is the extent of what they do: the diagonal of the box that holds them; of
-        one point at one place the distance from the origin.
+        Where all bodies are point masses, or some are nodes of beams, it is the extent of what they do: the diagonal of
+        the box that holds them; of one point at one place the distance from the origin.
 
         Parameters
         ----------
@@ -77,11 +81,11 @@ class Points:
             Coordinates at some times.
         """
         longest = max((length for _, length in self.bodies), default=0.0)
-        if longest > 0.0 or not self.bodies or not len(q):
+        if (longest > 0.0 and not self.slender) or not self.bodies or not len(q):
             return longest
         places = np.concatenate([q[:, i : i + self.dimension] for i, _ in self.bodies])
         extent = float(np.linalg.norm(np.ptp(places, axis=0)))
-        return extent or float(np.linalg.norm(places[0]))
+        return max(longest, extent) or float(np.linalg.norm(places[0]))
 
     def distance(self, a: Array, b: Array) -> float:
         """Return the largest distance [m] between corresponding points, over all bodies and times.

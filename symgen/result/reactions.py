@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from symgen.describe.evaluate import evaluate
 from symgen.result.labelled import Array, Labelled
 from symgen.result.points import rotation_matrices
+from symgen.result.signals import SignalTables, filled, of_forces
 from symgen.runtime import abi
 from symgen.vocabulary.measures import GROUND
 
@@ -31,38 +32,6 @@ class Seat:
 
     body: str
     place: tuple[float, ...] | Array
-
-
-def _is_spatial(info: ModelInfo) -> bool:
-    """Whether bodies move in space."""
-    return any(velocity.name.endswith(".vz") for velocity in info.velocities)
-
-
-def _labels(spatial: bool, velocities: int) -> list[str]:
-    """Return the components that a reaction has on a body of so many velocities, 0 for the ground."""
-    axes = "xyz" if spatial else "xy"
-    turns = velocities == 0 or velocities > len(axes)
-    return [*(f"F{axis}" for axis in axes), *(f"M{axis}" for axis in ("xyz" if spatial else ("",)) if turns)]
-
-
-def reaction_names(joints: Mapping[str, str], info: ModelInfo) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the names of the components of all reactions, and those of their magnitudes, of any run of a model.
-
-    Parameters
-    ----------
-    joints : mapping of str to str
-        Joint -> its first body.
-    info : ModelInfo
-        The model.
-    """
-    sizes, spatial = Counter(velocity.name.rpartition(".")[0] for velocity in info.velocities), _is_spatial(info)
-    parts, lengths = list[str](), list[str]()
-    for joint, body in joints.items():
-        labels = _labels(spatial, 0 if body == GROUND else sizes[body])
-        parts += [f"{joint}.{label}" for label in labels]
-        several = (name for letter, name in (("F", "F"), ("M", "T")) if sum(x[0] == letter for x in labels) > 1)
-        lengths += [f"{joint}.{name}" for name in several]
-    return tuple(parts), tuple(lengths)
 
 
 @dataclass(frozen=True)
@@ -104,7 +73,7 @@ class Acting:
         for row, column, number, slot in self.info.jacobian:
             value = constant * (number or 0.0) if slot is None else entries[:, slot]
             by_joint[self.info.rows[row].joint].append((row, column, value))
-        names, values = list[str](), list[Array]()
+        vectors = dict[str, dict[str, Array]]()
         for joint, seat in self.seats.items():
             generalised: dict[int, Array] = {}
             for row, column, value in by_joint[joint]:
@@ -117,46 +86,54 @@ class Acting:
             place = self._in_space(np.asarray(seat.place))[..., np.newaxis, :]
             arm = (place @ np.swapaxes(self._axes(seat.body), 1, 2))[..., 0, :]
             moment = moment - np.cross(arm, force)
-            for label, value in self._labelled(force, moment, columns.get(seat.body, [])):
-                names.append(f"{joint}.{label}")
-                values.append(value)
-        return self._table(names, values)
+            vectors[joint] = {"F": force, "M": moment}
+        return self._table(
+            "reactions", (vectors[joint][part[0]][:, "xyz".index(part[1:] or "z")] for joint, part in self._parts)
+        )
+
+    @cached_property
+    def signals(self) -> SignalTables:
+        """The columns of all tables of forces."""
+        return of_forces(self.info, {joint: seat.body for joint, seat in self.seats.items()})
+
+    @property
+    def _parts(self) -> list[tuple[str, str]]:
+        """Joint and component of each column of the reactions."""
+        return [(joint, part) for s in self.signals["reactions"] for joint, _, part in [s.key.rpartition(".")]]
+
+    def _vectors(self, letter: str) -> dict[str, list[int]]:
+        """Return the columns of the reactions that are components of forces (F) or moments (M), by joint."""
+        columns = dict[str, list[int]]()
+        for i, (joint, part) in enumerate(self._parts):
+            if part[0] == letter:
+                columns.setdefault(joint, []).append(i)
+        return columns
 
     def in_body_axes(self, reactions: Labelled) -> Labelled:
         """Return reactions in the axes of the bodies that they act on."""
         values = reactions.values.copy()
-        for joint, seat in self.seats.items():
-            for letter in "FM":
-                indices = [i for i, n in enumerate(reactions.names) if n.startswith(f"{joint}.{letter}")]
-                if seat.body != GROUND and len(indices) > 1:
-                    turned = self._in_space(reactions.values[:, indices])[:, np.newaxis] @ self._axes(seat.body)
-                    values[:, indices] = turned[:, 0, : len(indices)]
-        return Labelled(values, reactions.names, reactions.units)
+        for letter in "FM":
+            for joint, columns in self._vectors(letter).items():
+                body = self.seats[joint].body
+                if body != GROUND and len(columns) > 1:
+                    turned = self._in_space(reactions.values[:, columns])[:, np.newaxis] @ self._axes(body)
+                    values[:, columns] = turned[:, 0, : len(columns)]
+        return self._table("body_reactions", values.T)
 
     def magnitudes(self, reactions: Labelled) -> Labelled:
         """Return the lengths of the reactions' forces, and of their moments where these have several components."""
-        names, values = list[str](), list[Array]()
-        for joint in self.seats:
-            for letter, name in (("F", "F"), ("M", "T")):
-                indices = [i for i, n in enumerate(reactions.names) if n.startswith(f"{joint}.{letter}")]
-                if len(indices) > 1:
-                    names.append(f"{joint}.{name}")
-                    values.append(np.linalg.norm(reactions.values[:, indices], axis=1))
-        return self._table(names, values)
+        columns = {"F": self._vectors("F"), "T": self._vectors("M")}
+        places = [columns[s.key[-1]][s.key[:-2]] for s in self.signals["magnitudes"]]
+        return self._table("magnitudes", (np.linalg.norm(reactions.values[:, place], axis=1) for place in places))
 
-    def _table(self, names: list[str], values: list[Array]) -> Labelled:
+    def _table(self, table: str, columns: Iterable[Array]) -> Labelled:
+        values = [*columns]
         stacked = np.column_stack(values) if values else np.zeros((len(self.states), 0))
-        return Labelled(stacked, tuple(names), tuple("N" if n.rpartition(".")[2][0] == "F" else "N m" for n in names))
+        return filled(stacked, self.signals[table])
 
     @property
     def _spatial(self) -> bool:
-        return _is_spatial(self.info)
-
-    def _labelled(self, force: Array, moment: Array, indices: list[tuple[int, str]]) -> Iterator[tuple[str, Array]]:
-        """Yield the components that a reaction has on a body: a point mass, unlike the ground, takes no moment."""
-        for label in _labels(self._spatial, len(indices)):
-            values = force if label[0] == "F" else moment
-            yield label, values[:, "xyz".index(label[1:] or "z")]
+        return any(velocity.name.endswith(".vz") for velocity in self.info.velocities)
 
     def _on_ground(
         self, generalised: Mapping[int, Array], columns: Mapping[str, list[tuple[int, str]]]
@@ -254,20 +231,16 @@ class Forces:
         """Whether some rows depend on others at the start."""
         return self.outcome.start.rank < self.compiled.info.m
 
-    def columns(self, table: str) -> tuple[str, ...]:
-        """Return the names of multipliers (``lam``), of reactions or of their ``magnitudes``."""
-        if table == "lam":
-            return tuple(row.name for row in self.compiled.info.rows)
-        parts, lengths = reaction_names({joint: seat.body for joint, seat in self.seats.items()}, self.compiled.info)
-        return lengths if table == "magnitudes" else parts
+    @cached_property
+    def signals(self) -> SignalTables:
+        """The columns of all tables of forces."""
+        return of_forces(self.compiled.info, {joint: seat.body for joint, seat in self.seats.items()})
 
     # -- multipliers ---------------------------------------------------------------------------------------------------
 
     def multipliers(self) -> Labelled:
         """Return lambda at all outputs, of minimum norm where the rows of D are dependent."""
-        values = _minimum_norm(self.outcome)
-        rows = self.compiled.info.rows
-        return Labelled(values, tuple(r.name for r in rows), tuple(multiplier_unit(r.unit) for r in rows))
+        return filled(_minimum_norm(self.outcome), self.signals["lam"])
 
     def final(self) -> dict[str, float]:
         """Return the multipliers at the last output by name; empty where there is no output."""
@@ -358,8 +331,3 @@ def _weighed(outcome: Motion, t: float, y: Array) -> tuple[Array, Array]:
     weights = np.array([w[abi.LENGTH] if row.unit == "rad" else 1.0 for row in compiled.info.rows])
     gauge = compiled.section(w, "gauge")
     return np.sqrt(gauge)[:, np.newaxis] * jacobian(outcome, t, y).T * weights, weights
-
-
-def multiplier_unit(row_unit: str) -> str:
-    """Return the unit of a multiplier whose row is measured in `row_unit`: lambda times the row is work or power."""
-    return {"m": "N", "m/s": "N", "rad": "N m", "rad/s": "N m"}.get(row_unit, f"J/({row_unit})")

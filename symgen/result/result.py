@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -12,23 +12,21 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.arguments import of_kind, shown, switch, words
 from symgen.arguments import path as argument_path
-from symgen.describe.mechanism import ACCELERATIONS
+from symgen.arguments import shown, switch, words
 from symgen.errors import InputError, nearest
 from symgen.files import check_path, write_whole
 from symgen.memory import require
 from symgen.result.contract import contract
 from symgen.result.export import SAVED, data_frame, netcdf, to_xarray, with_last_state, write_frame
 from symgen.result.labelled import Array, Labelled
-from symgen.result.plots import plot
+from symgen.result.signals import TABLES, accelerations
 from symgen.result.tables import MotionTables
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-    from symgen.player.motion_page import Page
     from symgen.result.reactions import Forces
     from symgen.result.tables import Measured
     from symgen.runtime.events import EventRecord
@@ -37,21 +35,8 @@ if TYPE_CHECKING:
 
 #: What a run can end as.
 OK, UNVERIFIED, FAILED = "ok", "unverified", "failed"
-#: Tables of a result: of the state and of what follows from it, of forces, and of the file's own quantities.
-TABLES = (
-    *("q", "v", "a", "lam", "reactions", "body_reactions", "magnitudes", "joint_coordinates"),
-    *("points", "elements", "outputs", "energy", "violations"),
-)
-#: Columns of two of them.
-ENERGIES, VIOLATIONS = ("kinetic", "potential", "work", "error"), ("position", "velocity", "acceleration")
 #: Reason of a run that was stopped from outside.
 INTERRUPTED = "interrupted"
-
-
-def accelerations_of(velocities: Iterable[str]) -> tuple[str, ...]:
-    """Return the names of accelerations by those of the velocities."""
-    parts = (name.rpartition(".") for name in velocities)
-    return tuple(f"{body}.{ACCELERATIONS[component]}" for body, _, component in parts)
 
 
 @dataclass(frozen=True)
@@ -193,32 +178,32 @@ class Result(MotionTables):
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the tables."""
-        return TABLES
+        return tuple(TABLES)
 
     @property
-    def searched(self) -> tuple[str, ...]:
-        """Tables in which a column is looked for by its name alone, cheap ones first."""
-        return ("q", "v", "joint_coordinates", "a", "lam", "reactions", "outputs", "elements", "points")
+    def drawn(self) -> tuple[str, ...]:
+        """What a plot shows unless it is told."""
+        return ("q", "energy", "violations")
+
+    @property
+    def title(self) -> str:
+        """What stands above a plot."""
+        status = self.status if self.reason is None else f"{self.status}: {self.reason}"
+        return f"{self.mechanism}, {self.method}, {self.integrator} ({status})"
 
     # -- derived, when first asked for ---------------------------------------------------------------------------------
 
     @cached_property
     def a(self) -> Labelled:
         """Accelerations v', named after the velocities: ``crank.ax``, ``crank.alpha``."""
-        units = tuple(f"{unit}^2" for unit in self.v.units)
-        return Labelled(self.outcome.accelerations, accelerations_of(self.v.names), units)
+        return accelerations(self.outcome.accelerations, self.v)
 
     @cached_property
     def violations(self) -> Labelled:
         """Norms of Phi, ``D v - nu`` and ``D v' - gamma``: ``position``, ``velocity``, ``acceleration``."""
         status = self.outcome.status_columns
         values = np.column_stack([status[:, 0], status[:, 1], self.outcome.acceleration_violations])
-        return Labelled(values, VIOLATIONS, ("m", "m/s", "m/s^2"))
-
-    @cached_property
-    def body_reactions(self) -> Labelled:
-        """The reactions in the axes of the bodies that they act on, under the same names."""
-        return self.forces.in_body_axes(self.reactions)
+        return Labelled(values, ("position", "velocity", "acceleration"), ("m", "m/s", "m/s^2"))
 
     def reaction(self, joint: str) -> Array:
         """Return the reaction of one joint, shape (k, 3), in space (k, 6): force [N] and moment [N m]."""
@@ -241,11 +226,12 @@ class Result(MotionTables):
         """Whether the status is ``"ok"``."""
         return self.status == OK
 
-    @property
+    @cached_property
     def energy(self) -> Labelled:
-        """Energies as one table: ``kinetic``, ``potential``, ``work``, ``error`` [J]."""
-        values = np.column_stack([self.kinetic, self.potential, self.work, self.energy_error])
-        return Labelled(values, ENERGIES, ("J",) * len(ENERGIES))
+        """Energies as one table: ``kinetic``, ``potential``, ``work``, ``total`` (T + V), ``error`` [J]."""
+        parts = {"kinetic": self.kinetic, "potential": self.potential, "work": self.work}
+        parts |= {"total": self.kinetic + self.potential, "error": self.energy_error}
+        return Labelled(np.column_stack([*parts.values()]), tuple(parts), ("J",) * len(parts))
 
     @cached_property
     def last_state(self) -> LastState:
@@ -274,7 +260,7 @@ class Result(MotionTables):
         return contract(self)
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Return all tables as one data frame over time; columns carry their table's name where it is needed.
+        """Return all tables as one data frame over time; columns have the names that `select` takes.
 
         Raises
         ------
@@ -289,29 +275,14 @@ class Result(MotionTables):
         """Return all tables as a dataset over time, with units and what was run; raises as `to_dataframe` does."""
         return to_xarray(self)
 
-    def view(self, beside: Result | None = None, *, live: bool = True) -> Page:
-        """Return a page that plays the motion, which notebooks show and ``.save("x.html")`` writes.
-
-        The page is one file that works offline. Where the equations are not too large it holds them as well, so that
-        sliders of parameters change the motion.
-
-        Parameters
-        ----------
-        beside : Result, optional
-            Another motion of the same mechanism, drawn faintly behind.
-        live : bool
-            Whether the page shall hold the equations.
-
-        Raises
-        ------
-        InputError
-            If there are no outputs, or `beside` is of another mechanism.
-        """
-        from symgen.result.viewed import view
-
-        if beside is not None:
-            of_kind("beside", beside, Result, "a Result")
-        return view(self, beside, switch("live", live))
+    def run_facts(self) -> dict[str, Any]:
+        """Return what a page says of the run and begins its live part with, by the names of JSON."""
+        names = ("method", "integrator", "status", "reason", "parameters", "inputs", "coordinates", "step", "start")
+        return {
+            **{name: getattr(self, name) for name in (*names, "watched")},
+            "rank_events": [asdict(event) for event in self.rank_events],
+            "events": [{"t": event.t, "name": event.name} for event in self.events],
+        }
 
     def save(self, path: str | PathLike[str], quantities: Sequence[str] = (), units: bool = False) -> Path:
         """Write all tables to ``.nc`` (NetCDF), ``.parquet`` or ``.csv``; the file appears whole or not at all.
@@ -341,20 +312,8 @@ class Result(MotionTables):
         require("save", f"{len(self.t)} outputs of {self.mechanism}", size)
         if ending == ".nc":
             return write_whole(file, netcdf(with_last_state(to_xarray(self), self)))
-        frame = data_frame(self.t, self.select(self.names), True) if headed else self.to_dataframe()
+        frame = data_frame(self.t, self.whole(), True) if headed else self.to_dataframe()
         return write_frame(frame, file)
-
-    def plot(self, path: str | PathLike[str], what: Sequence[str] = ("positions", "energy", "violations")) -> Path:
-        """Draw panels over time into a PNG, SVG or PDF file.
-
-        Parameters
-        ----------
-        path : path
-            The file; its ending says the kind.
-        what : sequence of str
-            Any of ``positions``, ``velocities``, ``energy``, ``violations``, ``reactions``.
-        """
-        return plot(self, argument_path("plot", path), words("plot", what))
 
     def __repr__(self) -> str:
         from symgen.result.summary import status_in_words

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from symgen.describe.columns import PREFIX
+from symgen.describe.columns import FORMS
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, quoted
 from symgen.files import check_name, check_rows, need, unheaded
-from symgen.result.export import DIMENSIONS, LAST_HEADER, LAST_PREFIX, SAVED
+from symgen.result.export import LAST_HEADER, LAST_PREFIX, SAVED
 from symgen.result.labelled import Array
+from symgen.result.signals import TABLES
 from symgen.runtime.last_state import LastState
 
 if TYPE_CHECKING:
@@ -38,8 +40,8 @@ class Recorded:
     t : Array, shape (k,)
         Times [s].
     columns : mapping of str to Array
-        By the names of data frames, each of shape (k,): coordinates, velocities, accelerations, and coordinates of
-        joints behind ``joint.``, where angles count turns; of files of columns all others too.
+        By name, each of shape (k,): coordinates, velocities, accelerations, and coordinates of joints, where angles
+        count turns; of files of columns all others too.
     mechanism : str
         Its name, empty in files of columns.
     run : mapping
@@ -108,6 +110,13 @@ def checked(option: str, path: Path, read: Callable[[Path], _Value], libraries: 
         raise InputError(option, "a file of a result", f"'{path}', which cannot be read as one ({why})") from None
 
 
+def check_names(columns: Sequence[str]) -> None:
+    """Refuse columns of a version that called other things so: its energies had no sum, and their own names."""
+    if {"kinetic", "energy.kinetic"} & set(columns) and {"error", "energy.error"} & set(columns):
+        if "energy.total" not in columns:
+            raise ValueError("it is of an older version, whose columns had other names")
+
+
 def dataset_of(path: Path) -> xr.Dataset:
     """Return the content of a NetCDF file; libraries raise errors of many types where it is damaged."""
     import h5py
@@ -120,9 +129,10 @@ def dataset_of(path: Path) -> xr.Dataset:
 
 def _of_dataset(path: Path, whence: str) -> Recorded:
     dataset, columns = dataset_of(path), dict[str, Array]()
+    check_names(dataset["kind_of_energy"].values.tolist())
     for table in _TABLES:
         values = np.asarray(dataset[table].values, dtype=np.float64)
-        columns |= {f"{PREFIX[table]}{name}": values[:, i] for i, name in enumerate(dataset[DIMENSIONS[table]].values)}
+        columns |= {str(name): values[:, i] for i, name in enumerate(dataset[TABLES[table]].values)}
     last = None
     if LAST_HEADER in dataset.attrs:
         variables = {str(name): v.values for name, v in dataset.data_vars.items() if v.dims == (f"{name}_index",)}
@@ -136,6 +146,7 @@ def _of_csv(path: Path, whence: str) -> Recorded:
     with path.open(encoding="utf-8", newline="") as file:
         rows = csv.reader(file)
         names, cells = [unheaded(name) for name in next(rows)], list(rows)
+    check_names(names)
     check_rows(whence, names, cells)
     values = np.array([[float(x or "nan") for x in row] for row in cells])
     if not len(values):
@@ -148,6 +159,7 @@ def _of_parquet(path: Path, whence: str) -> Recorded:
     import pandas as pd
 
     frame = pd.read_parquet(path, engine="pyarrow")
+    check_names(list(map(str, frame.columns)))
     columns = {str(name): np.asarray(frame[name], dtype=np.float64) for name in frame.columns}
     return Recorded(whence, np.asarray(frame.index, dtype=np.float64), columns)
 
@@ -164,11 +176,8 @@ def recorded(motion: Any) -> Recorded:
         return motion
     if not all(hasattr(motion, name) for name in ("t", "q", "v", "a")):
         raise InputError("motion", "a result of a run, or a motion of kinematics", f"a {type(motion).__name__}")
-    tables = motion.q, motion.v, motion.a
+    tables = [getattr(motion, name) for name in _TABLES if hasattr(motion, name)]
     columns = {name: table.values[:, i] for table in tables for i, name in enumerate(table.names)}
-    if hasattr(motion, "joint_coordinates"):
-        joints, prefix = motion.joint_coordinates, PREFIX["joint_coordinates"]
-        columns |= {f"{prefix}{name}": joints[name] for name in joints.names}
     run = {name: dict(getattr(motion, name, {})) for name in ("parameters", "inputs")}
     return Recorded("motion", np.asarray(motion.t, dtype=np.float64), columns, run=run)
 
@@ -191,6 +200,7 @@ def read_recorded(option: str, path: Path) -> Recorded:
     return _read(option, path, lambda motion: motion)
 
 
+_OF_BODY = re.compile(r"(\w+)(\.(?:start|end|[0-9]+))?\.(\w+)")
 _PLACES = ("x", "y", "z", "theta", "e0", "e1", "e2", "e3")
 
 
@@ -219,8 +229,18 @@ def read_last_state(option: str, path: Path) -> LastState:
 
 def _of_columns(saved: Recorded) -> LastState:
     def row(labels: Iterable[str]) -> dict[str, float]:
-        own = (name for name in saved.columns if name.count(".") == 1 and name.partition(".")[2] in labels)
+        # bodies have names without a dot, nodes of beams with one, before which no head of a table stands
+        heads = {form.partition(".")[0] for form in FORMS.values()}
+        own = (
+            name
+            for name in saved.columns
+            if (m := _OF_BODY.fullmatch(name)) and m[3] in labels and not (m[2] and m[1] in heads)
+            if not (m[2] and f"{m[1]}.{m[3]}" in saved.columns)
+        )
         return {name: float(saved.columns[name][-1]) for name in own}
 
     work = 0.0 if saved.mechanism else float(saved.columns["energy.work"][-1])
-    return LastState(saved.mechanism, "", float(saved.t[-1]), row(_PLACES), row(ACCELERATIONS), work)
+    last = LastState(saved.mechanism, "", float(saved.t[-1]), row(_PLACES), row(ACCELERATIONS), work)
+    # states of a file are columns with the names of outputs, which have no dot
+    own = {name: float(column[-1]) for name, column in saved.columns.items() if "." not in name}
+    return replace(last, states=own or None)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from symgen.result.labelled import html_table
+from symgen.result.contract import finite
+from symgen.result.labelled import Labelled, html_table
 from symgen.result.points import QUICK
 from symgen.result.result import FAILED
 
@@ -69,8 +71,10 @@ def status_in_words(result: Result) -> str:
         whole, finer = ("global error", "a tenth of it") if adaptive else ("error", "half the step")
         slow = adaptive and result.seconds.run >= QUICK
         why = f" as the run took {result.seconds.run:.2g} s" if slow else ""
-        parts.append(f"{whole} not estimated{why}: --verify runs again with {finer}")
-    parts += [f"stiff: {proposal} takes longer steps" for proposal in result.proposals]
+        parts.append(f"{whole} not estimated{why}: `verify` runs again with {finer}")
+    parts += [
+        f"stiff: {proposal.replace('--integrator', '`integrator`')} takes longer steps" for proposal in result.proposals
+    ]
     return f"{text} ({'; '.join(parts)})"
 
 
@@ -78,3 +82,13 @@ def html(result: Result) -> str:
     """Return the summary as an HTML table."""
     rows = [*lines(result), *(("warning", w) for w in result.warnings), *(("note", n) for n in result.notes)]
     return html_table((), rows)
+
+
+def extremes(table: Labelled) -> dict[str, dict[str, Any]]:
+    """Return unit, last, smallest and largest value of each column, None where there is none."""
+    entries: dict[str, dict[str, Any]] = {}
+    for i, (name, unit) in enumerate(zip(table.names, table.units, strict=True)):
+        values = table.values[:, i]
+        numbers = (values[-1], values.min(), values.max()) if len(values) else (math.nan,) * 3
+        entries[name] = {"unit": unit, **dict(zip(("final", "min", "max"), map(float, numbers), strict=True))}
+    return {name: finite(entry) for name, entry in entries.items()}

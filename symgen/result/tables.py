@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
@@ -12,21 +12,24 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.arguments import one_of, shown, words
+from symgen.arguments import one_of, shown, switch, text, words
 from symgen.arguments import path as argument_path
 from symgen.compiling.side import compile_side
-from symgen.describe.columns import PREFIX
-from symgen.describe.readings import TABLES, Column
-from symgen.errors import InputError, nearest, quoted
+from symgen.describe.columns import column_name
+from symgen.describe.readings import TABLES as FORMULAS
+from symgen.errors import InputError
 from symgen.files import check_path
+from symgen.result.contract import series
 from symgen.result.export import COLUMNS, PLOTTED, data_frame, write_frame
 from symgen.result.labelled import Array, Labelled, labelled
-from symgen.result.plots import by_unit, over_time, write_figure
+from symgen.result.plots import drawing, write_figure
+from symgen.result.signals import SignalTables, check_single, choose, of_formulas
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from symgen.describe.mechanism import Mechanism
+    from symgen.player.motion_page import Page
     from symgen.result.reactions import Forces
     from symgen.runtime.outcome import Motion
 
@@ -52,24 +55,20 @@ class Measured:
     def __repr__(self) -> str:
         return f"<Measured of {self.mechanism.name} at {len(self.outcome.times)} outputs>"
 
-    def columns(self, table: str) -> tuple[Column, ...]:
-        """Return the columns of a table of `symgen.describe.outputs`: names, units and formulas."""
-        return TABLES[table](self.mechanism)
+    @cached_property
+    def signals(self) -> SignalTables:
+        """The columns of the tables that need code of their own."""
+        return of_formulas(self.mechanism)
 
     def table(self, table: str) -> Labelled:
         """Return the values of a table at the outputs."""
-        columns = self.columns(table)
+        columns = FORMULAS[table](self.mechanism)
         if not columns or not len(self.outcome.times):
             return labelled(np.zeros((len(self.outcome.times), len(columns))), columns)
         formulas = [(column.name, column.formula) for column in columns]
         compiled = self.outcome.compiled
         side = compile_side(self.mechanism, compiled, table, f"the table {table} of results", formulas)
         return labelled(self.outcome.observed(side.function, len(columns), self.multipliers()), columns)
-
-
-#: Tables that need code of their own, and tables of forces: names of their columns are there without their values.
-SIDE = ("points", "elements", "outputs")
-_OF_FORCES = ("lam", "reactions", "body_reactions", "magnitudes")
 
 
 class Tables(ABC):
@@ -93,9 +92,14 @@ class Tables(ABC):
         """Names of the tables, in the order of files."""
 
     @property
-    def searched(self) -> tuple[str, ...]:
-        """Tables in which a column is looked for by its name alone, cheap ones first."""
-        return self.names
+    def drawn(self) -> tuple[str, ...]:
+        """What a plot shows unless it is told."""
+        return self.names[:1]
+
+    @property
+    def signals(self) -> SignalTables:
+        """Columns of the tables whose values take some computing: names are known without them."""
+        return self.forces.signals
 
     @property
     def title(self) -> str:
@@ -118,6 +122,11 @@ class Tables(ABC):
         the body's centre of mass, on the ground about the origin.
         """
         return self.forces.reactions(self.lam)
+
+    @cached_property
+    def body_reactions(self) -> Labelled:
+        """The reactions in the axes of the bodies that they act on, with the same keys."""
+        return self.forces.in_body_axes(self.reactions)
 
     @cached_property
     def magnitudes(self) -> Labelled:
@@ -151,12 +160,17 @@ class Tables(ABC):
         return {name: getattr(self, name) for name in self.names}
 
     def columns(self, table: str) -> tuple[str, ...]:
-        """Return the names of the columns of a table; values of a costly one are not computed for that."""
+        """Return the keys of the columns of a table; values of a costly one are not computed for that."""
         one_of("table", table, self.names)
-        if table not in self.__dict__ and table in _OF_FORCES:
-            return self.forces.columns(table)
+        if table not in self.__dict__ and table in self.signals:
+            return tuple(signal.key for signal in self.signals[table])
         labelled: Labelled = getattr(self, table)
         return labelled.names
+
+    @cached_property
+    def _places(self) -> dict[str, tuple[str, int]]:
+        """Table and place of every column, by name."""
+        return {column_name(t, key): (t, i) for t in self.names for i, key in enumerate(self.columns(t))}
 
     def select(self, names: Sequence[str]) -> Labelled:
         """Return columns of any tables, in this order.
@@ -164,50 +178,44 @@ class Tables(ABC):
         Parameters
         ----------
         names : sequence of str
-            Columns of a data frame (``crank.theta``, ``lam.A.x``, ``reaction.A.Fx``, ``spring.force``), all columns of
-            a body, a joint, an element or a prefix (``crank``, ``energy``), or tables (``q``, ``points``).
+            Columns (``crank.theta``, ``knee.F``, ``motor.effort``, ``multiplier.A.x``), all that a body, a joint or a
+            force has (``crank``, ``knee``), or tables (``q``, ``points``).
 
         Raises
         ------
         InputError
             If there is no such name; says the nearest one.
         """
-        columns = {PREFIX[table] + name: table for table in self.names for name in self.columns(table)}
-        chosen = choose(columns, names, self.mechanism, self.names)
-        tables = {
-            PREFIX[table] + name: (i, values)
-            for table in dict.fromkeys(chosen.values())
-            for values in (getattr(self, table),)
-            for i, name in enumerate(values.names)
-        }
-        places = [tables[name] for name in chosen]
-        stacked = [table.values[:, i] for i, table in places]
-        values = np.column_stack(stacked) if stacked else np.zeros((len(self.t), 0))
-        return Labelled(values, tuple(chosen), tuple(table.units[i] for i, table in places))
+        tables = {name: table for name, (table, _) in self._places.items()}
+        return self._stacked(choose(tables, names, self.mechanism, self.names))
+
+    def whole(self, tables: Sequence[str] = ()) -> Labelled:
+        """Return all columns of some tables, or of all of them, by the names that `select` takes."""
+        chosen = tables or self.names
+        return self._stacked([name for name, (table, _) in self._places.items() if table in chosen])
+
+    def _stacked(self, names: Iterable[str]) -> Labelled:
+        places = {name: self._places[name] for name in names}
+        tables: dict[str, Labelled] = {t: getattr(self, t) for t in dict.fromkeys(t for t, _ in places.values())}
+        columns = [(tables[t].values[:, i], tables[t].units[i]) for t, i in places.values()]
+        values = np.column_stack([column for column, _ in columns]) if columns else np.zeros((len(self.t), 0))
+        return Labelled(values, tuple(places), tuple(unit for _, unit in columns))
 
     def __getitem__(self, name: str) -> Array:
-        """Return a column of whatever table has it: ``result["crank.x"]``, ``result["crank.omega"]``, ``result["t"]``.
+        """Return a column by its name: ``result["crank.x"]``, ``result["knee.F"]``, ``result["t"]``, shape (k,).
 
-        Multipliers of a joint that is called like a body are hidden by the body's coordinates here; they are in `lam`.
-        Names of data frames, such as ``lam.A.x``, tell them apart.
+        The name of a body, a joint or a force gives all that it has, shape (k, n), whose names `select` says.
         """
         if not isinstance(name, str):
             hint = "outputs are rows: result.q.values[-1] holds the last coordinates, result.q.row(-1) by name"
             raise InputError("result", "the name of a column", shown(name), hint)
         if name == "t":
             return self.t
-        every = list[str]()
-        for table in self.searched:
-            names = self.columns(table)
-            if name in names:
-                labelled: Labelled = getattr(self, table)
-                return labelled[name]
-            every += names
-        for table in self.names:
-            if name.startswith(PREFIX[table]) and (own := name.removeprefix(PREFIX[table])) in self.columns(table):
-                labelled = getattr(self, table)
-                return labelled[own]
-        raise InputError("result", "the name of a column", quoted(name), nearest(name, every))
+        if name in self._places:
+            table, i = self._places[name]
+            labelled: Labelled = getattr(self, table)
+            return labelled.values[:, i]
+        return self.select([name]).values
 
     # -- leaving Python ------------------------------------------------------------------------------------------------
 
@@ -219,7 +227,7 @@ class Tables(ABC):
         InputError
             If pandas is not installed; says how to install it.
         """
-        return data_frame(self.t, self.select(self.names))
+        return data_frame(self.t, self.whole())
 
     def save(self, path: str | PathLike[str], quantities: Sequence[str] = ()) -> Path:
         """Write all tables, or chosen columns, to ``.csv`` with units in its header, or ``.parquet``.
@@ -238,44 +246,85 @@ class Tables(ABC):
         """
         where = argument_path("save", path)
         check_path("save", where, COLUMNS, "data")
-        chosen = self.select(words("quantities", quantities) or self.names)
+        names = words("quantities", quantities)
+        chosen = self.select(names) if names else self.whole()
         return write_frame(data_frame(self.t, chosen, where.suffix.lower() == ".csv"), where)
 
-    def plot(self, path: str | PathLike[str], what: Sequence[str] = ()) -> Path:
-        """Draw quantities over time into a PNG, SVG or PDF file, a panel for each unit.
+    def series(self, table: str) -> dict[str, list[float | None]]:
+        """Return a table as JSON has it: lists by key; numbers that are not finite are None."""
+        return series(getattr(self, one_of("table", table, self.names)))
+
+    def plot(self, path: str | PathLike[str], what: Sequence[str] = (), over: str = "t") -> Path:
+        """Draw quantities over time, or over another quantity, into a PNG, SVG or PDF file, a panel for each unit.
 
         Parameters
         ----------
         path : path
             The file; its ending says the kind.
         what : sequence of str, optional
-            As `select` takes them; the first table by default.
+            Quantities as `select` takes them: ``["motor.effort", "knee.F"]``; an overview by default.
+        over : str
+            The column along the horizontal axis: ``crank.theta``.
+
+        Raises
+        ------
+        InputError
+            If there is no such name, the ending is not known, matplotlib is missing, or the file cannot be written.
         """
         where = argument_path("plot", path)
         check_path("plot", where, PLOTTED, "plot")
-        chosen = words("plot", what) or self.names[:1]
-        panels = [panel for name in chosen for panel in by_unit(self.select([name]), name)]
-        return write_figure(over_time(self.t, panels, self.title), where)
+        names = words("plot", what)
+        shown = self.select(names) if names else self.whole(self.drawn)
+        return write_figure(drawing(self.along(over), shown, self.title), where)
 
-    def series(self, table: str) -> dict[str, list[Any]]:
-        """Return a table as JSON has it: lists by name; numbers that are not finite are None."""
-        labelled: Labelled = getattr(self, one_of("table", table, self.names))
-        if np.all(np.isfinite(labelled.values)):
-            return {name: labelled.values[:, i].tolist() for i, name in enumerate(labelled.names)}
-        columns = ((name, labelled.values[:, i].tolist()) for i, name in enumerate(labelled.names))
-        return {name: [x if np.isfinite(x) else None for x in column] for name, column in columns}
+    def along(self, over: str) -> Labelled:
+        """Return the one column that other quantities are drawn over."""
+        if text("over", over) == "t":
+            return Labelled(self.t[:, np.newaxis], ("t",), ("s",))
+        axis = self.select([over])
+        check_single(over, axis.names)
+        return axis
 
 
 class MotionTables(Tables):
     """Tables of a motion: with what joints report, and the quantities that a file names."""
 
     measured: Measured
+    q: Labelled
+    parameters: Mapping[str, float]
 
-    def columns(self, table: str) -> tuple[str, ...]:
-        """Return the names of the columns of a table; values of a costly one are not computed for that."""
-        if table in SIDE and table not in self.__dict__:
-            return tuple(column.name for column in self.measured.columns(table))
-        return super().columns(table)
+    @abstractmethod
+    def run_facts(self) -> dict[str, Any]:
+        """Return what a page says of the run and begins its live part with, by the names of JSON."""
+
+    def view(self, beside: MotionTables | None = None, *, live: bool = True) -> Page:
+        """Return a page that plays the motion, which notebooks show and ``.save("x.html")`` writes.
+
+        The page is one file that works offline. Where the equations are not too large it holds them as well, so that
+        sliders of parameters change the motion.
+
+        Parameters
+        ----------
+        beside : Result or Kinematics, optional
+            Another motion of the same mechanism, drawn faintly behind.
+        live : bool
+            Whether the page shall hold the equations.
+
+        Raises
+        ------
+        InputError
+            If there are no outputs, or `beside` is of another mechanism.
+        """
+        from symgen.result.viewed import view
+
+        if not (beside is None or isinstance(beside, MotionTables)):
+            raise InputError("beside", "a result of a run, or a motion of kinematics", shown(beside))
+        return view(self, beside, switch("live", live))
+
+    @property
+    def signals(self) -> SignalTables:
+        """Columns of the tables whose values take some computing: names are known without them."""
+        return self.forces.signals | self.measured.signals
 
     @cached_property
     def joint_coordinates(self) -> Labelled:
@@ -300,41 +349,3 @@ class MotionTables(Tables):
     def outputs(self) -> Labelled:
         """The formulas of the file's ``[outputs]``; integrals are left out where nothing is integrated."""
         return self.measured.table("outputs")
-
-
-def choose(
-    columns: Mapping[str, str], names: Sequence[str], mechanism: str, tables: Sequence[str] = ()
-) -> dict[str, str]:
-    """Return the columns that names mean, with their tables.
-
-    Parameters
-    ----------
-    columns : mapping of str to str
-        All columns, with their tables.
-    names : sequence of str
-        See `Tables.select`.
-    mechanism : str
-        Its name, for the message.
-    tables : sequence of str
-        Tables that may be named although they have no columns.
-
-    Raises
-    ------
-    InputError
-        If there is no such name; says the nearest one.
-    """
-    chosen, groups = dict[str, str](), dict.fromkeys((*columns.values(), *tables))
-    for name in words("quantities", names):
-        if name in columns:
-            matches = {name: columns[name]}
-        elif name in groups:
-            matches = {column: table for column, table in columns.items() if table == name}
-        else:
-            matches = {column: table for column, table in columns.items() if column.startswith(f"{name}.")}
-        if not matches and name not in tables:
-            groups |= dict.fromkeys(column.partition(".")[0] for column in columns)
-            candidates = [*columns, *groups] if len(columns) <= 60 or "." in name else [*groups]
-            expected = f"a quantity of {mechanism}"
-            raise InputError(f"quantity '{name}'", expected, "none of that name", nearest(name, candidates))
-        chosen |= matches
-    return chosen

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from dataclasses import asdict, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,28 +16,30 @@ from symgen.describe.inputs import are_words_of_data
 from symgen.errors import AssemblyError, InputError
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.motion_page import Page, page
-from symgen.player.recording import LONGEST_KEY, Moment, PlottedGroup, Recording, position_groups
-from symgen.result.export import DIMENSIONS, SAVED
+from symgen.player.recording import Moment, PlottedGroup, Recording, parts_of, position_groups
+from symgen.result.export import SAVED
 from symgen.result.labelled import Array, Labelled
-from symgen.result.saved import checked, dataset_of
+from symgen.result.plots import panels
+from symgen.result.saved import check_names, checked, dataset_of
+from symgen.result.signals import TABLES
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.result.result import Result
+    from symgen.result.tables import MotionTables
     from symgen.running.prepare import Prepared
     from symgen.running.tree import TreeRun
 
 
-def view(result: Result, beside: Result | None = None, live: bool = True) -> Page:
-    """Return the page of a result.
+def view(result: MotionTables, beside: MotionTables | None = None, live: bool = True) -> Page:
+    """Return the page of a motion.
 
     Parameters
     ----------
-    result : Result
+    result : MotionTables
         Of this process.
-    beside : Result, optional
+    beside : MotionTables, optional
         Another motion of the same mechanism, drawn faintly behind.
     live : bool
         Whether the page shall be able to work out other motions.
@@ -45,17 +47,16 @@ def view(result: Result, beside: Result | None = None, live: bool = True) -> Pag
     Raises
     ------
     InputError
-        If the results are of different mechanisms, or have no outputs.
+        If the motions are of different mechanisms, or have no outputs.
     """
     first, second = recorded(result), None if beside is None else recorded(beside)
     if beside is not None and second is not None and beside.q.names != result.q.names:
         raise InputError("view", f"another motion of {first.mechanism.name}", f"one of {second.mechanism.name}")
-    run = {name: getattr(result, name) for name in ("parameters", "inputs", "coordinates", "step", "start", "watched")}
-    return page(first, *(_live(first.mechanism, run) if live else (None, "")), second)
+    return page(first, *(_live(first.mechanism, result.run_facts()) if live else (None, "")), second)
 
 
-def recorded(result: Result) -> Recording:
-    """Return a result as a page plays it.
+def recorded(result: MotionTables) -> Recording:
+    """Return a motion as a page plays it.
 
     Raises
     ------
@@ -64,17 +65,9 @@ def recorded(result: Result) -> Recording:
     """
     if not len(result.t):
         raise InputError("view", "a result with outputs", f"one of {result.mechanism} without")
-    mechanism = result.measured.mechanism
-    run = {name: getattr(result, name) for name in ("method", "integrator", "status", "reason")}
-    run["rank_events"] = [asdict(event) for event in result.rank_events]
-    run["events"] = [{"t": event.t, "name": event.name} for event in result.events]
+    mechanism, run = result.measured.mechanism, result.run_facts()
     values = parameter_values(mechanism) | dict(result.parameters)
-    tables: dict[str, Labelled] = {name: getattr(result, name) for name in _TABLES}
-    return _recording(mechanism, values, result.t, result.q.values, tables, run)
-
-
-#: Tables of a result that pages show beside the coordinates.
-_TABLES = ("energy", "violations", "reactions", "elements", "outputs")
+    return _recording(mechanism, values, result.t, result.q.values, lambda table: result.whole((table,)), run)
 
 
 def _recording(
@@ -82,7 +75,7 @@ def _recording(
     values: Mapping[str, float],
     t: Array,
     q: Array,
-    tables: Mapping[str, Labelled],
+    read: Callable[[str], Labelled],
     run: Mapping[str, Any],
 ) -> Recording:
     """Return a motion as a page plays it, with facts of its run by the names of JSON."""
@@ -93,8 +86,9 @@ def _recording(
         for e in run.get("rank_events", [])
     ]
     moments += [Moment(e["t"], e["t"], "event", e["name"]) for e in run.get("events", [])]
-    reactions, pushed = _reactions(mechanism, tables["reactions"])
-    pulls = [name for name in tables["elements"].names if name.endswith(".force")]
+    reactions, pushed = _reactions(mechanism, read("reactions"))
+    elements = read("elements")
+    pulls = [name for name in elements.names if name.endswith(".force")]
     pulling = tuple(name.removesuffix(".force") for name in pulls)
     return Recording(
         mechanism,
@@ -102,10 +96,10 @@ def _recording(
         *(t, q),
         facts=tuple(facts),
         status=run["status"],
-        groups=tuple(_groups(mechanism, q, tables)),
+        groups=tuple(_groups(mechanism, q, read)),
         reactions=reactions,
         pushed=pushed,
-        pulls=np.stack([tables["elements"][name] for name in pulls], axis=1) if pulls else None,
+        pulls=np.stack([elements[name] for name in pulls], axis=1) if pulls else None,
         pulling=pulling,
         moments=tuple(moments),
     )
@@ -120,19 +114,28 @@ def _reactions(mechanism: Mechanism, table: Labelled) -> tuple[Array | None, tup
     return np.stack([[table[f"{name}.{label}"] for label in labels] for name in owners]).transpose(2, 0, 1), owners
 
 
-def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> list[PlottedGroup]:
-    """Return the groups of a plot: outputs of the file first, then energy, violations and positions of few bodies."""
-    groups: list[PlottedGroup] = []
-    outputs = tables["outputs"]
-    for unit in dict.fromkeys(outputs.units):
-        chosen = [i for i, u in enumerate(outputs.units) if u == unit][:LONGEST_KEY]
-        groups.append(PlottedGroup("outputs", unit, tuple(outputs.names[i] for i in chosen), outputs.values[:, chosen]))
-    groups += position_groups(mechanism, q)
-    energy, violations = tables["energy"], tables["violations"]
-    groups.append(PlottedGroup("energy", "J", energy.names[:3], energy.values[:, :3]))
-    groups.append(PlottedGroup("energy error", "J", ("error",), energy.values[:, 3:4], logarithmic=True))
-    groups.append(PlottedGroup("violation", "", violations.names, violations.values, logarithmic=True))
-    return groups
+#: Tables that a page plots, each with what stands before the meaning of its units, and those that it has in any case.
+_PLOTTED = {
+    **{"outputs": "outputs", "elements": "element", "q": "", "energy": "", "violations": ""},
+    **{"magnitudes": "reaction", "reactions": "reaction component", "joint_coordinates": "joint", "points": "point"},
+    **{"v": "", "a": "", "lam": "multiplier", "body_reactions": "reaction in body axes"},
+}
+_ALWAYS = ("outputs", "q", "energy", "violations")
+
+
+def _groups(mechanism: Mechanism, q: Array, read: Callable[[str], Labelled]) -> Iterator[PlottedGroup]:
+    """Yield what a page plots, most wanted first."""
+    for table, head in _PLOTTED.items():
+        if table == "q":
+            yield from position_groups(mechanism, q)
+            continue
+        for meaning, unit, logarithmic, part in panels(read(table)):
+            title = head if table == "outputs" else f"{head} {meaning}".strip()
+            for numbered, some in parts_of(title, len(part.names)):
+                further = table not in _ALWAYS
+                yield PlottedGroup(
+                    *(numbered, unit, part.names[some], part.values[:, some], logarithmic), further=further
+                )
 
 
 def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, str]:
@@ -165,7 +168,12 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, st
     begin = np.array([state[n] for n in names]) if set(names) <= set(state) else None
     if prepared.tree is not None:
         return _live_on_tree(prepared, prepared.tree, step, begin)
-    return live_part(mechanism, prepared.compiled, prepared.start, step, begin)
+    live, note = live_part(mechanism, prepared.compiled, prepared.start, step, begin)
+    if live is None and run["coordinates"] == "absolute":  # a tree has a tenth of the operations, or less
+        prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
+        if prepared.tree is not None:
+            return _live_on_tree(prepared, prepared.tree, step, begin)
+    return live, note
 
 
 def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None) -> tuple[Live | None, str]:
@@ -257,6 +265,7 @@ def _dataset(option: str, path: Path) -> xr.Dataset:
             raise ValueError("it has not the tables of a result")
         if not {"parameters", "inputs", "start", "watched", "until"} <= set(json.loads(dataset.attrs["run"])):
             raise ValueError("it is of an older version")
+        check_names(dataset["kind_of_energy"].values.tolist())
         return dataset
 
     return checked(option, path, read, SAVED[".nc"])
@@ -276,9 +285,8 @@ def recorded_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
         raise InputError(
             option, f"a result of {mechanism.name}", f"'{path}', which is one of {data.attrs['mechanism']}"
         )
-    tables = {}
-    for name in _TABLES:
-        of = DIMENSIONS[name]
+    tables = dict[str, Labelled]()
+    for name, of in TABLES.items():
         columns, units = (
             tuple(map(str, data[label].values)) if of in data.coords else () for label in (of, f"{of}_unit")
         )
@@ -287,4 +295,4 @@ def recorded_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
     run: dict[str, Any] = json.loads(data.attrs["run"])
     own = {p.name for p in mechanism.parameters}
     numbers = parameter_values(mechanism, {k: float(v) for k, v in run["parameters"].items() if k in own})
-    return _recording(mechanism, numbers, data["time"].values, data["q"].values, tables, run)
+    return _recording(mechanism, numbers, data["time"].values, data["q"].values, tables.__getitem__, run)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from symgen.compiling.choices import choose_shape
 from symgen.compiling.linearised import GROWTH, compile_growth
 from symgen.compiling.pipeline import choose_method
+from symgen.describe.evaluate import evaluate
 from symgen.describe.kinks import discontinuities_of
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import COUNTERS
@@ -18,6 +19,8 @@ from symgen.methods import METHODS
 from symgen.runtime import abi
 from symgen.runtime.probe import rate_function
 from symgen.runtime.right_hand_side import at_nodes
+from symgen.vocabulary.expressions import ZERO
+from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -43,6 +46,13 @@ STIFF_RATIO = 20.0
 LONG = 1000
 #: Steps of an adaptive run of high order over the time in which its state changes by its own size.
 _STEPS_A_CHANGE = 8.0
+#: A structure counts as fast where stability asks for this many times the steps that following its motion does: an
+#: explicit scheme of high order is cheap and exact for those between.
+_FAST = 1000.0
+#: Where the region of stability of `EXPLICIT` ends on the imaginary axis, about.
+_IMAGINARY = 5.0
+#: Method and integrator of structures that vibrate fast.
+STRUCTURAL = "generalized-alpha"
 #: Above this many unknowns of a stage nobody asks for eigenvalues: they would take longer than a run.
 LARGEST_LINEARISED = 400
 
@@ -68,6 +78,8 @@ class Facts:
         Whether the right-hand side can be evaluated at all nodes of a step at once, and no formula compares the state.
     slow : float
         Part of the steps of a trial whose iteration converges slowly.
+    vibration : float
+        Bound of the angular frequencies of beam elements [1/s]; 0 where there are none, or something damps them.
     """
 
     rows: int
@@ -78,6 +90,12 @@ class Facts:
     slowest_change: float
     together: bool
     slow: float = 0.0
+    vibration: float = 0.0
+
+    @property
+    def vibrates(self) -> bool:
+        """Whether following the vibrations of beams would take explicit schemes far more steps than the motion."""
+        return self.vibration / _IMAGINARY > _FAST * self.slowest_change * _STEPS_A_CHANGE
 
     @property
     def stiffness(self) -> float:
@@ -99,11 +117,11 @@ def linearised(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> A
 
     Returns
     -------
-    matrix : Array, shape (nq + nv, nq + nv)
+    matrix : Array, shape (nq + nv + states, nq + nv + states)
         All zero where nothing can decay: no force depends on velocities, and no joint is a condition on them.
     """
-    nq, nv = compiled.info.nq, compiled.info.nv
-    result, form = np.zeros((nq + nv, nq + nv)), compile_growth(mechanism, compiled)
+    nq, nv, states = compiled.info.nq, compiled.info.nv, len(compiled.info.states)
+    result, form = np.zeros((nq + nv + states, nq + nv + states)), compile_growth(mechanism, compiled)
     if form is None:
         return result
     w = start.w.copy()
@@ -124,9 +142,10 @@ def linearised(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> A
     e = form.at(start.t, start.y, solution[:nv], start.p, w)
     if not np.all(np.isfinite(e.out)):
         return np.full_like(result, np.nan)
-    by_state = [np.hstack([e.by(group, "q"), e.by(group, "v")]) for group in GROWTH]
+    by_state = [np.hstack([e.by(group, space) for space in "qvz"]) for group in GROWTH]
     result[:nq] = by_state[0]
-    result[nq:] = solved(by_state[1], by_state[2])[:nv]
+    result[nq : nq + nv] = solved(by_state[1], by_state[2])[:nv]
+    result[nq + nv :] = by_state[3]
     return result
 
 
@@ -146,7 +165,7 @@ def trial_of(mechanism: Mechanism, settings: Settings) -> Settings:
         if method == "direct-correction" and not mechanism.has_massless:
             options.setdefault("method.weight", "mass")
     if integrator == AUTO:
-        explicit = set(METHODS.get(method, "--method").forms) & set(INTEGRATORS.get(EXPLICIT).forms)
+        explicit = set(METHODS.get(method, "method").forms) & set(INTEGRATORS.get(EXPLICIT).forms)
         integrator = EXPLICIT if explicit else METHODS.get(method).default_integrator
     return replace(settings, method=method, integrator=integrator, options=options)
 
@@ -166,7 +185,7 @@ def usual_integrator(mechanism: Mechanism, method: str, coordinates: str, shape:
     evaluations : float
         About how many a run takes, by which the shape of its code is chosen.
     """
-    own = METHODS.get(method, "--method").default_integrator
+    own = METHODS.get(method, "method").default_integrator
     if own != TOGETHER:
         return own
     if shape == "auto" and coordinates != "joint":
@@ -207,7 +226,34 @@ def facts_of(mechanism: Mechanism, compiled: CompiledModel, start: Start, until:
         fastest_decay=float(max(0.0, -eigenvalues.real.min(initial=0.0))),
         slowest_change=float(change),
         together=bool(at_nodes(compiled)[1]) and not discontinuities_of(mechanism),
+        vibration=_vibration(mechanism, start.p),
     )
+
+
+def _vibration(mechanism: Mechanism, p: Array) -> float:
+    """Return a bound of the angular frequencies of undamped beam elements with the masses of their ends [1/s]."""
+    values = dict(zip((q.name for q in mechanism.parameters), p.tolist(), strict=False))
+    light = dict[str, tuple[float, float]]()
+    largest = 0.0
+    for force in mechanism.forces:
+        for flexure in force.flexures:
+            if flexure.damping != ZERO:
+                return 0.0
+            for body in (mechanism.body(name) for name in force.bodies if name not in light and name != GROUND):
+                turns = body.inertia if isinstance(body.inertia, tuple) else (body.inertia,)
+                sizes = [evaluate(e, values, body.name) for e in (body.mass, *turns[:3]) if e is not None]
+                light[body.name] = 1.0 / max(sizes[0], 1e-300), 1.0 / max(min(sizes[1:]), 1e-300)
+            h = evaluate(flexure.length, values, force.name)
+            soft = [evaluate(e, values, force.name) for e in flexure.compliances]
+            by_mass, by_inertia = (sum(light[b][i] for b in force.bodies if b != GROUND) for i in range(2))
+            across = soft[1 : 2 if len(soft) == 3 else 3]
+            sheared = max(
+                1.0 / (h * s + h**3 * b / 12.0) for s, b in zip(across, soft[: -len(across) - 1 : -1], strict=True)
+            )
+            twisted = max(1.0 / (h * s) for s in soft[(2 if len(soft) == 3 else 3) :])
+            squares = by_mass / (h * soft[0]), by_mass * sheared, by_inertia * (twisted + 0.25 * h * h * sheared)
+            largest = max(largest, *squares)
+    return float(np.sqrt(2.0 * largest))
 
 
 def slow_steps(run: Prepared) -> float:
@@ -218,7 +264,7 @@ def slow_steps(run: Prepared) -> float:
     return float(slow) / max(float(steps), 0.5 * TRIAL)
 
 
-def constant_integrator(method: str, where: str = "--method") -> str:
+def constant_integrator(method: str, where: str = "method") -> str:
     """Return the integrator that studies take a method with: `CONSTANT`, or its own where it solves another form."""
     chosen = METHODS.get(method, where)
     return CONSTANT if set(INTEGRATORS.get(CONSTANT).forms) & set(chosen.forms) else chosen.default_integrator
@@ -255,6 +301,12 @@ def decide(facts: Facts, method: str, integrator: str | None) -> tuple[str, str 
     that is much faster than the motion.
     """
     reasons: list[str] = []
+    if (method, integrator) == (AUTO, AUTO) and facts.vibrates and not facts.massless:
+        reasons.append(
+            f"method and integrator {STRUCTURAL} with its own steps: beam elements vibrate with up to "
+            f"{facts.vibration:.3g} rad/s undamped, far faster than the motion"
+        )
+        return STRUCTURAL, STRUCTURAL, tuple(reasons)
     if method == AUTO:
         method = "direct-correction"
         if facts.rows == 0:

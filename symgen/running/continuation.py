@@ -8,14 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.describe.evaluate import parameter_values
+from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.events import in_words
+from symgen.describe.mechanism import Hold
 from symgen.ir.program import FORMAT
 from symgen.lower.windings import winding_order
-from symgen.running.starts import closed_by, compiled_for
+from symgen.running.starts import closed_by, compiled_for, states_at_start
 from symgen.runtime.assembly import Start, assemble
 from symgen.runtime.new_state import is_as_kept
 from symgen.version import __version__
+from symgen.vocabulary.expressions import Number
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
@@ -85,7 +87,10 @@ def _from_coordinates(plan: Plan, last: LastState, compiled: CompiledModel, ask_
     v = [last.v[c.name] for c in info.velocities]
     p = compiled.parameter_array(values, plan.method_parameters)
     whence = last.t, _windings(plan.mechanism, compiled, last)
-    return assemble(compiled, q, v, p, plan.settings.strict, None, ask_light, None, whence)
+    start = assemble(compiled, q, v, p, plan.settings.strict, None, ask_light, None, whence)
+    asked = [Hold(name, Number(x)) for name, x in (last.states or {}).items()]
+    start.y[info.own_states] = states_at_start(plan.mechanism, scalars(values), asked)
+    return start
 
 
 def _windings(mechanism: Mechanism, compiled: CompiledModel, last: LastState) -> tuple[float, ...]:

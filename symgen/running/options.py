@@ -9,6 +9,7 @@ from symgen.arguments import shown
 from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.errors import InputError, nearest
 from symgen.methods._base import EXPLICIT_FORMS
+from symgen.runtime.integrator import estimates
 
 if TYPE_CHECKING:
     from symgen.runtime.integrator import Integrator
@@ -42,10 +43,12 @@ def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[
         elif owner in ("integrator", tableau.name):
             integrator[name] = _integrator_option(key, name, value, tableau)
         else:
+            own = [f"method.{name}" for name in (*numeric, *(o.name for o in base.options))]
+            own += [f"integrator.{p.name}" for p in tableau.parameters]
             known_owners = ("method", base.name, "integrator", tableau.name)
-            raise InputError(
-                f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", nearest(owner, known_owners)
-            )
+            bare = [full for full in own if full.partition(".")[2] == key]
+            hint = f"did you mean '{bare[0]}'?" if bare else nearest(owner, known_owners) if name else nearest(key, own)
+            raise InputError(f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", hint)
     return choose_method(s.method, structural, not EXPLICIT_FORMS & set(tableau.forms)), parameters, integrator
 
 
@@ -57,9 +60,9 @@ def _integrator_option(key: str, name: str, value: str | float, integrator: Inte
         if not q.minimum <= number <= q.maximum:
             raise InputError(f"option {key}", f"from {q.minimum:g} to {q.maximum:g}", f"{value}")
         return repr(number)
-    if integrator.adaptive and name == "adaptive" and str(value).lower() in ("true", "false"):
+    if estimates(integrator) and name == "adaptive" and str(value).lower() in ("true", "false"):
         return str(value).lower()
-    names = [*numeric, *(("adaptive=true", "adaptive=false") if integrator.adaptive else ())]
+    names = [*numeric, *(("adaptive=true", "adaptive=false") if estimates(integrator) else ())]
     raise InputError(
         f"option {key}",
         f"an option of {integrator.name}",

@@ -12,6 +12,7 @@ from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.memory import require
 from symgen.methods import METHODS
+from symgen.runtime.integrator import adapts
 from symgen.runtime.run import Array
 
 if TYPE_CHECKING:
@@ -113,7 +114,7 @@ def _has_constant_steps(s: Settings, mechanism: Mechanism) -> bool:
     """Whether settings or a description name, or a method has by itself, an integrator with constant steps."""
     own = METHODS.get(s.method).default_integrator if s.method in METHODS else ""
     name = s.integrator or mechanism.defaults.integrator or own
-    return name in INTEGRATORS and not INTEGRATORS.get(name).adaptive
+    return name in INTEGRATORS and not adapts(INTEGRATORS.get(name), s.options)
 
 
 def multiples(every: float, until: float, size: float) -> Array:

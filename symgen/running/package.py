@@ -87,7 +87,7 @@ def write_package(
     """
     # outputs belong to the runtime: on a tree, integrals would keep the rows of drivers whose efforts they read
     mechanism = msgspec.structs.replace(mechanism, outputs=())
-    names = tuple(dict.fromkeys(METHODS.canonical(name, "--method") for name in methods or METHODS.names))
+    names = tuple(dict.fromkeys(METHODS.canonical(name, "method") for name in methods or METHODS.names))
     own = _options_of(names, options)
     chosen = [choose_method(name, values) for name, values in own.items()]
     if not methods and mechanism.has_massless:
@@ -112,7 +112,7 @@ def write_package(
     if run is not None:
         beside["simulate.py"] = (templates_folder() / "package" / "simulate.py").read_text(encoding="utf-8")
     files |= {name: text for name, text in beside.items() if _may_write(folder / name)}
-    written = _write(folder, files)
+    written = write_folder(folder, files)
     if run is None and _may_write(folder / "simulate.py"):  # of another package
         (folder / "simulate.py").unlink(missing_ok=True)
     return Package(folder, written, generated.derive_seconds, generated.emit_seconds)
@@ -124,10 +124,10 @@ def _options_of(names: Sequence[str], options: Mapping[str, str]) -> dict[str, d
     for key, value in options.items():
         owner, _, name = key.partition(".")
         if owner not in own and not (owner == "method" and len(own) == 1):
-            raise InputError(f"--option {key}", f"METHOD.NAME with one of {', '.join(own)}", f"'{key}'")
+            raise InputError(f"option {key}", f"METHOD.NAME with one of {', '.join(own)}", f"'{key}'")
         of_owner = own[names[0] if owner == "method" else owner]
         if name in of_owner:
-            raise InputError(f"--option {key}", "each option once", f"{name} twice")
+            raise InputError(f"option {key}", "each option once", f"{name} twice")
         of_owner[name] = value
     return own
 
@@ -192,8 +192,8 @@ def _started(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] | None, 
         "until": defaults.until,
         "step": defaults.step,
         "parameters": parameter_values(usual.mechanism),
-        "names": [q.name for q in (*info.coordinates, *info.velocities)] + ["work"],
-        "y": state.y[: info.work + 1].tolist(),
+        "names": [q.name for q in (*info.coordinates, *info.velocities)] + ["work"] + [x.name for x in info.states],
+        "y": state.y[: info.ny].tolist(),
         "counters": len(COUNTERS),
         "step_at": info.sections["status"][0] + STATUS.index("step"),
         "w": {name: list(map(_finite, state.w[at : at + size])) for name, (at, size) in sections.items()},
@@ -238,7 +238,7 @@ def _may_write(path: Path) -> bool:
         return False
 
 
-def _write(folder: Path, files: Mapping[str, Content]) -> tuple[Path, ...]:
+def write_folder(folder: Path, files: Mapping[str, Content]) -> tuple[Path, ...]:
     """Write files, all of them or none, and return them in order."""
     paths = {folder / name: content for name, content in files.items()}
     absent = [f for f in (folder, *folder.parents) if not f.exists()]

@@ -23,10 +23,11 @@ from symgen.methods import METHODS
 from symgen.running.automatic import usual_integrator
 from symgen.running.options import split_options
 from symgen.running.outputs import output_times
+from symgen.runtime.integrator import adapts
 from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.run import MAX_ATTEMPTS, RunSpec
 from symgen.runtime.stops import Stop, foreseen, merged
-from symgen.settings import Settings, told_constant
+from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Event, Hold, Mechanism
@@ -172,7 +173,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     mechanism = inputs.mechanism
     if purpose is not Purpose.STATE:
         refuse_weightless(mechanism)
-    method = METHODS.get(s.method, "--method")
+    method = METHODS.get(s.method, "method")
     last = None if isinstance(s.start, Mapping) else s.start.last_state
     if last is not None:
         _refuse_other(mechanism, last)
@@ -182,10 +183,12 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     if name is None:
         evaluations = ADAPTIVE_EVALUATIONS * (until - begin)
         name = usual_integrator(mechanism, s.method, s.coordinates, shape, evaluations)
-    integrator = INTEGRATORS.get(name, "--integrator")
+    integrator = INTEGRATORS.get(name, "integrator")
     _refuse_pair(method, integrator)
     choice, method_parameters, integrator_options = split_options(s, integrator)
-    adaptive = integrator.adaptive and not told_constant(s.options, integrator.name)
+    zero: complex | None = getattr(integrator, "zero", None)
+    method_parameters = method.placed(choice.options, zero, integrator.name) | method_parameters
+    adaptive = adapts(integrator, s.options)
     step = s.step
     if step is None:  # the first one may be longer than the run, whose end cuts it
         step = own_run.first_step if adaptive else own_run.step
@@ -202,18 +205,19 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     longest, why = longest_step(mechanism, until - begin, events, inputs.driven.jumps if inputs.driven else ())
     times = foreseen(mechanism, events)
     values = parameter_values(mechanism, s.parameters) if times else {}
+    rtol = getattr(integrator, "rtol", RTOL)  # schemes of low order have larger ones by default
     spec = RunSpec(
         until=until,
         step=step,
         adaptive=adaptive,
         times=output_times(s, mechanism, (begin, until), step, adaptive),
-        rtol=RTOL if s.rtol is None else s.rtol,
-        atol=ATOL if s.atol is None else s.atol,
+        rtol=rtol if s.rtol is None else s.rtol,
+        atol=ATOL / RTOL * rtol if s.atol is None else s.atol,
         relative=s.atol is None,
         largest_step=min(own or np.inf, longest),
         max_violation=s.max_violation,
         max_velocity_violation=limit_of_velocities(method, s.max_violation),
-        max_energy_error=s.max_energy_error,
+        max_energy_error=np.inf if method.correction(choice.options).energy else s.max_energy_error,
         max_attempts=MAX_ATTEMPTS if s.max_attempts is None else s.max_attempts,
         compares=not adaptive and "ode" not in integrator.forms and any(x.jumps for x in discontinuities_of(mechanism)),
         # not the end of this run: a run that is continued needs the same duration

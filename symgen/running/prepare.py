@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from symgen.describe.evaluate import parameter_values
-from symgen.running.automatic import AUTO, SLOW, TOGETHER, decide, facts_of, slow_steps, trial_of
+from symgen.running.automatic import AUTO, SLOW, STRUCTURAL, TOGETHER, decide, facts_of, slow_steps, trial_of
 from symgen.running.continuation import continued
 from symgen.running.inputs import put_inputs
 from symgen.running.plan import Plan, Purpose, resolved
@@ -182,7 +182,12 @@ def decided(
     plan = resolved(inputs, trial, purpose)
     assembled = assemble(plan, near)
     facts = facts_of(mechanism, *assembled.of_bodies, plan.spec.until)
-    _, integrator, notes = decide(facts, settings.method, settings.integrator)
+    method, integrator, notes = decide(facts, settings.method, settings.integrator)
+    if method == STRUCTURAL and settings.method == AUTO:
+        options = {**settings.options, "integrator.adaptive": "true"}
+        return resolved(
+            inputs, replace(settings, method=method, integrator=integrator, options=options), purpose, notes
+        ), None
     chosen = resolved(inputs, replace(trial, integrator=integrator), purpose, notes)
     same = assembled if chosen.choice == plan.choice else None
     if purpose is Purpose.MOTION and settings.integrator == AUTO and integrator == TOGETHER and same is not None:

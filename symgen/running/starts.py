@@ -69,13 +69,25 @@ def start_of(
     values = parameter_values(mechanism, parameters)
     numbers = scalars(values)
     q, v = described_start(mechanism, numbers)
+    states = states_at_start(mechanism, numbers, () if isinstance(held, Held) else held or ())
     if near is not None:
         q = [float(x) for x in near]
     if not isinstance(held, Held):
         held = held_of(compiled.info, holds_of(mechanism) if held is None else held, numbers, v)
     p = compiled.parameter_array(values, method_parameters or {})
     moves = partial(moved, mechanism, numbers)
-    return _sided(mechanism, compiled.info, assemble(compiled, np.array(q), v, p, strict, held, ask_light, moves))
+    start = _sided(mechanism, compiled.info, assemble(compiled, np.array(q), v, p, strict, held, ask_light, moves))
+    start.y[compiled.info.own_states] = states
+    return start
+
+
+def states_at_start(mechanism: Mechanism, numbers: Scalars, holds: Sequence[Hold]) -> list[float]:
+    """Return the values of the states of a file where a run begins: those asked for, else those described."""
+    asked = {hold.name: hold.value for hold in holds}
+    return [
+        numbers.value(asked.get(x.name) or x.start, f"{mechanism.name}: states.{x.name}.start")
+        for x in mechanism.states
+    ]
 
 
 def _sided(mechanism: Mechanism, info: ModelInfo, start: Start) -> Start:
@@ -105,7 +117,7 @@ def held_of(info: ModelInfo, holds: Sequence[Hold], numbers: Scalars, v: Sequenc
     coordinates = {quantity.name: i for i, quantity in enumerate(info.coordinates)}
     velocities = {quantity.name: j for j, quantity in enumerate(info.velocities)}
     joints = {quantity.name: k for k, quantity in enumerate(info.joint_coordinates)}
-    spins = {f"{info.coordinates[first].name.partition('.')[0]}.{ORIENTATION}": at for first, at in info.spins}
+    spins = {f"{info.coordinates[first].name.rpartition('.')[0]}.{ORIENTATION}": at for first, at in info.spins}
     values, speeds, places, rates = dict[int, float](), dict[int, float](), dict[int, float](), dict[int, float]()
     fixed = list[int]()
     for hold in holds:
@@ -119,7 +131,7 @@ def held_of(info: ModelInfo, holds: Sequence[Hold], numbers: Scalars, v: Sequenc
             speeds[velocities[name]] = float(speed or 0.0)
         elif name in spins:
             fixed += range(spins[name], spins[name] + 3)
-        else:
+        elif "." in name:  # states of a file have names without a dot, and nothing holds them
             of, rate = name.removesuffix(".rate"), name.endswith(".rate")
             (rates if rate else places)[joints[of]] = float(value or 0.0)
     return Held(values, speeds, tuple(fixed), places, rates)

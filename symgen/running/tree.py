@@ -179,7 +179,7 @@ class TreeRun:
         return p
 
     @cached_property
-    def _signs(self) -> Array:
+    def signs(self) -> Array:
         """What makes the Euler parameters of bodies, of two signs, go on from those of the start: 1 or -1 each."""
         info = self.bodies.info
         here, signs = self.bodies_at(self.start.t, self.start.y, self.start.p, self.start.w), np.ones(info.nq)
@@ -191,13 +191,13 @@ class TreeRun:
     def _moving(self, outcome: Outcome) -> Array:
         info = self.bodies.info
         motion = outcome.observed(self.compiled.model.bodies, info.nq + 2 * info.nv)
-        motion[:, : info.nq] *= self._signs
+        motion[:, : info.nq] *= self.signs
         return motion
 
     def _of_bodies(self, t: float, y: Array, p: Array) -> Array:
         """Return coordinates and velocities of bodies at one state."""
         state = self.bodies_at(t, y, p, self.start.w)
-        state[: self.bodies.info.nq] *= self._signs
+        state[: self.bodies.info.nq] *= self.signs
         return state
 
     def bodies_at(self, t: float, y: Array, p: Array, w: Array) -> Array:

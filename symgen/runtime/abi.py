@@ -47,6 +47,7 @@ POWER = STATUS.index("power")
 N_STATUS = RANK + 1  # what an output keeps of the status
 WINDING = len(STATUS)  # where the section of angles begins that count turns
 PROBING = COUNTERS.index("probing")
+BALANCED = COUNTERS.index("balanced")
 LIGHT = COUNTERS.index("light")
 ITERATIONS = COUNTERS.index("iterations")
 N_COUNTERS = len(COUNTERS)

@@ -53,9 +53,11 @@ def begin_anew(simulation: Simulation) -> int:
     work = float(state.y[place])
     state.control[abi.BEGUN] = 0
     state.y[place] = 0.0  # the balance begins with none
+    state.iw[abi.BALANCED] = 0
     before = float(w[abi.KINETIC] + w[abi.POTENTIAL])
     code = begin_with_step(simulation)
     state.y[place] = work + float(w[abi.KINETIC] + w[abi.POTENTIAL]) - before
+    state.iw[abi.BALANCED] = 0  # the work is another one now
     state.gauges[:], state.control[_WATCHED] = gauges, watched
     return code
 
@@ -172,7 +174,7 @@ class Changes:
         mass = compiled.section(w, "mass")
         for j in np.flatnonzero(~(mass > 0.0)):
             if j not in info.massless:
-                body = info.velocities[j].name.partition(".")[0]
+                body = info.velocities[j].name.rpartition(".")[0]
                 raise InputError("set", f"a mass and an inertia of {body} above 0", f"{mass[j]:g}")
         if not (math.isfinite(w[abi.PHI]) and np.isfinite(state.p).all()):
             raise InputError("set", "parameters for which the equations are defined", "numbers that are not finite")

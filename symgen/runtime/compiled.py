@@ -39,8 +39,9 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     `sections` maps each section of the scratch array ``w`` to (offset, size); `jacobian` lists (row, column, constant
     or None, slot or None) of D's structural entries; `windings` counts the angles whose turns are counted; `spins` says
     for each body with Euler parameters where these begin in q and its angular velocity in v; `inputs` are those
-    parameters that may change during a run; `integrals` counts auxiliary states behind the work; `alone` are rows that
-    are eliminated before all that have to do with them: they are never left out, so nothing reads their mask.
+    parameters that may change during a run; `states` are those of the file's own, behind the work, and `integrals`
+    counts auxiliary states behind these; `alone` are rows that are eliminated before all that have to do with them:
+    they are never left out, so nothing reads their mask.
     """
 
     name: str
@@ -61,6 +62,7 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     inputs: tuple[str, ...] = ()
     integrals: int = 0
     alone: tuple[int, ...] = ()
+    states: tuple[Quantity, ...] = ()
 
     def __repr__(self) -> str:
         return f"<ModelInfo of {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.m} rows>"
@@ -71,9 +73,14 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
         return self.nq + self.nv
 
     @property
+    def own_states(self) -> slice:
+        """Where the states of the file's own stand in the state."""
+        return slice(self.work + 1, self.work + 1 + len(self.states))
+
+    @property
     def ny(self) -> int:
-        """Length of the state: q, v, the work and integrals."""
-        return self.work + 1 + self.integrals
+        """Length of the state: q, v, the work, states of the file's own and integrals."""
+        return self.work + 1 + len(self.states) + self.integrals
 
     @property
     def observed(self) -> int:

@@ -42,8 +42,9 @@ from symgen.runtime.watch import approach, begin, keep_maxima, meets, remember_r
 TRY, LOW = range(2)
 
 # -- what a loop decides by itself; schemes may give other numbers -----------------------------------------------------
-#: Whether steps follow the error estimate.
-ADAPTIVE = False
+#: Whether steps follow the error estimate; whether that is rough, so that the first steps are off by a large part of an
+#: energy that is only building up.
+ADAPTIVE, ROUGH = False, False
 #: Whether outputs inside a step are interpolated; else they are reached by a shortened step of their own.
 DENSE = False
 #: Whether events are looked for; without, nothing of that is compiled.
@@ -57,6 +58,8 @@ SETTING_OUT = 100
 _HOPELESS, _ASTRAY = 1e6, 1e-2
 #: A zone is crossed in so many times the distance to its middle: not 2, so that no stage at half the step meets it.
 _ACROSS = 2.3
+#: What stands for the step before an adaptive run has chosen one, as a part of the run.
+_BEFORE = 1e-3
 #: The part of the way to a switch of a step whose stages do not pass it.
 _SHORT_OF = 0.9
 #: What an attempt returns where an iteration did not converge, and where a matrix does not fit into its room.
@@ -227,6 +230,8 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         control[abi.REFUSED] = control[abi.BARRED] = control[abi.KNOWN] = 0
         if ADAPTIVE:
             clock[abi.NEXT] = span.step
+        # laws whose gains follow the step are evaluated before there is one
+        note_step(run, span.step if span.step > 0.0 else _BEFORE * span.duration)
         prepare(system, scheme, span, run)
         if attend(system, run, LOOK) == FAIL:
             return abi.UNDEFINED
@@ -333,7 +338,8 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         # -- it is: the state at `following` is accepted
         control[abi.STEPS] += 1
         code = watch(sizes, run, run.trial, following)
-        if not ADAPTIVE and code == abi.ENERGY and control[abi.STEPS] <= SETTING_OUT and following < span.end - tiny:
+        setting_out = (not ADAPTIVE or ROUGH) and control[abi.STEPS] <= SETTING_OUT
+        if setting_out and code == abi.ENERGY and following < span.end - tiny:
             code = abi.DONE
         if code != abi.DONE:
             return code

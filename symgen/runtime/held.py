@@ -49,7 +49,7 @@ class Held:
 
     def described(self, info: ModelInfo) -> str:
         """Return the coordinates and orientations that stay as they are described, in words."""
-        bodies = {info.coordinates[first].name.partition(".")[0]: at for first, at in info.spins}
+        bodies = {info.coordinates[first].name.rpartition(".")[0]: at for first, at in info.spins}
         euler = {i for first, _ in info.spins for i in range(first, first + 4)}
         places = [i for i in range(info.nq) if i not in euler and i not in self.coordinates]
         names = [info.coordinates[i].name for i in places if velocity_of(i, info) in self.fixed]

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+
+from symgen.errors import InputError
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
@@ -119,6 +122,18 @@ class Integrator(Protocol):
         """
 
 
+def adapts(integrator: Integrator, options: Mapping[str, str | float]) -> bool:
+    """Whether an integrator chooses its steps: as it does by itself, or as the option ``adaptive`` sets."""
+    keys = (f"{owner}.adaptive" for owner in ("integrator", integrator.name))
+    chosen = next((str(options[key]).lower() for key in keys if key in options), "")
+    return chosen != "false" if integrator.adaptive else estimates(integrator) and chosen == "true"
+
+
+def estimates(integrator: Integrator) -> bool:
+    """Whether an integrator can choose its steps, by itself or by its option ``adaptive``."""
+    return bool(getattr(integrator, "estimates", integrator.adaptive))
+
+
 def law_functions(compiled: CompiledModel, *names: str) -> tuple[Any, ...]:
     """Return the emitted functions that a loop takes first, 0 in place of those that it does not call.
 
@@ -136,3 +151,17 @@ def law_functions(compiled: CompiledModel, *names: str) -> tuple[Any, ...]:
     common = law.rhs, getattr(law, "confirm", law.rhs), law.accept
     turn = getattr(compiled.model, "turn", stay) if "turn" in names else 0
     return *common, turn, *(getattr(law, name) if name in names else 0 for name in ("residual", "tangent"))
+
+
+def refuse_states(integrator: Integrator, compiled: CompiledModel) -> None:
+    """Refuse a mechanism with states of its own, for schemes that integrate accelerations.
+
+    Raises
+    ------
+    InputError
+        If there are some.
+    """
+    if compiled.info.states:
+        names = ", ".join(x.name for x in compiled.info.states)
+        expected = f"one of first order for the states {names}, such as dop853 or radau5"
+        raise InputError(f"integrator '{integrator.name}'", expected, "one that integrates accelerations")

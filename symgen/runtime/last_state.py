@@ -43,6 +43,8 @@ class LastState:
         Why the run failed, if it did: nothing but t, q, v and the work is taken up then.
     arrays : mapping of str to Array
         What `symgen.runtime.simulation.Simulation` saves; empty where nothing was kept.
+    states : mapping of str to float
+        States of the file's own by name; None where it has none.
     """
 
     mechanism: str
@@ -57,6 +59,7 @@ class LastState:
     made: Mapping[str, Any] | None = None
     failed: str = ""
     arrays: Mapping[str, NDArray[Any]] | None = None
+    states: Mapping[str, float] | None = None
 
     def __repr__(self) -> str:
         return f"<LastState of {self.mechanism} at {self.t:g} s: {len(self.q)} coordinates>"
@@ -89,6 +92,7 @@ class LastState:
         names = ("mechanism", "digest", "t", "work", "work_before", "rank", "failed")
         header: dict[str, Any] = {name: getattr(self, name) for name in names}
         header |= {"q": dict(self.q), "v": dict(self.v), "windings": list(self.windings), "made": self.made}
+        header |= {"states": dict(self.states)} if self.states else {}
         header["sizes"] = {name: [str(a.dtype), len(a)] for name, a in (self.arrays or {}).items()}
         return header | {"sha256": _digest(header, self.arrays or {})}
 

@@ -125,7 +125,7 @@ def _moved(mechanism: Mechanism) -> tuple[tuple[str, str, Expr, tuple[Jump, ...]
     """Return drivers whose formulas may jump: name, unit, formula, and where it changes."""
     drivers = list[tuple[str, str, Expr, tuple[Jump, ...]]]()
     for joint in mechanism.joints:
-        row = joint.rows[0] if joint.kind == "driver" and joint.rows else None
+        row = joint.rows[0] if joint.kind in ("driver", "coupling") and joint.rows else None
         if isinstance(row, Holonomic) and (changes := changes_of(row.value)):
             drivers.append((joint.name, row.unit, row.value, changes))
     return tuple(drivers)

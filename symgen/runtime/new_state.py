@@ -39,7 +39,7 @@ def sizes_of(compiled: CompiledModel) -> Sizes:
     places = (sections.get(name, (0, 0))[0] for name in names)
     lengths = info.nq, info.nv, info.m, info.ny, padded(info.ny), max(1, info.ny - 1), compiled.law.unknowns
     auxiliary = sections.get("auxiliary", (abi.POWER, 1))[0]
-    return Sizes._make((*lengths, *places, auxiliary))
+    return Sizes._make((*lengths, *places, auxiliary, len(info.states)))
 
 
 def share_of(sizes: Sizes) -> Array:

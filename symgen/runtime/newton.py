@@ -37,6 +37,8 @@ class Pattern:
         Where the angular velocities of bodies in space begin in v.
     masked : Array of int64
         Constraint rows that are left out as redundant.
+    states : int
+        States of the file's own: their rates are the last unknowns, and stand last among the columns of the state.
     """
 
     nq: int
@@ -47,6 +49,7 @@ class Pattern:
     columns: Indices
     spins: Indices
     masked: Indices
+    states: int = 0
 
     @classmethod
     def of(cls, compiled: CompiledModel, w: Array) -> Pattern:
@@ -56,7 +59,7 @@ class Pattern:
         spins = np.array([j for _, j in info.spins], dtype=np.int64)
         masked = np.flatnonzero(compiled.section(w, "mask") > 0.0).astype(np.int64)
         rows, columns = (np.ascontiguousarray(places[:, i]) for i in (0, 1))
-        return cls(info.nq, info.nv, info.m, law.unknowns, rows, columns, spins, masked)
+        return cls(info.nq, info.nv, info.m, law.unknowns, rows, columns, spins, masked, len(info.states))
 
     @property
     def size(self) -> int:
@@ -76,7 +79,7 @@ class Pattern:
     @property
     def left_out(self) -> Indices:
         """Equations of a stage that belong to redundant rows."""
-        groups = (self.unknowns - self.width) // self.m if self.m else 0
+        groups = (self.unknowns - self.states - self.width) // self.m if self.m else 0
         firsts = self.width + self.m * np.arange(groups, dtype=np.int64)
         return np.asarray((firsts[:, None] + self.masked).ravel(), dtype=np.int64)
 

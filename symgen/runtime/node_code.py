@@ -9,7 +9,7 @@ from typing import Any
 
 from llvmlite import ir
 
-from symgen.native.nodes import NODES
+from symgen.native.types import NODES
 from symgen.runtime.nodes import DOUBLED, INTEGRALS, PLACES, POINTS
 from symgen.runtime.vector_code import I64, VECTOR, ZERO, added, each_of, folded, load, spread, store, variable
 

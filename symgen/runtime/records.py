@@ -40,6 +40,8 @@ class Sizes(NamedTuple):
         Where these begin in ``w``: the pivots of D D^T, the multipliers, the mask of redundant rows, changes of
         velocities, what makes rank independent of units, and rows of one length, the entries of D that vary, and what
         ``residual`` leaves of the rates of auxiliary states.
+    states : int
+        States of the file's own, behind the work; their rates are the last unknowns.
     """
 
     nq: int
@@ -57,6 +59,7 @@ class Sizes(NamedTuple):
     row_weight: int
     jacobian: int
     auxiliary: int
+    states: int
 
 
 class Span(NamedTuple):
@@ -286,7 +289,7 @@ class Rotations(NamedTuple):
 
 
 class Screws(NamedTuple):
-    """A tableau applied to screws: as `Rotations`, and for each free body where its Euler parameters and omega begin."""
+    """A tableau applied to screws: as `Rotations`, and where Euler parameters and omega of each free body begin."""
 
     tableau: Any
     spins: Any

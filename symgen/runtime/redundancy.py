@@ -189,7 +189,7 @@ def leave_out_rest(sizes: Any, w: Any, k: Any, right: Any) -> None:
         Scratch, and unknowns and residuals of the stage.
     """
     first = sizes.nq + sizes.nv
-    for i in range(first, sizes.unknowns):
+    for i in range(first, sizes.unknowns - sizes.states):
         if w[sizes.mask + (i - first) % sizes.m] > 0.0:
             right[i] = k[i]
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.errors import AssemblyError, InputError
+from symgen.errors import AssemblyError, InputError, fitting
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.held import Held
@@ -26,8 +26,8 @@ Array = NDArray[np.float64]
 _LISTED = 6
 #: What helps where nothing is free.
 OTHER_WAYS = (
-    "where drivers leave nothing free, 'symgen kinematics --start' finds other ways to close it, and all coordinates "
-    "of one of them can be held"
+    "where drivers leave nothing free, the analysis kinematics finds other ways to close it from another `start`, and "
+    "all coordinates of one of them can be held"
 )
 
 
@@ -69,7 +69,7 @@ def warnings_of(
     names = {quantity.name for quantity in info.coordinates}
     limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED, "1": 0.5 * decisions.FAR_TURNED}
     far = [c for c in changes if c.name in names and abs(c.after - c.before) > limits[c.unit]]
-    moves, bodies = ([_listed(far)] if far else []), {c.name.partition(".")[0] for c in far}
+    moves, bodies = ([_listed(far)] if far else []), {c.name.rpartition(".")[0] for c in far}
     for name, size, unit in moved:  # of each body the coordinates, or else the first of its points
         if size > limits[unit] and name.partition(".")[0] not in bodies:
             bodies.add(name.partition(".")[0])
@@ -107,8 +107,9 @@ def opposite(joint: str) -> str:
 
 def _listed(changes: Sequence[Change]) -> str:
     """Return the first changes one by one, and how many more there are."""
-    words = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:_LISTED])
-    return words + (f"; and {len(changes) - _LISTED} more" if len(changes) > _LISTED else "")
+    first = fitting(len(changes), _LISTED)
+    words = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:first])
+    return words + (f"; and {len(changes) - first} more" if len(changes) > first else "")
 
 
 def _from_to(change: Change) -> str:
@@ -136,10 +137,10 @@ def refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> Assemb
     if code == e.UNDEFINED:
         return InputError("parameters or start", "values for which every formula is finite", "others")
     if code == e.NO_MASS:
-        body = info.velocities[where].name.split(".")[0]
+        body = info.velocities[where].name.rpartition(".")[0]
         return InputError(f"parameters: mass or inertia of {body}", "a value above 0", f"{size:g}")
     if code == e.UNDETERMINED:
-        body, _, name = info.velocities[where].name.partition(".")
+        body, _, name = info.velocities[where].name.rpartition(".")
         return InputError(
             f"body '{body}'",
             "a mass, or joints that hold it",
@@ -160,7 +161,7 @@ def refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> Assemb
     reason = "given velocities contradicted by the constraints"
     if code == e.MOVED:
         reason = f"positions that closing moves by up to {float(summary[e.START_MOVED]):.3g}"
-    return InputError("initial state", "a consistent start (--strict)", reason)
+    return InputError("initial state", "a consistent start (`strict`)", reason)
 
 
 def _stays_open(info: ModelInfo, held: Held, joint: str, size: float) -> AssemblyError:
@@ -190,7 +191,7 @@ def half_turn(info: ModelInfo, joint: str) -> AssemblyError:
 
 def turned_over(info: ModelInfo, spin: int) -> AssemblyError:
     """Return why there is no start in joint coordinates where these turn a body over, one of those in `info.spins`."""
-    body = info.coordinates[info.spins[spin][0]].name.partition(".")[0]
+    body = info.coordinates[info.spins[spin][0]].name.rpartition(".")[0]
     return AssemblyError(
         f"{info.name}: in joint coordinates '{body}' would start turned over, as directions of a joint that "
         "shall coincide point opposite ways there; describe how bodies are turned at the start, give one of "

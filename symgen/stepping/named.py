@@ -38,7 +38,7 @@ class Named(np.ndarray[Any, Any]):
         view.flags.writeable = False
         groups: dict[str, list[int]] = {}
         for i, name in enumerate(names):
-            groups.setdefault(name.partition(".")[0], []).append(i)
+            groups.setdefault(name.rpartition(".")[0], []).append(i)
         view.names, view.units = names, units
         view._places = {body: _range(places) for body, places in groups.items()}
         view._places |= {name: i for i, name in enumerate(names)}

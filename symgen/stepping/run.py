@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -20,11 +20,13 @@ from symgen.runtime.events import EventRecord, record_of
 from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.stops import Foreseen, foreseen, merged, stops_of
 from symgen.stepping.advance import Advance, Clock, Controller
+from symgen.stepping.history import History
 from symgen.stepping.named import Named
 from symgen.stepping.saved_state import Saved
 from symgen.version import __version__
 
 if TYPE_CHECKING:
+    from symgen.result.result import Result
     from symgen.running.prepare import Prepared
     from symgen.runtime.run import RunSpec
     from symgen.vocabulary.quantities import Quantity
@@ -44,20 +46,30 @@ class SteppedRun:
     ----------
     prepared : Prepared
         The run. Where it has constant steps and its settings no ``step``, each call of `step` is one step.
+    begin : callable, optional
+        Start -> the same run from there; see `reset`.
 
     Attributes
     ----------
     q, v, state : Named
         Coordinates, velocities, and both: read-only views of what the run holds at present, without copies. In joint
         coordinates those of the joints of the tree.
+    states : Named
+        The same of the states of the file's own.
     warnings, notes : tuple of str
         What there is to say of the start and the settings.
     """
 
-    def __init__(self, prepared: Prepared) -> None:
+    def __init__(self, prepared: Prepared, begin: Callable[[object], Prepared] | None = None) -> None:
         plan, compiled, start, mechanism = prepared.plan, prepared.compiled, prepared.start, prepared.mechanism
         info = compiled.info
-        self._mechanism, self._plan, self._compiled = mechanism, plan, compiled
+        self._mechanism, self._plan, self._compiled, self._prepared, self._prepare = (
+            mechanism,
+            plan,
+            compiled,
+            prepared,
+            begin,
+        )
         self._changed, self._adaptive = dict(plan.parameters), plan.spec.adaptive
         self._free = plan.settings.step is None and not self._adaptive
         self._loop = prepared.simulation()
@@ -78,9 +90,14 @@ class SteppedRun:
         self.q = _view(state.y, 0, info.coordinates)
         self.v = _view(state.y, info.nq, info.velocities)
         self.state = _view(state.y, 0, both)
+        self.states = _view(state.y, info.work + 1, info.states)
         self.warnings, self.notes = (*plan.all_warnings, *start.warnings), start.notes
+        self._first = self.save()
         if not self._free:  # else the first step says how long it is
             self._advance.begin()
+        self._history, self._shown = History(self._loop), (-1.0, -1, -1)
+        self._history.note()
+        self._version = 0
 
     # -- what can be read ----------------------------------------------------------------------------------------------
 
@@ -115,6 +132,59 @@ class SteppedRun:
         """What has happened since the start, as in results; of a run that was taken back, up to where it stands."""
         events = self._loop.events
         return () if events is None else tuple(record_of(self._compiled.info, event) for event in events.happened)
+
+    @property
+    def outputs(self) -> dict[str, float]:
+        """Present values of the formulas of the file's ``[outputs]`` by name, integrals among them."""
+        return self._now.outputs.row(0)
+
+    @property
+    def points(self) -> dict[str, float]:
+        """Present places, velocities and accelerations of named points: ``arm.tip.x``, ``.vx``, ``.ax``, ..."""
+        return self._now.points.row(0)
+
+    @property
+    def elements(self) -> dict[str, float]:
+        """Present forces, lengths and powers of force elements and drivers: ``spring.force``, ``motor.effort``, ..."""
+        return self._now.elements.row(0)
+
+    @property
+    def reactions(self) -> dict[str, float]:
+        """Present reactions of joints, as results have them: ``A.Fx`` [N], ``A.M`` [N m], ..."""
+        return self._now.reactions.row(0)
+
+    def __getitem__(self, name: str) -> float:
+        """Return the present value of a column of results: ``sim["motor.effort"]``, ``sim["arm.tip.x"]``.
+
+        Raises
+        ------
+        InputError
+            If there is no such column.
+        """
+        return float(self._now[name][0])
+
+    def result(self) -> Result:
+        """Return what was run since the start as a result, with an output at the end of each piece.
+
+        Pieces are calls of `step` and `run`, and times between the calls of controllers. Of more than about 4000 every
+        second is kept, then every fourth, and so on, and always the present state.
+        """
+        self._ready("result")
+        self._advance.begin()
+        result = self._history.result(self._prepared)
+        _ = result.last_state  # of now: the run goes on
+        return result
+
+    @property
+    def _now(self) -> Result:
+        """The present state as a result, which is made once for a state."""
+        key = (self.t, self.steps, self._version)
+        if key != self._shown:
+            self._advance.recover()
+            if not self._free:
+                self._advance.begin()
+            self._present, self._shown = self._history.present(self._prepared), key
+        return self._present
 
     def __repr__(self) -> str:
         law, integrator = self._compiled.law.method, self._plan.integrator.name
@@ -156,7 +226,9 @@ class SteppedRun:
             self._advance.take_steps_of(dt)
         if self._clocks or self._jumps:
             return self._go(self._clock[_TIME] + dt)
-        return self._advance.to(self._clock[_TIME] + dt)
+        event = self._advance.to(self._clock[_TIME] + dt)
+        self._history.note()
+        return event
 
     def run(self, until: float) -> EventRecord | None:
         """Go on to a time, or to an event that ends runs.
@@ -228,6 +300,7 @@ class SteppedRun:
             these parameters. Nothing is changed then.
         """
         changes = {**arguments.mapping("set", values, "numbers by the names of parameters"), **more}
+        self._version += 1
         if changes.keys() <= self._inputs.keys():
             self._set_inputs(changes)
             return
@@ -303,6 +376,48 @@ class SteppedRun:
         self._changed = dict(saved.parameters)
         for clock, (start, _, beat) in zip(self._clocks, saved.clocks, strict=True):
             clock.start, clock.beat = start, beat
+        self._version += 1
+        self._history.forget_after(saved.t)
+
+    def reset(self, start: Mapping[str, float] | Result | None = None) -> None:
+        """Begin anew, with the parameters and inputs that the run began with; controllers begin at their first beats.
+
+        Parameters
+        ----------
+        start : mapping or Result, optional
+            Another start, as `Model.start` takes it; by default that of this run.
+
+        Raises
+        ------
+        InputError
+            If a name or a value is wrong.
+        AssemblyError
+            If the mechanism cannot be closed there.
+        """
+        self._ready("reset")
+        first = self._first
+        if start is not None:
+            if self._prepare is None:
+                raise InputError("reset", "no start, for a run without its model", arguments.shown(start))
+            prepared = self._prepare(start)
+            if prepared.compiled.law.key != self._compiled.law.key:  # bodies that are light there alone
+                got = f"one that is run with {prepared.compiled.law.key}"
+                raise InputError("reset", f"a start that is run with {self._compiled.law.key}", got)
+            simulation = prepared.simulation()
+            first, self._prepared, self._loop.start, self._tree = (
+                replace(first, arrays=simulation.save()),
+                prepared,
+                prepared.start,
+                prepared.tree,
+            )
+        clocks = [Clock(clock.controller, first.t, clock.interval) for clock in self._clocks]
+        self._clocks.clear()
+        self.restore(first)
+        self._clocks.extend(clocks)
+        self._history.clear()
+        if not self._free:
+            self._advance.begin()
+        self._history.note()
 
     # -- inside --------------------------------------------------------------------------------------------------------
 
@@ -340,6 +455,7 @@ class SteppedRun:
         while event is None and loop.is_ahead(until):
             self._call()
             event = self._advance.to(min((until, *(clock.due for clock in self._clocks))))
+            self._history.note()
         return event
 
     def _call(self) -> None:
@@ -361,5 +477,6 @@ class SteppedRun:
 
 def _view(y: np.ndarray, first: int, quantities: Iterable[Quantity]) -> Named:
     """Return a named view of a part of the state."""
-    names, units = zip(*((q.name, q.unit) for q in quantities), strict=True)
+    quantities = tuple(quantities)
+    names, units = tuple(q.name for q in quantities), tuple(q.unit for q in quantities)
     return Named.of(y[first : first + len(names)], names, units)

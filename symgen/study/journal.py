@@ -19,6 +19,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 from symgen.errors import InputError, SimulationError
 from symgen.files import check_name
+from symgen.plugins import stamps
 from symgen.store.identity import SOURCES, digest, sources_digest
 from symgen.version import __version__
 
@@ -64,7 +65,7 @@ def code_identity() -> str:
     from symgen.compiling.pipeline import generator_digest
     from symgen.ir.program import FORMAT
 
-    return digest(__version__, str(FORMAT), generator_digest(), sources_digest(*SOURCES["cells"]))
+    return digest(__version__, str(FORMAT), generator_digest(), sources_digest(*SOURCES["cells"]), *stamps())
 
 
 # -- the file ----------------------------------------------------------------------------------------------------------

@@ -19,6 +19,7 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from symgen.errors import SimulationError
+from symgen.plugins import load_plugins, loaded_files
 from symgen.study.journal import Journal, Outcome
 
 #: Numerical libraries start threads by these variables; a process of a study is one thread.
@@ -168,7 +169,7 @@ def _spread(cells: Sequence[Cell], compute: Callable[[Any], Outcome | None], pro
     """Yield cells as they get done by processes, which end with this generator."""
     context = multiprocessing.get_context("spawn")
     ours, theirs = context.Pipe()
-    pool = ProcessPoolExecutor(min(processes, len(cells)), context, _begin, (theirs,))
+    pool = ProcessPoolExecutor(min(processes, len(cells)), context, _begin, (theirs, loaded_files()))
     try:
         with _one_thread_each():
             futures = {pool.submit(compute, cell.task): cell for cell in cells}
@@ -195,10 +196,11 @@ def _one_thread_each() -> Iterator[None]:
                 os.environ[name] = value
 
 
-def _begin(study: Connection) -> None:
-    """Prepare a process: Ctrl-C is for the study's own process, and this one ends with the study."""
+def _begin(study: Connection, plugins: tuple[str, ...]) -> None:
+    """Prepare a process: Ctrl-C is for the study's own process, this one ends with the study and has its plugins."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_follow, args=(study,), daemon=True).start()
+    load_plugins(plugins)
 
 
 def _follow(study: Connection) -> None:

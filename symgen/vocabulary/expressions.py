@@ -122,6 +122,19 @@ def _leaves(expression: Expr) -> Iterator[Number | Name | Reading]:
             yield node
 
 
+def moving(expression: Expr) -> tuple[Name | Reading, ...]:
+    """Return the coordinates, velocities and readings in `expression`, each once, in order of appearance."""
+    leaves = (e for e in _leaves(expression) if isinstance(e, Reading) or (isinstance(e, Name) and "." in e.name))
+    return tuple(dict.fromkeys(leaves))
+
+
+def with_names(expression: Expr, of: Mapping[Name | Reading, str]) -> Expr:
+    """Return `expression` with other names in place of some names and readings."""
+    if isinstance(expression, Call):
+        return Call(expression.function, tuple(with_names(a, of) for a in expression.arguments))
+    return Name(of[expression]) if isinstance(expression, Name | Reading) and expression in of else expression
+
+
 def number(value: float) -> Number:
     """Return `value` as a literal."""
     return Number(float(value))

@@ -6,8 +6,8 @@ from typing import Any
 
 import msgspec
 
-#: What linearised functions are differentiated by: time, q, v, v', multipliers and parameters.
-BY = ("t", "q", "v", "a", "lam", "p")
+#: What linearised functions are differentiated by: time, q, v, v', multipliers, parameters and states of the file.
+BY = ("t", "q", "v", "a", "lam", "p", "z")
 
 
 class Info(msgspec.Struct, frozen=True):
@@ -57,7 +57,7 @@ class LawInfo(Info, frozen=True, kw_only=True):
         Where these stand in p: behind the numbers that the law itself hoists.
     hoisted : int
         Numbers behind the parameters, for corrections and descriptor forms.
-    position_correction, velocity_correction : bool
+    position_correction, velocity_correction, energy_correction : bool
         What is corrected after each accepted step.
     nw : int
         Length of ``w``.
@@ -83,6 +83,7 @@ class LawInfo(Info, frozen=True, kw_only=True):
     hoisted: int = 0
     position_correction: bool
     velocity_correction: bool
+    energy_correction: bool = False
     nw: int = 0
     unknowns: int = 0
     level: str = ""

@@ -49,6 +49,13 @@ class Distance(msgspec.Struct, frozen=True, tag="distance"):
     b: Marker
 
 
+class HalfSquare(msgspec.Struct, frozen=True, tag="half-square"):
+    """``s = |r_b - r_a|^2 / 2`` [m^2]: smooth where the markers meet."""
+
+    a: Marker
+    b: Marker
+
+
 class LinkStretch(msgspec.Struct, frozen=True, tag="link-stretch"):
     """``s = (|r_b - r_a|^2 - L^2) / (2 L)`` [m]: zero, with unit gradient, where the distance is `length`."""
 
@@ -126,11 +133,30 @@ class Sum(msgspec.Struct, frozen=True, tag="sum"):
     terms: tuple[tuple[Expr, Measure], ...]
 
 
+class FormulaMeasure(msgspec.Struct, frozen=True, tag="formula"):
+    """s = a formula of t, parameters, coordinates of bodies and values of measures."""
+
+    of: Expr
+
+
 #: Angles that come back to themselves in a turn, so that somebody has to count.
 Turning = Turn | Bearing
 #: All angles.
 AnyAngle = Angle | Turn | Bearing
-Measure = Component | Distance | LinkStretch | Angle | Dot | Turn | Bearing | Spin | RimHeight | Sum
+Measure = (
+    Component
+    | Distance
+    | HalfSquare
+    | LinkStretch
+    | Angle
+    | Dot
+    | Turn
+    | Bearing
+    | Spin
+    | RimHeight
+    | Sum
+    | FormulaMeasure
+)
 
 
 class PointSpeed(msgspec.Struct, frozen=True, tag="point-speed"):
@@ -166,7 +192,13 @@ class BladeSpeed(msgspec.Struct, frozen=True, tag="blade-speed"):
     blade: Direction
 
 
-Speed = PointSpeed | RollingSpeed | BladeSpeed
+class FormulaSpeed(msgspec.Struct, frozen=True, tag="formula-speed"):
+    """A formula of t, parameters, coordinates of bodies, measures, and rates of these, in which it is linear."""
+
+    of: Expr
+
+
+Speed = PointSpeed | RollingSpeed | BladeSpeed | FormulaSpeed
 
 
 class Holonomic(msgspec.Struct, frozen=True, tag="holonomic"):
@@ -185,7 +217,7 @@ class StiffHolonomic(Holonomic, frozen=True, kw_only=True, tag="stiff-holonomic"
 
 
 class Nonholonomic(msgspec.Struct, frozen=True, tag="nonholonomic"):
-    """One row u = value(t, parameters) on a velocity u = J v that is no rate of a measure [m/s]."""
+    """One row u = value(t, parameters) on a velocity u = J v that is no rate of a measure."""
 
     label: str
     speed: Speed
@@ -210,11 +242,41 @@ class Effort(msgspec.Struct, frozen=True):
     potential: Expr = ZERO
 
 
+class Flexure(msgspec.Struct, frozen=True):
+    """A beam element between the frames of two sections, elastic and damped.
+
+    With H_a and H_b the frames, psi = log(H_a^-1 H_b) is the element's deformation: length and shear displacements [m],
+    then in the plane its bend, in space twist and two bends [rad]. Its potential is ``d^T F^-1 d / 2`` with
+    ``d = psi - rest`` and ``F = h C + h/12 ad_psi C ad_psi^T``, its damping force ``-damping F^-1 psi'``.
+
+    `measures` are what psi is a function of, with e_i the axes of the frames and r the vector between their origins: in
+    the plane (e_i of a + e_i of b) . r of both axes and the bend; in space those of all axes, twice the axial vector of
+    the relative rotation and its trace. `compliances` is the diagonal of C in the order of psi, `turn` what the bend is
+    beyond the measure of it.
+    """
+
+    measures: tuple[Measure, ...]
+    length: Expr
+    compliances: tuple[Expr, ...]
+    rest: tuple[Expr, ...]
+    damping: Expr = ZERO
+    turn: Expr = ZERO
+
+
+class Flexed(msgspec.Struct, frozen=True, tag="flexed"):
+    """A component of the strain in the middle of a beam element, or with `stress` of the force and moment there."""
+
+    flexure: Flexure
+    component: int
+    stress: bool = False
+
+
 class Exerted(msgspec.Struct, frozen=True, tag="exerted"):
     """What efforts exert together: the sum of -dU/ds + F [N, N m], or with `power` of that times s' [W]."""
 
     efforts: tuple[Effort, ...]
     power: bool = False
+    flexures: tuple[Flexure, ...] = ()
 
 
 class Driven(msgspec.Struct, frozen=True, tag="driven"):
@@ -232,4 +294,4 @@ class Integral(msgspec.Struct, frozen=True, tag="integral"):
 
 
 #: What a reading may be of.
-Source = Measure | Speed | Exerted | Driven | Integral
+Source = Measure | Speed | Exerted | Driven | Integral | Flexed

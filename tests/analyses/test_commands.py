@@ -72,7 +72,7 @@ def test_tables_are_readable(cli, tmp_path):
         (("equilibrium", "four-bar", "--start", "crank.thet=1"), 2, "did you mean 'crank.theta'"),
         (("equilibrium", "four-bar", "--scan", "crank.theta=lin(2,3,3)", "--steady"), 2, "at rest"),
         (("modes", "four-bar", "--at", "start"), 2, "a state of rest"),
-        (("modes", "four-bar", "--at", "begin"), 2, "equilibrium, start, steady or a time"),
+        (("modes", "four-bar", "--at", "begin"), 2, "equilibrium, start, steady, a time"),
         (("modes", "four-bar", "--plot", "x.svg"), 2, "--over"),
         (("modes", "four-bar", "--over", "mass=lin(1,2,3)"), 2, "mass"),
         (("linearise", "four-bar", "--states", "A.angel"), 2, "did you mean 'A.angle'"),

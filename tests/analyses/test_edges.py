@@ -61,15 +61,16 @@ OUTPUTS = {
 
 @pytest.mark.parametrize("output", OUTPUTS)
 def test_outputs_without_a_derivative_are_named(output):
-    notes = held("push - 3*a.y", output).linearise().notes
-    assert notes == (() if OUTPUTS[output] else (f"{SENTENCE}: output 'seen'",))
+    place, *notes = held("push - 3*a.y", output).linearise().notes
+    assert place.startswith("about the stable equilibrium at ")
+    assert tuple(notes) == (() if OUTPUTS[output] else (f"{SENTENCE}: output 'seen'",))
 
 
 @pytest.mark.parametrize("force", ["max(0, push)", "sign(push)*sqrt(abs(push))"])
 def test_formulas_without_a_derivative_by_an_input_are_named_together(force):
     model = held(f"{force} - 3*a.y", "abs(push)")
-    assert model.linearise().notes == (f"{SENTENCE}: force 'f', output 'seen'",)
-    assert not model.linearise(inputs={"push": 0.3}).notes
+    assert model.linearise().notes[1:] == (f"{SENTENCE}: force 'f', output 'seen'",)
+    assert not model.linearise(inputs={"push": 0.3}).notes[1:]
 
 
 def test_a_table_of_straight_lines_has_kinks_at_its_points():
@@ -97,4 +98,5 @@ def test_the_command_says_it_beside_the_answer(capsys, tmp_path):
         assert main([command, str(tmp_path / "p.toml"), "--json"]) == 0
         out, err = capsys.readouterr()
         assert json.loads(out)
-        assert err == f"symgen: {SENTENCE}: force 'f'\n"
+        place = "symgen: about the indifferent equilibrium at a.x = 0, a.y = 0\n" if command == "linearise" else ""
+        assert err == f"{place}symgen: {SENTENCE}: force 'f'\n"

@@ -56,7 +56,7 @@ def test_power_is_the_change_of_energy(linkage):
     end = 0.4
     times = np.concatenate([[0.0], 0.5 * end * (nodes + 1.0), [end]])
     found = linkage.inverse(times=times)
-    energy = linkage.kinematics(times).energy.values.sum(axis=1)
+    energy = linkage.kinematics(times).energy["total"]
     done = 0.5 * end * weights @ found.power["motor"][1:-1]
     assert abs(done - (energy[-1] - energy[0])) < 1e-12 * np.abs(energy).max()
     assert np.abs(found.rates["motor"] - 2.0 * math.pi).max() < 1e-13
@@ -304,7 +304,7 @@ def test_the_command(tmp_path, capsys):
     assert set(found["summary"]["motor"]) == {"unit", "max", "at", "rms", "peak_power", "energy"}
     assert found["summary"]["motor"]["max"] == max(map(abs, found["efforts"]["motor"]))
     header = (tmp_path / "i.csv").read_text().splitlines()[0]
-    assert header.startswith("t [s],effort.motor [N m],power.motor [W],rate.motor [rad/s]")
+    assert header.startswith("t [s],motor.effort [N m],motor.power [W],motor.rate [rad/s]")
     assert main(["inverse", "driven-four-bar", "--actuators", "A,D", "--weight", "D=2"]) == 0
     assert "minimum norm, weighted as asked" in capsys.readouterr().err
 

@@ -450,7 +450,7 @@ def test_files_and_json(driven, tmp_path, capsys):
     assert (tmp_path / "k.svg").stat().st_size and (tmp_path / "c.svg").stat().st_size
     assert main(["kinematics", "driven-four-bar", "--times", "0,x"]) == 2 and "--times" in capsys.readouterr().err
     frame = driven.kinematics([0.0, 0.1]).to_dataframe()
-    assert list(frame.index) == [0.0, 0.1] and frame.attrs["units"]["reaction.A.M"] == "N m"
+    assert list(frame.index) == [0.0, 0.1] and frame.attrs["units"]["A.M"] == "N m"
 
 
 def test_the_command_ends_at_a_dead_centre(tmp_path, capsys):
@@ -512,5 +512,5 @@ def test_velocities_that_a_start_holds_are_those_of_the_drivers(held):
     motion = crank.kinematics(times)
     np.testing.assert_allclose(motion["crank.omega"], 6.0, rtol=1e-12)
     np.testing.assert_allclose(motion["crank.x"], 0.5 * np.cos(6.0 * times), atol=1e-12)
-    effort = crank.inverse(times=times)["motor"]
+    effort = crank.inverse(times=times)["motor.effort"]
     np.testing.assert_allclose(effort, 2.0 * 9.81 * 0.5 * np.cos(6.0 * times), rtol=1e-10)

@@ -145,7 +145,7 @@ def test_names_are_handed_on_to_control(monkeypatch):
         ({"states": ["crank.thet"]}, "did you mean 'crank.theta'"),
         ({"states": ["crank.theta", "rocker.theta"]}, "states that do not depend on each other"),
         ({"states": ["crank.omega"]}, "states whose rates follow from them"),
-        ({"at": "rest"}, "equilibrium, start, steady or a time"),
+        ({"at": "rest"}, "equilibrium, start, steady, a time above 0 in s"),
         ({"at": -1.0}, "above 0"),
         ({"cyclic": ["A.angle"]}, "names where a steady motion is searched"),
         ({"at": 0.3}, "a state of rest, or of a motion in which no state changes"),

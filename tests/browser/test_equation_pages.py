@@ -11,7 +11,7 @@ import pytest
 from symgen import catalogue
 from symgen.api import load
 from symgen.cli import main
-from symgen.cli._reading import at_start
+from symgen.reading.inspection import at_start
 from symgen.settings import Settings
 from tests.browser.chromium import Chromium
 
@@ -65,7 +65,7 @@ def plainly_python(function: Any) -> Any:
 
 def rates_are_those_of_the_compiled_code(name: str, coordinates: str, chromium: Chromium) -> None:
     """At the start and near it, to 1e-12 of the largest, or four times what fusing multiplication and addition does."""
-    run, _, _ = at_start(load(name), Settings(shape="straight", coordinates=coordinates))
+    run, _, _ = at_start(load(name).mechanism, Settings(shape="straight", coordinates=coordinates))
     law, start, info = run.compiled.law_module, run.start, run.compiled.info
     plain, random = plainly_python(law.rhs), np.random.default_rng(3)
     states, expected, plainly = [], [], []
@@ -123,3 +123,23 @@ def test_two_clicks_from_a_joint_to_its_row_and_to_the_line_of_its_jacobian_entr
     chromium.frame()
     assert chromium.run(SEEN.format("joint-B"))
     assert chromium.run("document.getElementById('joint-B').classList.contains('marked')")
+
+
+def test_formulas_are_whole_without_a_font_for_mathematics(chromium: Chromium, tmp_path: Path) -> None:
+    """Nothing is cut below or above, and brackets of matrices are as tall as these."""
+    path = page_of("slider-crank", tmp_path)
+    plain = "math { font-family: 'DejaVu Sans', sans-serif !important; }"
+    path.write_text(path.read_text().replace("</style>", f"{plain}</style>"))
+    chromium.open(path)
+    chromium.run("document.querySelectorAll('details').forEach((d) => { d.open = true; })")
+    chromium.frame()
+    cut = "[...document.querySelectorAll('.equation')].filter((e) => e.scrollHeight > e.clientHeight).length"
+    assert chromium.run("document.querySelectorAll('.equation').length") > 20 and chromium.run(cut) == 0
+    inside = """(() => { const found = [...document.querySelectorAll('mtable.tall')].map((m) => {
+      const [own, ...rows] = [m, ...m.querySelectorAll('mtr')].map((e) => e.getBoundingClientRect());
+      const { borderLeftWidth, borderRightWidth } = getComputedStyle(m);
+      return own.height >= Math.max(...rows.map((r) => r.bottom)) - Math.min(...rows.map((r) => r.top))
+        && parseFloat(borderLeftWidth) > 0 && parseFloat(borderRightWidth) > 0; });
+      return found.length > 2 && found.every(Boolean); })()"""
+    assert chromium.run(inside)
+    assert chromium.said == []

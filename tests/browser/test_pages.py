@@ -56,7 +56,7 @@ def test_pages_of_the_catalogue(
     path = page_of(name, pages, tmp_path_factory.mktemp("pages"))
     spatial = load(name).mechanism.space == "spatial"
     size = len(path.read_bytes())
-    assert size <= (500_000 if spatial else 150_000)
+    assert size <= (700_000 if spatial else 400_000)
     for width, height in ((1280, 800), (390, 800)):
         chromium.open(path, width, height)
         for box in ("forces", "gaps", "labels"):
@@ -378,7 +378,7 @@ def test_names_of_a_file_stay_text(chromium: Chromium, tmp_path: Path) -> None:
 def test_random_mechanisms_in_space(seed: int, chromium: Chromium, tmp_path: Path) -> None:
     result = Model(mechanism_of(make(seed, "spatial"))).simulate(integrator="rk4", until=0.5, step=1e-3)
     path = result.view().save(tmp_path / "page.html")
-    assert len(path.read_bytes()) <= 500_000
+    assert len(path.read_bytes()) <= 680_000
     for width in (1280, 390):
         chromium.open(path, width)
         chromium.run("document.getElementById('play').click()")

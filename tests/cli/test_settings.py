@@ -10,18 +10,14 @@ import pytest
 
 import symgen
 from symgen import settings
-from symgen.cli import main
-from symgen.cli.compare import command as compare
+from symgen.cli import group, main
 from symgen.cli.generate import command as generate
-from symgen.cli.run import command as run
-from symgen.cli.stress import command as stress
-from symgen.cli.sweep import command as sweep
 from symgen.errors import InputError
 from symgen.runtime.run import RunSpec
 from symgen.study.stress.study import stress as stress_study
 
 PAGES = Path(__file__).resolve().parents[2] / "docs"
-COMMANDS = {"run": run, "compare": compare, "stress": stress, "sweep": sweep}
+COMMANDS = {name: group.get_command(None, name) for name in ("run", "compare", "stress", "sweep")}
 #: Settings of runs that look for events.
 EVENTS = ("stop_when", "record_when", "events")
 #: Settings that a command goes without, since it has a list of them, or no use for them.
@@ -100,9 +96,8 @@ def test_python_says_every_setting():
     text = inspect.getdoc(symgen.Model.simulate)
     page = (PAGES / "python.md").read_text(encoding="utf-8")
     for name in settings.names():
-        assert f"``{name}``" in text and f"`{name}`" in page, name
-        unit = settings.about(name).unit
-        assert not unit or f"``{name}`` [{unit}]" in text, name
+        assert f"\n{name} : " in text and f"`{name}`" in page, name
+        assert settings.about(name).help in text, name
     assert settings.names() == tuple(f.name for f in fields(symgen.Settings))
 
 

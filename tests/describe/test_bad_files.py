@@ -137,7 +137,11 @@ CASES = [
     ("joints.pin.at", GONE, "joints.pin.at: expected two points, one of each body"),
     ("joints.pin.cut", "yes", "joints.pin.cut: expected true or false, got"),
     ("joints.string.cut", True, "joints.string.cut: expected a joint that can carry a body, got a distance joint"),
-    ("joints.pin.att", 1, "joints.pin: expected the keys type, start, cut, between, at, axis, reference"),
+    (
+        "joints.pin.att",
+        1,
+        "joints.pin: expected the keys type, start, cut, rotor_inertia, gear_ratio, between, at, axis, reference",
+    ),
     ("joints.string.length", 0.0, "joints.string.length: expected a value above 0, got 0.0"),
     ("joints.string.at", ["centre", [0.1, 0.0]], "expected 'centre' or [0, 0], the one point of the point mass 'bob'"),
     ("joints.weld", SLIDE | {"between": ["rod", "bob"], "at": ["top", "centre"]}, "got the point mass 'bob'"),

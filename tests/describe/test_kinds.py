@@ -295,8 +295,9 @@ def test_every_kind_documents_its_keys(registry):
 
 def test_all_kinds_are_there():
     assert set(JOINTS) == {
-        "constant-velocity", "cylindrical", "distance", "driver", "gear", "knife-edge", "pin-in-slot", "planar",
-        "point-on-plane", "rack-and-pinion", "revolute", "revolute-spherical", "rigid", "rolling", "rolling-disc",
-        "rolling-sphere", "screw", "spherical", "translational", "universal",
+        "constant-velocity", "coupling", "cylindrical", "distance", "driver", "gear", "knife-edge", "orientation",
+        "parallel-axes", "perpendicular", "pin-in-slot", "place", "planar", "point-on-plane", "rack-and-pinion",
+        "revolute", "revolute-spherical", "rigid", "rolling", "rolling-disc", "rolling-sphere", "rows", "screw",
+        "spherical", "translational", "universal",
     }  # fmt: skip
-    assert set(FORCES) == {"bushing", "force", "spring-damper", "torque", "torsional-spring-damper"}
+    assert set(FORCES) == {"beam", "bushing", "force", "spring-damper", "torque", "torsional-spring-damper"}

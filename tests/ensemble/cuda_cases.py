@@ -10,7 +10,17 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 
-EVERYTHING = ("q", "v", "crank.ax", "coupler.alpha", "joint", "lam", "energy", "violation", "smallest_pivot")
+EVERYTHING = (
+    "q",
+    "v",
+    "crank.ax",
+    "coupler.alpha",
+    "joint_coordinates",
+    "lam",
+    "energy",
+    "violations",
+    "smallest_pivot",
+)
 SHORT = {"until": 0.01, "step": 2e-3}
 MASSES = {"crank_mass": [2.0, 3.0, -1.0]}
 

@@ -107,5 +107,5 @@ def test_an_address_where_nothing_is_gets_one_sentence(monkeypatch):
         raise OSError("Timed out trying to connect to tcp://127.0.0.1:1 after 10 s")
 
     monkeypatch.setattr(distributed, "Client", refuse)
-    with pytest.raises(InputError, match=r"--scheduler: expected the address of a running Dask scheduler.*127.0.0.1:1"):
+    with pytest.raises(InputError, match=r"scheduler: expected the address of a running Dask scheduler.*127.0.0.1:1"):
         connect("tcp://127.0.0.1:1")

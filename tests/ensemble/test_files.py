@@ -51,7 +51,7 @@ def test_a_finished_file_is_not_computed_again_by_mistake(tmp_path):
     path = tmp_path / "few.nc"
     symgen.sweep("four-bar", **FEW, output=path, resume=True)  # nothing was begun: it begins
     before = path.read_bytes()
-    with pytest.raises(InputError, match="one that is not finished, got a finished one; leave --resume out"):
+    with pytest.raises(InputError, match="one that is not finished, got a finished one; leave `resume` out"):
         symgen.sweep("four-bar", **FEW, output=path, resume=True)
     assert path.read_bytes() == before
     symgen.sweep("four-bar", **FEW, output=path)
@@ -279,7 +279,7 @@ def test_a_folder_of_an_older_version_is_refused_and_left_as_it_is(tmp_path):
 def test_other_runs_of_the_same_version_are_refused(tmp_path):
     folder = tmp_path / "runs"
     symgen.sweep("pendulum", output=folder, **PENDULUM)
-    with pytest.raises(InputError, match="no sweep was begun, got one with a sweep; --resume continues it"):
+    with pytest.raises(InputError, match="no sweep was begun, got one with a sweep; `resume` continues it"):
         symgen.sweep("pendulum", output=folder, **PENDULUM)
     refused(folder, "with another (varied|runs)", vary={"bob.vy": "lin(0, 2, 9)"}, until=0.02)
     for asked in ({"stop_when": "bob.y > 0"}, {"coordinates": "joint"}, {"quantities": ("bob.x",)}, {"step": 4e-4}):

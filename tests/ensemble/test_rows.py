@@ -16,7 +16,17 @@ from symgen.catalogue import n_four_bar, raw
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import AssemblyError, InputError
 
-EVERYTHING = ("q", "v", "crank.ax", "coupler.alpha", "joint", "lam", "energy", "violation", "smallest_pivot")
+EVERYTHING = (
+    "q",
+    "v",
+    "crank.ax",
+    "coupler.alpha",
+    "joint_coordinates",
+    "lam",
+    "energy",
+    "violations",
+    "smallest_pivot",
+)
 
 
 def test_every_quantity_of_every_run_is_that_of_a_single_run():
@@ -51,7 +61,7 @@ def test_a_run_whose_accelerations_are_no_numbers_leaves_the_next_ones_alone():
     )
     k = [2.0, 0.5, 3.0, 0.25] * 10
     settings = {"method": "lagrange", "integrator": "rk4", "step": 1e-2, "until": 0.05, "times": (0.0, 0.05)}
-    found = symgen.sweep(model, {"k": k}, quantities=("q", "b.ay", "joint"), jobs=1, **settings)
+    found = symgen.sweep(model, {"k": k}, quantities=("q", "b.ay", "joint_coordinates"), jobs=1, **settings)
     assert found.ensemble.chunk > 1 and list(found.status) == ["failed", "ok"] * 20
     for i in (1, 3):
         assert_row(found, i, model.simulate(parameters={"k": k[i]}, **settings))
@@ -93,7 +103,7 @@ def test_open_and_contradictory_starts_are_closed_and_projected_as_for_single_ru
     assert_rows(found, model, **settings)
     strict = symgen.sweep(model, {"lift": [0.0]}, until=0.02, strict=True)
     assert strict.status[0] == "failed"
-    assert "initial state: expected a consistent start (--strict), got positions that closing moves" in strict.reason[0]
+    assert "initial state: expected a consistent start (`strict`), got positions that closing moves" in strict.reason[0]
 
 
 def test_a_start_that_stays_open_is_a_failed_row_in_the_words_of_a_single_run():
@@ -156,7 +166,7 @@ def test_redundant_rows_in_space():
         assert found.status[i] == one.status == "ok"
         for name in (*one.q.names, *one.v.names):
             assert_same_motion(found[name][i], one[name], name)
-        assert np.isnan(found["lam.P1." + one.lam.names[6].partition(".")[2]][i]).all()
+        assert np.isnan(found["multiplier.P1." + one.lam.names[6].partition(".")[2]][i]).all()
 
 
 # -- initial coordinates and velocities --------------------------------------------------------------------------------
@@ -245,12 +255,12 @@ def test_starts_whole_turns_away_and_turns_between_outputs():
     times = (0.0, 2.5, 5.0)
     settings = {"step": 0.02, "until": 5.0, "times": times}
     model = geared()
-    found = symgen.sweep(model, {"first": first}, quantities=("joint", "q", "a.alphaz", "lam"), **settings)
+    found = symgen.sweep(model, {"first": first}, quantities=("joint_coordinates", "q", "a.alphaz", "lam"), **settings)
     assert found.counts["ok"] == 4
     expected = first[:, None] + 3.0 * np.array(times)
-    np.testing.assert_allclose(found["joint.A.angle"], expected, atol=1e-9)
-    np.testing.assert_allclose(found["joint.B.angle"], 31.0 - 2.0 * expected, atol=1e-9)
-    np.testing.assert_allclose(found["joint.B.angle.rate"], -6.0, atol=1e-9)
+    np.testing.assert_allclose(found["A.angle"], expected, atol=1e-9)
+    np.testing.assert_allclose(found["B.angle"], 31.0 - 2.0 * expected, atol=1e-9)
+    np.testing.assert_allclose(found["B.angle.rate"], -6.0, atol=1e-9)
     assert_rows(found, model, **settings)
 
 
@@ -300,7 +310,7 @@ def test_without_compilation_the_numbers_are_the_same(tmp_path):
     script = (
         "import sys, numpy, symgen\n"
         "vary = {'crank_mass': [1.0, 2.0], 'crank.theta': [1.0, 1.2]}\n"
-        "found = symgen.sweep('four-bar', vary, until=0.005, quantities=('q', 'lam', 'joint'), jobs=1)\n"
+        "found = symgen.sweep('four-bar', vary, until=0.005, quantities=('q', 'lam', 'joint_coordinates'), jobs=1)\n"
         "assert found.counts['ok'] == 4\n"
         "numpy.save(sys.argv[1], found.values)\n"
     )

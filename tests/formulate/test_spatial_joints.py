@@ -7,13 +7,14 @@ from hypothesis import strategies as st
 from support.checks import RANDOM, close
 from support.emitted import mechanism_of
 from support.graph_values import node_values, state_inputs
+from support.kinds import APART
 from support.random_space import described
 from support.space import STEP, Space
 
 from symgen.formulate.formulate import formulate
 from symgen.joints import JOINTS
 
-KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES)
+KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES and name not in APART)
 
 #: Kinds whose other side is a plane of the ground.
 ON_THE_GROUND = ("rolling-disc", "rolling-sphere", "knife-edge")

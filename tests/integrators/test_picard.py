@@ -131,7 +131,7 @@ def test_a_stiff_motion_is_noted_and_left_by_an_automatic_choice(monkeypatch):
     model = symgen.Model(on_a_spring("-4000.0*ball.vy"))
     found = model.simulate(integrator="picard", until=0.5, rtol=1e-8)
     assert any("converged slowly" in note and "radau5" in note for note in found.notes)
-    assert found.proposals == ("--integrator radau5",) and "stiff: --integrator radau5 takes" in repr(found)
+    assert found.proposals == ("--integrator radau5",) and "stiff: `integrator` radau5 takes" in repr(found)
     chosen = model.simulate(method="lagrange", integrator="auto", until=0.5)
     assert chosen.integrator == "radau5"
     assert any("converges slowly" in note for note in chosen.notes)

@@ -18,8 +18,9 @@ CASES = {
     "slider-crank": (1.0, 1e-3, 6.25e-5),
     "andrews": (0.01, 1e-5, 2.5e-6),
 }
-#: `penalty` approaches another motion, its error falls with the penalty; the others are of orders 3 and 1.
-COMMON = tuple(m for m in METHODS.names if m not in ("penalty", "half-explicit", "implicit-constraint"))
+#: Joints that give way approach another motion; the others are of orders 1 to 3.
+OTHERS = ("penalty", "compliant-constraints", "braun-goldfarb", "half-explicit", "implicit-constraint")
+COMMON = tuple(m for m in METHODS.names if m not in OTHERS)
 #: One of each kind.
 SOME = (
     *("lagrange", "direct-correction", "augmented-lagrangian", "coordinate-partitioning", "null-space"),
@@ -34,7 +35,7 @@ def motions(name, method):
     until, step, short = CASES[name]
     times = np.linspace(0.0, until, 11)
     q, result = motion(load(name), method, short if second_order(method) else step, times)
-    assert result.status == "ok", f"{method}: {result.reason}"
+    assert result.status == ("unverified" if method == "energy-projection" else "ok"), result.reason
     return q
 
 
@@ -92,6 +93,12 @@ def test_the_error_of_penalty_falls_with_the_penalty():
         ("null-space", "abm4"),
         ("adaptive-baumgarte", "rk4"),
         ("augmented-lagrangian", "rk4"),
+        ("energy-projection", "rk4"),
+        ("compliant-constraints", "rk4"),
+        ("invariant-stabilization", "rk4"),
+        ("hamiltonian-baumgarte", "rk4"),
+        ("controllable-velocity-projection", "rk4"),
+        ("dependent-correction", "rk4"),
     ],
 )
 def test_order(method, integrator):

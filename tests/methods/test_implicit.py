@@ -33,6 +33,7 @@ LEVELS = {
     "baumgarte": "acceleration",
     "adaptive-baumgarte": "acceleration",
     "penalty": "acceleration",
+    "compliant-constraints": "acceleration",
     "ggl": "stabilised",
     "generalized-alpha": "position",
     "index3-augmented-lagrangian": "projected",

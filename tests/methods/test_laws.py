@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from support import reference
 from support.checks import RANDOM, close
 from support.emitted import Emitted, mechanism_of
-from support.kinds import METHODS
+from support.kinds import APART, METHODS
 from support.models import EVERYTHING, ROUGH
 from support.plain import Plain
 from support.random_mechanisms import descriptions, states
@@ -17,7 +17,7 @@ from support.random_mechanisms import descriptions, states
 from symgen.joints import JOINTS
 from symgen.methods import METHODS as KNOWN
 
-PLANAR = tuple(name for name, kind in JOINTS.items() if "planar" in kind.SPACES)
+PLANAR = tuple(name for name, kind in JOINTS.items() if "planar" in kind.SPACES and name not in APART)
 
 ALPHA, BETA = 3.5, 7.0
 

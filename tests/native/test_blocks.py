@@ -92,6 +92,14 @@ def test_blocks_are_about_as_long_as_asked_for_and_read_what_they_want(tmp_path,
     assert " = load " not in divided[stores : divided.index("\n}", stores)], "what was written might be what is read"
 
 
+def test_a_block_may_end_where_the_function_does(tmp_path, monkeypatch):
+    text, symbol = optimised(tmp_path / "ends", long_function(40))
+    for length in range(10, 120):
+        monkeypatch.setattr(blocks, "LENGTH", length)
+        divided = blocks.split(text, symbol, 10)
+        machine.llvm.parse_assembly(divided)
+
+
 def test_a_product_stands_in_the_block_of_the_sum_that_wants_it(tmp_path, monkeypatch):
     monkeypatch.setattr(blocks, "LENGTH", 120)
     text, symbol = optimised(tmp_path / "products", long_function(1500, 3))

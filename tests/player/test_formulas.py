@@ -6,7 +6,7 @@ import pytest
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.parser import FormulaNames, parse
-from symgen.player.live import NotInPages, ScriptLines
+from symgen.native.formula_lines import FormulaLines, NotInLines
 
 
 @pytest.mark.parametrize(
@@ -16,7 +16,7 @@ from symgen.player.live import NotInPages, ScriptLines
 )  # fmt: skip
 def test_lines_say_what_the_formula_says(text: str) -> None:
     expression = parse(text, FormulaNames("a formula", {"a": "a", "b": "b"}), "here")
-    lines = ScriptLines({"a": "p[0]", "b": "p[1]"})
+    lines = FormulaLines({"a": "p[0]", "b": "p[1]"})
     result = lines.result(lines.value(expression, "here"))
     # the lines are read as Python here: choices and names of functions are all that differs
     known = {"p": [0.7, 1.9], "Math": math_of_pages(), "NaN": math.nan}
@@ -42,5 +42,5 @@ def math_of_pages() -> object:
 
 
 def test_tables_are_not_for_pages() -> None:
-    with pytest.raises(NotInPages):
-        ScriptLines({}).apply("table:lift", 1.0)
+    with pytest.raises(NotInLines):
+        FormulaLines({}).apply("table:lift", 1.0)

@@ -21,7 +21,7 @@ from symgen.describe.validate import validate
 from symgen.errors import InputError
 from symgen.player import live
 from symgen.player.moving import write_film
-from symgen.player.recording import Recording, fitted, shorts
+from symgen.player.recording import PlottedGroup, Recording, is_coarse, packed, shorts
 from symgen.result.viewed import recorded, view_file
 
 
@@ -215,14 +215,53 @@ def test_pages_in_joint_coordinates_have_no_sliders_that_move_the_start() -> Non
     assert not any(p.get("still") for p in absolute["live"]["parameters"]) and absolute["note"] == ""
 
 
-def test_a_large_mechanism_has_coarse_coordinates_before_it_loses_forces() -> None:
+def test_a_large_mechanism_has_coarse_coordinates_and_its_forces() -> None:
     values = np.zeros((70, 90))
     recording = Recording(
         load("pendulum").mechanism, {}, values[:, 0], values, reactions=values.reshape(70, 45, 2), pushed=("a",) * 45
     )
-    whole, half, bare = (fitted(recording, room) for room in (60 * 730, 60 * 490, 60 * 400))
-    assert whole == (recording, False) and half == (recording, True)
-    assert bare[1] and bare[0].reactions is None and bare[0].pushed == ()
+    assert [is_coarse(recording, room) for room in (60 * 730, 60 * 490, 60 * 400)] == [False, True, True]
+
+
+def test_forces_are_in_the_page_of_every_machine_that_has_some() -> None:
+    """The scissor lift's page went without them, as it would have been too large."""
+    motion = data_of(load("scissor-lift").simulate(until=0.05).view(live=False).html)["motions"][0]
+    assert {"base", "clevis", "eye", "roller"} <= set(motion["reactions"]["names"])
+    numbers = np.frombuffer(base64.b64decode(motion["reactions"]["data"]), "<u2")
+    assert len(numbers) == 2 * len(motion["reactions"]["names"]) * motion["count"]
+
+
+def test_what_is_too_large_in_coordinates_of_bodies_is_live_in_those_of_joints(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    run = load("slider-crank").simulate(until=0.01, step=1e-3)
+    own, on_tree = (
+        data_of(load("slider-crank").simulate(until=0.01, step=1e-3, coordinates=c).view().html)["live"]
+        for c in ("absolute", "joint")
+    )
+    assert on_tree["ny"] < own["ny"] and not own["joint"]
+    monkeypatch.setattr(live, "MOST", {False: 12_000, True: 12_000})
+    page = run.view()
+    assert page.live and data_of(page.html)["live"] == on_tree
+
+
+def test_rounding_is_no_curve_of_a_plot() -> None:
+    """A rod that turns in the plane z = 0 leaves 1e-17 there: 0 in the page, and as it is in the result."""
+    values = np.array([[1.0, 2e-17], [-3.0, -1e-13]])
+    group = PlottedGroup("position", "m", ("a.x", "a.z"), values)
+    recording = Recording(load("pendulum").mechanism, {}, np.arange(2.0), np.zeros((2, 2)), groups=(group,))
+    (shown,) = packed(recording, np.arange(2))["groups"]
+    assert shown["low"] == [-3.0, 0.0] and shown["span"] == [4.0, 1.0]
+    assert group.values[0, 1] == 2e-17
+    angles = PlottedGroup("angle", "rad", ("a.theta",), np.array([[3e-18], [4e-18]]))
+    (shown,) = packed(replace(recording, groups=(angles,)), np.arange(2))["groups"]
+    assert shown["low"] == [0.0] and shown["span"] == [1.0]
+
+
+def test_points_that_no_joint_ties_are_marked() -> None:
+    for name, expected in (("jansen-leg", ["leg.foot"]), ("wiper", ["arm.tip"]), ("four-bar", [])):
+        data = data_of(load(name).simulate(until=0.01).view(live=False).html)
+        assert [p[0] for p in data["points"] if p[3:] == [1]] == expected
 
 
 def pictures(path: Path) -> list[int]:

@@ -15,7 +15,7 @@ from support.processes import COMMAND, python
 import symgen
 from benchmarks import gallery
 from symgen.api import load
-from symgen.catalogue import entries
+from symgen.describe.beam_sections import BeamSection
 from symgen.describe.digest import digest
 from symgen.describe.events import EventSection
 from symgen.describe.load import parse_toml
@@ -27,6 +27,7 @@ from symgen.describe.sections import (
     ParameterSection,
     RunSection,
     SpatialBodySection,
+    StateSection,
     TableSection,
 )
 from symgen.describe.validate import validate
@@ -120,7 +121,8 @@ def test_every_snippet_runs(page: Path, tmp_path: Path, monkeypatch: pytest.Monk
     names: dict[str, object] = {"__name__": "__main__"}
     for file, text in files(page).items():
         (tmp_path / file).write_text(text, encoding="utf-8")
-    scripts = {text for file, text in files(page).items() if f"\n$ python {file}\n" in page.read_text(encoding="utf-8")}
+    shown = page.read_text(encoding="utf-8")
+    scripts = {x for file, x in files(page).items() if f"\n$ python {file}\n" in shown or f"--plugin {file}" in shown}
     for block in fenced(page, "python"):
         if block.text in scripts:
             continue  # run as a command
@@ -215,9 +217,11 @@ def test_a_kind_stands_in_the_reference_with_all_its_keys(kind: str, registry: o
         ("`[mechanism]`", [MechanismSection]),
         ("`[run]`", [RunSection]),
         ("`[parameters]`", [ParameterSection]),
+        ("`[states.NAME]`", [StateSection]),
         ("`[tables.NAME]`", [TableSection]),
         ("`[bodies.NAME]`", [BodySection]),
         ("`[bodies.NAME]` in space", [SpatialBodySection, OrientationSection]),
+        ("`[beams.NAME]`", [BeamSection]),
         ("`[events.NAME]`", [EventSection]),
     ],
 )
@@ -280,7 +284,7 @@ def test_the_gallery_says_what_was_measured() -> None:
 
 @pytest.mark.parametrize("path", sorted(gallery.DATA.glob("*.json")), ids=lambda path: path.stem)
 def test_rows_of_the_gallery_belong_to_the_mechanism_as_it_is(path: Path) -> None:
-    known = {entry.name: entry for entry in entries()}
+    known = {entry.name: entry for entry in gallery.every()}
     measured = gallery.data(path.stem)
     assert measured is not None and measured["model"] == gallery.model_name(known[path.stem])
     assert measured.get("command", gallery.command(known[path.stem])) == gallery.command(known[path.stem])

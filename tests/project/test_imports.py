@@ -186,7 +186,7 @@ def test_a_command_loads_only_what_it_needs(tmp_path: Path, command: tuple[str, 
 
 
 #: Modules of symgen that code is made with and that leave no mark in it: errors, names of folders, lists of kinds.
-UNMARKED = {"arguments", "errors", "files", "registry"}
+UNMARKED = {"arguments", "errors", "files", "plugins", "registry"}
 
 
 def reached_by(path: Path) -> Iterator[str]:
@@ -211,7 +211,7 @@ def test_whatever_code_is_generated_with_is_in_the_digest_of_the_generator():
     assert "describe" in folders, "imports are followed"
     assert folders <= {*GROUPS["code"], *UNMARKED}
     named = (PACKAGE.parent / "templates").rglob("*.j2")
-    assert {path.parent.name for path in named} - {"report", "package"} == set(TEMPLATES)
+    assert {path.parent.name for path in named} - {"report", "package", "c"} == set(TEMPLATES)
 
 
 @pytest.mark.parametrize("file", ["describe/formulas.py", "lower/looped/kernels.py", "compiling/choices.py"])

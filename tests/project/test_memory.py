@@ -45,14 +45,14 @@ REQUESTS = {
         r"got 20000 runs, each with 2 quantities at 100001 times, about 32 GB"
     ),
     "run n-four-bar:1000 --until 0.01 --output-step 1e-9": (
-        r"output_step: expected no more than 80% of the free memory, \S+ GB, got 1e\+07 outputs, about \S+ GB"
+        r"--output-step: expected no more than 80% of the free memory, \S+ GB, got 1e\+07 outputs, about \S+ GB"
     ),
     "run n-four-bar:1000 --until 0.01 --output-step 1e-9 --json": r"1e\+07 outputs",
     "run n-four-bar:1000 --step 1e-6 --until 1 --output-step 1e-6": r"1e\+06 outputs",
     "run andrews --output-step 1e-8 --until 0.03 --save a.nc": (
         r"--save: expected no more than 80% of the free memory, \S+ GB, got 3e\+06 outputs of andrews"
     ),
-    "compare four-bar --until 1 --output-step 1e-7": "output_step: expected no more",
+    "compare four-bar --until 1 --output-step 1e-7": "--output-step: expected no more",
 }
 
 

@@ -239,12 +239,16 @@ def rows():
     for changes, sentence in (
         ({"path": 3}, "path: expected a path, got 3"),
         ({"methods": 3}, "methods: expected a list of names, got 3"),
-        ({"methods": "lagrang"}, "--method: expected a method, got 'lagrang'; did you mean"),
+        ({"methods": "lagrang"}, "method: expected a method, got 'lagrang'; did you mean"),
         ({"options": 3}, "options: expected texts by the names of options, got 3"),
-        ({"options": {"weight": "mass"}}, "--option weight: expected METHOD.NAME with one of direct-correction"),
+        ({"options": {"weight": "mass"}}, "option weight: expected METHOD.NAME with one of direct-correction"),
         ({"coordinates": "polar"}, "coordinates: expected one of absolute, joint, auto, got 'polar'"),
         ({"shape": "auto"}, "shape: expected one of straight, looped, got 'auto'"),
-        ({"target": "c"}, "target: expected one of cpu, lanes, cuda, got 'c'"),
+        (
+            {"target": "cc"},
+            "target: expected a target, got 'cc'; did you mean 'c'? (known: c, cpu, cuda, fmu, javascript, lanes)",
+        ),
+        ({"target": "fmu", "fmi": 4}, "fmi: expected 2 or 3, got 4"),
     ):
         yield f"generate {changes}", lambda x, c=changes: x.model.generate(**c), sentence
     yield "assemble what", lambda x: x.model.assemble(3), "compiled: expected what Model.compile returned, got 3"
@@ -265,8 +269,8 @@ def rows():
         ("reaction", lambda x, v: x.result.reaction(v), "joint: expected the name of a joint, got {}"),
     ):
         yield from each(label, keys, call, sentence)
-    yield "column", lambda x: x.result["bob.z"], "result: expected the name of a column, got 'bob.z'; did you mean"
-    yield "column long", lambda x: x.result["x" * 9999], "got 'xxxxxxxxxxxx"
+    yield "column", lambda x: x.result["bob.z"], "quantity 'bob.z': expected a quantity of pendulum, got none of"
+    yield "column long", lambda x: x.result["x" * 9999], "quantity 'xxxxxxxxxxxx"
     yield "reaction", lambda x: x.result.reaction("lin"), "joint: expected the name of a joint, got 'lin'"
     indices = (99, -99, "last", None, 1.5, [0])
     yield from each("row", indices, lambda x, v: x.result.q.row(v), "row: expected a whole number from -")
@@ -275,6 +279,8 @@ def rows():
         ("plot", lambda x, v: x.result.plot(v), "plot"),
         ("study", lambda x, v: x.study.save(v), "save"),
         ("sweep save", lambda x, v: x.sweep.save(v), "save"),
+        ("study plot", lambda x, v: x.study.plot(v), "plot"),
+        ("sweep plot", lambda x, v: x.sweep.plot(v), "plot"),
     ):
         names = {"3": 3, "None": None, "b'a.csv'": b"a.csv", "a list of 1": ["a.csv"]}
         yield from each(label, names, call, f"{where}: expected a path, got {{}}")
@@ -286,7 +292,12 @@ def rows():
     yield "select", lambda x: x.result.select(3), "quantities: expected a list of names, got 3"
     yield "select name", lambda x: x.result.select(["bob.z"]), "quantity 'bob.z': expected a quantity of"
     yield "plot what", lambda x: x.result.plot("a.png", 3), "plot: expected a list of names, got 3"
-    yield "plot panel", lambda x: x.result.plot("a.png", "energi"), "plot: expected the name of a panel, got 'energi'"
+    yield "plot over", lambda x: x.result.plot("a.png", "q", over=3), "over: expected a text, got 3"
+    yield "plot over two", lambda x: x.result.plot("a.png", "q", over="bob"), "over: expected one column, got 'bob'"
+    yield "study plot what", lambda x: x.study.plot("a.png", "eror"), "plot: expected one of step, rtol, error"
+    yield "sweep plot what", lambda x: x.sweep.plot("a.png", "bob.z"), "quantity 'bob.z': expected a quantity of"
+    yield "sweep plot over", lambda x: x.sweep.plot("a.png", over="bob.z"), "over: expected t, what varies, or"
+    yield "plot panel", lambda x: x.result.plot("a.png", "energi"), "quantity 'energi': expected a quantity of"
     # studies
     lists = {"3": 3, "a dict of 0": {}, "the function len": len}
     for name in ("methods", "integrators"):
@@ -301,7 +312,7 @@ def rows():
         call = comparing(name)
         wrong = f"{name}: expected a finite number above 0, got "
         yield from each(f"compare {name}", (0, -1.0, NAN, "1", True, [1.0]), call, wrong)
-    yield "view beside", lambda x: x.result.view("a.nc"), "beside: expected a Result, got"
+    yield "view beside", lambda x: x.result.view("a.nc"), "beside: expected a result of a run"
     yield "view live", lambda x: x.result.view(live="no"), "live: expected "
     yield "draw at", lambda x: x.model.draw(at="end"), "at: expected one of"
     yield "draw parameters", lambda x: x.model.draw({"nothing": 1.0}), "parameter 'nothing': expected a parameter"
@@ -317,7 +328,7 @@ def rows():
     )
     for changes, sentence in (
         ({"journal": "file"}, "journal: expected a symgen.study.journal"),
-        ({"reference_by": 3}, "--reference: expected one of auto"),
+        ({"reference_by": 3}, "reference_by: expected one of auto"),
         ({"shape": "round"}, "shape: expected one of auto"),
         ({"options": 3}, "options: expected values by the names"),
         ({"parameters": {"g": "x"}}, "expected a finite number"),
@@ -367,7 +378,7 @@ def rows():
         "builder", names, lambda x, v: symgen.MechanismBuilder(v).body("a", mass=1).build(), "mechanism.name"
     )
     further = {
-        **dict.fromkeys(("body", "event"), ()),
+        **dict.fromkeys(("body", "beam", "event"), ()),
         **{"parameter": (1.0,), "input": (1.0,), "table": ([0, 1], [0, 1]), "output": ("t",)},
         **{"joint": ("rigid",), "force": ("torque",)},
     }
@@ -396,6 +407,19 @@ def rows():
     yield from each("set", NO_MAPPING, lambda x, v: x.sim.set(v), numbers)
     yield from each("step u", NO_MAPPING, lambda x, v: x.sim.step(0.01, v), "parameters, got {}")
     yield from each("restore", NO_MAPPING, lambda x, v: x.sim.restore(v), "expected what `save` returned, got {}")
+    starts = {"3": 3, "[1.0]": [1.0]}
+    yield from each("reset", starts, lambda x, v: x.sim.reset(v), "start: expected values by the names of coordinates")
+    yield "reset name", lambda x: x.sim.reset({"bob.vxx": 1.0}), "did you mean 'bob.vx'?"
+    yield "column", lambda x: x.sim["crank.thet"], "quantity 'crank.thet': expected a quantity of pendulum"
+    yield "inspect method", lambda x: x.model.inspect("lagrang"), "method: expected a method, got 'lagrang'"
+    yield "inspect options", lambda x: x.model.inspect("lagrange", 3), "options: expected texts by name, got 3"
+    yield "inspect coordinates", lambda x: x.model.inspect(coordinates="joints"), "did you mean 'joint'?"
+    yield "view live", lambda x: x.model.view(live=3, until=0.01), "live: expected True or False, got 3"
+    yield "view until", lambda x: x.model.view(until=-1), "until: expected a finite number above 0, got -1"
+    yield "model sweep", lambda x: x.model.sweep({"bob_mas": [1.0]}), "did you mean 'bob_mass'?"
+    yield "model compare", lambda x: x.model.compare(["lagrang"]), "methods: expected a method, got 'lagrang'"
+    yield "variant", lambda x: x.model.compare(["baumgarte:alpha"]), "methods: expected NAME, or NAME:OPTION=VALUE"
+    yield "plugin", lambda x: symgen.load_plugin(3), "plugin: expected a path, got 3"
     functions = {"3": 3, "None": None, "'f'": "f"}
     yield from each(
         "controller", functions, lambda x, v: x.sim.every(0.1, v), "controller: expected a function, got {}"
@@ -451,15 +475,22 @@ def test_no_function_with_arguments_is_left_out():
     """Every public name that can be called, and every method of a public class that takes something, has rows."""
     tested = {
         *"load simulate compare sweep Model Settings MechanismBuilder Mechanism.body Mechanism.joint_named".split(),
+        *"list_methods list_integrators load_plugin".split(),
         *(f"Model.{n}" for n in "parameters compile equations_in generate draw assemble simulate start".split()),
+        *(f"Model.{n}" for n in "inspect view sweep compare".split()),
         *(f"Result.{n}" for n in "save plot reaction columns select series view".split()),
-        *"Labelled.row Labelled.unit Study.save Sweep.save Sweep.reasons".split(),
-        *(f"SteppedRun.{n}" for n in "step run every set restore".split()),
-        *(f"MechanismBuilder.{n}" for n in "run parameter input table body joint force output event".split()),
+        *"Labelled.row Labelled.unit Study.save Study.plot Sweep.save Sweep.plot Sweep.reasons".split(),
+        *(f"SteppedRun.{n}" for n in "step run every set restore reset".split()),
+        *(f"MechanismBuilder.{n}" for n in "run parameter input table body beam joint force output event".split()),
     }
     tested |= {f"Model.{method.__name__}" for method in ANALYSIS_METHODS}
     # what only the package makes or calls
-    inner = {*"Result Labelled Study Sweep SteppedRun Mechanism Model.compiled Model.ready Model.initial_state".split()}
+    inner = {
+        *"Labelled Study Sweep SteppedRun Mechanism Model.compiled Model.ready Model.initial_state".split(),
+        "Result",
+        "Result.along",
+        "Result.whole",
+    }
     found = set()
     for name in symgen.__all__:
         thing = getattr(symgen, name)

@@ -80,7 +80,7 @@ def test_everything_that_was_promised_is_there(four_bar):
     for ident in ("sketch", "topology", "coordinates", "rows", "patterns", "motion", "law", "operations", "left-out"):
         assert ident in found.ids
     assert text.count("<svg") >= 3  # the sketch and two patterns
-    assert "<mtable>" in text and "the mechanism is planar" in text
+    assert '<mtable class="tall">' in text and "the mechanism is planar" in text
     assert "gyroscopic terms" in text
 
 
@@ -108,6 +108,26 @@ def test_text_of_a_file_is_text(tmp_path):
     text, found = page_of(path, tmp_path)
     assert "<script>alert" not in text and "<img" not in text and "<b>kg" not in text
     assert [tag for tag, _ in found.tags].count("script") == 2
+
+
+def test_text_that_turns_around_is_seen(tmp_path):
+    """In the listing as in headings: what follows U+202E would be shown from right to left."""
+    path = tmp_path / "turned.toml"
+    path.write_text(
+        '# note \u202e here\n[mechanism]\nname = "turned"\ntitle = "a\u202eb"\ngravity = [0, -9.81]\n'
+        '[parameters]\nm = { value = 1.0, note = "c\u202ed" }\n'
+        '[bodies.a]\nmass = "m"\ninertia = 1.0\n[joints.j]\ntype = "revolute"\nbetween = ["ground", "a"]\n'
+        "at = [[0, 0], [0.5, 0]]\n",
+        encoding="utf-8",
+    )
+    text, _ = page_of(path, tmp_path)
+    assert "\u202e" not in text and text.count("\\u202e") >= 4
+
+
+def test_dots_stand_clear_of_their_letters(four_bar):
+    """An accent is laid on the letter by fonts without data for mathematics."""
+    text, _ = four_bar
+    assert "<mover>" in text and "accent" not in text
 
 
 def test_a_page_that_would_be_too_large_leaves_out_the_code(tmp_path, monkeypatch):

@@ -23,8 +23,8 @@ def test_csv(result, tmp_path):
     frame = pd.read_csv(path, index_col="t")
     assert np.array_equal(frame.index.to_numpy(), result.t)
     assert np.array_equal(frame["crank.theta"].to_numpy(), result["crank.theta"])
-    assert np.array_equal(frame["lam.motor.driver"].to_numpy(), result.lam["motor.driver"])
-    assert np.array_equal(frame["reaction.B.Fx"].to_numpy(), result.reactions["B.Fx"])
+    assert np.array_equal(frame["multiplier.motor.driver"].to_numpy(), result.lam["motor.driver"])
+    assert np.array_equal(frame["B.Fx"].to_numpy(), result.reactions["B.Fx"])
 
 
 def test_parquet(result, tmp_path):
@@ -41,7 +41,9 @@ def test_netcdf(result, tmp_path):
         assert np.array_equal(column.to_numpy(), result["rocker.theta"])
         assert str(column["coordinate_unit"].to_numpy()) == "rad"
         assert json.loads(data.attrs["run"])["status"] == "ok"
-        assert np.array_equal(data["violations"].sel(level="position").to_numpy(), result.violations["position"])
+        assert np.array_equal(
+            data["violations"].sel(level="violation.position").to_numpy(), result.violations["position"]
+        )
 
 
 def test_an_interrupted_start_can_be_saved(result, tmp_path):
@@ -54,7 +56,7 @@ def test_an_interrupted_start_can_be_saved(result, tmp_path):
 
 @pytest.mark.parametrize("ending", [".png", ".svg", ".pdf"])
 def test_plots(result, tmp_path, ending):
-    path = result.plot(tmp_path / f"run{ending}", ("positions", "velocities", "energy", "violations", "reactions"))
+    path = result.plot(tmp_path / f"run{ending}", ("q", "v", "energy", "violations", "reactions"))
     head = path.read_bytes()[:200]
     assert {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF"}[ending] in head
 
@@ -66,9 +68,9 @@ def test_an_svg_says_units_and_is_the_same_every_time(result, tmp_path):
 
 
 def test_violations_are_drawn_on_a_logarithmic_axis(result):
-    from symgen.result.plots import draw
+    from symgen.result.plots import drawing
 
-    figure = draw(result, ("positions", "violations"))
+    figure = drawing(result.along("t"), result.select(["q", "violations"]), "")
     labels = {ax.get_ylabel(): ax.get_yscale() for ax in figure.axes}
     assert labels == {"position [m]": "linear", "angle [rad]": "linear", "violation [m, m/s, m/s$^2$]": "log"}
     assert figure.axes[-1].get_xlabel() == "t [s]"

@@ -3,7 +3,7 @@ import pytest
 
 from symgen.errors import InputError
 from symgen.result.labelled import Labelled
-from symgen.result.tables import choose
+from symgen.result.signals import choose
 
 
 @pytest.fixture

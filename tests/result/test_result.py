@@ -7,10 +7,8 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen.describe.columns import PREFIX
 from symgen.errors import InputError
-from symgen.result.result import TABLES
-from symgen.result.select import columns_of
+from symgen.result.signals import of_run
 
 
 @pytest.fixture(scope="module")
@@ -165,7 +163,7 @@ def test_the_energy_at_the_start_needs_no_output_there(four_bar):
 def test_a_start_that_was_changed_is_noted(model):
     result = model.simulate(until=0.01)
     assert any("closed by the shortest changes" in note for note in result.notes)
-    with pytest.raises(InputError, match="--strict"):
+    with pytest.raises(InputError, match="`strict`"):
         model.simulate(until=0.01, strict=True)
 
 
@@ -215,6 +213,9 @@ def test_repeated_runs_report_the_shortest():
 def test_columns_are_known_before_a_run(name):
     model = symgen.load(name)
     result = model.simulate(until=0.01, step=1e-2, integrator="rk4")
-    expected = {PREFIX[table] + column: table for table in TABLES for column in result.columns(table)}
-    found = columns_of(model.mechanism, result.outcome.compiled.info)
-    assert list(found.items()) == list(expected.items())
+    tables = of_run(model.mechanism, result.outcome.compiled.info)
+    assert [s.name for table in tables.values() for s in table] == list(result.whole().names)
+    assert tuple(s.unit for table in tables.values() for s in table) == result.whole().units
+    assert {table: tuple(s.key for s in signals) for table, signals in tables.items()} == {
+        name: table.names for name, table in result.tables().items()
+    }

@@ -137,10 +137,10 @@ def test_the_estimated_error_is_about_the_error(four_bar, changes):
 def test_an_error_that_nothing_estimates_is_said(four_bar):
     result = four_bar.simulate(integrator="rk4", until=0.05)
     assert result.ok and result.error_estimate is None and result.to_json()["error_estimate"] is None
-    said = "ok (error not estimated: --verify runs again with half the step)"
+    said = "ok (error not estimated: `verify` runs again with half the step)"
     assert said in repr(result) and said in result._repr_html_()
     adaptive = repr(four_bar.simulate(until=0.05, integrator="dopri5", verify=False))
-    assert "ok (local errors within rtol 1e-08; global error not estimated: --verify runs again" in adaptive
+    assert "ok (local errors within rtol 1e-08; global error not estimated: `verify` runs again" in adaptive
 
 
 def test_a_wrong_motion_within_all_watches_is_unverified_where_it_is_verified(four_bar):

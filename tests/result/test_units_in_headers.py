@@ -27,7 +27,7 @@ def test_all_tables_of_a_run_with_units_hold_the_same_numbers(tmp_path):
     assert same == rows and [name.partition(" [")[0] for name in told] == plain
     units = dict(name[:-1].split(" [") for name in told if name.endswith("]"))
     assert units["t"] == "s" and units["bob.vx"] == "m/s" and units["bob.ay"] == "m/s^2"
-    assert [unit for name, unit in units.items() if name.startswith("lam.")] == ["N"]
+    assert [unit for name, unit in units.items() if name.startswith("multiplier.")] == ["N"]
     assert units["energy.kinetic"] == "J" and "bob.x" in plain and " [" not in "".join(plain)
     with pytest.raises(InputError, match=r"save: units: expected a file ending in \.csv"):
         result.save(tmp_path / "told.parquet", units=True)

@@ -164,7 +164,7 @@ def test_a_stiff_run_proposes_an_implicit_integrator():
         found = model(force).simulate(until=2.5)
         assert found.ok and found.steps > 1000
         assert found.proposals == ("--integrator radau5",) and "radau5" in found.notes[-1]
-        assert "; stiff: --integrator radau5 takes longer steps)" in repr(found)
+        assert "; stiff: `integrator` radau5 takes longer steps)" in repr(found)
         taken = model(force).simulate(until=2.5, integrator="radau5")
         assert taken.ok and taken.steps < 0.2 * found.steps and not taken.proposals
     assert not model("1.0 - 4000*block.vx").simulate(until=2.5, method="udwadia-kalaba").proposals  # no implicit form

@@ -71,7 +71,7 @@ def test_a_pulse_is_seen_by_default_and_with_a_largest_step(tmp_path: Path, inte
     model, exact = pushed_point(tmp_path, "exp(-((t - 1.3)/1e-3)**2)", 2.0), 1e-3 * math.sqrt(math.pi)
     found = model.simulate(method="lagrange", integrator=integrator)
     (note,) = bounds(found)
-    assert "formulas of t in forces" in note and "at most 0.002 s" in note and "needs --max-step" in note
+    assert "formulas of t in forces" in note and "at most 0.002 s" in note and "needs a smaller `max_step`" in note
     asked = model.simulate(method="lagrange", integrator=integrator, max_step=2e-3)
     for result in (found, asked):
         assert result.status == "ok" and result["a.vx"][-1] - 0.1 == pytest.approx(exact, abs=1e-8)

@@ -54,7 +54,7 @@ def test_positions_are_closed_with_the_smallest_change_and_noted():
     start = start_of(description)
     assert max(residuals(description, start)) <= 1e-13
     assert len(start.notes) == 1 and "closed by the shortest changes" in start.notes[0]
-    with pytest.raises(InputError, match=r"initial state: expected a consistent start \(--strict\)"):
+    with pytest.raises(InputError, match=r"initial state: expected a consistent start \(`strict`\)"):
         start_of(description, strict=True)
 
 

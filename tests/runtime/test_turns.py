@@ -114,7 +114,7 @@ def test_multipliers_between_outputs_far_apart_know_the_turns():
     result = model.simulate(method="baumgarte", integrator="rk4", step=5e-4, until=2.0, output_step=0.5)
     assert result.status == "ok"
     np.testing.assert_allclose(result["A.angle"], 4.0 + 30.0 * result.t, atol=1e-8)
-    np.testing.assert_allclose(result["d.driver"], 0.0, atol=1e-3)
+    np.testing.assert_allclose(result["multiplier.d.driver"], 0.0, atol=1e-3)
 
 
 def turns_of(effects, residual):

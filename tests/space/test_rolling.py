@@ -25,7 +25,7 @@ def test_steady_rolling_on_a_circle():
     np.testing.assert_allclose(axis, leaning, atol=1e-10)
     np.testing.assert_allclose(spin(result, "disc")[:, 2], -rate * CIRCLE / RADIUS, atol=1e-9)
     # friction holds the disc on the circle, and the plane carries its weight
-    force = np.column_stack([result[f"contact.{row}"] for row in ("normal", "slip1", "slip2")])
+    force = np.column_stack([result[f"multiplier.contact.{row}"] for row in ("normal", "slip1", "slip2")])
     np.testing.assert_allclose(force[:, 0], 2.0 * 9.81, rtol=1e-9)
     np.testing.assert_allclose(np.hypot(force[:, 1], force[:, 2]), 2.0 * rate**2 * CIRCLE, rtol=1e-9)
     drift = energy(result, model.mechanism)

@@ -14,7 +14,9 @@ from symgen.ir.program import STATUS
 from symgen.lower.record import BEHIND
 
 #: Methods whose constraints differ; all mechanisms see the first.
-METHODS = ("ggl", "lagrange", "baumgarte", "adaptive-baumgarte", "penalty", "generalized-alpha")
+METHODS = (
+    *("ggl", "lagrange", "baumgarte", "adaptive-baumgarte", "penalty", "compliant-constraints", "generalized-alpha"),
+)
 PROJECTED, EXPLICIT = "index3-augmented-lagrangian", "rattle"
 
 

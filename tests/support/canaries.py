@@ -33,7 +33,7 @@ CANARIES = (
 #: Alternatives of bodies in the schema -> the mechanisms they belong to.
 _SPACES = {"BodySection": "planar", "SpatialBodySection": "spatial"}
 #: Sections whose entries are all of one kind.
-_ALIKE = ("parameters", "inputs", "tables", "bodies", "outputs", "events")
+_ALIKE = ("parameters", "inputs", "states", "tables", "bodies", "outputs", "events")
 
 
 def places(part: dict[str, Any] | None = None, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
@@ -72,9 +72,41 @@ SMALL: dict[str, Any] = {
 }
 
 
+_BOX = {"mass": "k", "inertia": [1.0, 1.0, 1.0]}
+_IN_SPACE: dict[str, Any] = {
+    "mechanism": {"name": "small", "space": "spatial"},
+    "parameters": {"k": 2.0},
+    "bodies": {"rod": _BOX, "box": _BOX},
+}
+
+
+def _beside(base: dict[str, Any], **keys: Any) -> dict[str, Any]:
+    return base | {"joints": {**base.get("joints", {}), "extra": keys}}
+
+
+#: Joints of kinds that no larger description has.
+BESIDE: dict[str, dict[str, Any]] = {
+    kind: _beside(base, type=kind, **keys)
+    for kind, base, keys in (
+        ("rows", SMALL, {"rows": [{"position": "rod.P.x - k", "label": "side"}]}),
+        ("coupling", SMALL, {"terms": {"pin": "k"}, "value": "sin(t)"}),
+        ("place", SMALL, {"between": ["ground", "rod"], "at": [[0.0, "k"], "P"]}),
+        ("orientation", SMALL, {"between": ["ground", "rod"], "angle": "k"}),
+        ("parallel-axes", _IN_SPACE, {"between": ["rod", "box"], "axis": [0.0, 0.0, 1.0]}),
+        ("perpendicular", _IN_SPACE, {"between": ["rod", "box"], "axes": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]}),
+    )
+}
+
+
 def bases(path: tuple[Any, ...]) -> Iterator[dict[str, Any]]:
     """Yield valid descriptions that have what a path leads through, in the plane and in space."""
     section, kind = path[0], next((p[1] for p in path if isinstance(p, tuple)), None)
+    if section == "states":
+        yield SMALL | {"states": {"x": {"rate": "k - x", "start": 1.0}}}
+        return
+    if section == "joints" and kind in BESIDE:
+        yield copy.deepcopy(BESIDE[kind])
+        return
     if section not in ("joints", "forces") or kind is None:
         spatial = _SPACES.get(str(kind)) == "spatial"
         yield make(np.random.default_rng(1), ["revolute"])[0] if spatial else copy.deepcopy(SMALL)

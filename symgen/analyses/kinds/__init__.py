@@ -8,22 +8,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from html import escape
 from pathlib import Path
 from typing import Any, Literal
 
 from symgen.errors import InputError
+from symgen.keywords import DrivenKeywords, PlaceKeywords, StateKeywords
+from symgen.keywords import names as names_of
 from symgen.registry import Registry
 from symgen.settings import Settings, changed
 
 #: Settings that count for analyses about a state, and for motions that drivers prescribe.
-OF_STATES = ("parameters", "inputs", "start", "coordinates", "shape")
-OF_MOTIONS = ("parameters", "inputs", "start", "strict", "shape")
+OF_STATES, OF_MOTIONS = names_of(StateKeywords), names_of(DrivenKeywords)
 #: Those of them that count where drivers say the motion, not where it was recorded.
 OF_DRIVEN = ("start", "strict")
-#: And beside those of states for a run that leads to one.
-OF_RUNS = (*OF_STATES, "options", "events", "strict", "max_violation", "max_energy_error", "max_step", "max_attempts")
 
-Kind = Literal["text", "texts", "whole", "switch", "words", "numbers", "range", "times", "plot", "tables"]
+Kind = Literal[
+    "text", "texts", "columns", "whole", "switch", "words", "numbers", "range", "times", "place", "plot", "tables"
+]
 
 
 @dataclass(frozen=True)
@@ -37,9 +39,9 @@ class Option:
     help : str
         What the help says of it; for a setting, by default what the table of settings says.
     kind : str
-        Of its value: ``text``, ``texts`` (given several times), ``whole``, ``switch``, ``words`` (``A,B``), ``numbers``
-        (``A=1``, given several times), ``range`` (``A=lin(0,1,5)``), ``times``, or a file to write: ``plot``,
-        ``tables``.
+        Of its value: ``text``, ``texts`` (given several times), ``columns`` (``A,B``, given several times), ``whole``,
+        ``switch``, ``words`` (``A,B``), ``numbers`` (``A=1``, given several times), ``range`` (``A=lin(0,1,5)``),
+        ``times``, ``place`` (a word or ``A=0,B=1``), or a file to write: ``plot``, ``tables``.
     metavar : str
         What stands for a value in the help.
     argument : str
@@ -72,8 +74,9 @@ PLACE = (
     *STATE,
     Option(
         "--at",
-        "About what: equilibrium, start, steady, or a time of a run [s].",
-        metavar="PLACE",
+        "About what: equilibrium, start, steady, a time of a run [s], or an equilibrium by coordinates: A=0,B=1.",
+        "place",
+        "PLACE",
         default="equilibrium",
     ),
     Option("--states", "Quantities that are the states. [default: found]", "words", "NAME,NAME"),
@@ -90,10 +93,17 @@ def of_motion(start: str) -> tuple[Option, ...]:
 def of_tables(shown: str, drawn: str) -> tuple[Option, ...]:
     """Return the options of what is done with tables over time: what ``--quantity`` names and ``--plot`` draws."""
     return (
-        Option("--quantity", shown, "texts", "NAME", "quantities"),
+        Option("--quantity", shown, "columns", "NAME,NAME", "quantities"),
         Option("--save", "Write tables to FILE: .csv, with units, or .parquet.", "tables", "FILE"),
-        Option("--plot", f"Draw {drawn} over time into FILE: .png, .svg or .pdf.", "plot", "FILE"),
+        Option("--plot", f"Draw {drawn} into FILE: .png, .svg or .pdf.", "plot", "FILE"),
+        Option("--over", "Draw over NAME, such as crank.theta.  [default: t]", metavar="NAME"),
     )
+
+
+def check_over(over: str | None, plot: Path | None) -> None:
+    """Refuse ``--over`` without a plot."""
+    if over is not None and plot is None:
+        raise InputError("--over", "--plot FILE, which draws over it", "no --plot")
 
 
 @dataclass(frozen=True)
@@ -113,6 +123,16 @@ class AnalysisTable:
     headings: Sequence[str]
     rows: Sequence[Sequence[str]]
     left: Sequence[str] = ()
+
+
+def in_notebook(items: Iterable[str | AnalysisTable], notes: Iterable[str] = ()) -> str:
+    """Return as HTML what a command shows of a result."""
+    from symgen.result.labelled import html_table
+
+    lines = [*items, *(f"note: {note}" for note in notes)]
+    return "\n".join(
+        f"<p>{escape(x)}</p>" if isinstance(x, str) else html_table(x.headings, x.rows, most=40) for x in lines
+    )
 
 
 @dataclass(frozen=True)
@@ -180,9 +200,10 @@ def settings_of(
     return whole
 
 
-def settings_at(where: str, settings: Settings | None, changes: Mapping[str, object], at: str | float) -> Settings:
+def settings_at(where: str, settings: Settings | None, changes: Mapping[str, object], at: object) -> Settings:
     """Return settings of an analysis about a place; those of a run count where one leads there."""
-    return settings_of(where, settings, changes, OF_STATES if isinstance(at, str) else OF_RUNS)
+    counting = OF_STATES if isinstance(at, str | Mapping) else names_of(PlaceKeywords)
+    return settings_of(where, settings, changes, counting)
 
 
 ANALYSES: Registry[Analysis] = Registry(__name__, "analysis")

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 from symgen.analyses.kinds import STATE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_of
-from symgen.errors import InputError
+from symgen.digits import digits, scale_of
+from symgen.errors import InputError, fitting
+from symgen.keywords import StateKeywords
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
 MOST = 40
 
 
-def equilibrium(model: Analysed, settings: Settings | None = None, **changes: object) -> Equilibrium:
+def equilibrium(model: Analysed, settings: Settings | None = None, **changes: Unpack[StateKeywords]) -> Equilibrium:
     """Return the equilibrium that the start leads to: the one it is near to, or a stable one further away.
 
     Parameters
@@ -31,7 +33,7 @@ def equilibrium(model: Analysed, settings: Settings | None = None, **changes: ob
         All settings at once; ``parameters``, ``inputs``, ``start``, ``coordinates`` and ``shape`` are looked at:
         looped code, and any mechanism with more than 300 coordinates, is searched with sparse matrices.
     **changes
-        Single settings among these; others are refused. Drivers hold what they drive where it is at the time 0.
+        Other settings are refused. Drivers hold what they drive where it is at the time 0.
 
     Raises
     ------
@@ -44,7 +46,10 @@ def equilibrium(model: Analysed, settings: Settings | None = None, **changes: ob
 
 
 def equilibria(
-    model: Analysed, scan: tuple[str, Sequence[float] | Array], settings: Settings | None = None, **changes: object
+    model: Analysed,
+    scan: tuple[str, Sequence[float] | Array],
+    settings: Settings | None = None,
+    **changes: Unpack[StateKeywords],
 ) -> tuple[Equilibrium, ...]:
     """Return all equilibria that are found over a range of a coordinate.
 
@@ -52,8 +57,10 @@ def equilibria(
     ----------
     scan : (str, sequence of float)
         The coordinate and its values, such as ``("crank.theta", numpy.linspace(0, 6.28, 25))``.
-    settings, **changes
+    settings : Settings, optional
         As for `equilibrium`.
+    **changes
+        Other settings are refused.
 
     Raises
     ------
@@ -66,17 +73,19 @@ def equilibria(
 
 
 def steady(
-    model: Analysed, settings: Settings | None = None, *, cyclic: Sequence[str] = (), **changes: object
+    model: Analysed, settings: Settings | None = None, *, cyclic: Sequence[str] = (), **changes: Unpack[StateKeywords]
 ) -> Equilibrium:
     """Return the steady motion that the start leads to: cyclic coordinates turn on, everything else stays.
 
     Parameters
     ----------
-    settings, **changes
+    settings : Settings, optional
         As for `equilibrium`; coordinates are those of joints. Cyclic coordinates keep their speeds of the start,
         and drivers move.
     cyclic : sequence of str
         Coordinates of joints that turn on; those that nothing depends on by default.
+    **changes
+        Other settings are refused.
 
     Raises
     ------
@@ -107,24 +116,34 @@ def command(
         results = (steady(model, settings) if moving else equilibrium(model, settings),)
     return AnalysisOutput(
         {"mechanism": model.mechanism.name, "equilibria": [one.to_dict() for one in results]},
-        (item for one in results for item in _shown(one)),
+        (item for one in results for item in shown(one)),
         dict.fromkeys(note for one in results for note in one.notes),
     )
 
 
-def _shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
+def shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
+    """Yield what there is to show of an equilibrium."""
     squares = ", ".join([f"{x:.6g}" for x in result.omega_squared[:8]] + ["..."] * (len(result.omega_squared) > 8))
     yield f"{result.stability}; omega^2 [1/s^2]: {squares or 'nothing can move'}"
     yield f"  {result.iterations} steps, largest force that is not balanced {result.residual:.3g}"
     if result.not_unique:
         yield f"  reactions are not unique at {', '.join(result.not_unique)}"
     for title, values in (("coordinate", result.q), ("multiplier", result.multipliers)):
+        first = fitting(len(values), MOST)
         if values:
-            yield AnalysisTable(
-                (title, "value"), [(n, f"{x:.9g}") for n, x in list(values.items())[:MOST]], left=(title,)
-            )
-        if len(values) > MOST:
-            yield f"... and {len(values) - MOST} more; --json has all"
+            kinds = {name: _kind(name) if title == "coordinate" else "" for name in values}
+            scales = {
+                kind: scale_of((x for n, x in values.items() if kinds[n] == kind), kind) for kind in kinds.values()
+            }
+            rows = [(n, digits(x, scales[kinds[n]], 9)) for n, x in list(values.items())[:first]]
+            yield AnalysisTable((title, "value"), rows, left=(title,))
+        if len(values) > first:
+            yield f"... and {len(values) - first} more; --json has all"
+
+
+def _kind(coordinate: str) -> str:
+    """Return what a coordinate is compared with: lengths with lengths, angles with a radian."""
+    return "m" if coordinate.rpartition(".")[2] in ("x", "y", "z", "displacement") else "rad"
 
 
 KIND = Analysis(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 from symgen.analyses.kinds import (
     OF_DRIVEN,
@@ -13,11 +13,14 @@ from symgen.analyses.kinds import (
     AnalysisOutput,
     AnalysisTable,
     Option,
+    check_over,
     of_motion,
     of_tables,
     settings_of,
 )
+from symgen.digits import digits, scale_of
 from symgen.errors import InputError
+from symgen.keywords import DrivenKeywords
 from symgen.settings import Settings, flag, is_given
 
 if TYPE_CHECKING:
@@ -36,7 +39,7 @@ def inverse(
     times: ArrayLike | None = None,
     actuators: Sequence[str] = (),
     weights: Mapping[str, float] | None = None,
-    **changes: object,
+    **changes: Unpack[DrivenKeywords],
 ) -> Inverse:
     """Return the efforts that a motion needs; see `docs/inverse.md`.
 
@@ -54,7 +57,7 @@ def inverse(
         Of efforts that are not unique: the sum of (weight effort)^2 is smallest. 1 / N, or 1 / (N m) times the
         length of the mechanism, by default.
     **changes
-        Single settings that mean something here: ``parameters``, ``inputs``, ``strict``, ``shape``.
+        Other settings are refused; ``start`` and ``strict`` belong to a motion that drivers prescribe.
 
     Raises
     ------
@@ -80,6 +83,7 @@ def command(
     quantities: Sequence[str],
     save: Path | None,
     plot: Path | None,
+    over: str | None,
 ) -> AnalysisOutput:
     """Find the efforts that a motion of MODEL needs: motor torques, forces of actuators.
 
@@ -91,8 +95,10 @@ def command(
             raise InputError(flag(name), "settings of a recorded motion", "one of drivers' motion")
     if quantities and save is None and plot is None:
         raise InputError("--quantity", "--save or --plot, where quantities go", "neither")
+    check_over(over, plot)
     result = inverse(load(), motion, settings, times, actuators, weights)
     result.select(quantities)  # names that are wrong are refused before anything is shown
+    result.along(over or "t")
     return AnalysisOutput(
         result.to_json(),
         _shown(result),
@@ -100,7 +106,7 @@ def command(
         result.ended,
         {
             save: lambda path: result.save(path, ("efforts", *quantities) if quantities else ()),
-            plot: lambda path: result.plot(path, ("efforts", "power", *quantities)),
+            plot: lambda path: result.plot(path, ("efforts", "power", *quantities), over or "t"),
         },
     )
 
@@ -110,9 +116,11 @@ def _shown(result: Inverse) -> Iterator[str | AnalysisTable]:
     yield f"{result.mechanism}: efforts at {len(result.t)} times"
     columns = {"largest": "max", "rms": "rms", "unit": "unit", "at [s]": "at"}
     columns |= {"peak power [W]": "peak_power", "energy [J]": "energy"}
+    entries = result.summary()
+    scales = {key: scale_of(e[key] for e in entries.values() if key in e) for key in columns.values() if key != "unit"}
     rows = [
-        (name, *(x if isinstance(x := entry.get(key, ""), str) else f"{x:.6g}" for key in columns.values()))
-        for name, entry in result.summary().items()
+        (name, *(x if isinstance(x := entry.get(key, ""), str) else digits(x, scales[key]) for key in columns.values()))
+        for name, entry in entries.items()
     ]
     yield AnalysisTable(("effort", *columns), rows, left=("effort", "unit"))
 

@@ -4,9 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
-from symgen.analyses.kinds import OF_MOTIONS, Analysis, AnalysisOutput, Option, of_motion, of_tables, settings_of
+from symgen.analyses.kinds import (
+    OF_MOTIONS,
+    Analysis,
+    AnalysisOutput,
+    Option,
+    check_over,
+    of_motion,
+    of_tables,
+    settings_of,
+)
+from symgen.keywords import DrivenKeywords
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -21,7 +31,7 @@ def kinematics(
     times: ArrayLike | None = None,
     settings: Settings | None = None,
     transmission: Sequence[str] = (),
-    **changes: object,
+    **changes: Unpack[DrivenKeywords],
 ) -> Kinematics:
     """Return the motion of a mechanism whose freedom is all driven, without integrating; see `docs/kinematics.md`.
 
@@ -34,8 +44,8 @@ def kinematics(
     transmission : sequence of str
         Pins whose transmission angles are wanted, such as ``"C"`` or ``"C(B, D)"``.
     **changes
-        Single settings that mean something here: ``parameters``, ``inputs``, ``start``, ``strict``, ``shape``. Of
-        several ways to close the mechanism that nearest to a start such as ``{"rocker.theta": -1.5}`` is taken.
+        Other settings are refused. Of several ways to close the mechanism that nearest to a start such as
+        ``{"rocker.theta": -1.5}`` is taken.
 
     Raises
     ------
@@ -57,16 +67,19 @@ def command(
     quantities: Sequence[str],
     save: Path | None,
     plot: Path | None,
+    over: str | None,
     curves: Path | None,
 ) -> AnalysisOutput:
     """Move MODEL, whose freedom is all driven, through any times without integrating.
 
     For example: symgen kinematics driven-four-bar --times "lin(0, 1, 361)" --transmission C --save motion.csv
     """
-    from symgen.result.select import extremes
+    from symgen.result.summary import extremes
 
+    check_over(over, plot)
     result = kinematics(load(), times, settings, transmission)
-    shown = extremes(result.select(quantities or ("q",))) if len(result.t) else {}
+    result.along(over or "t")
+    shown = extremes(result.select(quantities) if quantities else result.whole(("q",))) if len(result.t) else {}
     return AnalysisOutput(
         result.to_json() | ({"quantities": shown} if quantities else {}),
         (f"{result.mechanism}: {len(result.t)} times, {result.steps} steps", shown),
@@ -74,7 +87,7 @@ def command(
         result.ended,
         {
             save: lambda path: result.save(path, quantities),
-            plot: lambda path: result.plot(path, quantities),
+            plot: lambda path: result.plot(path, quantities, over or "t"),
             curves: lambda path: result.plot_curves(path),
         },
     )

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Unpack
 
 from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
+from symgen.digits import table
+from symgen.keywords import PlaceKeywords
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -17,18 +19,18 @@ def linearise(
     model: Analysed,
     settings: Settings | None = None,
     *,
-    at: str | float = "equilibrium",
+    at: str | float | Mapping[str, float] = "equilibrium",
     states: Sequence[str] = (),
     cyclic: Sequence[str] = (),
     instantaneous: bool = False,
     by: Sequence[str] = (),
-    **changes: object,
+    **changes: Unpack[PlaceKeywords],
 ) -> LinearSystem:
     """Return the linear system x' = A x + B u, y = C x + D u about a state of rest or of steady motion.
 
     Parameters
     ----------
-    settings, at, **changes
+    settings, at
         As for `modes`.
     states : sequence of str
         Which quantities are the states: coordinates of bodies and joints, velocities, outputs of the file, and
@@ -39,6 +41,8 @@ def linearise(
         Whether a motion that is not steady has the system of the instant.
     by : sequence of str
         Parameters that are inputs as well: constants, changed once and for all while the states stay.
+    **changes
+        Other settings are refused; those from ``options`` on count where `at` is a time of a run.
 
     Raises
     ------
@@ -61,10 +65,11 @@ def command(load: Callable[[], Analysed], settings: Settings, **further: Any) ->
     """
     model = load()
     system = linearise(model, settings, **further)
-    return AnalysisOutput({"mechanism": model.mechanism.name, **system.to_dict()}, _shown(system), system.notes)
+    return AnalysisOutput({"mechanism": model.mechanism.name, **system.to_dict()}, shown(system), system.notes)
 
 
-def _shown(system: LinearSystem) -> Iterator[str | AnalysisTable]:
+def shown(system: LinearSystem) -> Iterator[str | AnalysisTable]:
+    """Yield what there is to show of a linear system."""
     if not system.states:
         yield "no degree of freedom is left: there is nothing to linearise"
     matrices = (
@@ -75,7 +80,7 @@ def _shown(system: LinearSystem) -> Iterator[str | AnalysisTable]:
     )
     for title, rows, columns, values in matrices:
         if values.size:
-            cells = [(name, *(f"{x:.6g}" for x in row)) for name, row in zip(rows, values, strict=True)]
+            cells = [(name, *row) for name, row in zip(rows, table(values.tolist()), strict=True)]
             yield AnalysisTable((title, *columns), cells, left=(title,))
     if system.left_out:
         yield f"outputs left out, as they depend on more than the states: {', '.join(system.left_out)}"

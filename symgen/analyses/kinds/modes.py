@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 from symgen import arguments
 from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
-from symgen.errors import InputError
+from symgen.digits import complex_digits, digits
+from symgen.errors import InputError, fitting
+from symgen.keywords import PlaceKeywords
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -30,11 +32,11 @@ def modes(
     model: Analysed,
     settings: Settings | None = None,
     *,
-    at: str | float = "equilibrium",
+    at: str | float | Mapping[str, float] = "equilibrium",
     states: Sequence[str] = (),
     cyclic: Sequence[str] = (),
     count: int | None = None,
-    **changes: object,
+    **changes: Unpack[PlaceKeywords],
 ) -> Modes:
     """Return eigenvalues, frequencies, damping and shapes about a state of rest or of steady motion.
 
@@ -42,18 +44,17 @@ def modes(
     ----------
     settings : Settings, optional
         As for `equilibrium`.
-    at : {"equilibrium", "start", "steady"} or float
+    at : {"equilibrium", "start", "steady"}, float or mapping
         About what: the equilibrium that the start leads to, the start itself, the steady motion that the start
-        leads to, or the state at a time of a run [s].
+        leads to, the state at a time of a run [s], or the equilibrium with values of coordinates by name, such
+        as ``{"pole.theta": 0}``.
     states, cyclic
         As for `linearise`.
     count : int, optional
         Only that many of the lowest modes, without dampers, about the equilibrium near the start: by sparse
         matrices from looped code, for mechanisms of any size.
     **changes
-        Single settings among these; with a time also those that a run to it has: ``options``, ``events``,
-        ``strict``, ``max_violation``, ``max_energy_error``, ``max_step``,
-        ``max_attempts``.
+        Other settings are refused; those of a run count where `at` is a time.
 
     Raises
     ------
@@ -73,8 +74,8 @@ def view_mode(
     number: int,
     settings: Settings | None = None,
     *,
-    at: str | float = "equilibrium",
-    **changes: object,
+    at: str | float | Mapping[str, float] = "equilibrium",
+    **changes: Unpack[PlaceKeywords],
 ) -> Page:
     """Return a page that plays a mode shape, with the state that it is about drawn faintly behind.
 
@@ -84,12 +85,10 @@ def view_mode(
         Which shape of `modes`, from 1 on.
     settings : Settings, optional
         As for `modes`.
-    at : {"equilibrium", "start"} or float
+    at : {"equilibrium", "start"}, float or mapping
         As for `modes`; in a steady motion shapes are not those of bodies.
     **changes
-        Single settings among these; with a time also those that a run to it has: ``options``, ``events``,
-        ``strict``, ``max_violation``, ``max_energy_error``, ``max_step``,
-        ``max_attempts``.
+        Other settings are refused; those of a run count where `at` is a time.
 
     Raises
     ------
@@ -110,10 +109,10 @@ def locus(
     over: tuple[str, Sequence[float] | Array],
     settings: Settings | None = None,
     *,
-    at: str | float = "equilibrium",
+    at: str | float | Mapping[str, float] = "equilibrium",
     states: Sequence[str] = (),
     cyclic: Sequence[str] = (),
-    **changes: object,
+    **changes: Unpack[PlaceKeywords],
 ) -> Locus:
     """Return how the eigenvalues move with a parameter.
 
@@ -121,8 +120,10 @@ def locus(
     ----------
     over : (str, sequence of float)
         The parameter and its values.
-    settings, at, states, cyclic, **changes
+    settings, at, states, cyclic
         As for `modes`.
+    **changes
+        Other settings are refused; those of a run count where `at` is a time.
     """
     from symgen.analyses.locus import locus as locus_of
     from symgen.analyses.places import NamedPlace
@@ -148,12 +149,14 @@ def command(
     name = model.mechanism.name
     if over is None:
         result = modes(model, settings, count=count, **place)
-        return AnalysisOutput({"mechanism": name, **result.to_dict()}, _shown(result), result.notes)
+        return AnalysisOutput({"mechanism": name, **result.to_dict()}, shown(result), result.notes)
     roots = locus(model, over, settings, **place)
-    return AnalysisOutput({"mechanism": name, **roots.to_dict()}, _shown_locus(roots), files={plot: roots.plot})
+    return AnalysisOutput({"mechanism": name, **roots.to_dict()}, shown_locus(roots), files={plot: roots.plot})
 
 
-def _shown(result: Modes) -> Iterator[str | AnalysisTable]:
+def shown(result: Modes) -> Iterator[str | AnalysisTable]:
+    """Yield what there is to show of modes."""
+    first = fitting(len(result.of_shapes), MOST)
     freedom, many = result.degrees_of_freedom, len(result.eigenvalues)
     if not many:
         yield "no degree of freedom is left: there are no modes"
@@ -166,14 +169,14 @@ def _shown(result: Modes) -> Iterator[str | AnalysisTable]:
     tables = {heading: parts for heading, parts in tables.items() if parts}
     rows = [
         (
-            *(str(k + 1), _complex(value), f"{result.frequencies[k]:.6g}", f"{result.damping[k]:.4g}"),
+            *(str(k + 1), _complex(value), f"{result.frequencies[k]:.6g}", digits(result.damping[k], 1.0, 4)),
             *(_shares(parts, k) for parts in tables.values()),
         )
-        for k, value in enumerate(result.of_shapes[:MOST])
+        for k, value in enumerate(result.of_shapes[:first])
     ]
     yield AnalysisTable(("mode", "eigenvalue [1/s]", "frequency [Hz]", "damping", *tables), rows, left=(*tables,))
-    if len(result.of_shapes) > MOST:
-        yield f"... and {len(result.of_shapes) - MOST} more; --json has all"
+    if len(result.of_shapes) > first:
+        yield f"... and {len(result.of_shapes) - first} more; --json has all"
 
 
 def _shares(parts: Mapping[str, Any], k: int, most: int = 4) -> str:
@@ -185,13 +188,18 @@ def _shares(parts: Mapping[str, Any], k: int, most: int = 4) -> str:
 
 
 def _complex(x: complex) -> str:
-    return f"{x.real:.6g}" + (f" +- {abs(x.imag):.6g}i" if x.imag else "")
+    real, imaginary = complex_digits(x)
+    return real + (f" +- {imaginary[1:]}i" if imaginary else "")
 
 
-def _shown_locus(result: Locus) -> Iterator[str | AnalysisTable]:
+def shown_locus(result: Locus) -> Iterator[str | AnalysisTable]:
+    """Yield what there is to show of a root locus."""
     headings = (result.name, *(f"eigenvalue {k + 1} [1/s]" for k in range(result.branches.shape[1])))
     rows = [
-        (f"{value:g}", *(f"{x.real:.5g}{x.imag:+.5g}i" if x.imag else f"{x.real:.5g}" for x in row))
+        (
+            f"{value:g}",
+            *("".join((real, imaginary, "i" * bool(imaginary))) for real, imaginary in map(complex_digits, row)),
+        )
         for value, row in zip(result.values, result.branches, strict=True)
     ]
     yield AnalysisTable(headings, rows)

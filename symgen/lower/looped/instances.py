@@ -27,7 +27,7 @@ _BODY_FIELDS = frozenset(("body", "a", "b"))
 _LABELS = frozenset(("label",))
 _UNITS = (0.0, 1.0, -1.0)
 #: What a mechanism says that is no part of its equations, so that it gives no kernel another name.
-_BESIDE = frozenset(("defaults", "holds", "events", "outputs", "seats", "cuts", "topology", "shapes", "given"))
+_BESIDE = frozenset("defaults holds events outputs seats cuts topology shapes given states rotors beams".split())
 
 
 @dataclass(frozen=True)
@@ -119,7 +119,9 @@ class _Rewriting:
             )
             content = Joint("e", "", (), rows, coordinates)
         else:
-            content = Force("e", "", (), tuple(self.walk(e) for e in element.efforts))
+            content = Force(
+                "e", "", (), *(tuple(self.walk(e) for e in part) for part in (element.efforts, element.flexures))
+            )
         frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
         nothing = (ZERO,) * len(self.mechanism.gravity)
         instance = self.instance(kind, element.name, element.kind, nothing, frames, content)
@@ -218,7 +220,7 @@ class _Rewriting:
         if self.is_constant(e):
             return ZERO if self.literal(e) == 0.0 else self.constant(e)
         if isinstance(e, Name):
-            body, dot, coordinate = e.name.partition(".")
+            body, dot, coordinate = e.name.rpartition(".")
             return Name(f"{self.alias(body)}.{coordinate}") if dot else e
         if isinstance(e, Reading):
             return Reading("", self.walk(e.source), e.order)

@@ -72,7 +72,7 @@ def refuse_dense(method: Method, options: Mapping[str, str], implicit: bool) -> 
         expected, why = "constraints that each joint gives alone", f", whose constraints ask for '{strange}'"
     else:
         return
-    raise InputError("--shape looped", expected, f"'{method.name}'{why}; the straight shape is for it")
+    raise InputError("shape 'looped'", expected, f"'{method.name}'{why}; the straight shape is for it")
 
 
 #: Functions of laws that can be loops.
@@ -120,6 +120,7 @@ def lower_looped(method: Method, options: Mapping[str, str]) -> LoopedLaw:
     positions = any(phi in loops.needed for loops in parts)
     functions = tuple(loops.function(positions) for loops in parts)
     sizes = {name: size for f in functions for name, size in f.sections.items()}
+    sizes |= {name: "one" for name, factors in record.sections if factors == ("one",)}
     sections = tuple((n, size) for n, size in sizes.items() if n not in HEAD and not n.removeprefix("x").isdigit())
     correction = method.correction(options)
     info = LoopedLawInfo(
@@ -133,5 +134,6 @@ def lower_looped(method: Method, options: Mapping[str, str]) -> LoopedLaw:
         positions=positions,
         position_correction=correction.position != "none",
         velocity_correction=correction.velocity,
+        energy_correction=correction.energy,
     )
     return LoopedLaw(info, record.form, method.integrates == "independent", correction, functions)

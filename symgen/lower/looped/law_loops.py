@@ -35,11 +35,11 @@ _FIRST_VECTOR = 2
 
 @dataclass(frozen=True)
 class _Factor:
-    """A factorisation L D L^T: which matrix, the section that holds it, and its penalties."""
+    """A factorisation L D L^T: which matrix, the section that holds it, and its penalties or its compliance."""
 
     matrix: str
     section: str
-    penalties: int = -1
+    weight: int = -1
     stored: bool = False
 
     @property
@@ -250,6 +250,9 @@ class Loops(Replay):
     _on_weighted_mass = partialmethod(_gram, matrix="weighted", section="law_lower")
     _on_weighted_identity = partialmethod(_gram, matrix="identity", section="law_lower")
 
+    def _on_compliant(self, operation: FormulaStep, compliance: int) -> _Factor:
+        return _Factor("compliant", "schur_lower", compliance)
+
     def _on_augmented(self, operation: FormulaStep, penalties: Nodes | None) -> _Factor:
         return _Factor("augmented", "augmented_lower", -1 if penalties is None else penalties[0])
 
@@ -275,15 +278,21 @@ class Loops(Replay):
         self.stored.add(factor.section)
         name, last = ("factorise_forward", (target,)) if target else ("factorise", ())
         if factor.matrix == "augmented":
-            self._call("augment", "T", "p", "w", self._place(factor.penalties, "m"), factor.section)
+            self._call("augment", "T", "p", "w", self._place(factor.weight, "m"), factor.section)
             self._call(name, "T", "p", "w", factor.table, factor.section, "PLAIN_FACTOR", *last)
             return bool(target)
         if factor.matrix != "identity":
             self._call("weigh", "T", "p", "w")
         self._call("gram", "T", "p", "w", "0" if factor.matrix == "identity" else "1", factor.section)
-        masked = factor.matrix == "schur"
-        mode, result = ("MASKED_FACTOR", "suspicious") if masked else ("KEPT_FACTOR", "")
+        masked, compliant = factor.matrix == "schur", factor.matrix == "compliant"
+        mode = "MASKED_FACTOR" if masked or compliant else "KEPT_FACTOR"
+        if compliant:  # the mask is added to pivots: what is added to a diagonal entry is added to its pivot
+            compliance = self._local(factor.weight)
+            self._loop("m", "mask", self.graph.add(self.mask[0], compliance))
+        result = "suspicious" if masked else ""
         self._call(name, "T", "p", "w", factor.table, factor.section, mode, *last, result=result)
+        if compliant:
+            self._loop("m", "mask", self.graph.sub(self.mask[0], compliance))
         self.flagged = self.flagged or masked
         return bool(target)
 

@@ -274,6 +274,7 @@ class LoopedShape:
         """Return the sizes that sections are given in."""
         eliminations = [self.gram, *((self.augmented,) if augmented else ())]
         return {
+            "one": 1,
             "nv": self.nv,
             "m": self.m,
             "longest": max(self.nv, self.m),

@@ -5,6 +5,26 @@ function rgba(colour, opacity) {
   return `rgba(${r},${g},${b},${opacity})`;
 }
 
+// The colours of the page now, from its style sheet.
+const palette = {};
+function readPalette() {
+  const style = getComputedStyle(document.documentElement);
+  for (const name of ["paper", "ink", "soft", "line", "track", "passed", "bad", "failed", "doubtful", "reaction", "push", "accent"]) {
+    palette[name] = style.getPropertyValue(`--${name}`).trim();
+  }
+  palette.night = document.documentElement.dataset.theme === "dark";
+}
+
+const channels = (colour) => [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16));
+
+// A colour of the scene on this page: on dark paper greys change places with each other, and hues are a little lighter.
+function shade(colour) {
+  if (!palette.night) return colour;
+  const c = channels(colour), high = Math.max(...c), low = Math.min(...c), grey = high - low < 32;
+  const [ink, paper] = [palette.ink, palette.paper].map(channels), light = (high + low) / 510;
+  return `#${c.map((x, i) => Math.round(grey ? ink[i] + light * (paper[i] - ink[i]) : x + 0.15 * (255 - x)).toString(16).padStart(2, "0")).join("")}`;
+}
+
 // Numbers of frames: first bodies, then what they carry, the ground's is the last one.
 const groundOf = (scene) => scene.frames.length + (scene.carried || []).length;
 
@@ -13,13 +33,18 @@ function makeScene(canvas, scene, solid = null) {
   const { spatial, frames, unit, carried = [] } = scene; // older scenes carry nothing
   const size = spatial ? 3 : 2;
   const context = canvas.getContext("2d");
-  const looks = scene.looks.map(([ink, fill, width, opacity, dashed]) => ({
-    ink, width: ink ? 1.25 * width : 0, dashed, fill: fill ? rgba(fill, opacity) : null, plain: fill, opacity,
-  }));
+  let looks = [];
+  // Take the page's colours, which may have changed.
+  function dress() {
+    looks = scene.looks.map(([ink, fill, width, opacity, dashed]) => ({
+      ink: ink && shade(ink), width: ink ? 1.25 * width : 0, dashed, fill: fill ? rgba(shade(fill), opacity) : null, plain: fill && shade(fill), opacity,
+    }));
+  }
+  dress();
   const ground = groundOf(scene);
   const poses = new Float64Array(12 * (ground + 1)); // rotation by rows, then the centre; the ground's last
   // `at` is the point in the middle of the picture, x, y and z the same as the eye has it, all in metres.
-  const camera = { turn: 0.6, tilt: 0.42, scale: 1, at: [0, 0, 0], x: 0, y: 0, z: 0, reach: 1, width: 1, height: 1, ratio: 1 };
+  const camera = { turn: scene.view[0], tilt: scene.view[1], scale: 1, at: [0, 0, 0], x: 0, y: 0, z: 0, reach: 1, width: 1, height: 1, ratio: 1 };
   const eye = new Float64Array(9);
 
   function place(q) {
@@ -154,8 +179,8 @@ function makeScene(canvas, scene, solid = null) {
     D: ([, l, body, at, radius, mass]) => {
       const s = see(body, at), x = px(s[0]), y = py(s[1]), r = radius * camera.scale;
       if (!mass) return circle(x, y, r, looks[l]);
-      circle(x, y, r, { ink: "#20262e", width: 0.8, fill: "#ffffff" });
-      context.fillStyle = "#20262e";
+      circle(x, y, r, { ink: palette.ink, width: 0.8, fill: palette.paper });
+      context.fillStyle = palette.ink;
       for (const start of [-Math.PI / 2, Math.PI / 2]) {
         context.beginPath();
         context.moveTo(x, y);
@@ -212,7 +237,7 @@ function makeScene(canvas, scene, solid = null) {
     if (kind.includes("damper") || kind === "actuator") {
       const m = -n, box = kind === "actuator";
       path([[both ? start : 0, 0], [start, m], [0.52, m]]);
-      path([[0.4, m - 0.45], [0.62, m - 0.45], [0.62, m + 0.45], [0.4, m + 0.45]], box, box ? { ...l, fill: "#dfe4ea" } : l);
+      path([[0.4, m - 0.45], [0.62, m - 0.45], [0.62, m + 0.45], [0.4, m + 0.45]], box, box ? { ...l, fill: shade("#dfe4ea") } : l);
       if (!box) path([[0.52, m - 0.36], [0.52, m + 0.36]]);
       path([[0.62, m], [end, m], [both ? end : 1, 0]]);
     }
@@ -240,7 +265,7 @@ function makeScene(canvas, scene, solid = null) {
     Object.assign(camera, { width: box.width, height: box.height, ratio });
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.lineJoin = context.lineCap = "round";
-    context.fillStyle = "#ffffff";
+    context.fillStyle = palette.paper;
     context[solid ? "clearRect" : "fillRect"](0, 0, box.width, box.height);
     aim();
     if (solid) solid.clear(eye, camera);
@@ -267,9 +292,9 @@ function makeScene(canvas, scene, solid = null) {
     for (const item of scene.items) {
       if (!item.label) continue;
       const s = see(item.label[0], item.label[1]);
-      context.strokeStyle = "#ffffff";
+      context.strokeStyle = palette.paper;
       context.strokeText(item.name, px(s[0]), py(s[1]) - 9);
-      context.fillStyle = "#20262e";
+      context.fillStyle = palette.ink;
       context.fillText(item.name, px(s[0]), py(s[1]) - 9);
     }
   }
@@ -305,7 +330,7 @@ function makeScene(canvas, scene, solid = null) {
       if (k) context.lineTo(px(s[0]), py(s[1]));
       else context.moveTo(px(s[0]), py(s[1]));
     });
-    context.strokeStyle = colour;
+    context.strokeStyle = shade(colour);
     context.lineWidth = 1.2;
     context.stroke();
   }
@@ -362,5 +387,5 @@ function makeScene(canvas, scene, solid = null) {
   }
 
   const forget = () => solid && solid.forget();
-  return { camera, scene, spatial, clear, draw, names, arrow, trace, forget, pan, where, gap, fit, see, place };
+  return { camera, scene, spatial, dress, clear, draw, names, arrow, trace, forget, pan, where, gap, fit, see, place };
 }

@@ -2,7 +2,7 @@
 
 function makeLive(spec, code) {
   const { nq, nv, ny, m, at } = spec;
-  const { p, w, iw, scratch, prepare, setParameters, rhs, rates, reset } = makeRates(spec, code);
+  const { p, w, iw, scratch, prepare, setParameters, rhs, rates, reset, keep } = makeRates(spec, code);
   const stages = [0, 1, 2, 3].map(() => new Float64Array(ny));
   const middle = new Float64Array(ny);
 
@@ -123,6 +123,25 @@ function makeLive(spec, code) {
     return y;
   }
 
+  // Whether it closes with another value of one parameter; the parameters stay as they are.
+  function closes(i, x) {
+    const back = keep();
+    setParameters([[i, x]]);
+    const y = start();
+    back();
+    return Boolean(y) && y.every(Number.isFinite);
+  }
+
+  // Whether the joints are open at a state, by more than what corrections of sound steps leave.
+  function open(t, y) {
+    if (!m) return false;
+    const back = keep(), length = w[spec.status.length], most = 1e-3 * Math.max(length, extent(y));
+    code.geometry(t, y, p, w);
+    const gaps = Array.from({ length: m }, (_, i) => Math.abs(w[at.residual + i]) * (spec.rows[i] ? 1 : length));
+    back();
+    return !gaps.every((gap) => gap <= most);
+  }
+
   // -- steps ----------------------------------------------------------------------------------------------------------
 
   function step(t, y, h) {
@@ -147,5 +166,5 @@ function makeLive(spec, code) {
     return Array.from(seen.subarray(0, spec.nb));
   }
 
-  return { spec, p, rates, start, step, bodies, setParameters, reset };
+  return { spec, p, rates, start, closes, open, step, bodies, setParameters, reset };
 }

@@ -7,6 +7,13 @@ for (const item of data.scene.items) for (const mark of item.marks) {
   else if (mark[0] === "S") mark[3] = mark[3].map((i) => data.scene.lists[i]);
 }
 const $ = (id) => document.getElementById(id);
+const preferred = matchMedia("(prefers-color-scheme: dark)");
+let theme = ""; // what the page was set to, else it has that of the system
+function paintPage() {
+  document.documentElement.dataset.theme = theme || (preferred.matches ? "dark" : "light");
+  readPalette();
+}
+paintPage();
 let solid = data.scene.spatial ? makeSolid($("solid"), data.scene) : null;
 $("solid").hidden = !solid;
 let view = makeScene($("view"), data.scene, solid);
@@ -22,9 +29,18 @@ const plot = makePlot($("plot"), $("key"));
 function recorded(part) {
   const n = part.count, t = floatColumns(part.t, n)[0] || new Float32Array(0), columns = typeof part.q === "string" ? floatColumns(part.q, n) : shortColumns(part.q, n);
   const rows = Array.from({ length: n }, (_, k) => Float64Array.from(columns, (c) => c[k]));
-  const groups = part.groups.map((g) => ({ ...g, columns: shortColumns(g, n) }));
+  const groups = part.groups.map((g) => ({ ...g, columns: g.places ? g.places.map((i) => columns[i]) : filled(g, n) }));
   for (const name of ["reactions", "pulls", "gaps"]) if (part[name]) part[name].columns = shortColumns(part[name], n);
   return { ...part, t: Float64Array.from(t), rows, groups, end: n ? t[n - 1] : 0, whole: true };
+}
+
+// Columns of every so many frames, the last one among them, at all frames.
+function filled(g, n) {
+  const every = g.every, count = n ? Math.ceil((n - 1) / every) + 1 : 0;
+  return shortColumns(g, count).map((column) => Float64Array.from({ length: n }, (_, k) => {
+    const j = Math.floor(k / every), begin = j * every, end = Math.min(begin + every, n - 1);
+    return k === begin ? column[j] : column[j] + ((column[j + 1] - column[j]) * (k - begin)) / (end - begin);
+  }));
 }
 
 const motions = data.motions.map(recorded);
@@ -81,7 +97,8 @@ function render() {
   if (group) plot.cursor(time, group.columns.map((c) => columnAt(c, motion.t, time)), group.log);
   const doubt = motion.moments.filter((m) => m[0] <= time && time <= m[1]);
   $("clock").textContent = `${time.toFixed(3)} s of ${motion.end.toFixed(2)}`;
-  $("hint").textContent = doubt.map((m) => m[3]).join("; ");
+  const bare = $("forces").checked && motion !== motions[0] ? ["forces are those of the recorded motion"] : [];
+  $("hint").textContent = [...doubt.map((m) => m[3]), ...bare].join("; ");
   wanted = false;
 }
 
@@ -95,7 +112,7 @@ function arrows(q) {
       const item = items[`joint ${name}`];
       if (!item || !item.ends.length || !(most > 0)) return;
       const f = Array.from({ length: d }, (_, c) => columnAt(reactions.columns[j * d + c], motion.t, time));
-      view.arrow(item.ends[0][0], item.ends[0][1], f, long / most, "#b00060");
+      view.arrow(item.ends[0][0], item.ends[0][1], f, long / most, palette.reaction);
     });
   }
   if (pulls) {
@@ -107,8 +124,8 @@ function arrows(q) {
       const a = worldOf(q, body, at), b = worldOf(q, other, to), l = Math.hypot(...b.map((x, i) => x - a[i])) || 1;
       const way = b.map((x, i) => (x - a[i]) / l);
       view.place(q);
-      view.arrow(other, to, way.map((x) => x * f), long, "#a0522d");
-      view.arrow(body, at, way.map((x) => -x * f), long, "#a0522d");
+      view.arrow(other, to, way.map((x) => x * f), long, palette.push);
+      view.arrow(body, at, way.map((x) => -x * f), long, palette.push);
     });
   }
 }
@@ -144,19 +161,19 @@ function gaps(q) {
 function timeline() {
   const canvas = $("timeline"), [context, width, height] = sized(canvas);
   const x = (t) => 6 + ((t - motion.t[0]) / (motion.end - motion.t[0] || 1)) * (width - 12);
-  context.fillStyle = "#eef1f4";
+  context.fillStyle = palette.track;
   context.fillRect(6, 12, width - 12, 10);
   if (motion.status !== "ok") {
-    context.fillStyle = motion.status === "failed" ? "#f3b6b6" : "#f4e0a8";
+    context.fillStyle = motion.status === "failed" ? palette.failed : palette.doubtful;
     context.fillRect(6, 12, width - 12, 10);
   }
-  context.fillStyle = "#9fb4c8";
+  context.fillStyle = palette.passed;
   context.fillRect(6, 12, x(time) - 6, 10);
   for (const [begin, end, kind] of motion.moments) {
-    context.fillStyle = { rank: "#b00060", event: "#0072B2" }[kind] || "#a06000";
+    context.fillStyle = { rank: palette.reaction, event: palette.accent }[kind] || palette.push;
     context.fillRect(x(begin) - 1, 8, Math.max(2, x(end) - x(begin)), 18);
   }
-  context.fillStyle = "#20262e";
+  context.fillStyle = palette.ink;
   context.fillRect(x(time) - 2, 6, 4, 22);
   canvas.setAttribute("aria-valuenow", time.toFixed(3));
   canvas.setAttribute("aria-valuemax", motion.end.toFixed(3));
@@ -172,13 +189,15 @@ function go(to) {
 function play(on) {
   if (on && time >= motion.end - 1e-9) go(0);
   playing = on;
-  $("play").textContent = on ? "Pause" : "Play";
+  $("play").classList.toggle("playing", on);
+  $("play").setAttribute("aria-label", on ? "Pause" : "Play");
 }
 
 function tick(now) {
   const passed = Math.min((now - last) / 1000, 0.1);
   last = now;
   if (!motion.whole) compute(8);
+  else if (ranges) workOutRanges(6);
   if (playing) {
     const end = motion.t[motion.t.length - 1] || 0;
     let to = time + passed * speed;
@@ -197,7 +216,7 @@ function tick(now) {
 }
 
 function traces() {
-  const chosen = $("trace").value, list = chosen === "all" ? data.points : data.points.filter((p) => p[0] === chosen);
+  const chosen = $("trace").value, list = chosen === "all" ? data.points : data.points.filter((p) => (chosen === "free" ? p[3] : p[0] === chosen));
   view.forget();
   traced = list.map(([name, body, at], i) => [name, motion.rows.map((q) => view.where(q, body, at)), COLOURS[i % COLOURS.length]]);
   wanted = true;
@@ -205,17 +224,24 @@ function traces() {
 
 function choose() {
   group = motion.groups[$("group").value] || null;
-  $("plots").hidden = !group;
+  $("plots").hidden = !group && motion.whole;
+  $("plots").classList.toggle("waiting", !group);
   if (group) plot.lines(group, motion.t, motion.end);
   wanted = true;
 }
 
+const titled = (g) => `${g.title}${g.unit ? ` [${g.unit}]` : ""}`;
+
+// A motion that is not whole yet has no groups: those of the one before keep their places.
 function show(next) {
   motion = next;
-  const before = $("group").value;
-  $("group").textContent = "";
-  motion.groups.forEach((g, i) => $("group").append(new Option(`${g.title}${g.unit ? ` [${g.unit}]` : ""}`, i)));
-  if (before && motion.groups[before]) $("group").value = before;
+  const select = $("group"), before = select.selectedOptions[0]?.textContent;
+  if (motion.whole) {
+    select.textContent = "";
+    motion.groups.forEach((g, i) => select.append(new Option(titled(g), i)));
+    const same = motion.groups.findIndex((g) => titled(g) === before);
+    if (same > 0) select.value = same;
+  }
   go(time);
   choose();
   traces();
@@ -227,16 +253,24 @@ let live = null, state = null, clock = 0, follow = null;
 if (data.live) live = makeLive(data.live, Object.assign({ confirm: null, move: null, bodies: null }, emitted));
 
 // Begin again with the sliders' parameters; steps are taken while the page is drawn.
-function restart() {
-  state = live.start();
-  const failed = !state || !state.every(Number.isFinite);
-  $("closes").textContent = failed ? "it does not close with these parameters" : "";
-  if (failed) return;
+function restart(row) {
+  const begun = live.start(), failed = !begun || !begun.every(Number.isFinite);
+  for (const each of rows) each.field.setAttribute("aria-invalid", failed && each === row);
+  $("picture").classList.toggle("stale", failed);
+  $("closes").textContent = failed ? `The mechanism does not close with ${row.name} = ${short(live.p[row.i])}. ${row.limits()}` : "";
+  play(!failed);
+  if (failed && follow && !follow.whole) {
+    follow.end = clock;
+    finish();
+  }
+  if (failed) return false;
+  state = begun;
   clock = 0;
   const end = motions[0].end, spacing = end / Math.max(60, Math.min(600, Math.round(end * 60)));
   const next = { t: [0], rows: [live.bodies(0, state)], groups: [], moments: [], facts: [], status: "ok", end, spacing, whole: false };
   follow = next;
   show(next);
+  return true;
 }
 
 function compute(budget) {
@@ -245,15 +279,11 @@ function compute(budget) {
     const due = Math.min(follow.t.length * follow.spacing, follow.end);
     while (clock < due - 1e-12 && performance.now() - began < 2 * budget) {
       const step = Math.min(h, due - clock);
-      if (!live.step(clock, state, step)) {
-        follow.end = clock;
-        follow.status = "failed";
-        finish();
-        return;
-      }
+      if (!live.step(clock, state, step)) return stopped();
       clock = due - clock - step < 1e-9 * h ? due : clock + step;
     }
     if (clock < due - 1e-12) break;
+    if (live.open(clock, state)) return stopped();
     follow.t.push(clock);
     follow.rows.push(live.bodies(clock, state));
     if (clock >= follow.end - 1e-9) {
@@ -264,6 +294,13 @@ function compute(budget) {
   wanted = true;
 }
 
+function stopped() {
+  follow.end = clock;
+  follow.status = "failed";
+  $("closes").textContent = `The mechanism closes with these parameters up to t = ${short(clock)} s.`;
+  finish();
+}
+
 function finish() {
   follow.whole = true;
   const chosen = follow.rows.map((row) => row);
@@ -272,53 +309,121 @@ function finish() {
   show(follow);
 }
 
+// What rounding leaves is 0 in a plot, as in those of the recorded motion.
+function cleaned(columns, unit) {
+  const size = columns.reduce((most, column) => column.reduce((a, x) => Math.max(a, Math.abs(x) || 0), most), unit === "rad" ? 1 : 0);
+  return columns.map((column) => column.map((x) => (Math.abs(x) < 1e-12 * size ? 0 : x)));
+}
+
 function positions(columns) {
   const of = (angle) => data.names.map((name, i) => [name, i]).filter(([name]) => name.endsWith(".theta") === angle && !/\.e[0-3]$/.test(name));
   return [[of(false), "position", "m"], [of(true), "angle", "rad"]].filter(([list]) => list.length)
-    .map(([list, title, unit]) => ({ title, unit, names: list.map((n) => n[0]), columns: list.map((n) => columns[n[1]]), log: false }));
+    .map(([list, title, unit]) => ({ title, unit, names: list.map((n) => n[0]), columns: cleaned(list.map((n) => columns[n[1]]), unit), log: false }));
 }
 
-function sliders() {
-  const box = $("live"), list = document.createElement("div"), head = document.createElement("p");
-  box.hidden = false;
-  list.className = "list";
-  const back = document.createElement("button");
-  back.textContent = "As recorded";
-  const told = document.createElement("b");
-  told.id = "closes";
-  told.style.color = "#a00000";
-  head.append("live: ", data.live.method, ", rk4 ", short(data.live.step), " s ", back, " ", told);
-  box.append(head, list);
-  const inputs = [];
-  data.live.parameters.forEach((parameter, i) => {
-    if (parameter.still) return;
-    const row = document.createElement("label"), name = document.createElement("span"), input = document.createElement("input"), out = document.createElement("output");
-    row.className = "slider";
-    name.textContent = name.title = parameter.name;
-    input.type = "range";
-    const size = Math.abs(parameter.value) || 1;
-    Object.assign(input, { min: 0, max: 400, value: 200 });
-    input.dataset.name = parameter.name;
-    const value = () => (parameter.value === 0 ? ((input.value - 200) / 200) * size : parameter.value * 4 ** ((input.value - 200) / 200));
-    const tell = () => (out.textContent = `${short(live.p[i])} ${parameter.unit}`);
-    input.addEventListener("input", () => {
-      live.setParameters([[i, value()]]);
-      inputs.forEach((each) => each.tell());
-      restart();
-      play(true);
-    });
-    inputs.push({ input, tell });
-    tell();
-    row.append(name, input, out);
-    list.append(row);
+// -- sliders --------------------------------------------------------------------------------------------------------------
+
+let rows = [], ranges = null;
+const element = (tag, text = "", name = "") => Object.assign(document.createElement(tag), { textContent: text, className: name });
+const rounded = (x) => +x.toPrecision(4);
+
+// One parameter: a slider between values with which the mechanism closes, and a field for any number.
+function makeRow(parameter, i) {
+  const x = parameter.value, reach = (x === 0 ? [-1, 1] : [0.25 * x, 4 * x]).sort((a, b) => a - b);
+  const box = element("div", "", "slider"), name = element("span", parameter.name), unit = element("span", parameter.unit);
+  const input = element("input"), field = element("input");
+  name.title = parameter.name;
+  Object.assign(input, { type: "range", min: 0, max: 400, step: 1 });
+  Object.assign(field, { type: "number", step: 10 ** (Math.floor(Math.log10(Math.abs(x) || 1)) - 1) });
+  for (const each of [input, field]) each.setAttribute("aria-label", `${parameter.name} ${parameter.unit}`);
+  input.dataset.name = field.dataset.name = parameter.name;
+  const row = { i, name: parameter.name, unit: parameter.unit, follows: parameter.follows, box, input, field, reach, low: reach[0], high: reach[1] };
+  const even = () => row.low * row.high > 0; // in equal factors
+  const at = (share) => (even() ? row.low * (row.high / row.low) ** share : row.low + share * (row.high - row.low));
+  row.show = () => {
+    const value = live.p[i];
+    field.value = rounded(value);
+    input.value = 400 * (even() ? Math.log(value / row.low) / Math.log(row.high / row.low) : (value - row.low) / (row.high - row.low));
+  };
+  row.limits = () => (row.low > reach[0] || row.high < reach[1] ? `It does from ${short(row.low)} to ${short(row.high)} ${row.unit}.` : "");
+  const take = (value) => {
+    live.setParameters([[i, value]]);
+    rows.forEach((each) => each !== row && each.show());
+    ranges = restart(row) ? ranging(row) : null;
+  };
+  input.addEventListener("input", () => {
+    const value = at(input.value / 400);
+    field.value = Math.min(Math.max(rounded(value), row.low), row.high);
+    take(field.valueAsNumber);
   });
+  field.addEventListener("change", () => {
+    if (Number.isFinite(field.valueAsNumber)) take(field.valueAsNumber);
+    row.show();
+  });
+  box.append(name, input, field, unit);
+  return row;
+}
+
+// Where the mechanism closes, from the value that a parameter has towards both ends of its slider, the others staying.
+function* ranging(but = null) {
+  for (const row of rows) {
+    if (row === but) continue;
+    const ends = [];
+    for (const end of row.reach) {
+      let [inside, outside] = [live.p[row.i], end];
+      if ((outside - inside) * (end === row.reach[0] ? -1 : 1) <= 0) outside = inside; // it stands beyond the end
+      else if (live.closes(row.i, end)) inside = outside;
+      for (let k = 0; k < 8 && inside !== outside; k++) {
+        yield;
+        const middle = 0.5 * (inside + outside);
+        if (live.closes(row.i, middle)) inside = middle;
+        else outside = middle;
+      }
+      ends.push(inside);
+      yield;
+    }
+    [row.low, row.high] = ends[0] < ends[1] ? ends : row.reach;
+    row.show();
+  }
+}
+
+function workOutRanges(budget) {
+  const began = performance.now();
+  while (ranges && performance.now() - began < budget) if (ranges.next().done) ranges = null;
+}
+
+// Many parameters of one unit, and those that follow from others by formulas, are folded away below the rest.
+const MANY = 8, ALIKE = 3;
+function sliders() {
+  const box = $("live"), list = element("div", "", "list"), head = element("div", "", "head"), back = element("button", "As recorded");
+  const closes = element("p");
+  closes.id = "closes";
+  closes.setAttribute("role", "status");
+  head.append(element("span", `${data.live.method}, rk4 with steps of ${short(data.live.step)} s`, "small"), back);
+  box.append(head, list, closes);
+  rows = data.live.parameters.map((parameter, i) => (parameter.still ? null : makeRow(parameter, i))).filter(Boolean);
+  box.hidden = !rows.length;
+  const heading = (row) => (row.follows ? "from others" : row.unit ? `in ${row.unit}` : "without unit");
+  const alike = (row) => rows.filter((other) => heading(other) === heading(row));
+  const folded = rows.filter((row) => row.follows || (rows.length > MANY && alike(row).length >= ALIKE));
+  rows.forEach((row) => folded.includes(row) || list.append(row.box));
+  let seen = rows.length - folded.length;
+  for (const own of [...new Set(folded.map(heading))].map((name) => folded.filter((row) => heading(row) === name))) {
+    const fold = element("details");
+    fold.append(element("summary", `${own.length} ${heading(own[0])}: ${own.map((row) => row.name).join(", ")}`), ...own.map((row) => row.box));
+    fold.open = !own[0].follows && seen + own.length <= MANY;
+    seen += fold.open ? own.length : 0;
+    list.append(fold);
+  }
+  rows.forEach((row) => row.show());
+  ranges = ranging();
   back.addEventListener("click", () => {
     live.reset();
-    inputs.forEach((each) => {
-      each.input.value = 200;
-      each.tell();
-    });
+    rows.forEach((each) => each.field.setAttribute("aria-invalid", false));
+    rows.forEach((each) => each.show());
+    ranges = ranging();
     $("closes").textContent = "";
+    $("picture").classList.remove("stale");
     follow = null;
     show(motions[0]);
   });
@@ -341,8 +446,10 @@ const SPEEDS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 
 for (const s of SPEEDS) $("speed").append(new Option(`${s}×`, s));
 speed = motion.end - time < 1 ? SPEEDS.filter((s) => motion.end - time >= 2 * s).pop() || SPEEDS[0] : 1;
 $("speed").value = speed;
-$("trace").append(new Option("none", ""), new Option("all", "all"), ...data.points.map((p) => new Option(p[0], p[0])));
-$("trace").value = data.points.length <= 12 ? "all" : "";
+// Points that no joint ties draw what a mechanism is for: the foot of a leg, the blade of a wiper.
+const free = data.points.some((p) => p[3]);
+$("trace").append(new Option("none", ""), ...(free ? [new Option("free points", "free")] : []), new Option("all", "all"), ...data.points.map((p) => new Option(p[0], p[0])));
+$("trace").value = free ? "free" : data.points.length <= 12 ? "all" : "";
 $("speed").addEventListener("change", () => (speed = Number($("speed").value)));
 $("trace").addEventListener("change", traces);
 $("group").addEventListener("change", choose);
@@ -350,6 +457,18 @@ $("play").addEventListener("click", () => play(!playing));
 $("fit").addEventListener("click", refit);
 for (const id of ["labels", "forces", "gaps"]) $(id).addEventListener("change", () => (wanted = true));
 $("forcesBox").hidden = !(motion.reactions || motion.pulls);
+
+function retheme() {
+  paintPage();
+  view.dress();
+  choose();
+  traces();
+}
+$("theme").addEventListener("click", () => {
+  theme = document.documentElement.dataset.theme === "dark" ? "light" : "dark";
+  retheme();
+});
+preferred.addEventListener("change", retheme);
 
 function refit() {
   view.fit(motion.rows);
@@ -407,7 +526,7 @@ window.addEventListener("keydown", (e) => {
   const act = {
     " ": () => play(!playing), ArrowRight: () => go(time + frame), ArrowLeft: () => go(time - frame),
     Home: () => go(motion.t[0]), End: () => go(motion.end), 0: refit, l: () => $("loop").click(),
-    f: () => $("forces").click(), g: () => $("gaps").click(), n: () => $("labels").click(),
+    f: () => $("forces").click(), g: () => $("gaps").click(), n: () => $("labels").click(), d: () => $("theme").click(),
     "+": () => faster(1), "-": () => faster(-1),
   }[e.key];
   if (!act) return;
@@ -462,6 +581,11 @@ window.symgen = {
   gaps(share) {
     const t = motion.t[0] + share * (motion.end - motion.t[0]), told = motions[0].gaps;
     return told ? Object.fromEntries(told.names.map((name, k) => [name, columnAt(told.columns[k], motions[0].t, t)])) : null;
+  },
+  // Between which values the slider of each parameter goes, by name.
+  limits() {
+    workOutRanges(Infinity);
+    return Object.fromEntries(rows.map((row) => [row.name, [row.low, row.high]]));
   },
   // Seconds of motion that the live part works out in one second.
   pace(milliseconds = 300) {

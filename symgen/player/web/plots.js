@@ -42,8 +42,7 @@ function makePlot(canvas, key) {
 
   function lines(group, t, end) {
     const [context, width, height] = sized(canvas);
-    context.fillStyle = "#ffffff";
-    context.fillRect(0, 0, width, height);
+    context.clearRect(0, 0, width, height);
     let low = Infinity, high = -Infinity;
     for (const column of group.columns) for (const x of column) {
       if (Number.isFinite(x)) {
@@ -57,8 +56,8 @@ function makePlot(canvas, key) {
     const x = (time) => left + ((time - t[0]) / (end - t[0] || 1)) * (width - left - right);
     const y = (value) => height - bottom - ((value - low) / (high - low)) * (height - top - bottom);
     context.font = "11px system-ui, sans-serif";
-    context.fillStyle = "#56606c";
-    context.strokeStyle = "#e3e6ea";
+    context.fillStyle = palette.soft;
+    context.strokeStyle = palette.line;
     context.lineWidth = 1;
     context.textAlign = "right";
     for (const v of ticks(low, high, 5)) {
@@ -78,7 +77,7 @@ function makePlot(canvas, key) {
     context.restore();
     group.columns.forEach((column, i) => {
       context.beginPath();
-      context.strokeStyle = COLOURS[i % COLOURS.length];
+      context.strokeStyle = shade(COLOURS[i % COLOURS.length]);
       context.setLineDash([[], [5, 3], [2, 2]][Math.floor(i / COLOURS.length) % 3]);
       context.lineWidth = 1.4;
       let pen = false;
@@ -100,9 +99,8 @@ function makePlot(canvas, key) {
     key.textContent = "";
     group.names.forEach((name, i) => {
       const entry = document.createElement("span"), line = document.createElement("i");
-      line.style.background = COLOURS[i % COLOURS.length];
+      line.style.background = shade(COLOURS[i % COLOURS.length]);
       entry.append(line, name, document.createElement("b"));
-      entry.lastChild.style.fontWeight = "normal";
       key.append(entry);
     });
   }
@@ -110,15 +108,16 @@ function makePlot(canvas, key) {
   function cursor(time, values, log) {
     if (!frame) return;
     const { context, x, top, bottom, height, width } = frame;
+    context.clearRect(0, 0, width, height);
     context.drawImage(picture, 0, 0, width, height);
-    context.strokeStyle = "#20262e";
+    context.strokeStyle = palette.ink;
     context.lineWidth = 1;
     context.beginPath();
     context.moveTo(x(time), top);
     context.lineTo(x(time), height - bottom);
     context.stroke();
     values.forEach((value, i) => {
-      if (key.children[i]) key.children[i].lastChild.textContent = ` ${log ? (10 ** value).toExponential(1) : short(value)}`;
+      if (key.children[i]) key.children[i].lastChild.textContent = `${log ? (10 ** value).toExponential(1) : short(value)}`;
     });
   }
 

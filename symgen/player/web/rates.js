@@ -56,6 +56,20 @@ function makeRates(spec, code) {
     return Array.from(ydot);
   }
 
+  // What puts parameters and scratch back as they are now.
+  function keep() {
+    const before = [p.slice(), [...given], w.slice(), iw.slice()];
+    return () => {
+      p.set(before[0]);
+      given.clear();
+      before[1].forEach((i) => given.add(i));
+      w.set(before[2]);
+      iw.set(before[3]);
+      code.prepareModel(p);
+      code.prepareLaw(p);
+    };
+  }
+
   function reset() {
     given.clear();
     for (const i of spec.set || []) given.add(i);
@@ -65,5 +79,5 @@ function makeRates(spec, code) {
   }
 
   reset();
-  return { p, w, iw, scratch, prepare, setParameters, rhs, rates, reset };
+  return { p, w, iw, scratch, prepare, setParameters, rhs, rates, reset, keep };
 }

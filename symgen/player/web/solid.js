@@ -15,11 +15,20 @@ vec4 projected(vec3 s) {
   s -= camera.xyz;
   return vec4(2.0 * camera.w * s.xy / screen.xy, -s.z / screen.w, 1.0);
 }
-vec3 faint(vec3 colour, float strength) { return mix(vec3(1.0), colour, strength); }
+uniform vec3 paper, ink; // of the page
+uniform float night;
+vec3 faint(vec3 colour, float strength) { return mix(paper, colour, strength); }
+// On dark paper greys change places with each other, and hues are a little lighter, areas a little darker.
+vec3 lit(vec3 c, float area) {
+  float high = max(max(c.r, c.g), c.b), low = min(min(c.r, c.g), c.b);
+  if (night < 0.5) return c;
+  if (high - low < 0.125) return mix(ink, paper, 0.5 * (high + low));
+  return area > 0.5 ? mix(paper, c, 0.75) : mix(c, vec3(1.0), 0.15);
+}
 `;
 const FACES = `${COMMON}
 in vec3 at, normal;
-in vec4 fill, ink;
+in vec4 fill, edge;
 in float part;
 uniform float strength, hull; // of the colours; whether outlines are drawn
 out vec4 colour;
@@ -27,18 +36,18 @@ void main() {
   vec3 n = eye * normalize(placed(vec4(normal, 0.0), part));
   gl_Position = projected(eye * placed(vec4(at, 1.0), part));
   if (hull > 0.0) {
-    gl_Position.xy += 8.0 * ink.a * screen.z * n.xy / screen.xy;
-    colour = vec4(faint(ink.rgb, strength), 1.0);
+    gl_Position.xy += 8.0 * edge.a * screen.z * n.xy / screen.xy;
+    colour = vec4(faint(lit(edge.rgb, 0.0), strength), 1.0);
     return;
   }
   if (fill.a < 1.0 && n.z < 0.0) n = -n;
   vec3 light = normalize(vec3(-0.35, 0.6, 0.75));
   float shade = 0.6 + 0.4 * max(dot(n, light), 0.0), gloss = 0.2 * pow(max(reflect(-light, n).z, 0.0), 20.0);
-  colour = vec4(faint(min(fill.rgb * shade + gloss, 1.0), fill.a < 1.0 ? 1.0 : strength), fill.a < 1.0 ? fill.a * strength : 1.0);
+  colour = vec4(faint(min(lit(fill.rgb, 1.0) * shade + gloss, 1.0), fill.a < 1.0 ? 1.0 : strength), fill.a < 1.0 ? fill.a * strength : 1.0);
 }`;
 const STROKES = `${COMMON}
 in vec3 at, to;
-in vec4 ink;
+in vec4 edge;
 in float part, width;
 uniform float strength, bias;
 out vec4 colour;
@@ -52,7 +61,7 @@ void main() {
   vec2 side = vec2(-way.y, way.x) * ((k & 1) == 0 ? -1.0 : 1.0) + way * ((k & 2) == 0 ? -0.5 : 0.5);
   gl_Position.xy += w * side / screen.xy;
   gl_Position.z -= bias;
-  colour = vec4(faint(ink.rgb, strength), 1.0);
+  colour = vec4(faint(lit(edge.rgb, 0.0), strength), 1.0);
 }`;
 const PIXEL = `#version 300 es
 precision mediump float;
@@ -87,7 +96,6 @@ function frameOf(axis) {
   const first = unitOf(product([0, 1, 2].map((i) => +(i === k)), axis));
   return [first, product(axis, first)];
 }
-const eight = (colour) => [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16));
 
 // The triangles and strokes of a scene, those of bodies and forces first, which alone are drawn of a ghost.
 function meshes(scene, ground) {
@@ -100,7 +108,7 @@ function meshes(scene, ground) {
     list.push([...at, ...normal, part], [...fill, Math.round(255 * alpha), ...ink, Math.round((255 * width) / 4)]);
   }
   function stroke(part, a, b, look) {
-    if (look.ink && look.width) into.strokes.push([...a, ...b, part, look.width], eight(look.ink));
+    if (look.ink && look.width) into.strokes.push([...a, ...b, part, look.width], channels(look.ink));
   }
   function path(part, points, look, closed) {
     const all = closed ? [...points, points[0]] : points, pieces = look.dashed && all.length === 2 ? 24 : 1;
@@ -111,10 +119,10 @@ function meshes(scene, ground) {
     }
   }
   // What is opaque has the tint that it would have on white.
-  const tint = (look) => eight(look.plain || "#ffffff").map((x) => Math.round(255 - (255 - x) * (0.35 + 0.65 * look.opacity)));
-  const edge = (look) => (look.ink ? eight(look.ink) : [0, 0, 0]);
+  const tint = (look) => channels(look.plain || "#ffffff").map((x) => Math.round(255 - (255 - x) * (0.35 + 0.65 * look.opacity)));
+  const edge = (look) => (look.ink ? channels(look.ink) : [0, 0, 0]);
   function area(part, corners, normals, look, glass) {
-    const list = glass ? into.glass : into.faces, fill = glass ? eight(look.plain) : tint(look);
+    const list = glass ? into.glass : into.faces, fill = glass ? channels(look.plain) : tint(look);
     corners.forEach((p, i) => corner(list, p, normals[i], part, fill, glass ? look.opacity : 1, edge(look), glass ? 0 : look.width));
   }
   function tube(part, a, b, r, look) {
@@ -244,7 +252,7 @@ function makeSolid(canvas, scene) {
     gl.bindVertexArray(vao);
     buffer(own, packed(list, 7, 8, 1));
     [["at", 3, 0], ["normal", 3, 12], ["part", 1, 24]].forEach(([name, size, o]) => attribute(faces, name, size, gl.FLOAT, 36, o));
-    [["fill", 28], ["ink", 32]].forEach(([name, o]) => attribute(faces, name, 4, gl.UNSIGNED_BYTE, 36, o));
+    [["fill", 28], ["edge", 32]].forEach(([name, o]) => attribute(faces, name, 4, gl.UNSIGNED_BYTE, 36, o));
     return { vao, count: list.length / 2, own };
   }
   function lines(list) {
@@ -253,7 +261,7 @@ function makeSolid(canvas, scene) {
     gl.bindVertexArray(vao);
     buffer(own, packed(list.map((x, i) => (i % 2 ? [...x, 255] : x)), 8, 4, 4));
     [["at", 3, 0], ["to", 3, 12], ["part", 1, 24], ["width", 1, 28]].forEach(([name, size, o]) => attribute(strokes, name, size, gl.FLOAT, 36, o));
-    attribute(strokes, "ink", 4, gl.UNSIGNED_BYTE, 36, 32);
+    attribute(strokes, "edge", 4, gl.UNSIGNED_BYTE, 36, 32);
     buffer(own, order, gl.ELEMENT_ARRAY_BUFFER);
     return { vao, count, own };
   }
@@ -292,6 +300,9 @@ function makeSolid(canvas, scene) {
     gl.uniform4fv(of.at("camera"), seen.camera);
     gl.uniform4fv(of.at("screen"), seen.screen);
     gl.uniform1f(of.at("strength"), strength);
+    gl.uniform3fv(of.at("paper"), channels(palette.paper).map((x) => x / 255));
+    gl.uniform3fv(of.at("ink"), channels(palette.ink).map((x) => x / 255));
+    gl.uniform1f(of.at("night"), palette.night ? 1 : 0);
   }
   function stroked(mesh, count, strength) {
     use(strokes, strength);
@@ -305,7 +316,7 @@ function makeSolid(canvas, scene) {
     if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
     seen = { eye: Float32Array.from(eye), camera: [camera.x, camera.y, camera.z, camera.scale * camera.ratio], screen: [w, h, camera.ratio, camera.reach] };
     gl.viewport(0, 0, w, h);
-    gl.clearColor(1, 1, 1, 1);
+    gl.clearColor(...channels(palette.paper).map((x) => x / 255), 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
@@ -340,7 +351,7 @@ function makeSolid(canvas, scene) {
 
   function trace(points, colour) {
     if (!traces.has(points)) {
-      const list = [], own = eight(colour);
+      const list = [], own = channels(colour);
       for (let k = 0; k + 1 < points.length; k++) list.push([...points[k], ...points[k + 1], ground, 1.3], own);
       traces.set(points, lines(list));
     }

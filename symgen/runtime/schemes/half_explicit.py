@@ -77,10 +77,9 @@ def attempt(
         system.residual(now, held, k, run.p, run.w, rest)
         for i in range(first, sizes.ny):
             rates[s * width + i] = run.w[sizes.auxiliary + i - first]
-    for i in range(first, sizes.ny):
-        run.trial[i] = run.y[i]
-        for s in range(s_count):
-            run.trial[i] += h * scheme.a[(s_count - 1) * s_count + s] * rates[s * width + i]
+            run.trial[i] = run.y[i]
+            for j in range(s + 1):
+                run.trial[i] += h * scheme.a[s * s_count + j] * rates[j * width + i]
     run.control[abi.EVALUATIONS] += 3 * s_count
     run.control[abi.JACOBIANS] += s_count
     return 0.0

@@ -30,12 +30,15 @@ def begin_step(system: Any, run: Any, t: float) -> None:
     """Have the unknowns k at the beginning of the step, and the rates of auxiliary states, in the memory of the run."""
     sizes = system.sizes
     first, n, m = sizes.nq + sizes.nv, sizes.unknowns, sizes.m
+    tail = n - sizes.states
     rate = part(run.room, 0, sizes.width)
     evaluate(system, run, t, run.y, rate)
     run.control[abi.EVALUATIONS] += 1
     for i in range(n):
         if i < first:
             run.memory[i] = rate[i]
+        elif i >= tail:
+            run.memory[i] = rate[first + 1 + i - tail]
         else:
             run.memory[i] = run.w[sizes.multipliers + i - first] if i < first + m else 0.0
     for i in range(first, sizes.ny):
@@ -83,7 +86,7 @@ def attempt(
     """Solve the stages of a step."""
     sizes, s_count = system.sizes, scheme.stages
     first, n, ny, count = sizes.nq + sizes.nv, sizes.unknowns, sizes.ny, scheme.entries.shape[0] // 2
-    more = ny - first
+    more, tail, states = ny - first, n - sizes.states, sizes.states
     if run.control[abi.KNOWN] == 0:
         begin_step(system, run, t)
     k = part(run.room, sizes.width, s_count * n)
@@ -123,7 +126,9 @@ def attempt(
                 system.residual(t + scheme.c[s] * h, run.trial, own, run.p, run.w, rest)
                 leave_out_rest(sizes, run.w, own, rest)
                 for i in range(more):
-                    rate = run.w[sizes.auxiliary + i]
+                    if 0 < i <= states:
+                        continue  # rates of states are unknowns
+                    rate = run.w[sizes.auxiliary + (i - states if i > 0 else 0)]
                     share = run.share[first + i]  # 1 where it takes part in error control, else 0
                     moved += share * (rate - rates[s * more + i]) ** 2
                     size += share * rate**2
@@ -137,6 +142,11 @@ def attempt(
                     if i < first:
                         moved += (run.scales[i] * change[(s - low) * n + i]) ** 2
                         size += (run.scales[i] * k[s * n + i]) ** 2
+                    elif i >= tail:
+                        rates[s * more + 1 + i - tail] = k[s * n + i]
+                        scale = 1.0 / (1.0 + abs(k[s * n + i]))  # of any unit, so that pressures hide no lengths
+                        moved += (scale * change[(s - low) * n + i]) ** 2
+                        size += (scale * k[s * n + i]) ** 2
             # stiff forces turn rounding of positions into noise of derivatives: how far the state moves counts
             length = 1.0
             for i in range(first):
@@ -149,7 +159,7 @@ def attempt(
             fresh, last = moved > 0.05 * last, moved
         if end <= 0:
             return DIVERGED
-    if n > first + sizes.m:
+    if tail > first + sizes.m:
         # multipliers of index 2 are of lower order than the state: these rates come from the law's own
         of_law = part(run.room, 0, sizes.width)
         for s in range(s_count):
@@ -173,29 +183,38 @@ def step_error(system: Any, scheme: Any, span: Any, run: Any, t: float, h: float
     sizes, s_count, errors = system.sizes, scheme.stages, scheme.errors
     first, n, ny, count = sizes.nq + sizes.nv, sizes.unknowns, sizes.ny, scheme.entries.shape[0] // 2
     more, size = ny - first, max(n, sizes.width)
-    at = sizes.width + s_count * (n + more)
+    at, tail = sizes.width + s_count * (n + more), n - sizes.states
     right, change = part(run.room, at, size), part(run.room, at + size, size)
     run.control[abi.ORDER] = scheme.order + 1
     for i in range(size):
         right[i] = change[i] = 0.0
-    for i in range(first):
-        total = errors[0] * run.memory[i]
-        for s in range(s_count):
-            total += errors[s + 1] * k[s * n + i]
-        change[i] = h * total
+    for i in range(n):
+        if i < first or i >= tail:
+            total = errors[0] * run.memory[i]
+            for s in range(s_count):
+                total += errors[s + 1] * k[s * n + i]
+            change[i] = h * total
     if scheme.filtered > 0.0:
         factors = part(run.room, at + 2 * size, 2)
         system.tangent(t, run.y, run.memory, run.p, run.w, part(scheme.slopes, 0, count))
         for e in range(count):
-            if scheme.entries[count + e] < first:
+            if scheme.entries[count + e] < first or (
+                tail <= scheme.entries[count + e] and scheme.entries[count + e] < n
+            ):
                 right[scheme.entries[e]] += scheme.slopes[e] * change[scheme.entries[count + e]]
         factors[0], factors[1] = 1.0, h * scheme.filtered
         if sparse.prepare(scheme.filter_plan, scheme.slopes, factors, scheme.filter_numbers) < 0:
             return TOO_LARGE
         solve(scheme.filter_plan, scheme.filter_numbers, right, change)
+    for i in range(tail, n):
+        right[i] = change[i]
     for i in range(first, sizes.width):
         change[i] = 0.0
+    for i in range(tail, n):
+        change[first + 1 + i - tail] = right[i]
     for i in range(more):
+        if 0 < i <= sizes.states:
+            continue
         total = errors[0] * run.memory[n + i]
         for s in range(s_count):
             total += errors[s + 1] * rates[s * more + i]

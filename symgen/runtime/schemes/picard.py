@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from symgen.native.nodes import NODES
+from symgen.native.types import NODES
 from symgen.runtime import abi
 from symgen.runtime.bare import part
 from symgen.runtime.frame import DIVERGED, correct, evaluate, loop, store

@@ -6,7 +6,7 @@
 
 Forces of both halves are evaluated at the same V, so that the second half is the first one of the step back: the scheme
 is its own adjoint. Rows without Phi hold on the mean of both ends: ``D_0 V - nu_0 + D_1 V - nu_1 = 0``. Auxiliary
-states follow by the trapezoidal rule.
+states follow by the trapezoidal rule, from a step of Euler's.
 
 The memory of a run holds B and mu, with which the next iteration begins.
 """
@@ -46,7 +46,7 @@ def attempt(
     at = 3 * (nv + m)
     k, rest, held = part(run.room, at, n), part(run.room, at + n, n + m), part(run.room, at + 2 * n + m, width)
     at += 2 * n + m + width
-    moved, factors = part(run.room, at, nv), part(run.room, at + nv, 2)
+    moved, factors, begun = part(run.room, at, nv), part(run.room, at + nv, 2), part(run.room, at + nv + 2, width)
     copied(width, run.y, held)
     copied(width, run.y, run.trial)
     for i in range(nq):
@@ -97,8 +97,9 @@ def attempt(
         fresh, last = size > 0.05 * last, size
     if not converged:
         return DIVERGED
-    for i in range(sizes.ny - first):
-        run.trial[first + i] += 0.5 * h * run.w[sizes.auxiliary + i]
+    for i in range(first, sizes.ny):
+        begun[i] = run.w[sizes.auxiliary + i - first]
+        run.trial[i] = run.y[i] + h * begun[i]
     for i in range(nv):
         run.trial[nq + i] = run.y[nq + i] + 0.5 * h * x[i]
         moved[i] = h * run.trial[nq + i]
@@ -122,8 +123,8 @@ def attempt(
         k[first + c] = x[nv + c]
     system.residual(following, run.trial, k, run.p, run.w, rest)
     run.control[abi.EVALUATIONS] += 2
-    for i in range(sizes.ny - first):
-        run.trial[first + i] += 0.5 * h * run.w[sizes.auxiliary + i]
+    for i in range(first, sizes.ny):
+        run.trial[i] = run.y[i] + 0.5 * h * (begun[i] + run.w[sizes.auxiliary + i - first])
     for i in range(nv):
         run.trial[nq + i] += 0.5 * h * x[i]
     return 0.0

@@ -9,7 +9,8 @@ from symgen import arguments
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.settings import COORDINATES, Settings, told_constant
+from symgen.runtime.integrator import adapts
+from symgen.settings import COORDINATES, Settings
 
 #: Constant steps of a study are these multiples of the mechanism's own, unless steps are given.
 STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)
@@ -69,15 +70,20 @@ class Combinations:
             If there is no such method or integrator, or none of these solves a form of a method.
         """
         for state in tuple(dict.fromkeys(self.coordinates)) or COORDINATES[:1]:
-            for method in _named(self.methods, DEFAULT_METHODS, METHODS.names):
+            for words in _named(self.methods, DEFAULT_METHODS, METHODS.names):
+                method, variant = variant_of(words)
+                methods = [variant_of(other)[0] for other in self.methods]
                 for integrator in _suitable(method, self.integrators):
-                    options = _options_for(base.options, method, self.methods, integrator, self.integrators)
+                    options = _options_for(base.options, method, methods, integrator, self.integrators)
+                    both = {f"{owner}.{name}" for owner in ("method", method) for name in variant}
+                    options = {k: x for k, x in options.items() if k not in both}
+                    options |= {f"method.{name}": x for name, x in variant.items()}
                     one = replace(base, coordinates=state, method=method, integrator=integrator, options=options)
                     yield from self._steps(one, own)
 
     def _steps(self, common: Settings, own: float) -> Iterator[Settings]:
         name = str(common.integrator)
-        if INTEGRATORS.get(name, "--integrators").adaptive and not told_constant(common.options, name):
+        if adapts(INTEGRATORS.get(name, "integrators"), common.options):
             for rtol in self.rtols or RTOLS:
                 yield replace(common, rtol=rtol, atol=rtol * ATOL_SHARE)
         else:
@@ -86,6 +92,30 @@ class Combinations:
                 self.steps or [h for h in (own * f for f in STEP_FACTORS) if h <= common.until] or [common.until]
             ):
                 yield replace(common, step=step)
+
+
+def variant_of(words: str) -> tuple[str, dict[str, str]]:
+    """Return the method and the options of ``baumgarte:alpha=5:beta=5``, one line of a study.
+
+    Raises
+    ------
+    InputError
+        If it has another form.
+    """
+    method, *parts = words.split(":")
+    options = dict[str, str]()
+    for part in parts:
+        name, equals, value = part.partition("=")
+        if not equals or not name or not value or name in options:
+            raise InputError("methods", "NAME, or NAME:OPTION=VALUE with each option once", f"'{words}'")
+        options[name] = value
+    return method, options
+
+
+def words_of_variant(settings: Settings, common: Settings) -> str:
+    """Return the options of a method that other runs of a study have not, such as ``alpha=5, beta=5``."""
+    own = (x for x in settings.options.items() if x[0].startswith("method.") and x not in common.options.items())
+    return ", ".join(f"{name.removeprefix('method.')}={value}" for name, value in own)
 
 
 def _named(names: Sequence[str], default: Sequence[str], everything: Sequence[str]) -> tuple[str, ...]:
@@ -102,13 +132,13 @@ def _suitable(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
     InputError
         If integrators were named and none of them does.
     """
-    chosen = METHODS.get(method, "--methods")
+    chosen = METHODS.get(method, "methods")
     named = _named(integrators, DEFAULT_INTEGRATORS, INTEGRATORS.names)
-    fit = tuple(n for n in named if set(INTEGRATORS.get(n, "--integrators").forms) & set(chosen.forms))
+    fit = tuple(n for n in named if set(INTEGRATORS.get(n, "integrators").forms) & set(chosen.forms))
     if fit or not integrators:
         return fit or (chosen.default_integrator,)
     forms = ", ".join(chosen.forms)
-    raise InputError("--integrators", f"one that solves a form of {method} ({forms})", f"'{', '.join(integrators)}'")
+    raise InputError("integrators", f"one that solves a form of {method} ({forms})", f"'{', '.join(integrators)}'")
 
 
 def _options_for(

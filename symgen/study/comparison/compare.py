@@ -24,7 +24,7 @@ from symgen.running.prepare import Assembled, assemble, begin, make_plan, prepar
 from symgen.runtime.timing import timed
 from symgen.settings import Settings, default
 from symgen.store.paths import cache_location
-from symgen.study.comparison.combinations import Combinations
+from symgen.study.comparison.combinations import Combinations, words_of_variant
 from symgen.study.comparison.comparison_rows import Row, Study, Trace, from_entry, save_csv, to_entry, with_ratios
 from symgen.study.comparison.measured_runs import measured
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
@@ -85,7 +85,8 @@ def compare(
         What to run.
     methods, integrators : sequence of str
         Names, or ``all``. Unless given, the six methods of the source with rk4, dopri5 and dop853. Pairs that do not
-        suit each other are left out.
+        suit each other are left out. A method may have options of its own, ``"baumgarte:alpha=5:beta=5"``: each
+        is a line of the study.
     steps : sequence of float
         Constant steps [s] of integrators without error estimate; multiples of the mechanism's own by default.
     rtols : sequence of float
@@ -200,6 +201,7 @@ class _Work:
     """One model with everything that will be run."""
 
     model: Model
+    common: Settings
     end: float
     times: Array
     settings: list[Settings]
@@ -267,7 +269,7 @@ class _Work:
             runs = timed(run.integrate, settings.repeat, AT_LEAST)
             if runs.outcome.interrupted:
                 raise KeyboardInterrupt
-            return to_entry(*measured(run, runs, reference_motion, points))
+            return to_entry(*measured(run, runs, reference_motion, points, words_of_variant(settings, self.common)))
 
         return self.study(run_cells(self.rows, row, self.journal)[1])
 
@@ -290,7 +292,7 @@ class _Work:
             digest=digest(self.model.mechanism),
             step=self.model.mechanism.defaults.step,
             parameters=dict(base.parameters),
-            options=dict(base.options),
+            options=dict(self.common.options),
             repeat=base.repeat,
             start=dict(base.start),
         )
@@ -350,7 +352,7 @@ def compare_all(
         base = replace(common, output_step=None, shape=shape, until=end, times=times.tolist())
         settings = list(runs.settings(base, chosen.mechanism.defaults.step))
         plans = [make_plan(chosen.mechanism, s) for s in settings]  # refuses what is wrong before anything is run
-        works.append(_Work(chosen, end, times, settings, plans, reference_by, records))
+        works.append(_Work(chosen, common, end, times, settings, plans, reference_by, records))
     reached, total = 0.0, sum(w.total for w in works)
     report: Progress = progress or (lambda what, reached, of: None)
     if jobs > 1 and cache_location().persistent:  # else what another process compiles would be lost

@@ -10,10 +10,12 @@ from pathlib import Path
 from statistics import median
 from typing import Any, cast
 
+from symgen.arguments import one_of, words
 from symgen.arguments import path as argument_path
 from symgen.errors import InputError
-from symgen.files import check_writable, headed, write_csv
+from symgen.files import check_path, check_writable, headed, write_csv
 from symgen.result.contract import finite
+from symgen.result.export import PLOTTED
 from symgen.result.labelled import html_table
 from symgen.result.result import FAILED
 
@@ -74,6 +76,8 @@ class Row:
         Sentences: what to be careful with.
     coordinates : {"absolute", "joint"}
         What the state was made of. Violations of joint coordinates are those of the loops.
+    variant : str
+        Options of the method that tell it from others of the study, such as ``alpha=5, beta=5``.
     """
 
     method: str
@@ -103,11 +107,13 @@ class Row:
     velocity_violation_final: float | None = None
     acceleration_violation_final: float | None = None
     coordinates: str = "absolute"
+    variant: str = ""
 
     @property
     def label(self) -> str:
-        """The method, with the coordinates where these are not those of bodies: ``lagrange, joint``."""
-        return self.method if self.coordinates == "absolute" else f"{self.method}, {self.coordinates}"
+        """The method with its variant, and the coordinates where these are not those of bodies: ``lagrange, joint``."""
+        parts = self.method, self.variant, "" if self.coordinates == "absolute" else self.coordinates
+        return ", ".join(filter(None, parts))
 
     @property
     def setting(self) -> tuple[str, float | None, float | None]:
@@ -306,9 +312,66 @@ class Study:
 
         return pd.DataFrame([asdict(row) for row in self.rows], columns=[f.name for f in fields(Row)])
 
+    def plot(self, path: str | PathLike[str], what: Sequence[str] = ("error",), over: str = "run_seconds") -> Path:
+        """Draw columns of the rows over another one into a PNG, SVG or PDF file, a line for each method and integrator.
+
+        Parameters
+        ----------
+        path : path
+            The file; its ending says the kind.
+        what : sequence of str
+            Columns of numbers: ``error``, ``energy_drift_max``, ``evaluations``, ...
+        over : str
+            Such a column too.
+
+        Raises
+        ------
+        InputError
+            If there is no such column, the ending is not known, matplotlib is missing, or the file cannot be written.
+        """
+        return plot_rows([self], argument_path("plot", path), what, over)
+
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the rows to a CSV file; it appears whole or not at all."""
         return save_csv([self], argument_path("save", path))
+
+
+def check_columns_of_rows(what: Sequence[str], over: str) -> tuple[str, ...]:
+    """Return the columns of numbers that are drawn.
+
+    Raises
+    ------
+    InputError
+        If there is no such column; says the nearest one.
+    """
+    numbers = [f.name for f in fields(Row) if str(f.type).startswith(("float", "int"))]
+    for name in (*words("plot", what), over):
+        one_of("plot", name, numbers)
+    return words("plot", what)
+
+
+def plot_rows(studies: Sequence[Study], path: Path, what: Sequence[str], over: str) -> Path:
+    """Draw columns of the rows of studies over another one, a panel for each study and column; see `Study.plot`."""
+    from symgen.result.plots import empty, label, legend, style, write_figure
+
+    names = check_columns_of_rows(what, over)
+    check_path("plot", path, PLOTTED, "plot")
+    parts = [(study, name) for study in studies for name in names]
+    figure, axes = empty(", ".join(f"{study.mechanism}, {study.until:g} s" for study in studies), len(parts))
+    for ax, (study, name) in zip(axes, parts, strict=True):
+        lines: dict[str, list[tuple[float, float]]] = {}
+        for row in study.rows:
+            x, y = getattr(row, over), getattr(row, name)
+            if row.ended and x and y:  # a logarithm has no zero
+                lines.setdefault(f"{row.label}, {row.integrator}", []).append((x, y))
+        for i, (text, points) in enumerate(lines.items()):
+            ax.plot(*zip(*points, strict=True), label=text, marker="o", markersize=3.5, **style(i))
+        ax.set(xscale="log", yscale="log", ylabel=label(name.replace("_", " "), UNITS.get(name, "")))
+        ax.set_title(study.mechanism if len(studies) > 1 else "", fontsize=8, loc="left")
+        if lines:
+            legend(ax)
+    axes[-1].set_xlabel(label(over.replace("_", " "), UNITS.get(over, "")))
+    return write_figure(figure, path)
 
 
 def save_csv(studies: Sequence[Study], path: Path, units: bool = False) -> Path:

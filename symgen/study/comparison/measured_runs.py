@@ -23,7 +23,9 @@ Array = NDArray[np.float64]
 LONGEST = 400
 
 
-def measured(run: Prepared, runs: Timed, reference: Reference | None, points: Points) -> tuple[Row, Trace]:
+def measured(
+    run: Prepared, runs: Timed, reference: Reference | None, points: Points, variant: str
+) -> tuple[Row, Trace]:
     """Judge and measure one run.
 
     Parameters
@@ -36,6 +38,8 @@ def measured(run: Prepared, runs: Timed, reference: Reference | None, points: Po
         What to compare with; None where there is none.
     points : Points
         What distances are measured between.
+    variant : str
+        Options that tell the method from others of the study.
     """
     plan, outcome = run.plan, run.of_bodies(runs.outcome)
     nq, count = outcome.compiled.info.nq, len(outcome.times)
@@ -48,6 +52,7 @@ def measured(run: Prepared, runs: Timed, reference: Reference | None, points: Po
     row = Row(
         method=plan.choice.method.name,
         coordinates=plan.coordinates,
+        variant=variant,
         integrator=plan.integrator.name,
         step=None if adaptive else plan.spec.step,
         rtol=plan.spec.rtol if adaptive else None,

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Body, Mechanism
+from symgen.errors import InputError
 from symgen.study.references.sympy_formulas import TENSOR, ReferenceFormulas
 
 if TYPE_CHECKING:
@@ -41,6 +42,10 @@ class IndependentEquations:
     """
 
     def __init__(self, mechanism: Mechanism, parameters: Mapping[str, float]) -> None:
+        for what, some in (("states of its own", mechanism.states), ("rotors on joints", mechanism.rotors)):
+            if some:
+                expected = "a mechanism that is derived a second time, for references"
+                raise InputError(mechanism.name, expected, f"one with {what}", "symgen run --verify estimates errors")
         self.mechanism = mechanism
         self.parameters = parameters
         self.rank: int | None = None

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import SimulationError
+from symgen.errors import InputError, SimulationError
 from symgen.result.points import AGREEMENT, Agreement, Points, agreement
 from symgen.study.references.closed_forms import closed_form
 from symgen.study.references.solvers import (
@@ -103,10 +103,13 @@ def reference(
     Raises
     ------
     InputError
-        If there is no such solver.
+        If there is no such solver, or the mechanism has beam elements, of which no second derivation exists.
     SimulationError
         If the motion cannot be integrated, e.g. into a singularity.
     """
+    if any(force.flexures for force in mechanism.forces):
+        expected = "a mechanism without beam elements, whose equations are derived a second time"
+        raise InputError("reference", expected, f"'{mechanism.name}'", "symgen run --verify estimates errors")
     if check_solver(solver) != AUTO:
         return _integrated(mechanism, parameters, (q, v), times, solver)
     closed = closed_form(mechanism) if own_start else None

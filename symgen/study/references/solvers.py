@@ -97,7 +97,7 @@ def check_solver(name: str) -> str:
     InputError
         If there is no such way; says the nearest one.
     """
-    return one_of("--reference", name, (AUTO, *SOLVERS))
+    return one_of("reference_by", name, (AUTO, *SOLVERS))
 
 
 def by_steps(

@@ -29,6 +29,10 @@ from symgen.vocabulary.measures import (
     Driven,
     Effort,
     Exerted,
+    Flexed,
+    FormulaMeasure,
+    FormulaSpeed,
+    HalfSquare,
     Holonomic,
     Integral,
     LinkStretch,
@@ -123,7 +127,9 @@ class ReferenceFormulas:
 
     def _reading(self, r: Reading) -> Any:
         """Return a measure's value, or its rate."""
-        assert not isinstance(r.source, Speed | Exerted | Driven | Integral), "functions of state read measures"
+        assert not isinstance(r.source, Speed | Exerted | Driven | Integral | Flexed), (
+            "functions of state read measures"
+        )
         value = self._measure(r.source)
         return self._along(value) if r.order else value
 
@@ -166,9 +172,12 @@ class ReferenceFormulas:
             s = self._measure(row.measure)
             gradient = self._gradient(s)
             bias = sum((self._along(e) * self.v[i] for i, e in gradient.items()), sp.S.Zero)
-            return s - value, gradient, slope, sp.diff(slope, self.t) - bias
+            slope = slope - sp.diff(s, self.t)
+            return s - value, gradient, slope, sp.diff(slope, self.t) + 2 * self._along(slope) - bias
         speed = self._speed(row.speed)
-        return sp.S.Zero, self._by_rates(speed), value, slope - self._along(speed)
+        at_rest = speed.subs(dict.fromkeys(self.v, sp.S.Zero))
+        gamma = slope - sp.diff(speed, self.t) - self._along(speed)
+        return sp.S.Zero, self._by_rates(speed), value - at_rest, gamma
 
     # -- positions -----------------------------------------------------------------------------------------------------
 
@@ -204,15 +213,19 @@ class ReferenceFormulas:
         return self._turned(direction.body, self._vector(direction.vector))
 
     def _measure(self, m: Measure) -> Any:
+        if isinstance(m, FormulaMeasure):
+            return self._expression(m.of)
         if isinstance(m, Angle):
             a, b = (sp.S.Zero if body == GROUND else self.q[self.first[body] + 2] for body in (m.a, m.b))
             return b - a
-        if isinstance(m, Component | Distance | LinkStretch):
+        if isinstance(m, Component | Distance | HalfSquare | LinkStretch):
             away = self._place(m.b) - self._place(m.a)
             if isinstance(m, Component):
                 return self._pointing(m.along).dot(away)
             if isinstance(m, Distance):
                 return sp.sqrt(away.dot(away))
+            if isinstance(m, HalfSquare):
+                return away.dot(away) / 2
             length = self._expression(m.length)
             return (away.dot(away) - length**2) / (2 * length)
         if isinstance(m, Dot):
@@ -252,6 +265,8 @@ class ReferenceFormulas:
         return sp.Matrix([self._along(x) for x in self._place(marker)])
 
     def _speed(self, speed: Speed) -> Any:
+        if isinstance(speed, FormulaSpeed):
+            return self._expression(speed.of)
         if isinstance(speed, PointSpeed):
             return self._pointing(speed.along).dot(self._velocity(speed.at))
         if isinstance(speed, BladeSpeed):

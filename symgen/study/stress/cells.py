@@ -30,8 +30,9 @@ from symgen.running.options import split_options
 from symgen.running.plan import Purpose
 from symgen.running.prepare import assemble, begin, decided
 from symgen.runtime import abi
+from symgen.runtime.integrator import adapts
 from symgen.runtime.outcome import Outcome
-from symgen.settings import Settings, told_constant
+from symgen.settings import Settings
 from symgen.study.stress import cell_outcome as judged
 from symgen.study.stress.bench import Level
 from symgen.study.stress.cell_outcome import Run, classify, largest_error
@@ -164,7 +165,7 @@ def _is_adaptive(integrator: str, options: Mapping[str, str | float]) -> bool:
     """Whether a run chooses its own first step."""
     if integrator == AUTO:
         return True
-    return INTEGRATORS.get(integrator, "--integrator").adaptive and not told_constant(options, integrator)
+    return adapts(INTEGRATORS.get(integrator, "integrator"), options)
 
 
 def _shaped(mechanism: Mechanism, settings: Settings) -> Settings:

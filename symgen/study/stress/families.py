@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from symgen.describe.builder import MechanismBuilder
+from symgen.describe.builder_keys import BodyKeys
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
 from symgen.joints import JOINTS
@@ -264,6 +265,7 @@ def quadrilateral(
         "rocker": ((base, 0.0), (cx, cy), "D", "C"),
     }
     for name, (start, end, first, second) in ends.items():
+        turning: BodyKeys = {"angular_velocity": spin} if name == "crank" else {}
         builder.body(
             name,
             mass=1.0,
@@ -271,7 +273,7 @@ def quadrilateral(
             points={first: (f"-{name}_length/2", 0.0), second: (f"{name}_length/2", 0.0)},
             position=((start[0] + end[0]) / 2.0, (start[1] + end[1]) / 2.0),
             angle=math.atan2(end[1] - start[1], end[0] - start[0]),
-            **({"angular_velocity": spin} if name == "crank" else {}),
+            **turning,  # type: ignore[misc]  # it has no other keys
         )
     builder.joint("A", "revolute", between=("ground", "crank"), at=((0.0, 0.0), "A"))
     builder.joint("B", "revolute", between=("crank", "coupler"), at=("B", "B"))

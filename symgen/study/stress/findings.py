@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from symgen.study.stress.stress_rows import Stress, StressRow
 
 #: Methods that hold constraints by forces, and only as closely as these push.
-YIELDING = ("penalty", "augmented-lagrangian", "augmented-hamiltonian")
+YIELDING = ("penalty", "compliant-constraints", "augmented-lagrangian", "augmented-hamiltonian")
 #: Errors up to this share of a link's length are what relative tolerances leave.
 LONG = 1e-6
 #: A run with larger violations |Phi| is within its limit, 1e-6, only because the largest coordinate is so large.

@@ -52,7 +52,7 @@ def pairs(method: str, constant_steps: bool = False) -> tuple[tuple[str, str], .
     """
     if method == AUTO:
         return () if constant_steps else ((AUTO, AUTO),)
-    chosen = METHODS.get(method, "--methods")
+    chosen = METHODS.get(method, "methods")
     names = dict.fromkeys([constant_integrator(method), *FURTHER])
     fit = [n for n in names if set(INTEGRATORS.get(n).forms) & set(chosen.forms)]
     return tuple((method, n) for n in fit if not (constant_steps and INTEGRATORS.get(n).adaptive))
@@ -131,11 +131,11 @@ def stress(
         refuse_events("stress", base.mechanism, common)
         refuse_weightless(base.mechanism)
     bases = [base.without_events() for base in bases]
-    chosen = tuple(dict.fromkeys(arguments.one_of("--cases", name, FAMILIES) for name in cases or FAMILIES))
+    chosen = tuple(dict.fromkeys(arguments.one_of("cases", name, FAMILIES) for name in cases or FAMILIES))
     names = tuple(dict.fromkeys(methods or (*METHODS.names, AUTO)))
     for name in names:
         if name != AUTO:
-            METHODS.get(name, "--methods")
+            METHODS.get(name, "methods")
     skipped: list[tuple[str, str, str]] = []
     levels = list(_levels(bases, chosen, quick, skipped, common.max_step))
     study = _Study(

@@ -1,0 +1,158 @@
+"""What plugins need: registries, and the parts that methods, integrators, joints and forces are made of.
+
+Worked examples are the guides "own method", "own joint" and "own integrator"; the classes are described in
+``docs/extending.md``.
+"""
+
+from symgen.analyses.kinds import ANALYSES, Analysis, AnalysisOutput, AnalysisTable, Option
+from symgen.describe.fields import (
+    Axis,
+    AxisPair,
+    BodyName,
+    BodyPair,
+    Point,
+    PointPair,
+    Scalar,
+    StateFunction,
+    Text,
+    TimeFunction,
+    Vector,
+)
+from symgen.describe.mechanism import Articulation, Force, Joint
+from symgen.describe.scope import Scope
+from symgen.forces import FORCES
+from symgen.integrators import INTEGRATORS
+from symgen.integrators._tableau import Tableau
+from symgen.ir.program import Correction
+from symgen.joints import JOINTS
+from symgen.methods import METHODS
+from symgen.methods._base import (
+    Acceleration,
+    Descriptor,
+    Iteration,
+    Method,
+    MethodOption,
+    MethodParameter,
+    MultiplierMethod,
+    augmented_iteration,
+    multiplier_law,
+)
+from symgen.methods._formula import Matrix as FormulaMatrix
+from symgen.methods._formula import Scalar as FormulaScalar
+from symgen.methods._formula import System
+from symgen.methods._formula import Vector as FormulaVector
+from symgen.native import types
+from symgen.plugins import load_plugin
+from symgen.registry import Registry
+from symgen.runtime import abi
+from symgen.runtime.bare import part
+from symgen.runtime.frame import evaluate, loop
+from symgen.runtime.integrator import Integrator, IntegratorParameter, Setup, law_functions
+from symgen.runtime.padding import padded
+from symgen.runtime.records import Sizes, Span, State
+from symgen.runtime.vectors import copied
+from symgen.vocabulary.expressions import ONE, ZERO, call, number
+from symgen.vocabulary.measures import (
+    GROUND,
+    Angle,
+    Bearing,
+    BladeSpeed,
+    Component,
+    Direction,
+    Distance,
+    Dot,
+    Effort,
+    Holonomic,
+    LinkStretch,
+    Marker,
+    Nonholonomic,
+    PointSpeed,
+    RimHeight,
+    RollingSpeed,
+    Spin,
+    Sum,
+    Turn,
+    axes,
+)
+
+__all__ = [
+    "ANALYSES",
+    "FORCES",
+    "GROUND",
+    "INTEGRATORS",
+    "JOINTS",
+    "METHODS",
+    "ONE",
+    "ZERO",
+    "Acceleration",
+    "Analysis",
+    "AnalysisOutput",
+    "AnalysisTable",
+    "Angle",
+    "Articulation",
+    "Axis",
+    "AxisPair",
+    "Bearing",
+    "BladeSpeed",
+    "BodyName",
+    "BodyPair",
+    "Component",
+    "Correction",
+    "Descriptor",
+    "Direction",
+    "Distance",
+    "Dot",
+    "Effort",
+    "Force",
+    "FormulaMatrix",
+    "FormulaScalar",
+    "FormulaVector",
+    "Holonomic",
+    "Integrator",
+    "IntegratorParameter",
+    "Iteration",
+    "Joint",
+    "LinkStretch",
+    "Marker",
+    "Method",
+    "MethodOption",
+    "MethodParameter",
+    "MultiplierMethod",
+    "Nonholonomic",
+    "Option",
+    "Point",
+    "PointPair",
+    "PointSpeed",
+    "Registry",
+    "RimHeight",
+    "RollingSpeed",
+    "Scalar",
+    "Scope",
+    "Setup",
+    "Sizes",
+    "Span",
+    "Spin",
+    "State",
+    "StateFunction",
+    "Sum",
+    "System",
+    "Tableau",
+    "Text",
+    "TimeFunction",
+    "Turn",
+    "Vector",
+    "abi",
+    "augmented_iteration",
+    "axes",
+    "call",
+    "copied",
+    "evaluate",
+    "law_functions",
+    "load_plugin",
+    "loop",
+    "multiplier_law",
+    "number",
+    "padded",
+    "part",
+    "types",
+]

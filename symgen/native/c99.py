@@ -1,0 +1,237 @@
+"""Functions of `symgen.native.language` as C99: the emitted code of a mechanism for other programs.
+
+Numbers are of the type ``real``, functions of the C library are called by ``M(sin)``, so that a text serves 64 and 32
+bits. Operations stand in the order of the source. Integers of emitted code are indices and counters, far below 2^31.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+from symgen.native import language as lang
+from symgen.native.printing import FunctionPrinter, ordered
+
+#: Functions that printed ones call beside the C library, by name.
+HELPERS = {
+    "least": "static real least(real a, real b) { return b < a ? b : a; }",
+    "greatest": "static real greatest(real a, real b) { return b > a ? b : a; }",
+    "least_of_integers": "static int least_of_integers(int a, int b) { return b < a ? b : a; }",
+    "greatest_of_integers": "static int greatest_of_integers(int a, int b) { return b > a ? b : a; }",
+    "floored_quotient": "static int floored_quotient(int a, int b) { return a/b - (a % b && (a < 0) != (b < 0)); }",
+    "square": "static real square(real x) { return x*x; }",
+    "floored": "static real floored(real a, real b) { return M(floor)(a/b); }",
+    "rest": "static real rest(real a, real b) { return a - b*M(floor)(a/b); }",
+    "power": "static real power(real x, int n) {\n"
+    "real result = 1.0;\nfor (; n; n >>= 1) {\nif (n & 1) result *= x;\nx *= x;\n}\nreturn result;\n}",
+}
+_KEYWORDS = (
+    "auto break case char const continue default do double else enum extern float for goto if inline int long register "
+    "restrict return short signed sizeof static struct switch typedef union unsigned void volatile while _Bool "
+    "_Complex _Imaginary asm typeof linux unix near far small"
+)
+_LIBRARY = (
+    "acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs fdim floor fma "
+    "fmax fmin fmod frexp gamma hypot ilogb j0 j1 jn ldexp lgamma llrint llround log log10 log1p log2 logb lrint "
+    "lround modf nan nearbyint nextafter nexttoward pow remainder remquo rint round scalbln scalbn scalb signgam sin "
+    "sincos sinh sqrt tan tanh tgamma trunc y0 y1 yn significand drem finite isinf isnan isfinite abs abort exit main "
+    "printf memcpy memset div labs atoi atof system time clock signal index double_t float_t"
+)
+_OWN = ("real", "M", "I", "EOF", "NULL", "NAN", "SMALL", "LARGE")
+#: Words that are no names: keywords, names of the library, and names of the files' own.
+RESERVED = frozenset((*_KEYWORDS.split(), *_LIBRARY.split(), *HELPERS, *_OWN))
+
+_CALLED = {"floordiv": "floored", "mod": "rest", "min": "least", "max": "greatest", "abs": "fabs"}
+_CALLED |= {"math.fabs": "fabs", "pow": "pow"}
+_OF_INTEGERS = {"min": "least_of_integers", "max": "greatest_of_integers", "floordiv": "floored_quotient", "abs": "abs"}
+_TYPES = {"float": "real", "int": "int", "bool": "int"}
+#: Characters of a line at most; C's compilers need not take lines of more than 4095.
+_WIDTH = 120
+#: Statements of a function at most: the time that compilers spend on one function grows faster than its length.
+_LONGEST = 600
+
+
+def c_functions(functions: Mapping[str, lang.Function]) -> str:
+    """Return the text of functions and of all that they call, each once, callees first, after their helpers.
+
+    Parameters
+    ----------
+    functions : mapping of str to Function
+        What the text defines, by the names that it has there.
+    """
+    order, names = ordered(functions, RESERVED)
+    written: dict[object, frozenset[str]] = {}
+    for function in order:
+        written[function.key] = _written(function, written)
+    text = "\n\n".join(_Printer(function, names, written).text() for function in order)
+    helpers = [helper for name, helper in HELPERS.items() if re.search(rf"\b{name}\(", text)]
+    return "\n\n".join([*helpers, text])
+
+
+def broken(line: str) -> str:
+    """Return a line of C as lines that are not too long, broken at spaces."""
+    lines = []
+    while len(line) > _WIDTH and (at := line.rfind(" ", 0, _WIDTH)) > 0:
+        lines.append(line[:at])
+        line = line[at + 1 :]
+    return "\n".join([*lines, line])
+
+
+def c_number(value: float) -> str:
+    """Return a number of 64 bits as C has it; what 32 bits do not hold is within a macro."""
+    if math.isfinite(value):
+        size = abs(value)
+        text = repr(float(value))
+        return f"SMALL({text})" if 0.0 < size < 1e-37 else f"LARGE({text})" if size > 1e38 else text
+    return "NAN" if math.isnan(value) else "INFINITY" if value > 0 else "-INFINITY"
+
+
+def _visited(value: object) -> Iterator[Any]:
+    """Yield statements and expressions, those of functions that are called left out."""
+    if isinstance(value, tuple):
+        for each in value:
+            yield from _visited(each)
+    elif not isinstance(value, lang.Function) and hasattr(value, "__struct_fields__"):
+        yield value
+        for name in value.__struct_fields__:
+            yield from _visited(getattr(value, name))
+
+
+def _written(function: lang.Function, known: Mapping[object, frozenset[str]]) -> frozenset[str]:
+    """Return the arrays that a function changes, itself or by those that it calls."""
+    arrays = set[str]()
+    for value in _visited(function.body):
+        if isinstance(value, lang.Store):
+            arrays.add(value.array)
+        elif isinstance(value, lang.FunctionCall):
+            pairs = zip(value.function.parameters, value.arguments, strict=True)
+            arrays.update(str(a) for parameter, a in pairs if parameter.name in known[value.function.key])
+    return frozenset(arrays)
+
+
+def _names(body: object) -> frozenset[str]:
+    """Return the names of arrays and variables that statements read or change."""
+    names = set[str]()
+    for value in _visited(body):
+        if isinstance(value, lang.Variable | lang.Assign | lang.For):
+            names.add(value.name)
+        elif isinstance(value, lang.ArrayElement | lang.Store):
+            names.add(value.array)
+        elif isinstance(value, lang.FunctionCall):
+            names.update(a for a in value.arguments if isinstance(a, str))
+    return frozenset(names)
+
+
+def _parts(function: lang.Function) -> list[tuple[lang.Statement, ...]]:
+    """Return the body of a long straight function in parts, one part of others."""
+    body = function.body
+    ends = [s for s in _visited(body) if isinstance(s, lang.Return)]
+    if len(body) <= 2 * _LONGEST or ends != [body[-1]]:
+        return [body]
+    count = -(-len(body) // _LONGEST)
+    at = [(len(body) - 1) * k // count for k in range(count + 1)]
+    return [*(body[first:last] for first, last in pairwise(at)), body[-1:]]
+
+
+class _Printer(FunctionPrinter):
+    """Prints one function."""
+
+    reserved = RESERVED
+
+    def __init__(
+        self, function: lang.Function, names: Mapping[object, str], written: Mapping[object, frozenset[str]]
+    ) -> None:
+        super().__init__(function, names)
+        self.written, self.shared = written[function.key], dict[str, str]()
+
+    def text(self) -> str:
+        """Return the definition, after the tables that it reads and after its parts where it is long."""
+        f, own = self.function, self.names[self.function.key]
+        lines = []
+        for name, values in f.tables.items():
+            numbers = ", ".join(self.literal(x)[0] for x in values)
+            lines.append(f"static const real {self.names[f.key, name]}[{len(values)}] = {{{numbers}}};")
+        parts = _parts(f)
+        if len(parts) > 1:
+            return "\n".join(map(broken, [*lines, *self._in_parts(own, parts)]))
+        used = _names(f.body)
+        lines.append(f"static {_TYPES[f.returned]} {own}({', '.join(map(self._parameter, f.parameters))}) {{")
+        lines += [f"(void){self.word(p.name)};" for p in f.parameters if p.name not in used]
+        return "\n".join(map(broken, [*lines, *self._locals(used), *self.lines(f.body), "}"]))
+
+    def _locals(self, used: Collection[str]) -> list[str]:
+        """Return declarations of variables that are assigned several times."""
+        f, parameters = self.function, {p.name for p in self.function.parameters}
+        return [
+            f"{_TYPES[kind]} {self.word(name)} = 0;"
+            for name, kind in f.variables.items()
+            if name in used and name not in parameters and name not in f.fixed and name not in self.shared
+        ]
+
+    def _in_parts(self, own: str, parts: Sequence[tuple[lang.Statement, ...]]) -> list[str]:
+        """Return functions of parts, and the function that calls them; values that parts share are arrays' elements."""
+        f, names = self.function, [_names(part) for part in parts]
+        arguments = {p.name: p for p in f.parameters}
+        shares = Counter(name for part in names for name in part if name in f.variables and name not in arguments)
+        sizes = Counter[str]()
+        for name, count in shares.items():
+            if count > 1:
+                array = "values" if f.variables[name] == "float" else "numbers"
+                self.shared[name] = f"{array}[{sizes[array]}]"
+                sizes[array] += 1
+        lines, calls = list[str](), list[str]()
+        for k, (part, used) in enumerate(zip(parts[:-1], names, strict=False), 1):
+            body = self.lines(part)
+            own_arguments = [p for p in f.parameters if p.name in used]
+            arrays = [a for a in ("values", "numbers") if any(f"{a}[" in line for line in body)]
+            heads = [*map(self._parameter, own_arguments)]
+            heads += [f"{'real' if a == 'values' else 'int'} *restrict {a}" for a in arrays]
+            lines += [f"static void {own}_part{k}({', '.join(heads)}) {{", *self._locals(used), *body, "}", ""]
+            calls.append(f"{own}_part{k}({', '.join([*(self.word(p.name) for p in own_arguments), *arrays])});")
+        every = frozenset[str]().union(*names)
+        lines.append(f"static {_TYPES[f.returned]} {own}({', '.join(map(self._parameter, f.parameters))}) {{")
+        lines += [f"(void){self.word(p.name)};" for p in f.parameters if p.name not in every]
+        lines += [f"{'real' if a == 'values' else 'int'} {a}[{size}];" for a, size in sizes.items()]
+        return [*lines, *calls, *self.lines(parts[-1]), "}"]
+
+    def word(self, name: str) -> str:
+        """Return the name of a variable, or the element of an array that it shares with other parts."""
+        return self.shared.get(name) or super().word(name)
+
+    def _parameter(self, parameter: lang.FunctionParameter) -> str:
+        kind, name = _TYPES[parameter.type], self.word(parameter.name)
+        if not parameter.array:
+            return f"{kind} {name}"
+        return f"{'' if parameter.name in self.written else 'const '}{kind} *restrict {name}"
+
+    def literal(self, value: float | int | bool) -> tuple[str, int]:
+        """Return a number and how strongly its text binds."""
+        text = str(int(value)) if isinstance(value, int) else c_number(value)
+        return text, 14 if text.startswith("-") else 20
+
+    def defined(self, s: lang.Assign) -> str:
+        """Return what precedes the name of a variable that is assigned once, where it is assigned."""
+        return "" if s.name in self.shared else f"const {_TYPES[self.function.variables[s.name]]} "
+
+    def loop_head(self, s: lang.For, counter: str) -> str:
+        """Return the head of a loop whose counter has a name of its own."""
+        first, last, sign = self.value(s.start), self.value(s.stop), "<" if s.step > 0 else ">"
+        return f"for (int {counter} = {first}, end = {last}; {counter} {sign} end; {counter} += {s.step}) {{"
+
+    def called(self, e: lang.ScalarOperation) -> str:
+        """Return the name of the function that an operation is."""
+        if e.type == "int" and e.arguments[0].type == "int":
+            return _OF_INTEGERS[e.name]
+        name = _CALLED.get(e.name, e.name.removeprefix("math."))
+        name = name if name in HELPERS else f"M({name})"
+        return f"(int){name}" if e.type == "int" else name
+
+    def converted(self, kind: str, value: lang.Expression) -> tuple[str, int]:
+        """Return a value in another type."""
+        if kind == "bool":
+            return f"{self.value(value, 10)} != 0", 9
+        return f"({_TYPES[kind]}){self.value(value, 15)}", 14

@@ -1,0 +1,21 @@
+"""C for programs and microcontrollers, and a run that prints CSV: a C99 compiler."""
+
+from __future__ import annotations
+
+from symgen.emit.module import render
+from symgen.running.package import Package, write_folder
+from symgen.targets._c_model import CModel, sources
+from symgen.targets._target import Request, Target
+
+
+def _write(request: Request) -> Package:
+    model = CModel.of(request, "c")
+    values = model.values()
+    files = sources(model)
+    files["main.c"] = render("c/main.c.j2", values)
+    files["README.md"] = render("c/README.md.j2", values)
+    compiled = model.compiled
+    return Package(request.path, write_folder(request.path, files), compiled.derive_seconds, compiled.emit_seconds)
+
+
+KIND = Target(_write)

@@ -1,0 +1,40 @@
+"""A module for browsers and Node, as pages have it: start, rates and steps."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from symgen.errors import InputError
+from symgen.targets._target import Request, Target
+
+if TYPE_CHECKING:
+    from symgen.running.package import Package
+
+_MODULE = """\
+// {name} by the method {method}. Written by symgen; the same mechanism gives the same bytes.
+// model.start() returns the state y at t = 0, model.rates(t, y) its rates, model.step(t, y, h) advances y.
+{script}
+export const model = makeLive({spec}, Object.assign({{ confirm: null, move: null, bodies: null }}, emitted));
+"""
+
+
+def _write(request: Request) -> Package:
+    from symgen.player.live import live_part
+    from symgen.player.motion_page import as_json, model_script
+    from symgen.running.package import Package, write_folder
+    from symgen.running.plan import Purpose
+    from symgen.running.prepare import prepare
+
+    mechanism = request.mechanism
+    settings = request.settings("javascript")
+    run = prepare(mechanism, settings, Purpose.STATE)
+    live, reason = live_part(run.mechanism, run.compiled, run.start, mechanism.defaults.step)
+    if live is None:
+        raise InputError("--target javascript", "a mechanism that a page can work out", f"{mechanism.name}: {reason}")
+    words = {"name": mechanism.name, "method": run.compiled.law.method}
+    text = _MODULE.format(script=model_script(live), spec=as_json(live.spec), **words)
+    files = write_folder(request.path, {f"{mechanism.name}.mjs": text})
+    return Package(request.path, files, run.compiled.derive_seconds, run.compiled.emit_seconds)
+
+
+KIND = Target(_write)

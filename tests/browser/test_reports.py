@@ -1,0 +1,31 @@
+"""Reports in a browser: sketches are bounded in height."""
+
+from pathlib import Path
+
+import pytest
+
+from symgen.report.document import Document
+from symgen.report.picture import sketched
+from symgen.report.write import html
+from tests.browser.chromium import Chromium
+
+pytestmark = pytest.mark.browser
+
+
+def test_a_tall_sketch_is_no_taller_than_a_screen(chromium: Chromium, tmp_path: Path) -> None:
+    """One of 160 by 480 was blown up to 1900 pixels; it keeps its proportions, beside a wide one."""
+    shapes = {"tall": (160, 480), "wide": (640, 200)}
+    sketches = {
+        name: f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {w} {h}" width="{w}" height="{h}"></svg>'
+        for name, (w, h) in shapes.items()
+    }
+    path = tmp_path / "report.html"
+    path.write_text(html(Document("sketches", (), (), "", tuple(sketched(sketches)))), encoding="utf-8")
+    for width in (1280, 390):
+        chromium.open(path, width)
+        tall, wide = chromium.run("[...document.querySelectorAll('.pictures img')].map((i) => i.clientHeight)")
+        assert 0 < wide < 0.5 * width and 0 < tall <= 480
+        assert chromium.run(
+            "[...document.querySelectorAll('img')].every((i) => getComputedStyle(i).objectFit === 'contain')"
+        )
+    assert chromium.said == []

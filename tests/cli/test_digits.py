@@ -1,0 +1,63 @@
+"""Numbers that rounding leaves are shown as 0 wherever people read them, and nowhere else."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+from symgen.api import load
+from symgen.cli import main
+from symgen.digits import cleaned, column, complex_digits, digits, scale_of, table
+from symgen.result.labelled import Labelled, column_texts
+
+#: A number below 1e-13 as text.
+ROUNDING = re.compile(r"\de-(1[3-9]|[2-9]\d)")
+
+
+def test_numbers_are_judged_beside_their_column() -> None:
+    assert column([1.0, -3e-13, 2e-12, -0.0]) == ["1", "0", "2e-12", "0"]
+    assert column([1e-20, 3e-21]) == ["1e-20", "3e-21"]  # a length of nothing but small numbers
+    assert column([1e-20, 3e-21], "rad") == ["0", "0"]  # nobody turns by that
+    assert column([1e-9, 1e-22], "m") == ["1e-09", "0"]
+    assert column([float("nan"), float("inf"), 1e-9]) == ["nan", "inf", "1e-09"]
+    assert digits(-1e-18, 0.0) == "-1e-18" and digits(1.0 / 3.0, 1.0, 3) == "0.333"
+    assert scale_of([], "m") == 0.0 and column([]) == []
+    assert complex_digits(-1e-17 + 6j) == ("0", "+6") and complex_digits(2 + 1e-15j) == ("2", "")
+    np.testing.assert_array_equal(cleaned(np.array([1.0, -1e-15, np.nan]), 1.0), [1.0, 0.0, np.nan])
+
+
+def test_columns_of_a_matrix_that_are_rounding_throughout() -> None:
+    """By one part in 1e14 of the whole: small entries of a column with a unit of its own stay."""
+    assert table([[1e-17, 30.0], [2e-16, 1e-15]]) == [["0", "30"], ["0", "0"]]
+    assert table([[1e-9, 1e3], [-2e-11, 1.0]]) == [["1e-09", "1000"], ["-2e-11", "1"]]
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        *("linearise cart-pole", "linearise bicycle --at start --states lean,steer", "equilibrium slider-crank"),
+        *("run slider-crank --until 0.5", "run bicycle --until 0.3"),
+    ],
+)
+def test_tables_of_the_command_show_no_rounding(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """The same numbers are in the JSON with all their digits."""
+    assert main(command.split()) == 0
+    shown = [
+        line
+        for line in capsys.readouterr().out.splitlines()
+        if not line.startswith(("violations", "energy error")) and "not balanced" not in line
+    ]
+    assert len(shown) > 4 and not [line for line in shown if ROUNDING.search(line)]
+    assert main([*command.split(), "--json"]) == 0
+    text = capsys.readouterr().out
+    assert ROUNDING.search(text) and json.loads(text)
+
+
+def test_notebooks_show_no_rounding_and_the_table_keeps_it() -> None:
+    values = np.array([[1.0, 2e-17, 5e-18], [2.0, -1e-16, 1e-17]])
+    shown = Labelled(values, ("a.x", "a.y", "a.theta"), ("m", "m", "rad"))
+    assert column_texts(shown) == {"a.x": "2", "a.y": "0", "a.theta": "0"} and "e-1" not in shown._repr_html_()
+    assert shown.row()["a.y"] == -1e-16
+    result = load("slider-crank").simulate(until=0.5)
+    assert ROUNDING.search(str(result.q.row())) and not ROUNDING.search(result.q._repr_html_())

@@ -1,0 +1,77 @@
+"""From where mechanisms in space are seen, and symbols that are as long as what they show."""
+
+import numpy as np
+import pytest
+
+from symgen.api import Model, load
+from symgen.describe.builder import MechanismBuilder
+from symgen.drawing import build_scene
+from symgen.drawing.paper import axes
+from symgen.drawing.scene import Line
+from symgen.drawing.viewpoint import USUAL
+
+
+def seen(view: object, scene: object, line: np.ndarray) -> np.ndarray:
+    """Return points of the ground frame as the eye has them, flat."""
+    return np.asarray(line @ axes(scene, view)[:2].T)  # type: ignore[arg-type]
+
+
+def across(a: np.ndarray, b: np.ndarray) -> float:
+    """Return the angle between two lines on paper, at most 90 [deg]."""
+    (ux, uy), (vx, vy) = (line[-1] - line[0] for line in (a, b))
+    return float(np.degrees(np.arctan2(abs(ux * vy - uy * vx), abs(ux * vx + uy * vy))))
+
+
+def test_a_rod_behind_another_one_is_seen() -> None:
+    """Two bars that lie behind each other along the usual view: the drawing looks from elsewhere."""
+    direction = axes(load("heavy-top").draw().scene, USUAL)[2]
+    both = MechanismBuilder("both", space="spatial", gravity=(0.0, 0.0, -9.81))
+    for name, at in (("near", 0.4 * direction), ("far", -0.4 * direction)):
+        ends = {"p": (0.0, 0.0, -0.5), "q": (0.0, 0.0, 0.5)}
+        both.body(name, mass=1.0, inertia=(0.1, 0.1, 0.1), points=ends, position=tuple(at))
+        both.joint(f"of_{name}", "spherical", between=("ground", name), at=(tuple(at + np.array([0.0, 0.0, 0.5])), "q"))
+    drawing = Model(both.build()).draw()
+
+    def apart(view: object) -> float:
+        near, far = (seen(view, drawing.scene, np.array([at])) for at in (0.4 * direction, -0.4 * direction))
+        return float(abs((near - far)[0, 0]))  # the bars are upright on paper
+
+    assert apart(USUAL) < 1e-9 and apart(drawing.view) > 2.0 * drawing.scene.unit
+
+
+def test_the_crank_of_a_slider_crank_in_space_is_no_part_of_its_rod() -> None:
+    model = load("spatial-slider-crank")
+    drawing = model.draw()
+    poses = drawing.scene.poses(drawing.q)
+    ends = ((0, (0.0, 0.0, 0.04)), (1, (0.15, 0.0, 0.0)))  # a point of each, from its centre of mass
+    lines = [poses.out(k, [(0.0, 0.0, 0.0), end]) for k, end in ends]
+    usual, own = (across(*(seen(view, drawing.scene, x) for x in lines)) for view in (USUAL, drawing.view))
+    assert own > 15.0 and usual < 8.0
+
+
+@pytest.mark.parametrize("name", ["chain", "heavy-top", "bicycle", "rolling-disc"])
+def test_the_usual_view_stays_where_it_hides_nothing(name: str) -> None:
+    assert load(name).draw().view == USUAL
+
+
+def test_the_scissor_lift_has_a_platform_and_a_cylinder() -> None:
+    """The platform is as wide as the lift; barrel and rod fit between foot and head when the cylinder is shortest."""
+    model = load("scissor-lift")
+    result = model.simulate(until=9.0, output_step=0.5)
+    values = model.parameters()
+    scene = build_scene(model.mechanism, result.q.values, values)
+    items = {(item.role, item.name): item for item in scene.items}
+    frames = {frame.name: k for k, frame in enumerate(scene.frames)}
+    plate = items["body", "platform"].marks[0]
+    assert isinstance(plate, Line) and np.ptp(np.array(plate.points)[:, 0]) > values["width"]
+    parts = [m for m in items["joint", "cylinder"].marks if isinstance(m, Line)]
+    assert {m.body for m in parts} == {frames["barrel"], frames["rod"]}
+    for mark in parts:
+        along = np.array(mark.points)[:, 0] + (0.3 if mark.body == frames["barrel"] else -0.3)  # from eye or clevis
+        assert np.ptp(along) <= values["retracted"]
+        reach = along if mark.body == frames["barrel"] else -along
+        assert reach.min() >= -1e-9 and reach.max() <= values["retracted"]
+    # and the rod's inner end is inside the barrel when it is longest
+    rod = min(np.array(m.points)[:, 0].min() - 0.3 for m in parts if m.body == frames["rod"])
+    barrel = max(np.array(m.points)[:, 0].max() + 0.3 for m in parts if m.body == frames["barrel"])
+    assert values["retracted"] + values["stroke"] + rod < barrel
