@@ -48,6 +48,7 @@ STEPS = {
     "heun": (64, 6, 2),
     "rk4": (16, 8, 2),
     "rkmk4": (16, 8, 2),
+    "rkmk4-screws": (16, 8, 2),
     "abm4": (32, 7, 2),
     "dopri5": (8, 7, 2),
     "abm": (8, 6, 4),
@@ -56,6 +57,9 @@ STEPS = {
     "trapezoidal": (32, 6, 2),
     "newmark": (32, 6, 2),
     "generalized-alpha": (64, 6, 2),
+    "half-explicit": (32, 7, 2),
+    "rattle": (64, 6, 2),
+    "symplectic-euler": (512, 6, 2),
     "sdirk": (8, 6, 2),
     "radau5": (8, 6, 2),
 }

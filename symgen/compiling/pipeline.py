@@ -27,7 +27,7 @@ from symgen.errors import InputError, finite_numbers
 from symgen.files import templates_folder
 from symgen.ir.program import FORMAT, SUFFIXES
 from symgen.methods import METHODS
-from symgen.methods._base import Method
+from symgen.methods._base import EXPLICIT_FORMS, Method
 from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, RowInfo
 from symgen.store.entries import Entries, Modules, folder_name
 from symgen.store.identity import SOURCES, TEMPLATES, digest, sources_digest
@@ -78,7 +78,7 @@ def choose_method(name: str, options: Mapping[str, str] | None = None, implicit:
         If there is no such method or option.
     """
     method = METHODS.get(name, "method")
-    implicit = implicit or not {"ode", "one-step"} & set(method.forms)  # some methods have no other form
+    implicit = implicit or not EXPLICIT_FORMS & set(method.forms)  # some methods have no other form
     return MethodChoice(method, method.complete_options(options or {}), implicit)
 
 

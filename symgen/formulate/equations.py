@@ -17,6 +17,7 @@ class ConstraintRow:
     `entries` holds (velocity index, node) of the structurally nonzero entries of D, in increasing order of index.
     Where joints of a tree carry the bodies, a row may vanish as a whole, at a dead centre for instance: `size` is what
     its square is compared with then, the square of the row over the velocities of bodies; None for a row that cannot.
+    `stiffness` is the node of one that the file names [N/m].
     """
 
     name: str
@@ -27,6 +28,7 @@ class ConstraintRow:
     nu: int
     gamma: int
     size: int | None = None
+    stiffness: int | None = None
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from symgen.formulate.of_time import time_function
 from symgen.formulate.tree import energies_on_tree
 from symgen.ir.program import of_table
 from symgen.vocabulary.expressions import ZERO
-from symgen.vocabulary.measures import Holonomic, Row
+from symgen.vocabulary.measures import Holonomic, Row, StiffHolonomic
 from symgen.vocabulary.quantities import Quantity
 
 
@@ -127,6 +127,7 @@ def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
     g = model.graph
     with finite_numbers(f"joints.{joint}"):
         value, slope, curvature = time_function(model, row.value)
+        stiffness = time_function(model, row.stiffness)[0] if isinstance(row, StiffHolonomic) else None
         if isinstance(row, Holonomic):
             measure = model.measure(row.measure)
             phi, nu = g.sub(measure.value, value), slope
@@ -136,7 +137,7 @@ def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
         entries, bias, drift = model.pulled(measure.row, measure.bias)
         gamma, nu = g.sub(curvature, bias), g.sub(g.sub(nu, drift), measure.drift)
         ordered, size = tuple(sorted(entries.items())), _size(model, row, measure.row)
-    return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, size)
+    return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, size, stiffness)
 
 
 def _size(model: ModelNodes, row: Row, entries: Mapping[int, int]) -> int | None:

@@ -44,7 +44,7 @@ class LieTableau(Tableau):
         spins, stage = np.array([j for _, j in info.spins], dtype=np.int64), lie.stage_width(info.nq, info.nv, info.ny)
         scheme = Rotations(self.record(False), spins, stage)
         functions, room = law_functions(compiled, "turn"), lie.room(padded(info.ny), stage, self.stages)
-        return Setup(lie.constant, functions, scheme, spec.step, 0, room)
+        return Setup(self.loop(False), functions, scheme, spec.step, 0, room)
 
 
 KIND = LieTableau(

@@ -8,7 +8,7 @@ from symgen.describe.fields import Scalar
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
 from symgen.joints._paired import Paired
-from symgen.vocabulary.measures import Holonomic, LinkStretch
+from symgen.vocabulary.measures import Holonomic, LinkStretch, StiffHolonomic
 
 
 class Distance(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -22,6 +22,9 @@ class Distance(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
         The ends, a point of each body.
     length : scalar
         The distance [m], above 0.
+    stiffness : scalar
+        Of the rod along its axis [N/m], EA/L, above 0: how redundant rods share a load, with the method
+        `stiffness-scaled-penalty` only. The rod does not give.
 
     Notes
     -----
@@ -31,12 +34,17 @@ class Distance(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
     SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
     length: Scalar
+    stiffness: Scalar | None = None
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the stretch of the link."""
         bodies, ends = self.ends(scope, turns=(False, False))
         stretch = LinkStretch(*ends, scope.constant("length", self.length, positive=True))
-        return Joint(scope.name, scope.kind, bodies, (Holonomic("distance", stretch),))
+        row = Holonomic("distance", stretch)
+        if self.stiffness is not None:
+            stiffness = scope.constant("stiffness", self.stiffness, positive=True)
+            row = StiffHolonomic("distance", stretch, stiffness=stiffness)
+        return Joint(scope.name, scope.kind, bodies, (row,))
 
 
 KIND = Distance

@@ -85,6 +85,7 @@ def lower_law(
         level=level,
         tangent=pattern,
         operations={b.name: b.operations for b in blocks},
+        unique_multipliers=method.unique_multipliers,
     )
     closed = method.integrates == "independent"
     return LawProgram(info, record.form, closed, correction, layout, tuple(blocks), degrees)
@@ -172,7 +173,10 @@ def _form_blocks(
     keys += [("z", i) for i in range(1, len(e.states) + 1)]
     tangent: Outputs = []
     pattern: list[tuple[int, int]] = []
-    for i, derivatives in enumerate(jacobian(law.graph, [n for _, n in rows[:unknowns]], keys)):
+    derived = range(unknowns)
+    if form.form == "explicit":  # M and D are all that is needed
+        derived, keys = range(e.nq, e.nq + e.nv), keys[:unknowns]
+    for i, derivatives in zip(derived, jacobian(law.graph, [rows[i][1] for i in derived], keys), strict=True):
         for space, index in sorted(derivatives):
             tangent.append((Target("j", len(tangent)), derivatives[space, index]))
             pattern.append((i, index + first[space]))

@@ -15,6 +15,8 @@ from symgen.methods._formula import Factor, FormulaStep, Scalar, System, Value, 
 
 #: Groups of equations of a descriptor form: kinematic, dynamic, then up to three rows for each constraint.
 EQUATIONS = ("q", "v", "first", "second", "third")
+#: Levels with equations behind those of a stage, and how many times m these are.
+BEHIND = {"projected": 2, "explicit": 1}
 #: Arguments of the functions of a law.
 ARGUMENTS = {
     **dict.fromkeys(("rhs", "rates"), ("t", "y", "p", "w", "iw", "ydot")),
@@ -313,8 +315,8 @@ def record_form(method: Method, options: Mapping[str, str], kind: str = "whole",
 
     Unknowns of a stage are k = (q', v', lambda), and for stabilised index 2 also eta. The equations are ``q' - N (v -
     D^T eta)``, ``M v' + D^T lambda - f``, and the constraints at the level of the method: ``D v' - g - e lambda``
-    (acceleration); ``Phi``, with ``D v - nu`` in nonholonomic rows (position); both (stabilised); or ``Phi`` with the
-    two other levels behind the equations, for projections (projected).
+    (acceleration); ``Phi``, with ``D v - nu`` in nonholonomic rows (position); both (stabilised); or ``Phi`` with
+    levels behind the equations, both others for projections (projected), that of velocities (explicit).
 
     Parameters
     ----------
@@ -369,6 +371,8 @@ def _constraints(s: System, form: Descriptor, accelerations: Vector, multipliers
     velocity = s.D @ s.v - s.nu
     if form.level == "position":
         return [s.holonomic_or(velocity)]
+    if form.level == "explicit":
+        return [s.holonomic_or(velocity), velocity]
     if form.level == "stabilised":
         return [velocity, s.holonomic_or(s.variable("k_second", "m"))]
     assert form.target is not None, "a descriptor at acceleration level has a target"

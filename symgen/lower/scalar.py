@@ -144,6 +144,9 @@ class ScalarNodes(OfMass):
             quality = g.mul(quality, g.add(ratio, g.sub(g.one, decided)))
         return quality
 
+    def _on_row_stiffness(self, operation: FormulaStep, otherwise: int) -> Nodes:
+        return tuple(otherwise if row.stiffness is None else row.stiffness for row in self.equations.rows)
+
     def _on_augmented(self, operation: FormulaStep, penalties: Nodes) -> FactorNodes:
         return self._augmented(self.rows, penalties)
 

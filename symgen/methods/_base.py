@@ -151,9 +151,10 @@ class Descriptor:
 
     Parameters
     ----------
-    level : {"acceleration", "position", "stabilised", "projected"}
-        ``D v' = g + e lambda``; ``Phi = 0``; ``Phi = 0`` and ``D v = nu`` with ``q' = N (v - D^T eta)``; or ``Phi =
-        0`` with what projections to the other levels need.
+    level : {"acceleration", "position", "stabilised", "projected", "explicit"}
+        ``D v' = g + e lambda``; ``Phi = 0``; ``Phi = 0`` and ``D v = nu`` with ``q' = N (v - D^T eta)``; ``Phi = 0``
+        with what projections to the other levels need; or ``Phi = 0`` and ``D v = nu`` with no derivatives but M and D,
+        for schemes that evaluate forces explicitly.
     target : Vector, optional
         g of the acceleration level.
     compliance : Scalar, optional
@@ -164,6 +165,9 @@ class Descriptor:
     target: Vector | None = None
     compliance: Scalar | None = None
 
+
+#: Forms of problems that explicit integrators solve with the law alone; all others have a descriptor form.
+EXPLICIT_FORMS = frozenset(("ode", "one-step", "semi-implicit"))
 
 Law = Acceleration | Iteration | Tangent | Dense
 
@@ -190,6 +194,8 @@ class Method(ABC):
     velocities_follow : bool
         Whether every step holds the positions and velocities follow from them by the integrator's formula: they are off
         their constraint by its error, which does not grow with time.
+    unique_multipliers : bool
+        Whether the law determines multipliers where rows depend on each other; else results have those of minimum norm.
     """
 
     name: ClassVar[str]
@@ -202,6 +208,7 @@ class Method(ABC):
     integrates: ClassVar[str] = "all"
     dense: ClassVar[str] = ""
     velocities_follow: ClassVar[bool] = False
+    unique_multipliers: ClassVar[bool] = False
 
     @abstractmethod
     def law(self, system: System, options: Mapping[str, str]) -> Law:
@@ -306,15 +313,15 @@ def multiplier_law(system: System, gamma: Vector) -> Acceleration:
     return Acceleration(system.minv(system.f - system.D.transposed(multipliers)), multipliers)
 
 
-def augmented_iteration(system: System, penalty: Scalar | Vector, target: Vector) -> Iteration:
+def augmented_iteration(system: System, penalty: Scalar | Vector, target: Vector, every: bool = False) -> Iteration:
     """Return the augmented Lagrangian iteration for D v' = target.
 
     ``(M + a D^T D) dv' = f - M v' - D^T (lambda + a (D v' - target))``, ``v' += dv'``, ``lambda += a (D v' -
     target)``, from ``v' = M^-1 f`` (0 where M is singular) and ``lambda = 0``. It is the textbook's iteration (Bayo,
     Garcia de Jalon, Serna 1988) written for increments, so that rounding is that of the residual and not that of a
-    times it.
+    times it. Redundant rows have no penalty, but where `every` one has that of `penalty`, a vector.
     """
-    penalties = system.penalties(penalty)
+    penalties = penalty if every and isinstance(penalty, Vector) else system.penalties(penalty)
     factor = system.keep_factor(system.augmented_factor(penalties))
     penalties = system.keep("kept_penalties", penalties)
     constraints = system.keep_constraints()

@@ -286,6 +286,13 @@ class System:
         """
         return penalty.applied(Vector, "penalties", penalty, size="m")
 
+    def row_stiffness(self, otherwise: Scalar) -> Vector:
+        """Return the stiffness of each row as the file names it, or what stands in its place [N/m]; masks are ignored.
+
+        There is no loop for it: methods that ask for it say so in `dense`.
+        """
+        return otherwise.applied(Vector, "row_stiffness", otherwise, size="m")
+
     def augmented_factor(self, penalties: Vector) -> Factor:
         """Return the factor of ``M + D^T a D``, a by rows, which is positive definite whatever the rank of D."""
         return penalties.applied(Factor, "augmented", penalties)

@@ -13,7 +13,8 @@ class Index3AugmentedLagrangian(MultiplierMethod):
 
     The leading matrix ``W = M + h/2 C + h^2/4 (a D^T D + K)`` has the exact stiffness K and damping C of forces and
     constraints. Velocities and accelerations, which the trapezoidal rule leaves off their constraints, are projected
-    with W. With h^2/4 a D M^-1 D^T well above 1 a few iterations do; redundant constraints need no care.
+    with W. Nonholonomic rows have ``h/2 a (D v - nu)`` in place of a Phi, and the same part of W. With h^2/4 a D M^-1
+    D^T well above 1 a few iterations do; redundant constraints need no care.
     """
 
     name = "index3-augmented-lagrangian"

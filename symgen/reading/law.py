@@ -252,6 +252,7 @@ _FORMS: dict[str, Callable[..., Box]] = {
     "augmented": lambda a: row(_M, sign("+"), transposed(_D), a, _D),
     "augmented_metric": lambda a: row(_M, sign("+"), transposed(_D), a, _D),
     "penalties": lambda a: a,
+    "row_stiffness": lambda k: name("K"),
     "rank": lambda: row(_D, _G, transposed(_D)),
     "weighted_mass": lambda r: row(_D, _inverse(_M), transposed(_D)),
     "weighted_identity": lambda r: row(_D, transposed(_D)),

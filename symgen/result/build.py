@@ -177,7 +177,8 @@ def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> li
         extra = info.m - start.rank
         rows = f" ({', '.join(start.redundant_rows)})" if start.redundant_rows else ""
         subject = "1 constraint row depends" if extra == 1 else f"{extra} constraint rows depend"
-        notes.append(f"{subject} on the others at the start{rows}; multipliers are those of minimum norm")
+        which = "shared like the stiffness of rows" if compiled.law.unique_multipliers else "those of minimum norm"
+        notes.append(f"{subject} on the others at the start{rows}; multipliers are {which}")
     if forces.non_unique:
         notes.append("reactions are not unique at " + ", ".join(forces.non_unique))
     return notes

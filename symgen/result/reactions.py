@@ -257,7 +257,7 @@ class Forces:
         """Joints whose reactions are not determined, in the order of the file."""
         info = self.compiled.info
         ambiguous = {name.partition(".")[0] for pair in info.dropped_rows for name in pair.split(" = ")}
-        if self.redundant:
+        if self.redundant and not self.compiled.law.unique_multipliers:
             columns, _ = _weighed(self.outcome, self.outcome.start.t, self.outcome.start.y)
             left, singular, _ = np.linalg.svd(columns.T, full_matrices=True)
             rank = int(np.sum(singular > CUTOFF * singular.max(initial=0.0)))
@@ -307,10 +307,12 @@ def jacobian(outcome: Motion, t: float, y: Array) -> Array:
 
 
 def _minimum_norm(outcome: Motion) -> Array:
-    """Return the multipliers at all outputs, shape (k, m), of minimum norm where the rows of D are dependent."""
+    """Return the multipliers at all outputs, shape (k, m), of minimum norm where the law leaves a choice."""
     m = outcome.compiled.info.m
-    dependent = (outcome.status_columns[:, abi.RANK] < m) | (outcome.start.rank < m)
     values = outcome.multipliers.copy()
+    if outcome.compiled.law.unique_multipliers:
+        return values
+    dependent = (outcome.status_columns[:, abi.RANK] < m) | (outcome.start.rank < m)
     usable = np.isfinite(values).all(axis=1) & np.isfinite(outcome.states).all(axis=1)
     for k in np.flatnonzero(dependent & usable):
         columns, weights = _weighed(outcome, float(outcome.times[k]), outcome.states[k])

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from symgen.arguments import shown
 from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.errors import InputError, nearest
+from symgen.methods._base import EXPLICIT_FORMS
 from symgen.runtime.integrator import estimates
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[
             bare = [full for full in own if full.partition(".")[2] == key]
             hint = f"did you mean '{bare[0]}'?" if bare else nearest(owner, known_owners) if name else nearest(key, own)
             raise InputError(f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", hint)
-    return choose_method(s.method, structural, not {"ode", "one-step"} & set(tableau.forms)), parameters, integrator
+    return choose_method(s.method, structural, not EXPLICIT_FORMS & set(tableau.forms)), parameters, integrator
 
 
 def _integrator_option(key: str, name: str, value: str | float, integrator: Integrator) -> str:

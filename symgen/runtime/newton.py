@@ -180,6 +180,24 @@ def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
     return *make_plan(pattern.nv, 1, Terms.joined(parts), nothing, one, products), one + 1
 
 
+def acceleration_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
+    """Return the plan of ``[M D^T; E 0]`` for the unknowns v' and lambda, E being D at another state.
+
+    Sources are the numbers of one state, then those of the other one, then 1; the third value is how many there are.
+    """
+    masses = np.flatnonzero(pattern.dynamic & (pattern.columns < pattern.width))
+    row, velocity, source = constraint_forces(pattern)
+    nq, nv, one = pattern.nq, pattern.nv, 2 * pattern.size
+    parts = [
+        (pattern.rows[masses] - nq, pattern.columns[masses] - nq, 0, masses),
+        (velocity, nv + row, 0, source),
+        (nv + row, velocity, 0, pattern.size + source),
+    ]
+    motion = (0, nv, pattern.m)
+    plan, numbers = make_plan(nv + pattern.m, 1, Terms.joined(parts), nv + pattern.masked, one, motion=motion)
+    return plan, numbers, one + 1
+
+
 def constraint_forces(pattern: Pattern) -> tuple[Indices, Indices, Indices]:
     """Return row, velocity and source of the entries of D^T in the equations of motion."""
     width = pattern.width

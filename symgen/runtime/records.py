@@ -288,6 +288,15 @@ class Rotations(NamedTuple):
     width: int
 
 
+class Screws(NamedTuple):
+    """A tableau applied to screws: as `Rotations`, and where Euler parameters and omega of each free body begin."""
+
+    tableau: Any
+    spins: Any
+    bodies: Any
+    width: int
+
+
 class Multistep(NamedTuple):
     """An Adams scheme: its highest order, and Gauss' quadrature on (-1, 1); `count` holds 0, 1, 2, ..."""
 
@@ -359,6 +368,8 @@ class Projection(NamedTuple):
         Row, velocity and source of each entry of D^T.
     masses : Array of int64
         Sources of the diagonal of M.
+    nonholonomic : Array
+        1 for rows without Phi, else 0.
     """
 
     penalty: int
@@ -367,6 +378,34 @@ class Projection(NamedTuple):
     plan: Any
     pulls: Any
     masses: Any
+    nonholonomic: Any
+
+
+class ConstrainedStages(NamedTuple):
+    """An explicit scheme whose stages meet constraints by forces along D^T.
+
+    Attributes
+    ----------
+    a, c : Array
+        The tableau, row by row, its last row being b, and the nodes, the last one 1.
+    stages : int
+        How many.
+    spins : Array of int64
+        Where the angular velocities of bodies begin in v.
+    nonholonomic : Array
+        1 for rows without Phi, else 0.
+    slopes, numbers, plan : Array
+        Of M and D, see `symgen.runtime.newton.acceleration_plan`.
+    """
+
+    a: Any
+    c: Any
+    stages: int
+    spins: Any
+    nonholonomic: Any
+    slopes: Any
+    numbers: Any
+    plan: Any
 
 
 class Nodes(NamedTuple):
@@ -426,8 +465,10 @@ KEPT_OF_RUN = types.RecordType((OUTPUTS, OBSERVED), Kept)
 CHUNK = types.RecordType((_K, _A, _A, _A, _A, _K, _A, _A, _A, _I, _I, _I, LAYOUT, _A), RowChunk)
 TABLEAU = types.RecordType((_K, _K, _A, _A, _A, _K, _I, _I, _I, _I, _I), TableauRecord)
 ROTATIONS = types.RecordType((TABLEAU, _K, _I), Rotations)
+SCREWS = types.RecordType((TABLEAU, _K, _K, _I), Screws)
 MULTISTEP = types.RecordType((_A, _A, _K, _I), Multistep)
 STAGES = types.RecordType((_A, _A, _A, _A, _F, _I, _I, _I, _K, _A, _A, _K, _A, _K), Stages)
 ALPHA = types.RecordType((_F, _F, _F, _F, _A, _A, _K), Alpha)
 NODES = types.RecordType((abi.NODES, _I, _K, _A, _A, _A, _A, _A, _A, _K, _I, TABLEAU), Nodes)
-PROJECTION = types.RecordType((_I, _A, _A, _K, _K, _K), Projection)
+CONSTRAINED = types.RecordType((_A, _A, _I, _K, _A, _A, _A, _K), ConstrainedStages)
+PROJECTION = types.RecordType((_I, _A, _A, _K, _K, _K, _A), Projection)

@@ -71,6 +71,8 @@ class LawInfo(Info, frozen=True, kw_only=True):
         Of each function of straight code.
     modules : tuple of str
         File stems of the modules that hold the law's functions, beside its own.
+    unique_multipliers : bool
+        Whether multipliers are determined where rows depend on each other.
     """
 
     method: str
@@ -88,3 +90,4 @@ class LawInfo(Info, frozen=True, kw_only=True):
     tangent: tuple[tuple[int, int], ...] = ()
     operations: dict[str, int] = {}  # msgspec copies it
     modules: tuple[str, ...] = ()
+    unique_multipliers: bool = False

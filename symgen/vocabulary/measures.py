@@ -210,6 +210,12 @@ class Holonomic(msgspec.Struct, frozen=True, tag="holonomic"):
     unit: str = "m"
 
 
+class StiffHolonomic(Holonomic, frozen=True, kw_only=True, tag="stiff-holonomic"):
+    """One with a stiffness [N/m], which says how redundant rows share a load; the row does not give."""
+
+    stiffness: Expr
+
+
 class Nonholonomic(msgspec.Struct, frozen=True, tag="nonholonomic"):
     """One row u = value(t, parameters) on a velocity u = J v that is no rate of a measure."""
 
@@ -219,7 +225,7 @@ class Nonholonomic(msgspec.Struct, frozen=True, tag="nonholonomic"):
     unit: str = "m/s"
 
 
-Row = Holonomic | Nonholonomic
+Row = Holonomic | StiffHolonomic | Nonholonomic
 
 
 class Effort(msgspec.Struct, frozen=True):

@@ -9,13 +9,14 @@ from symgen.compiling import pipeline
 from symgen.compiling.pipeline import choose_method, generate
 from symgen.formulate import formulate as stage
 from symgen.methods import METHODS
+from symgen.methods._base import EXPLICIT_FORMS
 
 
 def choices():
     """Every method as an explicit integrator wants it, and those that implicit ones solve."""
     for name in METHODS.names:
         forms = set(METHODS.get(name).forms)
-        yield choose_method(name, None, not forms & {"ode", "one-step"})
+        yield choose_method(name, None, not forms & EXPLICIT_FORMS)
 
 
 @pytest.mark.parametrize("target", ["cpu", "cuda"])

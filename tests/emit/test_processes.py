@@ -12,6 +12,7 @@ from symgen.api import load
 from symgen.catalogue import names
 from symgen.lower.looped.law import is_loopable
 from symgen.methods import METHODS
+from symgen.methods._base import EXPLICIT_FORMS
 from symgen.compiling.pipeline import choose_method, generate
 
 for name in names():
@@ -19,8 +20,8 @@ for name in names():
         options = [{}] + [{o.name: v} for o in METHODS.get(method).options for v in o.values]
         choices = tuple({c.stem: c for c in (choose_method(method, o) for o in options)}.values())
         made = [generate(load(name).mechanism, choices)]
-        explicit = bool({"ode", "one-step"} & set(METHODS.get(method).forms))
-        forms = [False] * explicit + [True] * bool(set(METHODS.get(method).forms) - {"ode", "one-step"})
+        explicit = bool(EXPLICIT_FORMS & set(METHODS.get(method).forms))
+        forms = [False] * explicit + [True] * bool(set(METHODS.get(method).forms) - EXPLICIT_FORMS)
         loops = [choose_method(method, o, implicit) for o in options for implicit in forms]
         loops = tuple(c for c in loops if is_loopable(c.method, c.options, c.implicit))
         made.append(generate(load(name).mechanism, loops, "looped"))

@@ -20,6 +20,7 @@ from symgen import catalogue
 from symgen.api import load
 from symgen.lower.looped.forms import form_key
 from symgen.methods import METHODS
+from symgen.methods._base import EXPLICIT_FORMS
 
 TESTS = Path(__file__).resolve().parents[1]
 #: Where rows depend on each other, pivots near the threshold divide rounding.
@@ -70,7 +71,7 @@ def test_every_method_has_loops_or_says_why_not():
     covered = {case.split()[1] for case in differences("support.both_shapes", OTHERS)}
     for name in METHODS.names:
         method = METHODS.get(name)
-        assert (name in covered) != bool(method.dense or not {"ode", "one-step"} & set(method.forms)), name
+        assert (name in covered) != bool(method.dense or not EXPLICIT_FORMS & set(method.forms)), name
 
 
 @pytest.mark.parametrize("mechanism", MECHANISMS)
@@ -89,11 +90,7 @@ def test_residuals_and_their_jacobians_agree(mechanism):
 
 def test_every_level_of_a_descriptor_form_is_covered():
     covered = {case.split()[1] for case in differences("support.both_forms", OTHERS)}
-    with_form = {
-        name
-        for name in METHODS.names
-        if {"index-1", "index-2", "index-3", "index-3-projected"} & set(METHODS.get(name).forms)
-    }
+    with_form = {name for name in METHODS.names if any(form.startswith("index") for form in METHODS.get(name).forms)}
     assert covered <= with_form
     # the others ask for the same constraints as one of these
     keys = {form_key(METHODS.get(name), METHODS.get(name).complete_options({})) for name in covered}

@@ -16,6 +16,7 @@ from symgen.compiling.pipeline import MethodChoice, choose_method, generate
 from symgen.describe.mechanism import Mechanism
 from symgen.ir.program import LANES
 from symgen.methods import METHODS
+from symgen.methods._base import EXPLICIT_FORMS
 
 from .twofold import ARRAY, NUMBER, arguments_of, differences, load_twice, own_functions
 
@@ -33,10 +34,10 @@ def choices(methods: tuple[str, ...]) -> tuple[MethodChoice, ...]:
     for name in methods:
         method = METHODS.get(name)
         variants = [{option.name: value} for option in method.options for value in option.values]
-        explicit = {"ode", "one-step"} & set(method.forms)
+        explicit = EXPLICIT_FORMS & set(method.forms)
         for choice in [choose_method(name, options) for options in ({}, *variants)] if explicit else []:
             found[choice.stem] = choice
-        if set(method.forms) - {"ode", "one-step"}:
+        if set(method.forms) - EXPLICIT_FORMS:
             choice = choose_method(name, None, implicit=True)
             found[choice.stem] = choice
     return tuple(found.values())

@@ -22,7 +22,7 @@ from .twofold import process
 SCHEMES = {
     "picard": ("constant", "adaptive"),
     **dict.fromkeys(("explicit", "adams", "implicit"), ("constant", "adaptive")),
-    **dict.fromkeys(("alpha", "lie", "projected"), ("constant",)),
+    **dict.fromkeys(("alpha", "lie", "projected", "half_explicit", "rattle", "symplectic", "screw"), ("constant",)),
 }
 LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
 
@@ -95,7 +95,9 @@ CASES = {
     "implicit": ("four-bar", "ggl", "radau5", "four-bar", "lagrange", "trapezoidal"),
     "alpha": ("spherical-double-pendulum", "generalized-alpha", "generalized-alpha"),
     "projected": ("four-bar", "index3-augmented-lagrangian", "trapezoidal"),
-    "lie": ("heavy-top", "lagrange", "rkmk4"),
+    "lie": ("heavy-top", "lagrange", "rkmk4", "heavy-top", "implicit-constraint", "symplectic-euler"),
+    "screw": ("heavy-top", "lagrange", "rkmk4-screws"),
+    "constrained": ("four-bar", "half-explicit", "half-explicit", "heavy-top", "rattle", "rattle"),
 }
 #: Integrators whose steps depend on rounding, as errors are estimated.
 ADAPTIVE = {"dop853", "picard", "abm", "radau5"}

@@ -15,6 +15,9 @@ TIMES = np.linspace(0.0, 0.3, 7)
 #: Of second order, or with an error of its own as the penalty has: they need more room [m].
 ROUGH = {"generalized-alpha": 3e-5, "index3-augmented-lagrangian": 3e-5, "penalty": 1e-6}
 ROUGH |= {"compliant-constraints": 1e-6, "braun-goldfarb": 1e-5}
+ROUGH |= {"half-explicit": 3e-6, "rattle": 1e-4}
+#: Their violations are judged and end such a run.
+COARSE = ("implicit-constraint",)
 
 
 @cache
@@ -24,7 +27,7 @@ def expected():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("method", METHODS.names)
+@pytest.mark.parametrize("method", [m for m in METHODS.names if m not in COARSE])
 def test_every_method_moves_the_slider_crank(method):
     model, q = expected()
     integrator = constant_integrator(method)

@@ -11,12 +11,13 @@ from support.both_shapes import off_constraints, report
 from symgen.api import Model
 from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.ir.program import STATUS
+from symgen.lower.record import BEHIND
 
 #: Methods whose constraints differ; all mechanisms see the first.
 METHODS = (
     *("ggl", "lagrange", "baumgarte", "adaptive-baumgarte", "penalty", "compliant-constraints", "generalized-alpha"),
 )
-PROJECTED = "index3-augmented-lagrangian"
+PROJECTED, EXPLICIT = "index3-augmented-lagrangian", "rattle"
 
 
 def evaluate(model: Model, method: str, shape: str) -> dict[str, np.ndarray]:
@@ -30,7 +31,7 @@ def evaluate(model: Model, method: str, shape: str) -> dict[str, np.ndarray]:
     compiled.model.prepare(p)
     compiled.law_module.prepare(p)
     w[STATUS.index("step")] = 1e-3
-    more = 2 * info.m if law.level == "projected" else 0
+    more = BEHIND.get(law.level, 0) * info.m
     residual, slopes = np.full(law.unknowns + more, 7.0), np.full(len(law.tangent), np.nan)
     compiled.law_module.residual(0.3, y, k, p, w, residual)
     compiled.law_module.tangent(0.3, y, k, p, w, slopes)
@@ -41,4 +42,6 @@ def evaluate(model: Model, method: str, shape: str) -> dict[str, np.ndarray]:
 
 
 if __name__ == "__main__":
-    report(evaluate, {method: method for method in (*METHODS, PROJECTED)}, lambda method: method == METHODS[0])
+    report(
+        evaluate, {method: method for method in (*METHODS, PROJECTED, EXPLICIT)}, lambda method: method == METHODS[0]
+    )

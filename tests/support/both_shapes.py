@@ -18,6 +18,7 @@ from symgen.errors import AssemblyError
 from symgen.ir.program import COUNTERS, STATUS
 from symgen.lower.looped.law import is_loopable
 from symgen.methods import METHODS
+from symgen.methods._base import EXPLICIT_FORMS
 from symgen.runtime.abi import N_COUNTERS
 
 #: Methods that solve with large penalties amplify rounding by them.
@@ -58,7 +59,7 @@ def choices() -> Iterator[tuple[str, dict[str, str]]]:
         variants = [{}] + [{o.name: value} for o in method.options for value in o.values[1:]]
         for given in variants:
             options = method.complete_options(given)
-            if {"ode", "one-step"} & set(method.forms) and is_loopable(method, options, False):
+            if EXPLICIT_FORMS & set(method.forms) and is_loopable(method, options, False):
                 yield name, given
 
 

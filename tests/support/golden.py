@@ -11,6 +11,7 @@ from symgen.describe import load
 from symgen.describe.mechanism import Mechanism
 from symgen.lower.looped.law import is_loopable
 from symgen.methods import METHODS
+from symgen.methods._base import EXPLICIT_FORMS
 
 MODELS = (
     *("pendulum", "four-bar", "slider-crank", "n-four-bar:2", "andrews", "driven-four-bar", "bricard"),
@@ -24,7 +25,6 @@ CORE = ("lagrange", "baumgarte", "direct-correction")
 LOOPED = ("four-bar", "bricard")
 #: Stands in headers of looped modules in place of the digest of all sources, which changes with every edit.
 GENERATOR = "of-golden-trees"
-EXPLICIT = {"ode", "one-step"}
 
 
 def folder(model: str) -> str:
@@ -48,13 +48,13 @@ def choices(model: str) -> tuple[MethodChoice, ...]:
     for name, method in METHODS.items():
         if model not in THOROUGH and name not in CORE:
             continue
-        explicit = bool(EXPLICIT & set(method.forms))
+        explicit = bool(EXPLICIT_FORMS & set(method.forms))
         variants = [{option.name: value} for option in method.options for value in option.values]
         for options in [{}, *variants] if explicit else [{}]:
             if model in THOROUGH or options.get("solver") in (None, "elimination"):
                 choice = choose_method(name, options, implicit=not explicit)
                 found[choice.stem] = choice
-        if model in THOROUGH and set(method.forms) - EXPLICIT:
+        if model in THOROUGH and set(method.forms) - EXPLICIT_FORMS:
             choice = choose_method(name, None, implicit=True)
             found[choice.stem] = choice
     return tuple(found[stem] for stem in sorted(found))
@@ -67,8 +67,8 @@ def looped_choices(model: str) -> list[MethodChoice]:
     for name in chosen:
         method = METHODS.get(name)
         variants = [{}, *({o.name: value} for o in method.options for value in o.values[1:])]
-        forms = [(given, False) for given in variants] if EXPLICIT & set(method.forms) else []
-        if set(method.forms) - EXPLICIT and (model == LOOPED[0] or name == CORE[0]):
+        forms = [(given, False) for given in variants] if EXPLICIT_FORMS & set(method.forms) else []
+        if set(method.forms) - EXPLICIT_FORMS and (model == LOOPED[0] or name == CORE[0]):
             forms.append(({}, True))
         for given, implicit in forms:
             choice = choose_method(name, given, implicit)

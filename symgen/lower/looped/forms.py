@@ -17,7 +17,7 @@ import msgspec
 from symgen.ir.derivative import jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, ElementProgram, Target
-from symgen.lower.record import EQUATIONS, record_form
+from symgen.lower.record import BEHIND, EQUATIONS, record_form
 from symgen.lower.scalar import ScalarNodes
 from symgen.methods._formula import needed
 
@@ -57,7 +57,8 @@ def form_key(method: Method, options: Mapping[str, str], kind: str = "joint") ->
     indices = needed((i for _, i in part.outputs), lambda i: operations[i].operands)
     place = {index: k for k, index in enumerate(indices)}
     parameters = [p.name for p in method.parameters]
-    text: list[object] = [[(name, place[i]) for name, i in part.outputs], record.form if kind == "joint" else ""]
+    level = record.form if kind == "joint" or record.form == "explicit" else ""
+    text: list[object] = [[(name, place[i]) for name, i in part.outputs], level]
     for o in (operations[i] for i in indices):
         payload = parameters.index(str(o.payload[0])) if o.kind == "parameter" else o.payload
         text.append((o.kind, [place[i] for i in o.operands], payload))
@@ -91,9 +92,12 @@ def lower_form(
     g = scalars.graph
     groups = [(group, scalars.values[index]) for group, index in part.outputs]
     rows = [(group, i, n) for group, nodes in groups if group in EQUATIONS for i, n in enumerate(nodes) if n != g.zero]
-    counted = [row for row in rows if record.form != "projected" or row[0] in EQUATIONS[:3]]
+    explicit = record.form == "explicit"  # M and D are all that is needed
+    last = len(EQUATIONS) - BEHIND.get(record.form, 0)
+    counted = [row for row in rows if (row[0] == "v" if explicit else row[0] in EQUATIONS[:last])]
     sizes = {"k_q": e.nq, "k_v": e.nv, "k_first": e.m, "k_second": e.m, "q": e.nq, "v": e.nv}
-    keys = [(group, i) for group in UNKNOWNS for i in range(sizes[group])]
+    unknowns = UNKNOWNS[: UNKNOWNS.index("k_second")] if explicit else UNKNOWNS
+    keys = [(group, i) for group in unknowns for i in range(sizes[group])]
     entries: list[tuple[str, int, str, int]] = []
     slopes: list[int] = []
     for (group, i, _), derivatives in zip(counted, jacobian(g, [n for _, _, n in counted], keys), strict=True):

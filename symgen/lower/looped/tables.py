@@ -11,6 +11,7 @@ from symgen.lower.looped.forms import FormInfo
 from symgen.lower.looped.law import LoopedLawInfo
 from symgen.lower.looped.layout import GENERIC, HEAD, SECTIONS, STAGES
 from symgen.lower.looped.shape import KernelGroup, LoopedShape, RowBlock
+from symgen.lower.record import BEHIND
 
 
 @dataclass(frozen=True)
@@ -112,7 +113,7 @@ class Builder:
         head["gram_base"] = shape.gram_base
         head["generic"] = self.addresses
         head["unknowns"] = self.unknowns
-        head["equations"] = self.unknowns + (2 * shape.m if self.level == "projected" else 0)
+        head["equations"] = self.unknowns + BEHIND.get(self.level, 0) * shape.m
         places = {group.stem: self.group(group) for group in shape.groups}
         for group in shape.groups:
             if group.stem in self.parts:

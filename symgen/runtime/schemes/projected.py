@@ -2,7 +2,8 @@
 
 With ``v1 = 2/h d - v0`` and ``a1 = 4/h^2 d - 4/h v0 - a0``, d = q1 - q0 or in space the displacements and rotation
 vectors of the bodies over the step, the equations of motion at the end of the step are solved for q1 with the leading
-matrix ``W = M + h/2 C + h^2/4 (a D^T D + K)``, the multipliers being raised by a Phi in every iteration. Then
+matrix ``W = M + h/2 C + h^2/4 (a D^T D + K)``, the multipliers being raised by a Phi in every iteration, those of rows
+without Phi by ``h/2 a (D v - nu)``, whose part of W is the same as v1 changes by 2/h times the change of q1. Then
 velocities and accelerations are projected with the same matrix, ``W v = (W - h^2/4 a D^T D) v* + h^2/4 a D^T nu``,
 iterated, since one pass leaves a residual. Auxiliary states follow by the trapezoidal rule.
 
@@ -98,9 +99,10 @@ def attempt(
         follow(system, run, h, shift, k)
         system.residual(following, run.trial, k, run.p, run.w, rest)
         for c in range(m):
+            weight = 0.5 * h * penalty if scheme.nonholonomic[c] > 0.0 else penalty
             if iteration > 0:
-                held[c] += penalty * rest[first + c]
-            k[first + c] = held[c] + penalty * rest[first + c]
+                held[c] += weight * rest[first + c]
+            k[first + c] = held[c] + weight * rest[first + c]
         system.residual(following, run.trial, k, run.p, run.w, rest)
         run.control[abi.EVALUATIONS] += 2
         if fresh:
@@ -120,7 +122,7 @@ def attempt(
         for i in range(nq):
             total += (run.scales[i] * run.trial[i]) ** 2
         for c in range(m):
-            violation += rest[first + c] ** 2
+            violation += (rest[first + c] * (0.5 * h if scheme.nonholonomic[c] > 0.0 else 1.0)) ** 2
         moved = max(math.sqrt(moved), math.sqrt(violation)) / (run.w[abi.LENGTH] * (1.0 + math.sqrt(total)))
         if not math.isfinite(moved):
             break

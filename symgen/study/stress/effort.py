@@ -14,6 +14,7 @@ from symgen.compiling.choices import straight_seconds
 from symgen.compiling.pipeline import choose_method
 from symgen.integrators import INTEGRATORS
 from symgen.lower.looped.law import is_loopable
+from symgen.methods._base import EXPLICIT_FORMS
 from symgen.running.automatic import AUTO, constant_integrator
 
 if TYPE_CHECKING:
@@ -98,7 +99,7 @@ def needs_straight(method: str, integrator: str) -> bool:
     """Whether a pair has no looped shape, so that it is compiled for each mechanism anew."""
     if method == AUTO:
         return False  # what it chooses is known only case by case
-    choice = choose_method(method, {}, not {"ode", "one-step"} & set(INTEGRATORS.get(integrator).forms))
+    choice = choose_method(method, {}, not EXPLICIT_FORMS & set(INTEGRATORS.get(integrator).forms))
     return not is_loopable(choice.method, choice.options, choice.implicit)
 
 
@@ -126,7 +127,7 @@ def left_out(
         each = straight_seconds(mechanism)
         for method, integrator in wanted:
             # explicit integrators share the code of a method
-            code = mechanism.name, method, bool({"ode", "one-step"} & set(INTEGRATORS.get(integrator).forms))
+            code = mechanism.name, method, bool(EXPLICIT_FORMS & set(INTEGRATORS.get(integrator).forms))
             if code not in compiled and spent + each <= seconds:
                 spent += each
                 compiled.add(code)

@@ -1,0 +1,43 @@
+"""What explicit schemes share whose stages meet constraints by forces along D^T: a linear system with M and D."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from symgen.runtime import sparse
+from symgen.runtime.bare import part
+from symgen.runtime.sparse import solve
+
+
+def slopes_at(system: Any, scheme: Any, run: Any, t: float, y: Any, k: Any, place: int) -> None:
+    """Write M and D at a state to the first (0) or the second (1) half of the sources of the plan."""
+    count = scheme.slopes.shape[0] // 2
+    system.tangent(t, y, k, run.p, run.w, part(scheme.slopes, place * count, count))
+
+
+def carry_slopes(scheme: Any) -> None:
+    """Have M and D of the second half in the first one as well."""
+    count = scheme.slopes.shape[0] // 2
+    for i in range(count):
+        scheme.slopes[i] = scheme.slopes[count + i]
+
+
+def factorised(scheme: Any, factors: Any) -> bool:
+    """Factorise ``[M D^T; E 0]``; return whether there was room for it."""
+    factors[0] = 1.0
+    return sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) >= 0
+
+
+def solved(system: Any, scheme: Any, run: Any, right: Any, x: Any) -> None:
+    """Solve for accelerations and multipliers x; multipliers of redundant rows are 0."""
+    sizes = system.sizes
+    for c in range(sizes.m):
+        if run.w[sizes.mask + c] > 0.0:
+            right[sizes.nv + c] = 0.0
+    solve(scheme.plan, scheme.numbers, right, x)
+
+
+def memory(width: int, nv: int, m: int, unknowns: int, stages: int) -> tuple[int, int]:
+    """Return the numbers that a run keeps, and the working memory of a step behind the state that is tried."""
+    n = nv + m
+    return n, 2 + 3 * n + 2 * unknowns + m + (stages + 2) * (nv + width)
