@@ -481,7 +481,10 @@ def test_no_function_with_arguments_is_left_out():
         *(f"Result.{n}" for n in "save plot reaction columns select series view".split()),
         *"Labelled.row Labelled.unit Study.save Study.plot Sweep.save Sweep.plot Sweep.reasons".split(),
         *(f"SteppedRun.{n}" for n in "step run every set restore reset".split()),
-        *(f"MechanismBuilder.{n}" for n in "run parameter input table body beam joint force state output event".split()),
+        *(
+            f"MechanismBuilder.{n}"
+            for n in "run parameter input table body beam joint force state output event".split()
+        ),
     }
     tested |= {f"Model.{method.__name__}" for method in ANALYSIS_METHODS}
     # what only the package makes or calls
