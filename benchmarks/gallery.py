@@ -96,7 +96,7 @@ def choice(name: str) -> Choice:
 
 
 def every() -> tuple[CatalogueEntry, ...]:
-    """Return what is measured and drawn, and the machines, which are drawn."""
+    """Return the entries that are measured and drawn, then the machines, which are drawn."""
     return (*entries(), *entries(MACHINES))
 
 

@@ -101,7 +101,7 @@ def _visited(value: object) -> Iterator[Any]:
             yield from _visited(getattr(value, name))
 
 
-def _written(function: lang.Function, known: Mapping[object, frozenset[str]]) -> frozenset[str]:
+def _written(function: lang.Function, of_called: Mapping[object, frozenset[str]]) -> frozenset[str]:
     """Return the arrays that a function changes, itself or by those that it calls."""
     arrays = set[str]()
     for value in _visited(function.body):
@@ -109,7 +109,7 @@ def _written(function: lang.Function, known: Mapping[object, frozenset[str]]) ->
             arrays.add(value.array)
         elif isinstance(value, lang.FunctionCall):
             pairs = zip(value.function.parameters, value.arguments, strict=True)
-            arrays.update(str(a) for parameter, a in pairs if parameter.name in known[value.function.key])
+            arrays.update(str(a) for parameter, a in pairs if parameter.name in of_called[value.function.key])
     return frozenset(arrays)
 
 
