@@ -241,7 +241,7 @@ MEANT = {
 
 
 def _hint(option: str, options: Sequence[str]) -> str:
-    """Return what an option that there is none of may mean: a word for another one, or a spelling close to it."""
+    """Return the option that is meant by one that does not exist: by its meaning, or by its spelling."""
     if (meant := MEANT.get(option)) in options:
         return f"did you mean '{meant}'?"
     hint = nearest(option, options)

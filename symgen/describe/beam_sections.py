@@ -117,7 +117,7 @@ class Properties:
 
 
 def properties_of(scope: Scope, beam: BeamSection) -> Properties:
-    """Return what a beam is made of.
+    """Return stiffnesses and masses of a beam by its length.
 
     Raises
     ------

@@ -327,7 +327,7 @@ def _code(
 
 
 def _missed(plan: Plan, passed_times: Foreseen, grid: Grid) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return what steps of all runs may not see, as warnings, or as a note where that depends on what varies."""
+    """Return warnings of changes that steps of all runs may miss, or one note where these depend on what varies."""
     if not passed_times.reads & {*grid.names, *(name for name, _ in derived(plan.mechanism.parameters))}:
         return plan.missed if passed_times else (), ()
     if plan.spec.adaptive:

@@ -150,7 +150,7 @@ def _angle(scope: Scope, body: str, sign: float) -> Expr:
 
 
 def _turn(scope: Scope, axes: tuple[Directions, Directions], bend: Expr) -> Expr:
-    """Return what the bend is beyond the angle between the bodies, less whole turns between them as described."""
+    """Return the bend beyond the angle between the bodies, less whole turns between them as described."""
     turned = [call("atan2", d[0].vector[1], d[0].vector[0]) for d in axes]
     turn = total(turned[1], call("neg", turned[0])) if turned[0] != turned[1] else ZERO
     described = total(*(_angle(scope, d[0].body, s) for d, s in zip(axes, (-1.0, 1.0), strict=True)), turn)

@@ -35,7 +35,7 @@ class AugmentedHamiltonian(Method):
         return True
 
     def target(self, system: System) -> Vector:
-        """Return what D v is in every evaluation."""
+        """Return the value of D v in every evaluation."""
         return system.nu
 
     def law(self, system: System, options: Mapping[str, str]) -> Iteration:

@@ -214,7 +214,7 @@ class _Printer(FunctionPrinter):
         return text, 14 if text.startswith("-") else 20
 
     def defined(self, s: lang.Assign) -> str:
-        """Return what precedes the name of a variable that is assigned once, where it is assigned."""
+        """Return the words before the name of a variable that is assigned once, where it is assigned."""
         return "" if s.name in self.shared else f"const {_TYPES[self.function.variables[s.name]]} "
 
     def loop_head(self, s: lang.For, counter: str) -> str:

@@ -88,7 +88,7 @@ class FunctionPrinter(ABC):
 
     @abstractmethod
     def defined(self, s: lang.Assign) -> str:
-        """Return what precedes the name of a variable that is assigned once, where it is assigned."""
+        """Return the words before the name of a variable that is assigned once, where it is assigned."""
 
     @abstractmethod
     def loop_head(self, s: lang.For, counter: str) -> str:

@@ -276,7 +276,7 @@ class Result(MotionTables):
         return to_xarray(self)
 
     def run_facts(self) -> dict[str, Any]:
-        """Return what a page says of the run and begins its live part with, by the names of JSON."""
+        """Return the settings that a page shows and begins its live part with, by the names of JSON."""
         names = ("method", "integrator", "status", "reason", "parameters", "inputs", "coordinates", "step", "start")
         return {
             **{name: getattr(self, name) for name in (*names, "watched")},

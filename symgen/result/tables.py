@@ -295,7 +295,7 @@ class MotionTables(Tables):
 
     @abstractmethod
     def run_facts(self) -> dict[str, Any]:
-        """Return what a page says of the run and begins its live part with, by the names of JSON."""
+        """Return the settings that a page shows and begins its live part with, by the names of JSON."""
 
     def view(self, beside: MotionTables | None = None, *, live: bool = True) -> Page:
         """Return a page that plays the motion, which notebooks show and ``.save("x.html")`` writes.

@@ -164,7 +164,7 @@ class SteppedRun:
         return float(self._now[name][0])
 
     def result(self) -> Result:
-        """Return what was run since the start as a result, with an output at the end of each piece.
+        """Return the run since the start as a result, with an output at the end of each piece.
 
         Pieces are calls of `step` and `run`, and times between the calls of controllers. Of more than about 4000 every
         second is kept, then every fourth, and so on, and always the present state.

@@ -152,7 +152,7 @@ class CModel:
         return [names.index(to_text(name)) for name, _ in event.reset]
 
     def values(self) -> dict[str, Any]:
-        """Return what the templates print."""
+        """Return the values that the templates print."""
         start, info = self.run.start, self.compiled.info
         functions, law = self.functions, self.compiled.law
         acting = [i for i, event in enumerate(self.mechanism.events) if event.action in (STOP, RESET)]
