@@ -66,6 +66,7 @@ DRAWN: Mapping[str, Callable[[], str]] = {
     "carousel": lambda: _described("tutorial-space.md", "carousel"),
     "groove": lambda: _described("tutorials/own-constraint.md", "groove"),
     "motor": lambda: _described("tutorials/motor-current.md", "motor-and-linkage"),
+    "whip": lambda: _described("tutorials/flexible-link.md", "whip"),
     "crane": lambda: _described("tutorials/modes.md", "crane"),
 }
 
