@@ -24,7 +24,7 @@ def test_steady_turn_of_a_rolling_disc(keys):
         centre = CIRCLE * np.array([math.cos(RATE * until), math.sin(RATE * until), RADIUS * math.cos(LEAN)])
         found = [result[f"disc.{axis}"][-1] for axis in "xyz"]
         errors.append(np.abs(found - centre).max())
-        slip = math.hypot(result["contact.slip1"][-1], result["contact.slip2"][-1])
+        slip = math.hypot(*(result[f"multiplier.contact.slip{i}"][-1] for i in (1, 2)))
         assert slip == pytest.approx(2.0 * RATE**2 * CIRCLE, rel=1e-3)
     np.testing.assert_allclose(np.log2(errors[:-1]) - np.log2(errors[1:]), 2.0, atol=0.1)
 

@@ -95,7 +95,7 @@ CASES = {
     "implicit": ("four-bar", "ggl", "radau5", "four-bar", "lagrange", "trapezoidal"),
     "alpha": ("spherical-double-pendulum", "generalized-alpha", "generalized-alpha"),
     "projected": ("four-bar", "index3-augmented-lagrangian", "trapezoidal"),
-    "lie": ("heavy-top", "lagrange", "rkmk4", "heavy-top", "implicit-constraint", "symplectic-euler"),
+    "lie": ("heavy-top", "lagrange", "rkmk4", "free-rigid-body", "lagrange", "symplectic-euler"),
     "screw": ("heavy-top", "lagrange", "rkmk4-screws"),
     "constrained": ("four-bar", "half-explicit", "half-explicit", "heavy-top", "rattle", "rattle"),
 }

@@ -73,8 +73,8 @@ SAMPLED = (
 
 
 #: Every method with an explicit scheme and an implicit one, where it has such forms; every integrator with one method,
-#: but Euler's, whose runs fail at this step in both coordinates.
-OTHERS = [name for name in INTEGRATORS.names if name != "euler"]
+#: but Euler's two, whose runs fail at this step in coordinates of bodies.
+OTHERS = [name for name in INTEGRATORS.names if name not in ("euler", "symplectic-euler")]
 ALL = {*pairs(METHODS.names, ("rk4", "radau5")), *pairs(("lagrange", "generalized-alpha"), OTHERS)}
 
 
