@@ -25,7 +25,8 @@ WRONG = 1e-3
 NEARLY = (
     "baumgarte adaptive-baumgarte penalty augmented-lagrangian augmented-hamiltonian generalized-alpha "
     "index3-augmented-lagrangian lagrange velocity-projection udwadia-kalaba energy-projection compliant-constraints "
-    "invariant-stabilization braun-goldfarb hamiltonian-baumgarte controllable-velocity-projection"
+    "invariant-stabilization braun-goldfarb hamiltonian-baumgarte controllable-velocity-projection "
+    "stiffness-scaled-penalty half-explicit rattle"
 ).split()
 
 

@@ -91,6 +91,11 @@ class Motion:
         observed = Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), np.zeros((k, 0)))
         return sizes_of(self.compiled), Outputs(self.times, self.states, self.status_columns), observed
 
+    @property
+    def last_step(self) -> float:
+        """The step that laws take whose gains follow it [s]; 1 where the motion was not integrated."""
+        return 1.0
+
     @cached_property
     def _rates(self) -> Observed:
         from symgen.runtime.observe import observe_rates
@@ -98,6 +103,7 @@ class Motion:
         (sizes, outputs, observed), law = self._seen, self.compiled.law_module
         model, iw = (sizes, *rates_of(law), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
         w, room = self.start.w.copy(), np.zeros(2 * sizes.ny)
+        w[abi.STEP_STATUS] = self.last_step
         choose = row_chooser(self.compiled) if self.start.redundant_rows else None
         for first, last, p in self.parameters:
             # the rows that stand for all follow the position
@@ -242,6 +248,11 @@ class Outcome(Motion, Ended):
 
     def __repr__(self) -> str:
         return f"<Outcome of {self.compiled.info.name}: {len(self.times)} outputs until {self.end:g} s>"
+
+    @property
+    def last_step(self) -> float:
+        """The last step [s]."""
+        return float(self.simulation.state.w[abi.STEP_STATUS]) or 1.0
 
 
 def _rows_of(arrays: Any, first: int, last: int) -> Any:

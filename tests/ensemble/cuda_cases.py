@@ -141,7 +141,7 @@ def main(out: str, *names: str) -> None:
         model, vary, settings = CASES[name]
         found = {}
         for target in ("cpu", "cuda"):
-            sweep = symgen.sweep(model, vary, target=target, jobs=2, **settings)
+            sweep = symgen.sweep(model, vary, target=target, jobs=2, **{"integrator": "rk4", **settings})
             found[f"{target}_values"], found[f"{target}_summary"] = sweep.values, sweep.summary
             found[f"{target}_status"] = sweep.status
             found[f"{target}_reason"] = np.array([str(reason) for reason in sweep.reason])

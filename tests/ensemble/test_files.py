@@ -327,7 +327,9 @@ def test_runs_with_events_and_jumps_go_on_and_are_told_apart(cart, tmp_path):
 
 # -- interruptions -----------------------------------------------------------------------------------------------------
 
-LONG = ("four-bar", "--vary", "crank_mass=lin(1,3,200)", "--until", "5", "--step", "1e-3", "--quantity", "crank.theta")
+LONG = tuple(
+    "four-bar --vary crank_mass=lin(1,3,200) --integrator rk4 --until 5 --step 1e-3 --quantity crank.theta".split()
+)
 
 
 def start(*arguments):

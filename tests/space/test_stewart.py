@@ -36,7 +36,7 @@ def test_inverse_and_forward_kinematics_agree():
     whole = energy(result, model.mechanism)
     assert np.abs(whole - whole[0]).max() > 1.0
     assert abs(whole[-1] - whole[0]) < 1e-8
-    power = -sum(result[f"drive{i}.driver"] * result[f"leg{i}.displacement.rate"] for i in range(1, 7))
+    power = -sum(result[f"multiplier.drive{i}.driver"] * result[f"leg{i}.displacement.rate"] for i in range(1, 7))
     slope = np.gradient(whole, t, edge_order=2)
     assert np.abs(power[1:-1] - slope[1:-1]).max() < 0.05 * np.abs(power).max()
     assert result.energy_drift_max < 1e-6

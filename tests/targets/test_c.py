@@ -70,7 +70,8 @@ def test_rates_and_corrections_are_those_of_numba(name, coordinates, tmp_path):
 @pytest.mark.parametrize("name", NAMES)
 def test_the_whole_catalogue(name, coordinates, tmp_path):
     rates, corrections = agree(name, coordinates, tmp_path)
-    assert rates < 1e-11
+    # strains of a stiff beam are small differences of positions
+    assert rates < (1e-9 if load(name).mechanism.beams else 1e-11)
     assert corrections < 1e-13
 
 
