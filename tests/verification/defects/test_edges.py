@@ -99,11 +99,13 @@ def watch(time):
     if ended.is_set():
         raise KeyboardInterrupt
 model = symgen.load("four-bar")
-model.simulate(until=0.01, step=1e-4)
+model.simulate(integrator="rk4", until=0.01, step=1e-4)
 async def main():
     print("ready", flush=True)
     try:
-        await asyncio.to_thread(model.simulate, until=1e7, step=1e-4, output_step=1e4, progress=watch)
+        await asyncio.to_thread(
+            model.simulate, integrator="rk4", until=1e7, step=1e-4, output_step=1e4, progress=watch
+        )
     finally:
         ended.set()
 asyncio.run(main())
