@@ -313,15 +313,15 @@ def multiplier_law(system: System, gamma: Vector) -> Acceleration:
     return Acceleration(system.minv(system.f - system.D.transposed(multipliers)), multipliers)
 
 
-def augmented_iteration(system: System, penalty: Scalar | Vector, target: Vector, every: bool = False) -> Iteration:
+def augmented_iteration(system: System, penalty: Scalar | Vector, target: Vector) -> Iteration:
     """Return the augmented Lagrangian iteration for D v' = target.
 
     ``(M + a D^T D) dv' = f - M v' - D^T (lambda + a (D v' - target))``, ``v' += dv'``, ``lambda += a (D v' -
     target)``, from ``v' = M^-1 f`` (0 where M is singular) and ``lambda = 0``. It is the textbook's iteration (Bayo,
     Garcia de Jalon, Serna 1988) written for increments, so that rounding is that of the residual and not that of a
-    times it. Redundant rows have no penalty, but where `every` one has that of `penalty`, a vector.
+    times it.
     """
-    penalties = penalty if every and isinstance(penalty, Vector) else system.penalties(penalty)
+    penalties = system.penalties(penalty)
     factor = system.keep_factor(system.augmented_factor(penalties))
     penalties = system.keep("kept_penalties", penalties)
     constraints = system.keep_constraints()

@@ -1,44 +1,56 @@
-"""Augmented Lagrangian iteration with penalties like the stiffness of rows: redundant rows share their load."""
+"""Multipliers by penalties like the stiffness of rows: redundant rows share their load."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
 from symgen.ir.program import Correction
-from symgen.methods._augmented import ITERATION_TOLERANCE
-from symgen.methods._base import TOLERANCE, Iteration, Method, MethodParameter, augmented_iteration
+from symgen.methods._base import TOLERANCE, Acceleration, Method, MethodParameter, multiplier_law
 from symgen.methods._formula import System
+
+#: The largest penalty over the mean mass, and how often what a solution leaves of the force is solved for again: each
+#: pass leaves a part m / a of it.
+_HEAVY, _PASSES = 1e6, 6
 
 
 class StiffnessScaledPenalty(Method):
-    """The iteration of `index1-augmented-lagrangian` with ``a_i = T^2 k_i`` and redundant rows kept.
+    """The motion of `direct-correction`; of all multipliers that give it, those of rows that give in proportion to k.
 
-    From lambda = 0 all iterates are ``lambda = a D z``: of all multipliers that give the motion those that rows of
-    stiffness k would have, shared like k. The motion is that of `direct-correction`, whose corrections follow each
-    step; T decides how fast the iteration is and nothing else.
+    The force of constraints F = D^T lambda is known from the rows that are independent. ``(M + D^T a D) z = F``,
+    ``lambda += a D z``, ``F -= D^T a D z`` with penalties a like the stiffness k, of redundant rows as well, gives
+    ``lambda = k D z``: loads are shared like k. Penalties act on multipliers alone. In the law itself those of
+    redundant rows would pull at the motion, as these rows are independent at the stages of a step.
     """
 
     name = "stiffness-scaled-penalty"
     dense = "which reads the stiffness of single rows"
-    summary = "iterated penalties like the stiffness of rows: redundant rows share their load like it"
+    summary = "the motion of direct-correction; redundant rows share their load like their stiffness"
     reference = (
         "Ruzzeh, Kovecses, J. Comput. Nonlinear Dyn. 6 (2011) 021008; "
         "Gonzalez, Kovecses, Multibody Syst. Dyn. 29 (2013) 57-76, doi 10.1007/s11044-012-9322-y"
     )
-    default_integrator = "dop853"
     unique_multipliers = True
     parameters = (
         MethodParameter("stiffness", 1e9, "N/m", "of rows for which the file names none; chosen here", 1e-300),
-        MethodParameter("period", 0.1, "s", "T; 1e7 kg as the source's penalty for the default stiffness", 1e-300),
-        ITERATION_TOLERANCE,
         TOLERANCE,
     )
 
-    def law(self, system: System, options: Mapping[str, str]) -> Iteration:
-        """Return the iteration for the constraints at acceleration level."""
+    def needs_regular_mass(self, options: Mapping[str, str]) -> bool:
+        """Return True: M is inverted."""
+        return True
+
+    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
+        """Return the elimination of v', and multipliers shared like the stiffness."""
+        motion = multiplier_law(system, system.gamma)
         stiffness = system.row_stiffness(system.parameter("stiffness"))
-        penalties = (system.parameter("period") ** 2) * stiffness
-        return augmented_iteration(system, penalties, system.gamma, every=True)
+        penalties = (_HEAVY * system.scale("mean_mass") / stiffness.dot(stiffness).root()) * stiffness
+        factor = system.augmented_factor(penalties)
+        left = system.D.transposed(motion.multipliers)
+        multipliers = system.zeros("m")
+        for _ in range(_PASSES):
+            more = penalties.times(system.D @ system.solve(factor, left))
+            multipliers, left = multipliers + more, left - system.D.transposed(more)
+        return Acceleration(motion.acceleration, multipliers)
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return that of `direct-correction`."""
