@@ -154,6 +154,8 @@ class _Law:
         final = [s.variable(state.section, state.start.size) for state in law.state]
         if law.rates is None:
             finish = self.rates(final[0], final[1])
+            if law.multipliers is not None:
+                finish.append(("multipliers", law.multipliers))
         else:
             rates = law.rates
             finish = self.rates(rates.velocity, rates.multipliers, rates.position, rates.velocities)

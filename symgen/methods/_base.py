@@ -89,11 +89,14 @@ class Iteration:
         The change of the first one in an iteration; it ends when this is small.
     rates : Rates, optional
         The rates of the state where they are not v and v' as iterated.
+    multipliers : Vector, optional
+        lambda for results where it is not the iterated one.
     """
 
     state: tuple[IterationState, ...]
     increment: Vector
     rates: Rates | None = None
+    multipliers: Vector | None = None
 
 
 @dataclass(frozen=True)

@@ -3,10 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from symgen.ir.program import Correction
-from symgen.methods._base import TOLERANCE, Acceleration, Method, MethodParameter, multiplier_law
-from symgen.methods._formula import System
+from symgen.methods._base import (
+    TOLERANCE,
+    Acceleration,
+    Iteration,
+    Method,
+    MethodOption,
+    MethodParameter,
+    augmented_iteration,
+    multiplier_law,
+)
+from symgen.methods._formula import System, Vector
 
 #: The largest penalty over the mean mass, and how often what a solution leaves of the force is solved for again: each
 #: pass leaves a part m / a of it.
@@ -34,23 +44,34 @@ class StiffnessScaledPenalty(Method):
         MethodParameter("stiffness", 1e9, "N/m", "of rows for which the file names none; chosen here", 1e-300),
         TOLERANCE,
     )
+    options = (
+        MethodOption(
+            "solver",
+            ("elimination", "augmented"),
+            "how v' is computed: by elimination, or with M + W D^T D, for light and massless bodies",
+        ),
+    )
 
-    def needs_regular_mass(self, options: Mapping[str, str]) -> bool:
-        """Return True: M is inverted."""
-        return True
-
-    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
-        """Return the elimination of v', and multipliers shared like the stiffness."""
+    def law(self, system: System, options: Mapping[str, str]) -> Acceleration | Iteration:
+        """Return the motion of `direct-correction`, and multipliers shared like the stiffness."""
+        if options["solver"] == "augmented":
+            iterated = augmented_iteration(system, system.heavy_penalty, system.gamma)
+            multipliers = system.variable("multipliers", system.gamma.size)
+            return replace(iterated, multipliers=self._shared(system, multipliers))
         motion = multiplier_law(system, system.gamma)
+        return Acceleration(motion.acceleration, self._shared(system, motion.multipliers))
+
+    def _shared(self, system: System, multipliers: Vector) -> Vector:
+        """Return multipliers of the same force, in proportion to the stiffness."""
         stiffness = system.row_stiffness(system.parameter("stiffness"))
         penalties = (_HEAVY * system.scale("mean_mass") / stiffness.dot(stiffness).root()) * stiffness
         factor = system.augmented_factor(penalties)
-        left = system.D.transposed(motion.multipliers)
-        multipliers = system.zeros("m")
+        left = system.D.transposed(multipliers)
+        shared = system.zeros("m")
         for _ in range(_PASSES):
             more = penalties.times(system.D @ system.solve(factor, left))
-            multipliers, left = multipliers + more, left - system.D.transposed(more)
-        return Acceleration(motion.acceleration, multipliers)
+            shared, left = shared + more, left - system.D.transposed(more)
+        return shared
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return that of `direct-correction`."""

@@ -149,7 +149,7 @@ def two_links(massless: bool) -> Model:
     return Model(raw.build())
 
 
-@pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
+@pytest.mark.parametrize("method", ["lagrange", "direct-correction", "stiffness-scaled-penalty"])
 def test_a_massless_coupler_moves_as_a_distance_joint(method):
     keys = {"method": method, "integrator": "dop853", "rtol": 1e-12, "atol": 1e-13, "until": 2.0, "output_step": 0.1}
     rod, link = (two_links(massless).simulate(**keys) for massless in (True, False))

@@ -42,6 +42,14 @@ def test_shares_depend_on_ratios_alone(unit, ratio):
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-10)
 
 
+def test_both_solvers_share_alike():
+    keys = {"method": METHOD, "until": 0.2, "times": [0.0, 0.2]}
+    own, other = (
+        np.asarray(beam(CASES[2]).simulate(**keys, options=o).lam) for o in ({}, {"method.solver": "augmented"})
+    )
+    np.testing.assert_allclose(own, other, rtol=1e-8)
+
+
 def test_redundant_rows_do_not_pull_at_the_motion():
     """At constant steps of order 4, whose stages violate: the motion is that of the same correction without sharing."""
     description = raw("slider-crank")
