@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.device import Need
     from symgen.runtime.integrator import Setup
-    from symgen.runtime.records import Span, TableauRecord
+    from symgen.runtime.records import Span
+    from symgen.runtime.scheme_records import TableauRecord
     from symgen.runtime.start_records import Instant
 
 Array = NDArray[np.float64]
@@ -106,7 +107,7 @@ def need_of(compiled: CompiledModel, setup: Setup, adaptive: bool, wants: set[in
         If a run needs more memory than a thread of a device can have, or the integrator is of another family.
     """
     from symgen.runtime.device import Need
-    from symgen.runtime.records import TableauRecord
+    from symgen.runtime.scheme_records import TableauRecord
 
     if not isinstance(setup.scheme, TableauRecord):
         raise InputError("target 'cuda'", "an explicit Runge-Kutta scheme", "an integrator with a loop of its own")

@@ -54,7 +54,7 @@ class Adams:
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
-        from symgen.runtime.records import Multistep
+        from symgen.runtime.scheme_records import Multistep
         from symgen.runtime.schemes import adams
 
         nodes, factors = np.polynomial.legendre.leggauss(5)  # exact for polynomials up to degree 9

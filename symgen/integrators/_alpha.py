@@ -66,7 +66,7 @@ class AlphaFamily:
         """Return the arguments of the loop."""
         refuse_states(self, compiled)
         from symgen.runtime.newton import Pattern, alpha_plan
-        from symgen.runtime.records import Alpha
+        from symgen.runtime.scheme_records import Alpha
         from symgen.runtime.schemes import alpha
 
         values = {q.name: spec.integrator_parameters.get(q.name, q.default) for q in self.parameters}

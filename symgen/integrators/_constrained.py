@@ -69,7 +69,7 @@ class ConstrainedTableau:
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
         from symgen.runtime.newton import Pattern, acceleration_plan
-        from symgen.runtime.records import ConstrainedStages
+        from symgen.runtime.scheme_records import ConstrainedStages
         from symgen.runtime.schemes.constrained import memory
 
         refuse_states(self, compiled)

@@ -88,7 +88,7 @@ class ImplicitTableau:
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
         from symgen.runtime.newton import Pattern, stage_plan
-        from symgen.runtime.records import Stages
+        from symgen.runtime.scheme_records import Stages
         from symgen.runtime.schemes import implicit
 
         info, s, pattern = compiled.info, self.stages, Pattern.of(compiled, w)

@@ -123,7 +123,7 @@ class Tableau:
 
     def record(self, adaptive: bool) -> Any:
         """Return the scheme as loops take it, with dense output for adaptive ones."""
-        from symgen.runtime.records import TableauRecord as Record
+        from symgen.runtime.scheme_records import TableauRecord as Record
 
         start, column, value, nodes = self.packed()
         dense, ends = np.zeros(0), any(e[-1] != 0.0 for e in self.errors)

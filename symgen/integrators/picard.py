@@ -45,7 +45,7 @@ def integrals(terms: int, x: Array) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class Coefficients:
-    """Coefficients of the scheme, as `symgen.runtime.records.Nodes` names them."""
+    """Coefficients of the scheme, as `symgen.runtime.scheme_records.Nodes` names them."""
 
     table: Array
     middle: Array
@@ -131,8 +131,8 @@ class Picard:
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
-        from symgen.runtime.records import Nodes
         from symgen.runtime.right_hand_side import at_nodes
+        from symgen.runtime.scheme_records import Nodes
         from symgen.runtime.schemes import picard
 
         info, c = compiled.info, coefficients()

@@ -36,7 +36,7 @@ class LieTableau(Tableau):
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
-        from symgen.runtime.records import Rotations
+        from symgen.runtime.scheme_records import Rotations
         from symgen.runtime.schemes import lie
 
         info = compiled.info

@@ -30,7 +30,7 @@ class ScrewTableau(LieTableau):
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
-        from symgen.runtime.records import Screws
+        from symgen.runtime.scheme_records import Screws
         from symgen.runtime.schemes import lie
 
         info, names = compiled.info, [q.name for q in compiled.info.velocities]

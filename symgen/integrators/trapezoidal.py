@@ -33,7 +33,7 @@ class Trapezoidal(ImplicitTableau):
             return super().setup(compiled, spec, w)
         refuse_states(self, compiled)
         from symgen.runtime.newton import Pattern, constraint_forces, mass_diagonal, projection_plan
-        from symgen.runtime.records import Projection
+        from symgen.runtime.scheme_records import Projection
         from symgen.runtime.schemes import projected
 
         law, info = compiled.law, compiled.info

@@ -25,8 +25,9 @@ from symgen.runtime import abi, frame, observe, rows, watch
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.loop_instances import Instances, viewing
 from symgen.runtime.probe import rates_of
-from symgen.runtime.records import SIZES, SPAN, TABLEAU, Kept, Observed, Outputs, State
+from symgen.runtime.records import SIZES, SPAN, Kept, Observed, Outputs, State
 from symgen.runtime.redundancy import never
+from symgen.runtime.scheme_records import TABLEAU
 from symgen.runtime.schemes import explicit
 from symgen.runtime.vectors import PLAIN
 

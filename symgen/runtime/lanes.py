@@ -24,10 +24,11 @@ from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import integrate
 from symgen.runtime.loop_instances import Instances
 from symgen.runtime.loop_instances import loop as compiled_loop
-from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Outputs, Run, State
+from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, Outputs, Run, State
 from symgen.runtime.redundancy import FALLEN, never
 from symgen.runtime.rows import begin_run, end_run, take
 from symgen.runtime.scales import still
+from symgen.runtime.scheme_records import TABLEAU
 from symgen.runtime.schemes import explicit
 from symgen.runtime.vectors import combine, copied
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from symgen.runtime import abi
 from symgen.runtime.model_arrays import lengths_of
 from symgen.runtime.padding import aligned, padded
-from symgen.runtime.records import KEPT, Outputs, Sizes, Span, State
+from symgen.runtime.records import Outputs, Sizes, Span, State
+from symgen.runtime.scheme_records import KEPT
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo

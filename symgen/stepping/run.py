@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -16,12 +16,11 @@ from symgen.describe.events import in_words
 from symgen.errors import InputError, SimulationError
 from symgen.runtime import abi
 from symgen.runtime.changes import begin_with_step
-from symgen.runtime.events import EventRecord, record_of
+from symgen.runtime.events import EventRecord
 from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.stops import Foreseen, foreseen, merged, stops_of
-from symgen.stepping.advance import Advance, Clock, Controller
-from symgen.stepping.history import History
-from symgen.stepping.named import Named
+from symgen.stepping.advance import Clock, Controller
+from symgen.stepping.readings import Readings
 from symgen.stepping.saved_state import Saved
 from symgen.version import __version__
 
@@ -29,162 +28,68 @@ if TYPE_CHECKING:
     from symgen.result.result import Result
     from symgen.running.prepare import Prepared
     from symgen.runtime.run import RunSpec
-    from symgen.vocabulary.quantities import Quantity
 
 # looked up at every step
 _TIME, _STEPS, _DONE = abi.TIME, abi.STEPS, abi.DONE
 
 
-class SteppedRun:
-    """A run that goes on as far as it is told; `Model.start` makes it.
+class SteppedRun(Readings):
+    """A simulation that is advanced step by step; `Model.start` makes it.
 
-    Any division into pieces is the same run: with constant steps bit for bit, as long as pieces end on the grid of
-    steps. A piece that ends between two of them ends with a shortened step, and a new grid begins there. Adaptive
-    steps are shortened so that every piece ends exactly where it is to.
+    The division of a run into pieces does not change it: with constant steps bit for bit, as long as pieces end on the
+    grid of steps. A piece that ends between two grid points ends with a shortened step, and a new grid begins there.
+    Adaptive steps are shortened so that every piece ends at its time exactly.
 
     Parameters
     ----------
     prepared : Prepared
-        The run. Where it has constant steps and its settings no ``step``, each call of `step` is one step.
+        The run. With constant steps and no ``step`` among its settings, each call of `step` is one step.
     begin : callable, optional
         Start -> the same run from there; see `reset`.
 
     Attributes
     ----------
     q, v, state : Named
-        Coordinates, velocities, and both: read-only views of what the run holds at present, without copies. In joint
-        coordinates those of the joints of the tree.
+        Present coordinates, velocities, and both: read-only views without copies. In joint coordinates those of the
+        joints of the tree.
     states : Named
-        The same of the states of the file's own.
+        The same of the states that the file defines.
     warnings, notes : tuple of str
-        What there is to say of the start and the settings.
+        Of the start and the settings.
     """
 
     def __init__(self, prepared: Prepared, begin: Callable[[object], Prepared] | None = None) -> None:
-        plan, compiled, start, mechanism = prepared.plan, prepared.compiled, prepared.start, prepared.mechanism
-        info = compiled.info
-        self._mechanism, self._plan, self._compiled, self._prepared, self._prepare = (
-            mechanism,
-            plan,
-            compiled,
-            prepared,
-            begin,
-        )
-        self._changed, self._adaptive = dict(plan.parameters), plan.spec.adaptive
-        self._free = plan.settings.step is None and not self._adaptive
-        self._loop = prepared.simulation()
+        plan, mechanism = prepared.plan, prepared.mechanism
+        adaptive, inputs = plan.spec.adaptive, plan.inputs.words
+        free, hidden = plan.settings.step is None and not adaptive, set(mechanism.inputs).difference(inputs)
+        super().__init__(prepared, free, hidden)
+        self._mechanism, self._plan, self._prepare, self._adaptive = mechanism, plan, begin, adaptive
+        self._changed = dict(plan.parameters)
         self._loop.span = self._loop.span._replace(end=math.inf)  # `until` is none
-        state = self._loop.state
-        self._tree = prepared.tree
-        self._clock, self._control = memoryview(state.clock), memoryview(state.control)
-        self._clocks, self._calling, self._advance = list[Clock](), False, Advance(self._loop)
-        inputs, self._driven = plan.inputs.words, plan.inputs.driven
-        self._jumps = plan.inputs.stops
-        self._foreseen = foreseen(plan.mechanism, plan.events) if self._adaptive else Foreseen(mechanism)
+        self._clocks, self._calling = list[Clock](), False
+        self._jumps, self._driven = plan.inputs.stops, plan.inputs.driven
+        self._foreseen = foreseen(plan.mechanism, plan.events) if adaptive else Foreseen(mechanism)
         self._input_formulas = {name: words for name, words in inputs.items() if isinstance(words, str)}
         self._inputs = {name: x for name, x in inputs.items() if not isinstance(x, str)}
-        places = {q.name: i for i, q in enumerate(info.parameters)}
+        places = {q.name: i for i, q in enumerate(self._compiled.info.parameters)}
         self._varying = [places[name] for name in mechanism.inputs if name not in self._inputs]  # by formulas and data
-        self._hidden = set(mechanism.inputs).difference(inputs)  # parts of formulas
-        both = *info.coordinates, *info.velocities
-        self.q = _view(state.y, 0, info.coordinates)
-        self.v = _view(state.y, info.nq, info.velocities)
-        self.state = _view(state.y, 0, both)
-        self.states = _view(state.y, info.work + 1, info.states)
-        self.warnings, self.notes = (*plan.all_warnings, *start.warnings), start.notes
+        self.warnings, self.notes = (*plan.all_warnings, *prepared.start.warnings), prepared.start.notes
         self._first = self.save()
-        if not self._free:  # else the first step says how long it is
+        if not self._free:
             self._advance.begin()
-        self._history, self._shown = History(self._loop), (-1.0, -1, -1)
         self._history.note()
-        self._version = 0
-
-    # -- what can be read ----------------------------------------------------------------------------------------------
-
-    @property
-    def t(self) -> float:
-        """Time of the state [s]."""
-        return self._clock[_TIME]
-
-    @property
-    def steps(self) -> int:
-        """Steps that have been accepted."""
-        return self._control[_STEPS]
-
-    @property
-    def bodies(self) -> dict[str, float]:
-        """Present coordinates and velocities of bodies by name, whatever the state is made of."""
-        if self._tree is None:
-            return self.state.to_dict()
-        state = self._loop.state
-        return dict(
-            zip(self._tree.names, self._tree.bodies_at(self.t, state.y, state.p, state.w).tolist(), strict=True)
-        )
-
-    @property
-    def parameters(self) -> dict[str, float]:
-        """Present values of all parameters."""
-        numbers = zip(self._compiled.info.parameters, self._loop.state.p.tolist(), strict=False)
-        return {q.name: x for q, x in numbers if q.name not in self._hidden}
-
-    @property
-    def events(self) -> tuple[EventRecord, ...]:
-        """What has happened since the start, as in results; of a run that was taken back, up to where it stands."""
-        events = self._loop.events
-        return () if events is None else tuple(record_of(self._compiled.info, event) for event in events.happened)
-
-    @property
-    def outputs(self) -> dict[str, float]:
-        """Present values of the formulas of the file's ``[outputs]`` by name, integrals among them."""
-        return self._now.outputs.row(0)
-
-    @property
-    def points(self) -> dict[str, float]:
-        """Present places, velocities and accelerations of named points: ``arm.tip.x``, ``.vx``, ``.ax``, ..."""
-        return self._now.points.row(0)
-
-    @property
-    def elements(self) -> dict[str, float]:
-        """Present forces, lengths and powers of force elements and drivers: ``spring.force``, ``motor.effort``, ..."""
-        return self._now.elements.row(0)
-
-    @property
-    def reactions(self) -> dict[str, float]:
-        """Present reactions of joints, as results have them: ``A.Fx`` [N], ``A.M`` [N m], ..."""
-        return self._now.reactions.row(0)
-
-    def __getitem__(self, name: str) -> float:
-        """Return the present value of a column of results: ``sim["motor.effort"]``, ``sim["arm.tip.x"]``.
-
-        Raises
-        ------
-        InputError
-            If there is no such column.
-        """
-        return float(self._now[name][0])
 
     def result(self) -> Result:
         """Return the run since the start as a result, with an output at the end of each piece.
 
-        Pieces are calls of `step` and `run`, and times between the calls of controllers. Of more than about 4000 every
-        second is kept, then every fourth, and so on, and always the present state.
+        Pieces are calls of `step` and `run`, and times between the calls of controllers. Of more than about 4000
+        outputs every second is kept, then every fourth, and so on, and always the present state.
         """
         self._ready("result")
         self._advance.begin()
         result = self._history.result(self._prepared)
         _ = result.last_state  # of now: the run goes on
         return result
-
-    @property
-    def _now(self) -> Result:
-        """The present state as a result, which is made once for a state."""
-        key = (self.t, self.steps, self._version)
-        if key != self._shown:
-            self._advance.recover()
-            if not self._free:
-                self._advance.begin()
-            self._present, self._shown = self._history.present(self._prepared), key
-        return self._present
 
     def __repr__(self) -> str:
         law, integrator = self._compiled.law.method, self._plan.integrator.name
@@ -198,25 +103,25 @@ class SteppedRun:
         Parameters
         ----------
         dt : float
-            How long [s]: a multiple of a constant step goes on along its grid, anything else ends with a shortened
-            step, from which a new grid begins. Where no step was asked for, this is the step.
+            Duration [s]: a multiple of a constant step goes on along its grid, anything else ends with a shortened
+            step, from which a new grid begins. Without a setting ``step``, this is the step.
         u : mapping of str to float, optional
-            Values to be set before, as by `set`; they are held until others are set.
+            Values to set before, as `set` does; they hold until others are set.
 
         Returns
         -------
         EventRecord or None
-            The event of kind ``stop`` at which the run stands now, before that time was over; None where it was. The
-            next call goes on from there.
+            The event of kind ``stop`` at which the run stands now, before the duration is over; else None. The next
+            call goes on from there.
 
         Raises
         ------
         InputError
-            If an argument is wrong, or velocities that an event asks for cannot be.
+            If an argument is wrong, or an event sets velocities that are impossible.
         StepError
             If a step fails; the run stays at the last accepted state.
         """
-        if type(dt) is not float or not 0.0 < dt < math.inf:  # the rest of it is for what seldom happens
+        if type(dt) is not float or not 0.0 < dt < math.inf:  # the complete check is slower
             dt = arguments.number("dt", dt, positive=True)
         if self._calling or self._advance.unsure:
             self._ready("step")
@@ -236,7 +141,7 @@ class SteppedRun:
         Parameters
         ----------
         until : float
-            Where to [s]. Where no step was asked for, steps are those of the mechanism.
+            Time to reach [s]. Without a setting ``step``, steps are those of the mechanism.
 
         Returns
         -------
@@ -246,7 +151,7 @@ class SteppedRun:
         Raises
         ------
         InputError
-            If that time has passed, or velocities that an event asks for cannot be.
+            If that time has passed, or an event sets velocities that are impossible.
         StepError, KeyboardInterrupt
             If a step fails, or after Ctrl-C; the run stays at the last accepted state and can go on.
         """
@@ -259,18 +164,18 @@ class SteppedRun:
         return self._go(until)
 
     def every(self, interval: float, controller: Controller) -> None:
-        """Have a function called at t0 + k `interval`, k = 0, 1, 2, ..., t0 being the present time.
+        """Call a function at t0 + k `interval`, k = 0, 1, 2, ..., t0 being the present time.
 
-        It is called before the run goes on from that time, so not at the end of a piece but at the beginning of the
-        next one. Runs with constant steps meet such times by shortened steps where they are no multiples of the step.
+        The call precedes the step from that time: it comes at the beginning of a piece, not at the end of the one
+        before. Runs with constant steps meet times that are no multiples of the step by shortened steps.
 
         Parameters
         ----------
         interval : float
             Time between two calls [s].
         controller : callable
-            Takes the time of the call, one multiplication from t0, and this run. What it returns, values by name or
-            None, is set as by `set` and held until the next call.
+            Takes the time of the call, one multiplication from t0, and this run. It returns values by name or None;
+            they are set as by `set` and hold until the next call.
         """
         interval = arguments.number("interval", interval, positive=True)
         if controller is None or arguments.function("controller", controller) is None:
@@ -282,9 +187,8 @@ class SteppedRun:
     def set(self, values: Mapping[str, float] | None = None, /, **more: float) -> None:
         """Change parameters from the present time on.
 
-        Positions and velocities stay what they are. What the change adds to the energy counts as work. Numbers of
-        forces, masses and inertias may change; what moves a joint away from where it is, such as another length, is
-        refused.
+        Positions and velocities stay as they are. The energy that a change adds counts as work. Parameters of forces,
+        masses and inertias may change; one that moves a joint, such as a length, is refused.
 
         Parameters
         ----------
@@ -326,7 +230,7 @@ class SteppedRun:
         self._changed = {name: parameters[name] for name in changed}
 
     def _set_inputs(self, values: Mapping[str, float]) -> None:
-        """Give inputs other values, which takes no look at the state."""
+        """Change inputs, which needs no check of the state."""
         numbers = {
             name: value if type(value) is float and math.isfinite(value) else arguments.number(f"input '{name}'", value)
             for name, value in values.items()
@@ -342,7 +246,7 @@ class SteppedRun:
     # -- keeping -------------------------------------------------------------------------------------------------------
 
     def save(self) -> Saved:
-        """Return all that the run remembers, as a value that can be pickled."""
+        """Return the whole state of the run, as a value that can be pickled."""
         self._advance.recover()
         clocks = tuple((c.start, c.interval, c.beat) for c in self._clocks)
         events = self._loop.events
@@ -350,7 +254,7 @@ class SteppedRun:
         return Saved(self._owner, self._loop.save(), self._loop.span.step, dict(self._changed), clocks, happened)
 
     def restore(self, saved: Saved) -> None:
-        """Go back, or on, to what `save` returned, here or by another run of the same model, method and integrator.
+        """Take up what `save` returned, here or in another run of the same model, method and integrator.
 
         Limits and tolerances stay those of this run. Controllers are functions and are not saved: register the same
         ones before, and they go on at their next beats.
@@ -473,10 +377,3 @@ class SteppedRun:
                     clock.beat += 1
         finally:
             self._calling = False
-
-
-def _view(y: np.ndarray, first: int, quantities: Iterable[Quantity]) -> Named:
-    """Return a named view of a part of the state."""
-    quantities = tuple(quantities)
-    names, units = tuple(q.name for q in quantities), tuple(q.unit for q in quantities)
-    return Named.of(y[first : first + len(names)], names, units)

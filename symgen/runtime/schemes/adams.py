@@ -18,8 +18,8 @@ from symgen.runtime import abi
 from symgen.runtime.bare import part
 from symgen.runtime.frame import evaluate, loop
 from symgen.runtime.loop_instances import called
-from symgen.runtime.records import MULTISTEP
 from symgen.runtime.scales import weights_of, with_work
+from symgen.runtime.scheme_records import MULTISTEP
 from symgen.runtime.vectors import combine, copied, weigh
 
 #: Derivatives kept; the highest order of the corrector.

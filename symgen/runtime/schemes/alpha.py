@@ -29,9 +29,9 @@ from symgen.runtime.bare import part
 from symgen.runtime.frame import DIVERGED, TOO_LARGE, evaluate, loop
 from symgen.runtime.loop_instances import called
 from symgen.runtime.manifold import advance
-from symgen.runtime.records import ALPHA
 from symgen.runtime.redundancy import leave_out_rest
 from symgen.runtime.scales import weights_of
+from symgen.runtime.scheme_records import ALPHA
 from symgen.runtime.schemes.implicit import ended
 from symgen.runtime.sparse import multiply, solve, turn_rows
 from symgen.runtime.vectors import weigh

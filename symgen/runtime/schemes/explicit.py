@@ -14,8 +14,8 @@ from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import correct, evaluate, loop, store
 from symgen.runtime.loop_instances import called
-from symgen.runtime.records import TABLEAU
 from symgen.runtime.scales import weights_of, with_work
+from symgen.runtime.scheme_records import TABLEAU
 from symgen.runtime.vectors import combine, copied, follow, total, weigh
 from symgen.runtime.watch import keep_maxima
 

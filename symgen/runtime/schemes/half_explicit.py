@@ -15,7 +15,7 @@ from symgen.runtime.bare import part
 from symgen.runtime.frame import TOO_LARGE, loop
 from symgen.runtime.loop_instances import called
 from symgen.runtime.manifold import advance
-from symgen.runtime.records import CONSTRAINED
+from symgen.runtime.scheme_records import CONSTRAINED
 from symgen.runtime.schemes.constrained import carry_slopes, factorised, slopes_at, solved
 from symgen.runtime.schemes.lie import exponential_rate
 from symgen.runtime.vectors import copied

@@ -14,9 +14,9 @@ from symgen.runtime import abi, sparse
 from symgen.runtime.bare import part
 from symgen.runtime.frame import DIVERGED, TOO_LARGE, evaluate, loop
 from symgen.runtime.loop_instances import called
-from symgen.runtime.records import STAGES
 from symgen.runtime.redundancy import leave_out_rest
 from symgen.runtime.scales import weights_of, with_work
+from symgen.runtime.scheme_records import STAGES
 from symgen.runtime.sparse import solve
 from symgen.runtime.vectors import copied, weigh
 

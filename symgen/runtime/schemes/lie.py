@@ -15,7 +15,7 @@ from symgen.runtime.bare import part
 from symgen.runtime.frame import evaluate, loop
 from symgen.runtime.manifold import advance
 from symgen.runtime.padding import padded
-from symgen.runtime.records import ROTATIONS
+from symgen.runtime.scheme_records import ROTATIONS
 from symgen.runtime.vectors import total
 
 

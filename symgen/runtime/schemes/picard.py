@@ -21,9 +21,9 @@ from symgen.runtime.bare import part
 from symgen.runtime.frame import DIVERGED, correct, evaluate, loop, store
 from symgen.runtime.loop_instances import called
 from symgen.runtime.nodes import PLACES, distance, expand, extrapolate, place, sum_up
-from symgen.runtime.records import NODES as SCHEME
 from symgen.runtime.records import Run
 from symgen.runtime.scales import weights_of
+from symgen.runtime.scheme_records import NODES as SCHEME
 from symgen.runtime.schemes.explicit import attempt as one_step
 from symgen.runtime.vectors import copied, total
 from symgen.runtime.watch import keep_maxima

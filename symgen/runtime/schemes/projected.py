@@ -20,7 +20,7 @@ from symgen.runtime.bare import part
 from symgen.runtime.frame import DIVERGED, TOO_LARGE, evaluate, loop
 from symgen.runtime.loop_instances import called
 from symgen.runtime.manifold import advance
-from symgen.runtime.records import PROJECTION
+from symgen.runtime.scheme_records import PROJECTION
 from symgen.runtime.sparse import multiply, solve, turn_rows
 
 _MOST_ITERATIONS = 100

@@ -19,7 +19,7 @@ from symgen.runtime.bare import part
 from symgen.runtime.frame import evaluate, loop
 from symgen.runtime.loop_instances import called
 from symgen.runtime.manifold import advance
-from symgen.runtime.records import SCREWS
+from symgen.runtime.scheme_records import SCREWS
 from symgen.runtime.schemes.lie import exponential_rate
 from symgen.runtime.vectors import total
 

@@ -8,7 +8,7 @@ from symgen.runtime import abi
 from symgen.runtime.bare import part
 from symgen.runtime.frame import evaluate, loop
 from symgen.runtime.manifold import advance
-from symgen.runtime.records import ROTATIONS
+from symgen.runtime.scheme_records import ROTATIONS
 
 
 def attempt(
