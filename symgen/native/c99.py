@@ -176,11 +176,10 @@ class _Printer(FunctionPrinter):
         """Return functions of parts, and the function that calls them; values that parts share are arrays' elements."""
         f, names = self.function, [_names(part) for part in parts]
         arguments = {p.name: p for p in f.parameters}
-        shares = Counter(name for part in names for name in part if name in f.variables and name not in arguments)
         sizes = Counter[str]()
-        for name, count in shares.items():
-            if count > 1:
-                array = "values" if f.variables[name] == "float" else "numbers"
+        for name, kind in f.variables.items():
+            if name not in arguments and sum(name in used for used in names) > 1:
+                array = "values" if kind == "float" else "numbers"
                 self.shared[name] = f"{array}[{sizes[array]}]"
                 sizes[array] += 1
         lines, calls = list[str](), list[str]()

@@ -1,6 +1,8 @@
 """C code beside what Numba and symgen's own compiler make of the same functions, and its runs beside `simulate`."""
 
+import os
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -205,6 +207,17 @@ def test_long_functions_are_divided(tmp_path):
     text = c_functions(checked(run.compiled, ("rhs",)))
     assert "rhs_part1(" in text
     assert max(map(len, text.split("\n\n"))) < 60_000
+
+
+@pytest.mark.parametrize("name", ["wiper", "bricard"])
+def test_bytes_do_not_depend_on_the_process(name, tmp_path):
+    texts = []
+    for seed in ("1", "2"):
+        folder = tmp_path / seed
+        command = [sys.executable, "-m", "symgen", "generate", name, "--target", "c", "--output", str(folder)]
+        subprocess.run(command, check=True, capture_output=True, env={**os.environ, "PYTHONHASHSEED": seed})
+        texts.append({path.name: path.read_text() for path in folder.iterdir()})
+    assert texts[0] == texts[1]
 
 
 def test_the_loop_of_the_guide_compiles(tmp_path):
