@@ -61,7 +61,7 @@ def c_functions(functions: Mapping[str, lang.Function]) -> str:
     Parameters
     ----------
     functions : mapping of str to Function
-        What the text defines, by the names that it has there.
+        Functions by their names in the text.
     """
     order, names = ordered(functions, RESERVED)
     written: dict[object, frozenset[str]] = {}
@@ -82,7 +82,7 @@ def broken(line: str) -> str:
 
 
 def c_number(value: float) -> str:
-    """Return a number of 64 bits as C has it; what 32 bits do not hold is within a macro."""
+    """Return a number of 64 bits in C; a macro replaces it where 32 bits cannot hold it."""
     if math.isfinite(value):
         size = abs(value)
         text = repr(float(value))

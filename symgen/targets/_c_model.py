@@ -60,7 +60,7 @@ class CModel:
 
     @classmethod
     def of(cls, request: Request, target: str) -> CModel:
-        """Derive, emit and assemble what a request is about.
+        """Derive, emit and assemble a request.
 
         Raises
         ------
@@ -108,7 +108,7 @@ class CModel:
         Raises
         ------
         InputError
-            If C does not have something of them.
+            If an event, a function or a formula of the start has no form in C.
         """
         start, info, law = self.run.start, self.compiled.info, self.compiled.law
         mechanism, defaults = self.mechanism, self.mechanism.defaults
@@ -208,7 +208,7 @@ class CModel:
         return [names.index(to_text(name)) for name, _ in event.reset]
 
     def _start(self) -> dict[str, str]:
-        """Return lines that work out parameters that follow from others, and the start.
+        """Return lines for the parameters that follow from others and for the start.
 
         A start that holds coordinates of joints, and one in joint coordinates, is closed from the exported one.
         """
@@ -223,9 +223,8 @@ class CModel:
                 q, v = start_lines(mechanism, lines)
                 written += [f"q[{i}] = {lines.result(x)};" for i, x in enumerate(q)]
                 for j, x in enumerate(v):
-                    written += (
-                        [f"v[{j}] = 0.0;", f"is_free[{j}] = 1;"] if x is None else [f"v[{j}] = {lines.result(x)};"]
-                    )
+                    written.append(f"v[{j}] = {lines.result(0.0 if x is None else x)};")
+                    written += [f"is_free[{j}] = 1;"] if x is None else []
             for i, state in enumerate(mechanism.states):
                 written.append(f"own[{i}] = {lines.result(lines.value(state.start, f'states.{state.name}.start'))};")
         except NotInLines as error:

@@ -16,7 +16,7 @@ def modules_for(processor: str) -> Target:
     """
 
     def write(request: Request) -> Package:
-        r = request
-        return write_package(r.mechanism, r.path, r.methods, r.options or {}, r.coordinates, r.shape, processor)
+        choices = request.methods, request.options or {}, request.coordinates, request.shape
+        return write_package(request.mechanism, request.path, *choices, processor)
 
     return Target(write)
