@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compiling.side import compile_side
+from symgen.compiling.side import Side, compile_side
 from symgen.describe.evaluate import evaluate
 from symgen.describe.formula_text import to_text
 from symgen.describe.kinks import Discontinuity, discontinuities_of
@@ -24,7 +24,8 @@ Array = NDArray[np.float64]
 
 #: Which derivative of a table jumps at its points.
 _KINKS = {"linear": 1, "pchip": 2, "cubic": 3}
-_DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
+#: Which sign the change of a switching function has where its event happens, 0 for both.
+DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
 
 
 def compile_events(
@@ -58,13 +59,12 @@ def compile_events(
     resets = {}
     for i, event in enumerate(events):
         if event.reset:
-            named = [(to_text(quantity), quantity) for quantity, _ in event.reset]
-            after = [(f"{label} afterwards", value) for (label, _), (_, value) in zip(named, event.reset, strict=True)]
-            velocities = compile_side(mechanism, compiled, "reset", "Velocities at an event", [*named, *after])
-            resets[i] = Reset(tuple(label for label, _ in named), velocities)
+            resets[i] = Reset(
+                tuple(to_text(name) for name, _ in event.reset), velocities_at(mechanism, compiled, event)
+            )
     return Watched(
         names=tuple(event.name for event in events),
-        directions=tuple(_DIRECTIONS[event.direction] for event in events),
+        directions=tuple(DIRECTIONS[event.direction] for event in events),
         actions=tuple(event.action for event in events),
         function=side.function,
         needs_rates="ydot" in side.reads,
@@ -73,6 +73,13 @@ def compile_events(
         switches=tuple(switch_of(x, rtol or 0.0) for x in passed),
         jumps=any(x.jumps for x in passed),
     )
+
+
+def velocities_at(mechanism: Mechanism, compiled: CompiledModel, event: Event) -> Side:
+    """Return the velocities that an event changes, then what they are afterwards."""
+    formulas = [(to_text(name), name) for name, _ in event.reset]
+    formulas += [(f"{to_text(name)} afterwards", value) for name, value in event.reset]
+    return compile_side(mechanism, compiled, "reset", "Velocities at an event", formulas)
 
 
 def switch_of(passed: Discontinuity, rtol: float) -> Switch:

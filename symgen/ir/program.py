@@ -80,6 +80,9 @@ SECTIONS = (
     *(("row_weight", "m"), ("jacobian", "jacobian")),
 )
 
+#: Sections of ``w`` that a start settles; all others are written before they are read.
+SETTLED = ("status", "winding", "mask", "saved", "pivot", "gauge", "row_weight", "mass", "mass_entry")
+
 #: Those numbers of the status that a start finds, and that are 1 before.
 SCALES = ("length_scale", "speed_scale", "mean_mass")
 

@@ -61,7 +61,7 @@ def c_functions(functions: Mapping[str, lang.Function]) -> str:
     Parameters
     ----------
     functions : mapping of str to Function
-        What the text defines, by the names that it has there.
+        Functions by their names in the text.
     """
     order, names = ordered(functions, RESERVED)
     written: dict[object, frozenset[str]] = {}
@@ -82,7 +82,7 @@ def broken(line: str) -> str:
 
 
 def c_number(value: float) -> str:
-    """Return a number of 64 bits as C has it; what 32 bits do not hold is within a macro."""
+    """Return a number of 64 bits in C; a macro replaces it where 32 bits cannot hold it."""
     if math.isfinite(value):
         size = abs(value)
         text = repr(float(value))
@@ -176,11 +176,10 @@ class _Printer(FunctionPrinter):
         """Return functions of parts, and the function that calls them; values that parts share are arrays' elements."""
         f, names = self.function, [_names(part) for part in parts]
         arguments = {p.name: p for p in f.parameters}
-        shares = Counter(name for part in names for name in part if name in f.variables and name not in arguments)
         sizes = Counter[str]()
-        for name, count in shares.items():
-            if count > 1:
-                array = "values" if f.variables[name] == "float" else "numbers"
+        for name, kind in f.variables.items():
+            if name not in arguments and sum(name in used for used in names) > 1:
+                array = "values" if kind == "float" else "numbers"
                 self.shared[name] = f"{array}[{sizes[array]}]"
                 sizes[array] += 1
         lines, calls = list[str](), list[str]()

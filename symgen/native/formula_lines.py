@@ -20,7 +20,7 @@ _FORMS = {
 
 
 class NotInLines(SymgenError):
-    """A formula has something that another language does not."""
+    """A formula has no form in another language."""
 
 
 @dataclass(frozen=True)

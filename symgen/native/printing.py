@@ -21,7 +21,7 @@ def ordered(
     Parameters
     ----------
     functions : mapping of str to Function
-        What a text defines, by the names that it has there.
+        Functions by their names in the text.
     reserved : collection of str
         Words that are no names.
     """
@@ -128,7 +128,7 @@ class FunctionPrinter(ABC):
             return [*lines, *(["} else {", *self.lines(s.otherwise)] if s.otherwise else []), "}"]
         if isinstance(s, lang.While):
             return [f"while ({self.value(s.test)}) {{", *self.lines(s.body), "}"]
-        assert isinstance(s, lang.For), "all kinds of statements are known"
+        assert isinstance(s, lang.For), "the language has no other statements"
         self.counters += 1
         counter = f"counter{self.counters}"
         return [self.loop_head(s, counter), f"{self.word(s.name)} = {counter};", *self.lines(s.body), "}"]

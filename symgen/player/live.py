@@ -9,13 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.compiling.checked import checked
-from symgen.describe.evaluate import derived, independent_values
-from symgen.describe.holds import holds_of
-from symgen.describe.start import described_start
 from symgen.drawing.scene import Array
-from symgen.native.formula_lines import FormulaLines, NotInLines
+from symgen.native.formula_lines import JAVASCRIPT, NotInLines
 from symgen.native.javascript import HELPERS, javascript
 from symgen.native.read import Foreign
+from symgen.running.start_lines import derived_lines, fixed_velocities, independent_places, lines_for, start_lines
 from symgen.runtime import abi
 from symgen.runtime.model_arrays import lengths_of
 
@@ -126,15 +124,11 @@ def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]
 
 def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
     """Return the values that follow from parameters: derived ones, and the start, described or begun with."""
-    places = {p.name: f"p[{i}]" for i, p in enumerate(mechanism.parameters)}
-    formulas = []
-    for name, expression in derived(mechanism.parameters):
-        lines = FormulaLines(places)
-        value = lines.result(lines.value(expression, name))
-        formulas.append(
-            f"if (!given.has({_index(places[name])})) {{ {' '.join(lines.lines)} {places[name]} = {value}; }}"
-        )
-    text = "function derive(p, given) {\n" + "\n".join(formulas) + "\n}\n"
+    formulas = [
+        f"if (!independent.has({place})) {{ {' '.join(lines)} }}"
+        for place, lines in derived_lines(mechanism, JAVASCRIPT)
+    ]
+    text = "function derive(p, independent) {\n" + "\n".join(formulas) + "\n}\n"
     if joint:
         return text + "const describe = null;\n"
     if begun is not None:
@@ -142,27 +136,11 @@ def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
         numbers = [repr(float(x)) for x in begun]
         texts = f"q: [{', '.join(numbers[:nq])}], v: [{', '.join(numbers[nq:])}]"
         return f"{text}function describe(p) {{ return {{ {texts} }}; }}\n"
-    lines = FormulaLines(places)
-    q, v = described_start(mechanism, lines)
-    own = {h.name: h.value for h in holds_of(mechanism)}
-    _held_values(mechanism, own, lines, q, v)
+    lines = lines_for(mechanism, JAVASCRIPT)
+    q, v = start_lines(mechanism, lines)
     texts = ", ".join("null" if x is None else lines.result(x) for x in v)
     body, places_of_bodies = "\n".join(lines.lines), ", ".join(map(lines.result, q))
     return f"{text}function describe(p) {{\n{body}\nreturn {{ q: [{places_of_bodies}], v: [{texts}] }};\n}}\n"
-
-
-def _held_values(mechanism: Mechanism, own: Mapping[str, Any], lines: FormulaLines, q: list[Any], v: list[Any]) -> None:
-    """Put values that the description holds in the place of described ones; those of joints are left to closing."""
-    names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
-    speeds = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
-    for name, value in own.items():
-        for columns, numbers in ((names, q), (speeds, v)):
-            if name in columns and value is not None:
-                numbers[columns.index(name)] = lines.value(value, name)
-
-
-def _index(place: str) -> str:
-    return place.removeprefix("p[").removesuffix("]")
 
 
 def _rates_spec(compiled: CompiledModel, start: Start) -> dict[str, Any]:
@@ -193,7 +171,6 @@ def _spec(
     constants: Collection[str],
 ) -> dict[str, Any]:
     info, rates = compiled.info, _rates_spec(compiled, start)
-    own = independent_values(mechanism, {p["name"]: p["value"] for p in rates["parameters"]})
     sections = {
         name: info.sections[name][0] for name in ("jacobian", "residual", "nu", "change", "gauge", "mass", "pivot")
     }
@@ -219,25 +196,7 @@ def _spec(
             for entry, own in zip(rates["parameters"], mechanism.parameters, strict=False)
         ],
         "state": [q.name for q in (*info.coordinates, *info.velocities)],
-        "set": [i for i, p in enumerate(mechanism.parameters) if p.formula is not None and p.name in own],
-        "fixed": [] if joint or begun is not None else _fixed(mechanism, compiled),
+        "independent": independent_places(mechanism, {p["name"]: p["value"] for p in rates["parameters"]}),
+        "fixed": [] if joint or begun is not None else fixed_velocities(mechanism, info),
         "step": step,
     }
-
-
-def _fixed(mechanism: Mechanism, compiled: CompiledModel) -> list[int]:
-    """Return the velocities whose coordinates stay where they are described."""
-    info, still = compiled.info, set[int]()
-    velocities = [v.name for v in info.velocities]
-    speeds = {
-        f"{b.name}.{c}": f"{b.name}.{s}"
-        for b in mechanism.bodies
-        for c, s in zip(b.coordinates, b.speeds, strict=False)
-    }
-    for hold in holds_of(mechanism):
-        body, _, what = hold.name.rpartition(".")
-        if what == "orientation":
-            still |= {velocities.index(f"{body}.{s}") for s in ("wx", "wy", "wz")}
-        elif hold.name in speeds:
-            still.add(velocities.index(speeds[hold.name]))
-    return sorted(still)

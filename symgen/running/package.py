@@ -21,7 +21,7 @@ from symgen.emit.module import render
 from symgen.emit.printer import harmless
 from symgen.errors import AssemblyError, InputError
 from symgen.files import Content, check_name, templates_folder, why, write_all
-from symgen.ir.program import COUNTERS, STATUS, SUFFIXES
+from symgen.ir.program import COUNTERS, SETTLED, STATUS, SUFFIXES
 from symgen.lower.looped.law import is_loopable
 from symgen.methods import METHODS
 from symgen.running.plan import Plan, Purpose
@@ -33,8 +33,6 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.store.entries import Modules
 
-#: Sections of ``w`` that a start settles; all others are written before they are read.
-_SETTLED = ("status", "winding", "mask", "saved", "pivot", "gauge", "row_weight", "mass", "mass_entry")
 _MARK = "Written by symgen"
 
 
@@ -186,7 +184,7 @@ def _started(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] | None, 
     simulation = begin(usual, assembled).simulation()
     simulation.enter(simulation.outputs(np.zeros(0)), until=0.0)
     state, info, defaults = simulation.state, assembled.compiled.info, usual.mechanism.defaults
-    sections = {name: info.sections[name] for name in _SETTLED if name in info.sections}
+    sections = {name: info.sections[name] for name in SETTLED if name in info.sections}
     run = {
         "method": _stem(usual.choice),
         "until": defaults.until,

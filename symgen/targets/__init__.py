@@ -1,4 +1,4 @@
-"""What code is emitted for, one file a target: ``symgen generate --target NAME`` finds it by its file name."""
+"""Targets of emitted code, one file each: ``symgen generate --target NAME`` finds a target by its file name."""
 
 from __future__ import annotations
 

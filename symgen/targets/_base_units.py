@@ -25,12 +25,12 @@ _FACTOR = re.compile(r"([A-Za-z1]+)(?:\^(-?\d+))?")
 
 
 def base_unit(unit: str) -> dict[str, int | float] | None:
-    """Return exponents of base units and, where it is not 1, the factor; None for a unit that is none of these.
+    """Return the exponents of base units and, unless it is 1, the factor; None for an unknown unit.
 
     Parameters
     ----------
     unit : str
-        As people write it: ``kg m^2``, ``N/m``, ``N m s/rad``; what follows a slash divides.
+        Such as ``kg m^2``, ``N/m``, ``N m s/rad``; units behind a slash divide.
     """
     exponents, factor = Counter[str](), 1.0
     body = unit.replace("(", "").replace(")", "")

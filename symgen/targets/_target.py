@@ -1,4 +1,4 @@
-"""A target: what writes the code of a mechanism for it."""
+"""A target writes the code of a mechanism."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ USUAL = "direct-correction"
 
 @dataclass(frozen=True)
 class Request:
-    """What is emitted.
+    """A mechanism, and the choices of its code.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class Request:
 
 @dataclass(frozen=True)
 class Target:
-    """What code is emitted for; the first line of a target's file has what the code needs.
+    """One use of emitted code; the first line of a target's file names it and what the code needs.
 
     Attributes
     ----------

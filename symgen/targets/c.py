@@ -10,10 +10,9 @@ from symgen.targets._target import Request, Target
 
 def _write(request: Request) -> Package:
     model = CModel.of(request, "c")
-    values = model.values()
-    files = sources(model)
-    files["main.c"] = render("c/main.c.j2", values)
-    files["README.md"] = render("c/README.md.j2", values)
+    files = sources(model.values)
+    files["main.c"] = render("c/main.c.j2", model.values)
+    files["README.md"] = render("c/README.md.j2", model.values)
     compiled = model.compiled
     return Package(request.path, write_folder(request.path, files), compiled.derive_seconds, compiled.emit_seconds)
 

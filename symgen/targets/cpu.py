@@ -2,20 +2,6 @@
 
 from __future__ import annotations
 
-from symgen.running.package import Package, write_package
-from symgen.targets._target import Request, Target
+from symgen.targets._modules import modules_for
 
-
-def _write(request: Request) -> Package:
-    return write_package(
-        request.mechanism,
-        request.path,
-        request.methods,
-        request.options or {},
-        request.coordinates,
-        request.shape,
-        "cpu",
-    )
-
-
-KIND = Target(_write)
+KIND = modules_for("cpu")

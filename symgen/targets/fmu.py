@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import io
 import platform
 import shutil
@@ -10,14 +9,15 @@ import subprocess
 import sys
 import tempfile
 import zipfile
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
-from xml.sax.saxutils import quoteattr
+from uuid import NAMESPACE_OID, uuid5
 
 import msgspec
 import numpy as np
+from numpy.typing import NDArray
 
 from symgen.emit.module import render
 from symgen.errors import InputError
@@ -44,14 +44,14 @@ _RANK = 1e-9
 
 @dataclass
 class Variable:
-    """A variable of the model description; texts are those of XML attributes."""
+    """A variable of the model description."""
 
     name: str
     reference: int
     causality: str
-    variability: str
+    variability: str = "continuous"
+    initial: str = "calculated"
     unit: str = ""
-    initial: str = ""
     start: str | None = None
     description: str = ""
     derivative: Variable | None = None
@@ -66,10 +66,10 @@ def _write(request: Request) -> Package:
     mechanism = msgspec.structs.replace(request.mechanism, input_formulas=())
     model = CModel.of(replace(request, mechanism=mechanism), "fmu")
     files = _files(model, request.fmi)
-    binaries = _binaries(model, files, request.fmi)
+    files |= _binaries(model.prefix, files, request.fmi)
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, data in {**files, **binaries}.items():
+        for name, data in files.items():
             entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
             entry.compress_type = zipfile.ZIP_DEFLATED
             archive.writestr(entry, data)
@@ -80,19 +80,15 @@ def _write(request: Request) -> Package:
 
 def _files(model: CModel, fmi: int) -> dict[str, bytes]:
     """Return the texts of an FMU by their names in it."""
-    values = model.values() | _partition(model)
+    texts = sources(model.values)
+    values = model.values | _partition(model)
     values |= {
         "fmi": fmi,
-        "guid": "",
+        "guid": f"{{{uuid5(NAMESPACE_OID, ' '.join([*texts.values(), str(fmi), __version__]))}}}",
         "version": __version__,
         **{"at_column": _COLUMN, "at_output": _OUTPUT, "at_state": _STATE, "at_rate": _RATE, "at_event": _EVENT},
         "at_time": _TIME,
     }
-    texts = sources(model)
-    source = render("c/fmu.c.j2", values)
-    digest = hashlib.sha256("".join([*texts.values(), source]).encode()).hexdigest()
-    guid = f"{{{digest[:8]}-{digest[8:12]}-{digest[12:16]}-{digest[16:20]}-{digest[20:32]}}}"
-    values["guid"] = guid
     texts["fmu.c"] = render("c/fmu.c.j2", values)
     if fmi == 3:
         texts["buildDescription.xml"] = render("c/buildDescription.xml.j2", values)
@@ -102,92 +98,66 @@ def _files(model: CModel, fmi: int) -> dict[str, bytes]:
 
 def _partition(model: CModel) -> dict[str, Any]:
     """Return how many coordinates and velocities depend on others at the start, and rows and places for it."""
-    compiled, start, info = model.compiled, model.run.start, model.compiled.info
-    rows = compiled.jacobian(start.w)
+    compiled, info = model.compiled, model.compiled.info
+    rows = compiled.jacobian(model.run.start.w)
     holonomic = [i for i, row in enumerate(info.rows) if row.holonomic]
-    ranks = [_rank(rows[holonomic]), _rank(rows)]
     return {
         "holonomic": holonomic,
         "spins": [f"{{{first}, {turning}}}" for first, turning in info.spins],
-        "rank_q": ranks[0] + len(info.spins),
-        "rank_v": ranks[1],
+        "rank_q": _rank(rows[holonomic]) + len(info.spins),
+        "rank_v": _rank(rows),
         "rest": len(info.states) + info.integrals,
         "windings": info.windings,
     }
 
 
-def _rank(rows: Any) -> int:
+def _rank(rows: NDArray[np.float64]) -> int:
     sizes = np.linalg.svd(rows, compute_uv=False) if rows.size else np.zeros(0)
     return int(np.sum(sizes > _RANK * sizes.max(initial=0.0)))
 
 
-def _variables(model: CModel, values: dict[str, Any], fmi: int) -> dict[str, Any]:
+def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, Any]:
     """Return the variables of the model description, and those of its structure."""
     mechanism, info = model.mechanism, model.compiled.info
     formulas = {p.name for p in mechanism.parameters if p.formula is not None}
-    variables = list[Variable]()
+    parameters, following = list[Variable](), list[Variable]()
     for i, parameter in enumerate(values["parameters"]):
-        name, follows = parameter["name"], parameter["name"] in formulas
-        kind = ("input", "continuous") if parameter["input"] else ("parameter", "fixed")
-        kind = ("calculatedParameter", "fixed") if follows and not parameter["input"] else kind
-        start = None if follows and not parameter["input"] else parameter["value"]
-        initial = {"input": "", "parameter": "exact"}.get(kind[0], "calculated")
-        variables.append(Variable(name, i, *kind, unit=parameter["unit"], initial=initial, start=start))
-    units = [_unit_of(name) for name in model.columns]
-    outputs = [(name, _COLUMN + i, unit) for i, (name, unit) in enumerate(zip(model.columns, units, strict=True))]
-    names = {v.name for v in variables} | set(model.columns)
+        name, unit, value = parameter["name"], parameter["unit"], parameter["value"]
+        if parameter["input"]:
+            parameters.append(Variable(name, i, "input", initial="", unit=unit, start=value))
+        elif name in formulas:
+            following.append(Variable(name, i, "calculatedParameter", "fixed", unit=unit))
+            parameters.append(following[-1])
+        else:
+            parameters.append(Variable(name, i, "parameter", "fixed", "exact", unit, value))
+    outputs = [Variable(q.name, _COLUMN + i, "output", unit=q.unit) for i, q in enumerate(model.columns)]
+    names = {v.name for v in (*parameters, *outputs)}
     for i, output in enumerate(mechanism.outputs):
-        outputs.append((f"output.{output.name}" if output.name in names else output.name, _OUTPUT + i, output.unit))
-    outputs_at = [Variable(n, r, "output", "continuous", unit=u, initial="calculated") for n, r, u in outputs]
+        name = f"output.{output.name}" if output.name in names else output.name
+        outputs.append(Variable(name, _OUTPUT + i, "output", unit=output.unit))
     count = info.nq - values["rank_q"] + info.nv - values["rank_v"] + values["rest"]
     what = "independent coordinate or velocity, state or integral"
-    states = [
-        Variable(f"state.{i + 1}", _STATE + i, "local", "continuous", initial="calculated", description=what)
-        for i in range(count)
-    ]
-    rates = [
-        Variable(f"der(state.{i + 1})", _RATE + i, "local", "continuous", initial="calculated", derivative=state)
-        for i, state in enumerate(states)
-    ]
+    states = [Variable(f"state.{i + 1}", _STATE + i, "local", description=what) for i in range(count)]
+    rates = [Variable(f"der({s.name})", _RATE + i, "local", derivative=s) for i, s in enumerate(states)]
     marks = [*(f"event.{event.name}" for event in mechanism.events), "event.choice_of_states"] if fmi == 3 else []
-    indicators = [
-        Variable(name, _EVENT + i, "local", "continuous", initial="calculated") for i, name in enumerate(marks)
-    ]
-    variables += [*outputs_at, *states, *rates, *indicators]
+    indicators = [Variable(name, _EVENT + i, "local") for i, name in enumerate(marks)]
+    variables = [*parameters, *outputs, *states, *rates, *indicators]
     for i, variable in enumerate(variables, 1):
         variable.index = i
-        variable.unit = "" if variable.unit in ("", "1") else variable.unit
-        variable.name, variable.unit = _escaped(variable.name), _escaped(variable.unit)
-    used = sorted({v.unit for v in variables} - {""})
-    following = [v for v in variables if v.causality == "calculatedParameter"]
+        variable.unit = "" if variable.unit == "1" else variable.unit
+    units = sorted({v.unit for v in variables} - {""})
     return {
-        "title": _escaped(values["title"]),
         "variables": variables,
-        "units": [{"name": unit, "base": _attributes(base_unit(unit))} for unit in used],
-        "outputs_at": outputs_at,
+        "units": [{"name": unit, "base": base_unit(unit) or {}} for unit in units],
+        "outputs_at": outputs,
         "rates_at": rates,
-        "unknown_at": sorted([*following, *outputs_at, *states, *rates], key=lambda v: v.index),
+        "unknown_at": [*following, *outputs, *states, *rates],
         "indicators": indicators,
     }
 
 
-def _unit_of(column: str) -> str:
-    name = column.rpartition(".")[2]
-    if name in ("theta", "omega", "wx", "wy", "wz"):
-        return "rad" if name == "theta" else "rad/s"
-    return {"e": "", "v": "m/s"}.get(name[0], "m")
-
-
-def _escaped(text: str) -> str:
-    return quoteattr(text)[1:-1].replace('"', "&quot;")
-
-
-def _attributes(exponents: dict[str, int | float] | None) -> str:
-    return " ".join(f'{name}="{value}"' for name, value in (exponents or {}).items())
-
-
-def _binaries(model: CModel, files: dict[str, bytes], fmi: int) -> dict[str, bytes]:
-    """Return shared libraries of an FMU, for the machine at hand and for those that a cross compiler is there for.
+def _binaries(prefix: str, files: Mapping[str, bytes], fmi: int) -> dict[str, bytes]:
+    """Return shared libraries of an FMU for the machine at hand, and for Windows where a cross compiler is installed.
 
     Raises
     ------
@@ -217,15 +187,10 @@ def _binaries(model: CModel, files: dict[str, bytes], fmi: int) -> dict[str, byt
                 [*command, "fmu.c", "-o", library.name, "-lm"], cwd=folder, capture_output=True, text=True, check=False
             )
             if result.returncode:
-                raise InputError(
-                    "--target fmu", f"code that {command[0]} compiles", _first_error(result.stderr.split("\n"))
-                )
-            binaries[f"binaries/{target}/{model.prefix}{ending}"] = library.read_bytes()
+                error = next((line for line in result.stderr.splitlines() if "error" in line), "an error")
+                raise InputError("--target fmu", f"code that {command[0]} compiles", error)
+            binaries[f"binaries/{target}/{prefix}{ending}"] = library.read_bytes()
     return binaries
-
-
-def _first_error(lines: Iterable[str]) -> str:
-    return next((line for line in lines if "error" in line), "an error")
 
 
 KIND = Target(_write, ".fmu")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from symgen.errors import InputError
+from symgen.player.live import live_part
+from symgen.player.motion_page import as_json, model_script
+from symgen.running.package import Package, write_folder
+from symgen.running.plan import Purpose
+from symgen.running.prepare import prepare
 from symgen.targets._target import Request, Target
-
-if TYPE_CHECKING:
-    from symgen.running.package import Package
 
 _MODULE = """\
 // {name} by the method {method}. Written by symgen; the same mechanism gives the same bytes.
@@ -19,15 +19,8 @@ export const model = makeLive({spec}, Object.assign({{ confirm: null, move: null
 
 
 def _write(request: Request) -> Package:
-    from symgen.player.live import live_part
-    from symgen.player.motion_page import as_json, model_script
-    from symgen.running.package import Package, write_folder
-    from symgen.running.plan import Purpose
-    from symgen.running.prepare import prepare
-
     mechanism = request.mechanism
-    settings = request.settings("javascript")
-    run = prepare(mechanism, settings, Purpose.STATE)
+    run = prepare(mechanism, request.settings("javascript"), Purpose.STATE)
     live, reason = live_part(run.mechanism, run.compiled, run.start, mechanism.defaults.step)
     if live is None:
         raise InputError("--target javascript", "a mechanism that a page can work out", f"{mechanism.name}: {reason}")

@@ -201,8 +201,11 @@ def test_formulas_that_the_run_had_numbers_for_keep_these() -> None:
     }
     run = load(validate(raw, "test")).simulate(until=0.1, shape="straight", parameters={"twice": 7.0})
     live = data_of(run.view().html)["live"]
-    assert live["p0"][:3] == [2.0, 7.0, 8.0] and live["set"] == [1]
-    assert data_of(load(validate(raw, "test")).simulate(until=0.1, shape="straight").view().html)["live"]["set"] == []
+    assert live["p0"][:3] == [2.0, 7.0, 8.0] and live["independent"] == [1]
+    assert (
+        data_of(load(validate(raw, "test")).simulate(until=0.1, shape="straight").view().html)["live"]["independent"]
+        == []
+    )
 
 
 def test_pages_in_joint_coordinates_have_no_sliders_that_move_the_start() -> None:

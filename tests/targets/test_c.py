@@ -1,6 +1,8 @@
 """C code beside what Numba and symgen's own compiler make of the same functions, and its runs beside `simulate`."""
 
+import os
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -131,6 +133,36 @@ def test_events_change_velocities_and_end_the_run(tmp_path):
     assert rows[-1, names.index("ball.y")] == pytest.approx(height, abs=1e-11)
 
 
+STONE = """
+[mechanism]
+name = "stone"
+space = "spatial"
+gravity = [0.0, 0.0, -9.81]
+[bodies.stone]
+mass = 1.0
+inertia = [1.0, 2.0, 2.5{products}]
+position = [0.0, 0.0, 1.0]
+angular_velocity = [1.0, 0.5, 0.2]
+[events.floor]
+when = "stone.z < 0"
+reset = {{ "stone.vz" = "-0.5*stone.vz" }}
+[run]
+until = 0.6
+step = 1e-3
+"""
+
+
+def test_a_body_in_space_is_changed_where_its_axes_are_principal(tmp_path):
+    for name, products in (("principal", ""), ("others", ", 0.1, 0.0, 0.0")):
+        (tmp_path / f"{name}.toml").write_text(STONE.format(products=products))
+    names, rows = rows_of(compiled(written(load(tmp_path / "principal.toml").mechanism, tmp_path / "c")))
+    hit = np.sqrt(2 / 9.81)
+    height = 0.5 * 9.81 * hit * (0.6 - hit) - 9.81 / 2 * (0.6 - hit) ** 2
+    assert rows[-1, names.index("stone.z")] == pytest.approx(height, abs=1e-11)
+    with pytest.raises(InputError, match=r"events\.floor: expected bodies with mass whose axes are principal"):
+        written(load(tmp_path / "others.toml").mechanism, tmp_path / "refused")
+
+
 def test_a_length_that_changes_closes_the_mechanism_anew(tmp_path):
     model = load("wiper")
     library = called(written(model.mechanism, tmp_path))
@@ -175,6 +207,17 @@ def test_long_functions_are_divided(tmp_path):
     text = c_functions(checked(run.compiled, ("rhs",)))
     assert "rhs_part1(" in text
     assert max(map(len, text.split("\n\n"))) < 60_000
+
+
+@pytest.mark.parametrize("name", ["wiper", "bricard"])
+def test_bytes_do_not_depend_on_the_process(name, tmp_path):
+    texts = []
+    for seed in ("1", "2"):
+        folder = tmp_path / seed
+        command = [sys.executable, "-m", "symgen", "generate", name, "--target", "c", "--output", str(folder)]
+        subprocess.run(command, check=True, capture_output=True, env={**os.environ, "PYTHONHASHSEED": seed})
+        texts.append({path.name: path.read_text() for path in folder.iterdir()})
+    assert texts[0] == texts[1]
 
 
 def test_the_loop_of_the_guide_compiles(tmp_path):

@@ -5,7 +5,7 @@ function makeRates(spec, code) {
   const p = Float64Array.from(spec.p0);
   const w = new Float64Array(spec.nw);
   const iw = new Float64Array(16);
-  const given = new Set(spec.set); // formulas that the run had numbers for
+  const independent = new Set(spec.independent); // parameters that do not follow their formulas
 
   function scratch() {
     w.fill(0);
@@ -15,7 +15,7 @@ function makeRates(spec, code) {
   }
 
   function prepare() {
-    code.derive(p, given);
+    code.derive(p, independent);
     code.prepareModel(p);
     code.prepareLaw(p);
     code.masses(p, w);
@@ -24,7 +24,7 @@ function makeRates(spec, code) {
   function setParameters(values) {
     for (const [i, x] of values) {
       p[i] = x;
-      given.add(i);
+      independent.add(i);
     }
     prepare();
   }
@@ -38,7 +38,7 @@ function makeRates(spec, code) {
     }
   }
 
-  // The state's rates; parameters that are given replace those of the page for this one call.
+  // The state's rates; other values of parameters replace those of the page for this one call.
   function rates(t, y, values) {
     const ydot = new Float64Array(ny), kept = p.slice(), state = new Float64Array(ny);
     state.set(Array.from(y).slice(0, ny));
@@ -58,11 +58,11 @@ function makeRates(spec, code) {
 
   // What puts parameters and scratch back as they are now.
   function keep() {
-    const before = [p.slice(), [...given], w.slice(), iw.slice()];
+    const before = [p.slice(), [...independent], w.slice(), iw.slice()];
     return () => {
       p.set(before[0]);
-      given.clear();
-      before[1].forEach((i) => given.add(i));
+      independent.clear();
+      before[1].forEach((i) => independent.add(i));
       w.set(before[2]);
       iw.set(before[3]);
       code.prepareModel(p);
@@ -71,8 +71,8 @@ function makeRates(spec, code) {
   }
 
   function reset() {
-    given.clear();
-    for (const i of spec.set || []) given.add(i);
+    independent.clear();
+    for (const i of spec.independent || []) independent.add(i);
     p.set(spec.p0);
     scratch();
     prepare();

@@ -1,0 +1,22 @@
+"""Modules that people read, for one kind of processor."""
+
+from __future__ import annotations
+
+from symgen.running.package import Package, write_package
+from symgen.targets._target import Request, Target
+
+
+def modules_for(processor: str) -> Target:
+    """Return the target whose files are the modules of a mechanism.
+
+    Parameters
+    ----------
+    processor : {"cpu", "lanes", "cuda"}
+        What the modules run on.
+    """
+
+    def write(request: Request) -> Package:
+        choices = request.methods, request.options or {}, request.coordinates, request.shape
+        return write_package(request.mechanism, request.path, *choices, processor)
+
+    return Target(write)
