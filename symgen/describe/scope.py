@@ -278,6 +278,22 @@ class Scope:
             )
         return tuple(self.constant(key, e) for e in components)
 
+    def several(
+        self,
+        key: str,
+        value: float | str | tuple[float | str, ...],
+        count: int,
+        *,
+        alike: bool = False,
+        positive: bool = False,
+    ) -> Vec:
+        """Return `count` numbers or expressions of parameters; with `alike` one that is no list stands for each."""
+        parts = value if isinstance(value, tuple) else (value,) * (count if alike else 1)
+        if len(parts) != count:
+            expected = f"{count} numbers or expressions of parameters" if count > 1 else "one number or expression"
+            raise self.error(key, expected, words_of(value))
+        return tuple(self.constant(key, part, positive=positive) for part in parts)
+
     def optional(self, key: str, value: float | str | None) -> Expr | None:
         """Return as `constant` does, None for None."""
         return None if value is None else self.constant(key, value)

@@ -115,7 +115,6 @@ class _Validator:
         )
         scope = Scope(self.context, "mechanism")
         read_body = spatial_body if head.space == "spatial" else planar_body
-        written = self.raw
         beams = self.beams(read_body)
         gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
         bodies = tuple(read_body(self.scope("bodies", name), value) for name, value in self.entries("bodies"))
@@ -147,7 +146,7 @@ class _Validator:
             cuts=tuple(self._cuts),
             holds=tuple(holds),
             shapes=tuple((body.name, shape) for scope, raw, body in described for shape in shapes_of(scope, raw)),
-            beams=b"" if beams is None else msgspec.json.encode(written),
+            beams=b"" if beams is None else msgspec.json.encode(beams.counted()),
             events=tuple(read_event(self.scope("events", n), n, event) for n, event in self.entries("events")),
         )
         check_columns(mechanism, self.source)
