@@ -44,6 +44,7 @@ from symgen.describe.sections import (
 from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
 from symgen.errors import InputError, nearest, quoted
+from symgen.memory import uncollected
 from symgen.vocabulary.expressions import ONE, call, names
 from symgen.vocabulary.measures import Marker
 
@@ -55,6 +56,7 @@ Raw = Mapping[str, Any]
 DEEPEST = 20
 
 
+@uncollected()
 def validate(raw: Raw, source: str) -> Mechanism:
     """Return the mechanism that the nested dictionary `raw` describes.
 
