@@ -136,13 +136,13 @@ def segments(scope: Scope, beam: BeamSection) -> list[Segment]:
 def cross_sections(scope: Scope, line: list[Segment]) -> list[list[CrossSection]]:
     """Return the cross sections at each node of a line: two at a vertex, the end and the start of segments."""
     lengths = [scope.value(segment.length, "elements") for segment in line]
-    nodes, before = list[list[CrossSection]]([[]]), 0.0
+    nodes, before, whole = list[list[CrossSection]]([[]]), 0.0, sum(lengths)
     for segment, length in zip(line, lengths, strict=True):
         step = segment.step
         for k, weight in enumerate(weights(segment.elements)):
             if k > 0:
                 nodes.append([])
-            part = (before + length * k / segment.elements) / sum(lengths)
+            part = (before + length * k / segment.elements) / whole
             nodes[-1].append(CrossSection(*segment.pose(k), part, product(number(weight), step)))
         before += length
     return nodes
@@ -178,16 +178,16 @@ def _sides(scope: Scope, beam: BeamSection, count: int) -> list[Vec]:
 
 
 def _counts(scope: Scope, elements: int | tuple[int, ...], lengths: list[float]) -> list[int]:
-    """Return the numbers of elements of segments, of which the longest element is as short as can be."""
+    """Return the number of elements of each segment; where it is free, the longest element is as short as can be."""
     least = len(lengths)
     counts = list(elements) if isinstance(elements, tuple) else [1] * least
-    number_ = sum(counts) if isinstance(elements, tuple) else elements
-    if not least <= number_ <= MOST_ELEMENTS or len(counts) != least or min(counts) < 1:
+    whole = sum(counts) if isinstance(elements, tuple) else elements
+    if not least <= whole <= MOST_ELEMENTS or len(counts) != least or min(counts) < 1:
         listed = f", or {least} numbers above 0, one for each segment" if least > 1 else ""
         raise scope.error("elements", f"a number of elements, {least} to {MOST_ELEMENTS}{listed}", words_of(elements))
     steps = [(-length / count, i) for i, (length, count) in enumerate(zip(lengths, counts, strict=True))]
     heapq.heapify(steps)
-    for _ in range(number_ - sum(counts)):
+    for _ in range(whole - sum(counts)):
         i = steps[0][1]
         counts[i] += 1
         heapq.heapreplace(steps, (-lengths[i] / counts[i], i))

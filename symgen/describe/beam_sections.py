@@ -81,7 +81,7 @@ class BeamSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     load : vector of functions of state
         Force by length in ground axes [N/m], where ``x``, ``y`` and ``z`` are the coordinates of the place.
     clamp : body name, or two
-        Bodies that the start, or start and end are part of, as all is described; ``""`` for a free end.
+        Bodies that the start, or the start and the end are part of, where both are described; ``""`` for a free end.
     velocity, angular_velocity : vector, scalar
         Of the start, and of the whole beam as if it were rigid, at the start, in ground axes; completed by assembly by
         default.
@@ -141,7 +141,7 @@ def properties_of(scope: Scope, beam: BeamSection) -> Properties:
         if getattr(beam, key) is None:
             raise scope.error(key, "a value, or the tables section and material", "no such key")
     keys = {key: getattr(beam, key) for key in direct[:4] if getattr(beam, key) is not None}
-    assert beam.mass is not None, "it was missed above"
+    assert beam.mass is not None, "the loop above requires it"
     return Properties(keys, scope.constant("mass", beam.mass, positive=True), _rotary(scope, beam))
 
 

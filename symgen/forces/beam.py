@@ -25,8 +25,8 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     at : pair of points
         The ends of the element, origins of the two frames.
     axis : direction, or pair of directions
-        Along the beam at its ends: in the frame of each body, or in that of the first one, and from there in the
-        second's as both are described to start, turned by the curvature.
+        Along the beam at its ends: in the frame of each body; or in that of the first one, from which the second one
+        follows by the positions at the start and the curvature.
     reference : pair of directions
         In space, direction y of the section in the frame of each body.
     length : scalar
