@@ -67,6 +67,10 @@ class _Seat:
         return _written(self.sides[section][i])
 
 
+#: A point of a rigid beam, its velocity, and three components of the angular velocity.
+_Motion = tuple[Vec, Vec, Vec]
+
+
 class Beams:
     """The beams of a description.
 
@@ -82,7 +86,7 @@ class Beams:
     Attributes
     ----------
     bodies, forces : dict
-        Nodes, and elements and loads, as a description has them.
+        Nodes, and bodies with further points; elements and loads, as a description has them.
     """
 
     def __init__(
@@ -138,7 +142,7 @@ class Beams:
         clamps = (beam.clamp, "") if isinstance(beam.clamp, str) else beam.clamp
         if len(clamps) != 2:
             raise scope.error("clamp", "one body, or two: that of the start and that of the end", words_of(beam.clamp))
-        nodes, motion, seats = cross_sections(scope, line), _motion(scope, beam), list[_Seat]()
+        nodes, motion, seats = cross_sections(scope, line), _motion(scope, beam, line[0].start), list[_Seat]()
         last = len(nodes) - 1
         self._counts[name], self._nodes[name] = [segment.elements for segment in line], []
         for k, sections in enumerate(nodes):
@@ -147,24 +151,13 @@ class Beams:
             self._nodes[name].append(("" if host else node, sections[0].part))
             if host:
                 seats.append(self._clamp(scope, host, sections[0], properties))
-                continue
-            vertex, unturned, own = len(sections) > 1, _UNTURNED[scope.dimension], sections[0]
-            seats.append(_Seat(node, CENTRE, [section.sides if vertex else unturned for section in sections]))
-            (mass, inertia), *others = (_mass(properties, s, s.axes if vertex else None) for s in sections)
-            if vertex:  # the node has no direction of its own
-                own = replace(own, axes=unturned, angle=ZERO)
-                self._further[node] = [_Mass((ZERO,) * scope.dimension, *other) for other in others]
-            self.bodies[node] = {
-                "mass": file_value(mass),
-                "inertia": _written(inertia) if scope.spatial else file_value(*inertia),
-                "hold": beam.hold,
-                **_pose(own),
-                **_velocities(own, line[0].start, motion),
-            }
-            if beam.load is not None:
-                size = total(*(section.share for section in sections))
-                load = [_times_text(size, part, node) for part in beam.load]
-                self.forces[f"{name}.{LOAD}{k}"] = {"type": "force", "body": node, "force": load}
+            else:
+                seats.append(self._node(node, beam, sections, properties, motion))
+            if beam.load is not None and host != GROUND:
+                at = self._point(host, node.replace(".", "_"), seats[-1].place) if host else CENTRE
+                size, place = total(*(section.share for section in sections)), f"{host}.{at}" if host else node
+                load = [_times_text(size, part, place) for part in beam.load]
+                self.forces[f"{name}.{LOAD}{k}"] = {"type": "force", "body": host or node, "at": at, "force": load}
         k = 0
         for segment in line:
             element: dict[str, Any] = {"type": "beam", "length": file_value(segment.step), "damping": beam.damping}
@@ -178,6 +171,35 @@ class Beams:
                 if scope.spatial:
                     keys["reference"] = [a.side(-1, 1), b.side(0, 1)]
                 self.forces[f"{name}.{ELEMENT}{k}"] = element | keys
+
+    def _node(
+        self, name: str, beam: BeamSection, sections: list[CrossSection], properties: Properties, motion: _Motion | None
+    ) -> _Seat:
+        """Return the seat of a node, which becomes a body."""
+        vertex, own = len(sections) > 1, sections[0]
+        dimension = len(own.place)
+        unturned = _UNTURNED[dimension]
+        (mass, inertia), *others = (_mass(properties, s, s.axes if vertex else None) for s in sections)
+        if vertex:  # it has no direction of its own
+            own = replace(own, axes=unturned, angle=ZERO)
+            self._further[name] = [_Mass((ZERO,) * dimension, *other) for other in others]
+        self.bodies[name] = {
+            "mass": file_value(mass),
+            "inertia": _written(inertia) if dimension == 3 else file_value(*inertia),
+            "hold": beam.hold,
+            **_pose(own),
+            **({} if motion is None else _velocities(own, motion)),
+        }
+        return _Seat(name, CENTRE, [section.sides if vertex else unturned for section in sections])
+
+    def _point(self, body: str, name: str, place: str | list[float | str]) -> str:
+        """Return the name of a further point of a body that an end is clamped to."""
+        table = self.bodies.get(body, self.raw["bodies"][body])
+        points = table.get("points", {})
+        while name in points:
+            name += "_"
+        self.bodies[body] = {**table, "points": {**points, name: place}}
+        return name
 
     def _clamp(self, scope: Scope, name: str, end: CrossSection, properties: Properties) -> _Seat:
         """Return the seat of a clamped end on its body, which is to have the mass of the end."""
@@ -254,21 +276,19 @@ class Beams:
 # -- tables of nodes, and masses -------------------------------------------------------------------------------------
 
 
-def _motion(scope: Scope, beam: BeamSection) -> tuple[Vec, Vec] | None:
-    """Return the velocity of the start and three components of the angular velocity; None where a beam has neither."""
+def _motion(scope: Scope, beam: BeamSection, start: Vec) -> _Motion | None:
+    """Return how a beam moves at the start as if it were rigid, None where its tables say nothing of that."""
     if beam.velocity is None and beam.angular_velocity is None:
         return None
     velocity = scope.vector("velocity", (0.0,) * scope.dimension if beam.velocity is None else beam.velocity)
     count, turning = (3 if scope.spatial else 1), beam.angular_velocity
     omega = scope.several("angular_velocity", 0.0 if turning is None else turning, count, alike=turning is None)
-    return velocity, (*(ZERO,) * (3 - count), *omega)
+    return start, velocity, (*(ZERO,) * (3 - count), *omega)
 
 
-def _velocities(section: CrossSection, start: Vec, motion: tuple[Vec, Vec] | None) -> dict[str, Any]:
-    """Return the velocities of a node as those of a rigid beam."""
-    if motion is None:
-        return {}
-    velocity, omega = motion
+def _velocities(section: CrossSection, motion: _Motion) -> dict[str, Any]:
+    """Return the velocities of a node."""
+    start, velocity, omega = motion
     swept = cross(omega, (*map(difference, section.place, start), ZERO))
     own = _written(dot(omega, axis) for axis in section.axes) if len(start) == 3 else file_value(omega[2])
     return {"velocity": _written(map(total, velocity, swept)), "angular_velocity": own}
