@@ -127,7 +127,7 @@ class Beams:
         beams = {name: {**table, "elements": self._counts[name]} for name, table in self.raw["beams"].items()}
         return {**self.raw, "beams": beams}
 
-    def clamped(self, body: AnyBody) -> AnyBody:
+    def with_ends(self, body: AnyBody) -> AnyBody:
         """Return a body with the masses of the ends of beams that are part of it."""
         for further in self._further.get(body.name, ()):
             body = _with_mass(body, further)

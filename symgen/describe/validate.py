@@ -122,7 +122,7 @@ class _Validator:
         bodies = tuple(read_body(self.scope("bodies", name), value) for name, value in self.entries("bodies"))
         if not bodies:
             raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
-        bodies = bodies if beams is None else tuple(map(beams.clamped, bodies))
+        bodies = bodies if beams is None else tuple(map(beams.with_ends, bodies))
         self.context = msgspec.structs.replace(self.context, bodies={body.name: body for body in bodies})
         joints = tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints"))
         forces = tuple(self.force(name, value) for name, value in self.entries("forces"))
