@@ -181,7 +181,7 @@ def _of_material(scope: Scope, section: ProfileSection, material: MaterialSectio
         raise scope.error("section", expected, " and ".join(sizes) or "an empty table")
     modulus = call("div", young, product(number(2.0), total(ONE, poisson)))
     about_y, about_z = moments
-    shear = product(factor, modulus, area)
+    shear = product(factor, product(modulus, area))
     bending = [file_value(product(young, about_y)), file_value(product(young, about_z))]
     stiffness: dict[str, Any] = {
         "axial": file_value(product(young, area)),
@@ -198,13 +198,13 @@ def _of_material(scope: Scope, section: ProfileSection, material: MaterialSectio
 def _rectangle(width: Expr, height: Expr) -> tuple[Expr, tuple[Expr, Expr], Expr]:
     """Return area, second moments about y and z, and the torsion constant (Saint-Venant's series)."""
     area, ratio = product(width, height), call("div", width, height)
-    about_y = product(number(1.0 / 12.0), area, width, width)
-    about_z = product(number(1.0 / 12.0), area, height, height)
+    about_y = product(area, product(width, width), number(1.0 / 12.0))
+    about_z = product(area, product(height, height), number(1.0 / 12.0))
     terms = [
         product(call("tanh", call("div", number(0.5 * math.pi * k), ratio)), number(k**-5.0)) for k in range(1, 14, 2)
     ]
     sunk = product(number(64.0 / math.pi**5), ratio, total(*terms))
-    torsion = product(area, width, width, difference(number(1.0 / 3.0), sunk))
+    torsion = product(area, product(width, width), difference(number(1.0 / 3.0), sunk))
     return area, (about_y, about_z), torsion
 
 
@@ -212,7 +212,7 @@ def _ring(outer: Expr, inner: Expr) -> tuple[Expr, tuple[Expr, Expr], Expr]:
     """Return the same of a circle with a hole."""
     squares = [product(d, d) for d in (outer, inner)]
     area = product(number(0.25 * math.pi), difference(*squares))
-    moment = product(number(1.0 / 16.0), area, total(*squares))
+    moment = product(area, total(*squares), number(1.0 / 16.0))
     return area, (moment, moment), product(number(2.0), moment)
 
 
