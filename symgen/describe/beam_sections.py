@@ -8,10 +8,10 @@ from typing import Any
 
 import msgspec
 
-from symgen.describe.fields import Across, Held, Scalar, StateVector, Vector, words_of
-from symgen.describe.formula_text import to_text
+from symgen.describe.fields import Across, Counts, Held, Scalar, Sides, StateVector, Vector, Vertices, words_of
+from symgen.describe.formula_text import file_value
 from symgen.describe.scope import Scope
-from symgen.vocabulary.expressions import ZERO, Expr, Number, call, number, total
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, difference, number, product, total
 
 
 class ProfileSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -58,13 +58,16 @@ class BeamSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     ----------
     start, end : vector
         Its ends without load, in the ground frame [m].
+    line : list of vectors
+        In place of them, the vertices of a line of straight segments that are joined rigidly [m].
     arc : scalar
         Angle by which the unloaded beam turns from start to end, to the left, in space towards `y_axis` [rad]; 0, a
         straight line, by default.
     y_axis : vector
-        In space, a direction on the side of y of the section; ``[0, 1, 0]`` by default.
-    elements : int
-        How many; compiled in, while all else may be expressions of parameters.
+        In space, a direction on the side of y of the section, or one for each segment; ``[0, 1, 0]`` by default.
+    elements : int or list of int
+        How many, spread over the segments by their lengths, or how many of each segment; compiled in, while all else
+        may be expressions of parameters.
     section, material : table
         Cross section and material; or these stiffnesses and masses:
     axial, bending, torsion : scalar
@@ -78,7 +81,7 @@ class BeamSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     load : vector of functions of state
         Force by length in ground axes [N/m], where ``x``, ``y`` and ``z`` are the coordinates of the place.
     clamp : body name, or two
-        Bodies that the start, or start and end are part of, as all is described; ``""`` for a free end.
+        Bodies that the start, or the start and the end are part of, where both are described; ``""`` for a free end.
     velocity, angular_velocity : vector, scalar
         Of the start, and of the whole beam as if it were rigid, at the start, in ground axes; completed by assembly by
         default.
@@ -86,11 +89,12 @@ class BeamSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
         As of a body.
     """
 
-    start: Vector
-    end: Vector
-    arc: Scalar = 0.0
-    y_axis: Vector | None = None
-    elements: int
+    start: Vector | None = None
+    end: Vector | None = None
+    line: Vertices | None = None
+    arc: Scalar | None = None
+    y_axis: Sides | None = None
+    elements: Counts
     section: ProfileSection | None = None
     material: MaterialSection | None = None
     axial: Scalar | None = None
@@ -136,27 +140,19 @@ def properties_of(scope: Scope, beam: BeamSection) -> Properties:
     for key in ("axial", "bending", "mass", *(("torsion",) if scope.spatial else ())):
         if getattr(beam, key) is None:
             raise scope.error(key, "a value, or the tables section and material", "no such key")
-    rotary = _rotary(scope, beam.rotary)
     keys = {key: getattr(beam, key) for key in direct[:4] if getattr(beam, key) is not None}
-    assert beam.mass is not None, "it was missed above"
-    return Properties(keys, scope.constant("mass", beam.mass, positive=True), rotary)
+    assert beam.mass is not None, "the loop above requires it"
+    return Properties(keys, scope.constant("mass", beam.mass, positive=True), _rotary(scope, beam))
 
 
-def _rotary(scope: Scope, value: float | str | tuple[float | str, ...] | None) -> tuple[Expr, ...]:
+def _rotary(scope: Scope, beam: BeamSection) -> tuple[Expr, ...]:
     """Return rotary inertias; without them nodes would turn without a mass."""
-    count = 3 if scope.spatial else 1
-    parts = value if isinstance(value, tuple) else (value,) * (1 if value is None or not scope.spatial else 0)
-    if len(parts) != count and value is not None:
-        raise scope.error("rotary", "rho I about x, y and z" if scope.spatial else "one number", words_of(value))
-    result = []
-    for part in parts:
-        inertia = ZERO if part is None else scope.constant("rotary", part)
-        if not scope.value(inertia, "rotary") > 0.0:
-            hint = "rho I of the section, density times second moment of area, makes the nodes' turns a motion"
-            got = "no such key" if part is None else words_of(part)
-            raise scope.error("rotary", "a rotary inertia by length above 0", got, hint)
-        result.append(inertia)
-    return tuple(result)
+    result = () if beam.rotary is None else scope.several("rotary", beam.rotary, 3 if scope.spatial else 1)
+    if not all(scope.value(inertia, "rotary") > 0.0 for inertia in result or (ZERO,)):
+        hint = "rho I of the section, density times second moment of area, makes the nodes' turns a motion"
+        got = "no such key" if beam.rotary is None else words_of(beam.rotary)
+        raise scope.error("rotary", "a rotary inertia by length above 0", got, hint)
+    return result
 
 
 def _of_material(scope: Scope, section: ProfileSection, material: MaterialSection) -> Properties:
@@ -175,7 +171,7 @@ def _of_material(scope: Scope, section: ProfileSection, material: MaterialSectio
         area, moments, torsion = _ring(sizes["diameter"], ZERO)
         factor = _shear_factor(poisson, (6.0, 6.0), (7.0, 6.0))
     elif sizes.keys() == {"diameter", "thickness"}:
-        inner = call("sub", sizes["diameter"], _times(number(2.0), sizes["thickness"]))
+        inner = difference(sizes["diameter"], product(number(2.0), sizes["thickness"]))
         if not scope.value(inner, "section.thickness") >= 0.0:
             raise scope.error("section.thickness", "at most half of the diameter", words_of(section.thickness))
         area, moments, torsion = _ring(sizes["diameter"], inner)
@@ -183,48 +179,44 @@ def _of_material(scope: Scope, section: ProfileSection, material: MaterialSectio
     else:
         expected = "width and height, diameter, or diameter and thickness"
         raise scope.error("section", expected, " and ".join(sizes) or "an empty table")
-    modulus = call("div", young, _times(number(2.0), total(number(1.0), poisson)))
+    modulus = call("div", young, product(number(2.0), total(ONE, poisson)))
     about_y, about_z = moments
-    shear = _times(factor, _times(modulus, area))
-    bending = [_raw(_times(young, about_y)), _raw(_times(young, about_z))]
-    stiffness: dict[str, Any] = {"axial": _raw(_times(young, area)), "shear": _raw(shear), "bending": bending[1]}
-    rotary: tuple[Expr, ...] = (_times(density, about_z),)
+    shear = product(factor, product(modulus, area))
+    bending = [file_value(product(young, about_y)), file_value(product(young, about_z))]
+    stiffness: dict[str, Any] = {
+        "axial": file_value(product(young, area)),
+        "shear": file_value(shear),
+        "bending": bending[1],
+    }
+    rotary: tuple[Expr, ...] = (product(density, about_z),)
     if scope.spatial:
-        stiffness |= {"bending": bending, "torsion": _raw(_times(modulus, torsion))}
-        rotary = _times(density, total(about_y, about_z)), _times(density, about_y), _times(density, about_z)
-    return Properties(stiffness, _times(density, area), rotary)
+        stiffness |= {"bending": bending, "torsion": file_value(product(modulus, torsion))}
+        rotary = product(density, total(about_y, about_z)), product(density, about_y), product(density, about_z)
+    return Properties(stiffness, product(density, area), rotary)
 
 
 def _rectangle(width: Expr, height: Expr) -> tuple[Expr, tuple[Expr, Expr], Expr]:
     """Return area, second moments about y and z, and the torsion constant (Saint-Venant's series)."""
-    area, ratio = _times(width, height), call("div", width, height)
-    about_y = _times(_times(area, _times(width, width)), number(1.0 / 12.0))
-    about_z = _times(_times(area, _times(height, height)), number(1.0 / 12.0))
+    area, ratio = product(width, height), call("div", width, height)
+    about_y = product(area, product(width, width), number(1.0 / 12.0))
+    about_z = product(area, product(height, height), number(1.0 / 12.0))
     terms = [
-        _times(call("tanh", call("div", number(0.5 * math.pi * k), ratio)), number(k**-5.0)) for k in range(1, 14, 2)
+        product(call("tanh", call("div", number(0.5 * math.pi * k), ratio)), number(k**-5.0)) for k in range(1, 14, 2)
     ]
-    sunk = _times(_times(number(64.0 / math.pi**5), ratio), total(*terms))
-    torsion = _times(_times(area, _times(width, width)), call("sub", number(1.0 / 3.0), sunk))
+    sunk = product(number(64.0 / math.pi**5), ratio, total(*terms))
+    torsion = product(area, product(width, width), difference(number(1.0 / 3.0), sunk))
     return area, (about_y, about_z), torsion
 
 
 def _ring(outer: Expr, inner: Expr) -> tuple[Expr, tuple[Expr, Expr], Expr]:
     """Return the same of a circle with a hole."""
-    squares = [_times(d, d) for d in (outer, inner)]
-    area = _times(number(0.25 * math.pi), call("sub", *squares))
-    moment = _times(_times(area, total(*squares)), number(1.0 / 16.0))
-    return area, (moment, moment), _times(number(2.0), moment)
+    squares = [product(d, d) for d in (outer, inner)]
+    area = product(number(0.25 * math.pi), difference(*squares))
+    moment = product(area, total(*squares), number(1.0 / 16.0))
+    return area, (moment, moment), product(number(2.0), moment)
 
 
 def _shear_factor(poisson: Expr, above: tuple[float, float], below: tuple[float, float]) -> Expr:
     """Return the shear coefficient of a section (Cowper, J. Appl. Mech. 33 (1966) 335-340)."""
-    first, second = (total(number(a), _times(number(b), poisson)) for a, b in (above, below))
+    first, second = (total(number(a), product(number(b), poisson)) for a, b in (above, below))
     return call("div", first, second)
-
-
-def _times(a: Expr, b: Expr) -> Expr:
-    return ZERO if ZERO in (a, b) else call("mul", a, b)
-
-
-def _raw(e: Expr) -> float | str:
-    return e.value if isinstance(e, Number) else to_text(e)

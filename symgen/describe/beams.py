@@ -2,61 +2,73 @@
 
 A node has the mass and the rotary inertia of the beam at its place, by the weights of a rule of integration that is
 exact for cubics and positive (Gregory's, of fourth order), so that mass, centre of mass and moments of inertia of the
-beam are exact, and frequencies converge as its elements do while M stays diagonal.
+beam are exact, and frequencies converge as its elements do while M stays diagonal. A node at a vertex of a line has the
+masses of the ends of two segments, and the elements before and behind it have axes of their own there.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from itertools import pairwise
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import msgspec
 
-from symgen.describe.beam_sections import BeamSection, properties_of
-from symgen.describe.bodies import shifted, turned
+from symgen.describe.beam_lines import CrossSection, cross_sections, segments
+from symgen.describe.beam_sections import BeamSection, Properties, properties_of
+from symgen.describe.bodies import shifted
 from symgen.describe.evaluate import scalars
 from symgen.describe.fields import read, words_of
-from symgen.describe.formula_text import to_text
+from symgen.describe.formula_text import file_value, to_text
 from symgen.describe.kinds import FORCES, JOINTS
-from symgen.describe.mechanism import AnyBody, Body, SpatialBody, Vec
+from symgen.describe.mechanism import AnyBody, Body, Vec
 from symgen.describe.scope import CENTRE, Scope
 from symgen.describe.start import euler_parameters
 from symgen.errors import nearest, quoted
-from symgen.vocabulary.expressions import ONE, ZERO, Expr, Number, call, number, total
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, cross, difference, dot, number, product, total
 from symgen.vocabulary.measures import GROUND
 from symgen.vocabulary.rotations import matrix
 
 Raw = Mapping[str, Any]
 #: Names of the nodes at the ends, and how elements and loads are called behind a beam's name.
 START, END, ELEMENT, LOAD = "start", "end", "e", "load"
-#: Elements of a beam at most.
-MOST_ELEMENTS = 100_000
 _PLACE = re.compile(r"at\(\s*([0-9.eE+-]+)\s*\)")
 #: Coordinates of the place in a load by length.
 _OWN = re.compile(r"(?<![A-Za-z0-9_.])([xyz])(?![A-Za-z0-9_.])")
-#: Weights of few nodes: trapezoid, Simpson, 3/8, Boole; and those at the ends of many nodes.
-_FEW = {1: (0.5,), 2: (1 / 3, 4 / 3), 3: (3 / 8, 9 / 8), 4: (14 / 45, 64 / 45, 24 / 45)}
-_MANY = (3 / 8, 7 / 6, 23 / 24)
-
-
-def weights(elements: int) -> list[float]:
-    """Return the weights of the nodes of a beam in lengths of its elements, all above 0."""
-    ends = _FEW.get(elements, _MANY)
-    return [(*ends, 1.0)[min(k, elements - k, len(ends))] for k in range(elements + 1)]
+#: A place that is this part of a beam's length away from a node is that of the node.
+_NEAR = 1e-6
+#: Axes of a body in its own frame.
+_UNTURNED = {n: tuple(tuple(ONE if i == j else ZERO for j in range(n)) for i in range(n)) for n in (2, 3)}
 
 
 @dataclass(frozen=True)
-class _Clamp:
-    """The end of a beam on a body: the place and axes in that body's frame, mass and rotary inertia about the axes."""
+class _Mass:
+    """The end of a line on a body: its place in the frame of that body, its mass, and its inertia in that frame.
+
+    In space the inertia is a tensor of six entries.
+    """
+
+    place: Vec
+    mass: Expr
+    inertia: tuple[Expr, ...]
+
+
+@dataclass(frozen=True)
+class _Seat:
+    """Where elements meet: a body, the place in its frame, and directions x and y there of each cross section."""
 
     body: str
-    place: Vec
-    axes: tuple[Vec, ...]
-    mass: Expr
-    rotary: tuple[Expr, ...]
+    place: str | list[float | str]
+    sides: list[tuple[Vec, ...]]
+
+    def side(self, section: int, i: int) -> list[float | str]:
+        """Return direction x or y of a cross section as a file has it."""
+        return _written(self.sides[section][i])
+
+
+#: A point of a rigid beam, its velocity, and three components of the angular velocity.
+_Motion = tuple[Vec, Vec, Vec]
 
 
 class Beams:
@@ -70,14 +82,20 @@ class Beams:
         Scope of a section and a name.
     body_of : callable
         Reads the body that a scope names from its table.
+
+    Attributes
+    ----------
+    bodies, forces : dict
+        Nodes, and bodies with further points; elements and loads, as a description has them.
     """
 
     def __init__(
         self, raw: Raw, scope_of: Callable[[str, str], Scope], body_of: Callable[[Scope, object], AnyBody]
     ) -> None:
         self.raw, self.scope_of, self.body_of = raw, scope_of, body_of
-        self._nodes: dict[str, list[str]] = {}  # beam -> its nodes, "" for an end that is clamped
-        self._clamps: list[_Clamp] = []
+        self._nodes: dict[str, list[tuple[str, float]]] = {}  # of a beam, "" for a clamped end, and parts of its length
+        self._counts: dict[str, list[int]] = {}  # elements of the segments of a beam
+        self._further: dict[str, list[_Mass]] = {}  # of bodies beside those of their tables
         self._centres: dict[str, Any] = {}  # of bodies that ends are clamped to, in their frames
         self.bodies: dict[str, Any] = {}
         self.forces: dict[str, Any] = {}
@@ -104,108 +122,102 @@ class Beams:
             "forces": {**self.forces, **raw.get("forces", {})},
         }
 
-    def clamped(self, body: AnyBody) -> AnyBody:
-        """Return a body with the masses of the ends of beams that are clamped to it."""
-        for clamp in self._clamps:
-            if clamp.body == body.name and not body.is_point:
-                body = _with_mass(body, clamp)
+    def counted(self) -> dict[str, Any]:
+        """Return the description with the number of elements of each segment of its beams."""
+        beams = {name: {**table, "elements": self._counts[name]} for name, table in self.raw["beams"].items()}
+        return {**self.raw, "beams": beams}
+
+    def with_ends(self, body: AnyBody) -> AnyBody:
+        """Return a body with the masses of the ends of beams that are part of it."""
+        for further in self._further.get(body.name, ()):
+            body = _with_mass(body, further)
         return body
 
     # -- nodes and elements ------------------------------------------------------------------------------------------
 
     def _add(self, scope: Scope, name: str, beam: BeamSection) -> None:
-        n = beam.elements
-        if not 1 <= n <= MOST_ELEMENTS:
-            raise scope.error("elements", f"a number of elements, 1 to {MOST_ELEMENTS}", str(n))
         if beam.load is not None and any(x in scope.context.states for x in "xyz"):
             raise scope.error("load", "x, y and z to mean the place", "a parameter or an input of that name")
-        shape, properties = _shape(scope, beam), properties_of(scope, beam)
-        clamps = [beam.clamp, ""] if isinstance(beam.clamp, str) else list(beam.clamp)
+        line, properties = segments(scope, beam), properties_of(scope, beam)
+        clamps = (beam.clamp, "") if isinstance(beam.clamp, str) else beam.clamp
         if len(clamps) != 2:
             raise scope.error("clamp", "one body, or two: that of the start and that of the end", words_of(beam.clamp))
-        names = [f"{name}.{START}", *(f"{name}.{k}" for k in range(1, n)), f"{name}.{END}"]
-        length, step = total(shape.length), call("div", shape.length, number(n))
-        ends: list[tuple[str, Any, Any, Any]] = []
-        self._nodes[name] = []
-        for k, (node, weight) in enumerate(zip(names, weights(n), strict=True)):
-            pose, size = shape.pose(k / n), _times(number(weight), step)
-            mass = _times(size, properties.mass)
-            rotary = tuple(_times(size, e) for e in properties.rotary)
-            clamp = clamps[0] if k == 0 else clamps[1] if k == n else ""
-            if clamp:
-                ends.append(self._clamp(scope, clamp, pose, mass, rotary))
+        nodes, motion, seats = cross_sections(scope, line), _motion(scope, beam, line[0].start), list[_Seat]()
+        last = len(nodes) - 1
+        self._counts[name], self._nodes[name] = [segment.elements for segment in line], []
+        for k, sections in enumerate(nodes):
+            node = f"{name}.{ {0: START, last: END}.get(k, k) }"
+            host = {0: clamps[0], last: clamps[1]}.get(k, "")
+            self._nodes[name].append(("" if host else node, sections[0].part))
+            if host:
+                seats.append(self._clamp(scope, host, sections[0], properties))
             else:
-                self.bodies[node] = self._node(scope, beam, shape, pose, mass, rotary)
-                x, y = ([float(i == j) for j in range(scope.dimension)] for i in range(2))
-                ends.append((node, CENTRE, x, y))
-                if beam.load is not None:
-                    load = [_times_text(size, part, node) for part in beam.load]
-                    self.forces[f"{name}.{LOAD}{k}"] = {"type": "force", "body": node, "force": load}
-            self._nodes[name].append("" if clamp else node)
-        element: dict[str, Any] = {
-            "type": "beam",
-            "length": _raw(step),
-            "damping": beam.damping,
-            **properties.stiffness,
-        }
-        if shape.bend != ZERO:
-            bend = _raw(call("div", shape.bend, length))
-            element["curvature"] = [0.0, 0.0, bend] if scope.spatial else bend
-        for k, (a, b) in enumerate(pairwise(ends)):
-            keys = {"between": [a[0], b[0]], "at": [a[1], b[1]], "axis": [a[2], b[2]]}
-            if scope.spatial:
-                keys["reference"] = [a[3], b[3]]
-            self.forces[f"{name}.{ELEMENT}{k + 1}"] = element | keys
+                seats.append(self._node(node, beam, sections, properties, motion))
+            if beam.load is not None and host != GROUND:
+                at = self._point(host, node.replace(".", "_"), seats[-1].place) if host else CENTRE
+                size, place = total(*(section.share for section in sections)), f"{host}.{at}" if host else node
+                load = [_times_text(size, part, place) for part in beam.load]
+                self.forces[f"{name}.{LOAD}{k}"] = {"type": "force", "body": host or node, "at": at, "force": load}
+        k = 0
+        for segment in line:
+            element: dict[str, Any] = {"type": "beam", "length": file_value(segment.step), "damping": beam.damping}
+            element |= properties.stiffness
+            if segment.bend != ZERO:
+                bend = file_value(segment.curvature)
+                element["curvature"] = [0.0, 0.0, bend] if scope.spatial else bend
+            for _ in range(segment.elements):
+                a, b, k = seats[k], seats[k + 1], k + 1
+                keys = {"between": [a.body, b.body], "at": [a.place, b.place], "axis": [a.side(-1, 0), b.side(0, 0)]}
+                if scope.spatial:
+                    keys["reference"] = [a.side(-1, 1), b.side(0, 1)]
+                self.forces[f"{name}.{ELEMENT}{k}"] = element | keys
 
     def _node(
-        self, scope: Scope, beam: BeamSection, shape: _Shape, pose: _Pose, mass: Expr, rotary: tuple[Expr, ...]
-    ) -> dict[str, Any]:
-        """Return the table of a node."""
-        node: dict[str, Any] = {"mass": _raw(mass), "position": [_raw(e) for e in pose.place], "hold": beam.hold}
-        if scope.spatial:
-            node["inertia"] = [_raw(e) for e in rotary]
-            node["orientation"] = {f"{x}_axis": [_raw(e) for e in pose.axes[i]] for i, x in enumerate("xy")}
-        else:
-            node["inertia"], node["angle"] = _raw(rotary[0]), _raw(pose.angle)
-        if beam.velocity is None and beam.angular_velocity is None:
-            return node
-        still = (0.0,) * scope.dimension
-        velocity = scope.vector("velocity", still if beam.velocity is None else beam.velocity)
-        arm = tuple(_less(x, y) for x, y in zip(pose.place, shape.start, strict=True))
-        turning = beam.angular_velocity
-        if scope.spatial:
-            omega = scope.vector("angular_velocity", still if turning is None else _three(scope, turning))
-            swept = tuple(_less(_times(omega[i - 2], arm[i - 1]), _times(omega[i - 1], arm[i - 2])) for i in range(3))
-            node["angular_velocity"] = [_raw(_dot(omega, axis)) for axis in pose.axes]
-        else:
-            if isinstance(turning, tuple):
-                raise scope.error("angular_velocity", "one number in the plane", words_of(turning))
-            omega = (scope.constant("angular_velocity", 0.0 if turning is None else turning),)
-            swept = _times(call("neg", omega[0]), arm[1]), _times(omega[0], arm[0])
-            node["angular_velocity"] = _raw(omega[0])
-        node["velocity"] = [_raw(total(v, w)) for v, w in zip(velocity, swept, strict=True)]
-        return node
+        self, name: str, beam: BeamSection, sections: list[CrossSection], properties: Properties, motion: _Motion | None
+    ) -> _Seat:
+        """Return the seat of a node, which becomes a body."""
+        vertex, own = len(sections) > 1, sections[0]
+        dimension = len(own.place)
+        unturned = _UNTURNED[dimension]
+        (mass, inertia), *others = (_mass(properties, s, s.axes if vertex else None) for s in sections)
+        if vertex:  # it has no direction of its own
+            own = replace(own, axes=unturned, angle=ZERO)
+            self._further[name] = [_Mass((ZERO,) * dimension, *other) for other in others]
+        self.bodies[name] = {
+            "mass": file_value(mass),
+            "inertia": _written(inertia) if dimension == 3 else file_value(*inertia),
+            "hold": beam.hold,
+            **_pose(own),
+            **({} if motion is None else _velocities(own, motion)),
+        }
+        return _Seat(name, CENTRE, [section.sides if vertex else unturned for section in sections])
 
-    def _clamp(
-        self, scope: Scope, name: str, pose: _Pose, mass: Expr, rotary: tuple[Expr, ...]
-    ) -> tuple[str, Any, Any, Any]:
-        """Return the body of a clamped end with the place and two axes of the end there, and keep its mass for it."""
-        place, axes = pose.place, pose.axes
-        if name != GROUND:
-            bodies = self.raw.get("bodies", {})
-            if name not in bodies:
-                got = f"the unknown body {quoted(name)}"
-                raise scope.error("clamp", "the name of a body or 'ground'", got, nearest(name, [*bodies, GROUND]))
-            body = self.body_of(self.scope_of("bodies", name), bodies[name])
-            if body.is_point:
-                raise scope.error("clamp", "a body with an angle", f"the point mass '{name}'")
-            frame = _axes_of(scope, body)
-            arm = tuple(_less(x, y) for x, y in zip(place, body.position, strict=True))
-            place = tuple(_dot(arm, axis) for axis in frame)
-            axes = tuple(tuple(_dot(v, axis) for axis in frame) for v in axes)
-            self._clamps.append(_Clamp(name, place, axes, mass, rotary))
-            self._centres[name] = [_raw(e) for e in body.centre_of_mass]
-        return name, [_raw(e) for e in place], *([_raw(e) for e in axis] for axis in axes[:2])  # type: ignore[return-value]
+    def _point(self, body: str, name: str, place: str | list[float | str]) -> str:
+        """Return the name of a further point of a body that an end is clamped to."""
+        table = self.bodies.get(body, self.raw["bodies"][body])
+        points = table.get("points", {})
+        while name in points:
+            name += "_"
+        self.bodies[body] = {**table, "points": {**points, name: place}}
+        return name
+
+    def _clamp(self, scope: Scope, name: str, end: CrossSection, properties: Properties) -> _Seat:
+        """Return the seat of a clamped end on its body, which is to have the mass of the end."""
+        if name == GROUND:
+            return _Seat(name, _written(end.place), [end.sides])
+        bodies = self.raw.get("bodies", {})
+        if name not in bodies:
+            got = f"the unknown body {quoted(name)}"
+            raise scope.error("clamp", "the name of a body or 'ground'", got, nearest(name, [*bodies, GROUND]))
+        body = self.body_of(self.scope_of("bodies", name), bodies[name])
+        if body.is_point:
+            raise scope.error("clamp", "a body with an angle", f"the point mass '{name}'")
+        frame = _axes_of(scope, body)
+        (place,) = _within(frame, [tuple(map(difference, end.place, body.position))])
+        mass = _Mass(place, *_mass(properties, end, _within(frame, end.axes)))
+        self._further.setdefault(name, []).append(mass)
+        self._centres[name] = _written(body.centre_of_mass)
+        return _Seat(name, _written(place), [_within(frame, end.sides)])
 
     # -- names of nodes ----------------------------------------------------------------------------------------------
 
@@ -214,29 +226,25 @@ class Beams:
 
         The centre of a body that ends of beams are clamped to is that of the body as it is described.
         """
-        if _is(table.get("body"), self._centres) and table.get("at", CENTRE) == CENTRE and table.get("type") == "force":
-            table["at"] = self._centres[table["body"]]
-        at = table.get("at")
-        if isinstance(table.get("between"), list | tuple) and isinstance(at, list | tuple):
-            pairs = zip(table["between"], at, strict=False)
-            table["at"] = at = [self._centres[b] if x == CENTRE and _is(b, self._centres) else x for b, x in pairs]
-        if isinstance(table.get("body"), str) and table["body"] in self._nodes:
-            table["body"] = self._node_at(scope, table["body"], at)
-            at = CENTRE
-        elif isinstance(table.get("between"), list | tuple) and any(_is(b, self._nodes) for b in table["between"]):
-            between = list(table["between"])
-            places = list(at) if isinstance(at, list | tuple) and len(at) == len(between) else [None] * len(between)
-            for i, body in enumerate(between):
-                if _is(body, self._nodes):
-                    between[i], places[i] = self._node_at(scope, body, places[i]), CENTRE
-            table["between"], at = between, places
-        else:
+        pair, at = isinstance(table.get("between"), list | tuple), table.get("at")
+        bodies = list(table["between"]) if pair else [table.get("body")]
+        places = [at] if not pair else list(at) if isinstance(at, list | tuple) else []
+        places += [None] * (len(bodies) - len(places))
+        before = [*bodies, *places]
+        for i, body in enumerate(bodies):
+            if not isinstance(body, str):
+                continue
+            if body in self._nodes:
+                bodies[i], places[i] = self._node_at(scope, body, places[i]), CENTRE
+            elif body in self._centres and (places[i] == CENTRE or (places[i] is None and not pair)):
+                places[i] = self._centres[body]
+        if [*bodies, *places] == before:
             return table
         kinds: Any = JOINTS if section == "joints" else FORCES
         kind = table.get("type")
-        table.pop("at", None)
-        if not (isinstance(kind, str) and kind in kinds) or "at" in kinds.get(kind).__struct_fields__:
-            table["at"] = at
+        table |= {"between": bodies, "at": places} if pair else {"body": bodies[0], "at": places[0]}
+        if isinstance(kind, str) and kind in kinds and "at" not in kinds.get(kind).__struct_fields__:
+            del table["at"]
         return table
 
     def _node_at(self, scope: Scope, beam: str, at: object) -> str:
@@ -248,104 +256,65 @@ class Beams:
         place = _PLACE.fullmatch(at) if isinstance(at, str) else None
         if place is not None:
             try:
-                where = float(place.group(1)) * last
+                part = float(place.group(1))
             except ValueError:
                 raise scope.error("at", expected, words_of(at)) from None
-            k = min(max(round(where), 0), last)
-            if abs(where - k) > 1e-9 * last:
-                hint = f"the nearest node is number {k}, at({k / last:g})"
+            k = min(range(last + 1), key=lambda i: abs(nodes[i][1] - part))
+            if abs(nodes[k][1] - part) > _NEAR:
+                hint = f"the nearest node is number {k}, at({nodes[k][1]:g})"
                 raise scope.error("at", expected, f"{words_of(at)}, where no node is", hint)
         elif isinstance(at, bool) or not isinstance(at, int | str) or str(at) not in numbers:
             raise scope.error("at", expected, "no such key" if at is None else words_of(at))
         else:
             k = numbers[str(at)]
-        if not nodes[k]:
+        if not nodes[k][0]:
             got = f"the end of '{beam}' that is clamped to a body"
             raise scope.error("at", "a node that moves by itself", got, "name that body and a point of it")
-        return nodes[k]
+        return nodes[k][0]
 
 
-def _is(name: object, names: Mapping[str, object]) -> bool:
-    return isinstance(name, str) and name in names
+# -- tables of nodes, and masses -------------------------------------------------------------------------------------
 
 
-# -- shape -----------------------------------------------------------------------------------------------------------
+def _motion(scope: Scope, beam: BeamSection, start: Vec) -> _Motion | None:
+    """Return how a beam moves at the start as if it were rigid, None where its tables say nothing of that."""
+    if beam.velocity is None and beam.angular_velocity is None:
+        return None
+    velocity = scope.vector("velocity", (0.0,) * scope.dimension if beam.velocity is None else beam.velocity)
+    count, turning = (3 if scope.spatial else 1), beam.angular_velocity
+    omega = scope.several("angular_velocity", 0.0 if turning is None else turning, count, alike=turning is None)
+    return start, velocity, (*(ZERO,) * (3 - count), *omega)
 
 
-@dataclass(frozen=True)
-class _Pose:
-    """Where a section of the unloaded beam is: its place, its axes, and in the plane its angle."""
-
-    place: Vec
-    axes: tuple[Vec, ...]
-    angle: Expr
-
-
-@dataclass(frozen=True)
-class _Shape:
-    """The unloaded beam: a straight line or an arc from `start` in the plane of two axes.
-
-    `chord` is the distance of its ends, `axes` begin with the direction of the chord, `bend` is the angle [rad] by
-    which it turns towards the second one.
-    """
-
-    start: Vec
-    chord: Expr
-    axes: tuple[Vec, ...]
-    bend: Expr
-
-    @property
-    def length(self) -> Expr:
-        """The length of the line."""
-        if self.bend == ZERO:
-            return self.chord
-        half = _times(number(0.5), self.bend)
-        return _times(self.chord, call("div", half, call("sin", half)))
-
-    def pose(self, part: float) -> _Pose:
-        """Return the section at a part of the length."""
-        first, second = self.axes[:2]
-        reach: Expr = _times(number(part), self.chord)
-        across: Expr = ZERO
-        turn: Expr = ZERO
-        if self.bend != ZERO:
-            half = _times(number(0.5), self.bend)
-            along = _times(number(part), half)
-            far = _times(self.chord, call("div", call("sin", along), call("sin", half)))
-            lean, turn = call("sub", along, half), call("sub", _times(number(2.0), along), half)
-            reach, across = _times(far, call("cos", lean)), _times(far, call("sin", lean))
-        place = tuple(
-            total(s, _times(reach, a), _times(across, b)) for s, a, b in zip(self.start, first, second, strict=True)
-        )
-        cosine, sine = call("cos", turn), call("sin", turn)
-        x = tuple(total(_times(cosine, a), _times(sine, b)) for a, b in zip(first, second, strict=True))
-        y = tuple(_less(_times(cosine, b), _times(sine, a)) for a, b in zip(first, second, strict=True))
-        return _Pose(place, (x, y, *self.axes[2:]), total(call("atan2", first[1], first[0]), turn))
+def _velocities(section: CrossSection, motion: _Motion) -> dict[str, Any]:
+    """Return the velocities of a node."""
+    start, velocity, omega = motion
+    swept = cross(omega, (*map(difference, section.place, start), ZERO))
+    own = _written(dot(omega, axis) for axis in section.axes) if len(start) == 3 else file_value(omega[2])
+    return {"velocity": _written(map(total, velocity, swept)), "angular_velocity": own}
 
 
-def _shape(scope: Scope, beam: BeamSection) -> _Shape:
-    start, end = scope.vector("start", beam.start), scope.vector("end", beam.end)
-    between = tuple(_less(b, a) for a, b in zip(start, end, strict=True))
-    chord = _length(between)
-    if not scope.value(chord, "end") > 0.0:
-        raise scope.error("end", "another point than start", "the same")
-    first = _divided(between, chord)
-    bend = scope.constant("arc", beam.arc)
-    if not abs(scope.value(bend, "arc")) < 6.28:
-        raise scope.error("arc", "less than a turn [rad]", words_of(beam.arc))
-    if not scope.spatial:
-        if beam.y_axis is not None:
-            raise scope.error("y_axis", "no such key in the plane", words_of(beam.y_axis))
-        return _Shape(start, chord, (first, (call("neg", first[1]), first[0])), bend)
-    wanted = scope.vector("y_axis", (0.0, 1.0, 0.0) if beam.y_axis is None else beam.y_axis)
-    part = _dot(wanted, first)
-    rest = tuple(_less(w, _times(part, e)) for w, e in zip(wanted, first, strict=True))
-    size = _length(rest)
-    if not scope.value(size, "y_axis") > 1e-6:
-        raise scope.error("y_axis", "a direction across the beam", "one along it" if beam.y_axis else "no such key")
-    second = _divided(rest, size)
-    third = tuple(_less(_times(first[i - 2], second[i - 1]), _times(first[i - 1], second[i - 2])) for i in range(3))
-    return _Shape(start, chord, (first, second, third), bend)
+def _pose(section: CrossSection) -> dict[str, Any]:
+    """Return where a node is and how it is turned."""
+    if len(section.axes) == 2:
+        return {"position": _written(section.place), "angle": file_value(section.angle)}
+    turned = {"x_axis": _written(section.axes[0]), "y_axis": _written(section.axes[1])}
+    return {"position": _written(section.place), "orientation": turned}
+
+
+def _mass(properties: Properties, section: CrossSection, axes: tuple[Vec, ...] | None) -> tuple[Expr, tuple[Expr, ...]]:
+    """Return the mass of a cross section and its rotary inertia, in space with axes in a frame its tensor there."""
+    mass, *rotary = (product(section.share, e) for e in (properties.mass, *properties.rotary))
+    if axes is None or len(axes) == 2:
+        return mass, tuple(rotary)
+    x, y, _ = axes
+    pairs = (0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)
+    # of three perpendicular axes the third one follows, which has the longest formulas
+    about_x, about_y = (difference(e, rotary[2]) for e in rotary[:2])
+    return mass, tuple(
+        total(rotary[2] if i == j else ZERO, product(about_x, x[i], x[j]), product(about_y, y[i], y[j]))
+        for i, j in pairs
+    )
 
 
 def _axes_of(scope: Scope, body: AnyBody) -> tuple[Vec, ...]:
@@ -359,62 +328,36 @@ def _axes_of(scope: Scope, body: AnyBody) -> tuple[Vec, ...]:
     return tuple(tuple(number(x) for x in column) for column in zip(*rows, strict=True))
 
 
-def _with_mass(body: AnyBody, clamp: _Clamp) -> AnyBody:
-    """Return a body with a further mass and rotary inertia at a place of its frame (Huygens, Steiner)."""
-    mass = total(body.mass, clamp.mass)
-    share = call("div", clamp.mass, mass)
-    apart = tuple(_less(p, c) for p, c in zip(clamp.place, body.centre_of_mass, strict=True))
-    centre = tuple(total(c, _times(share, d)) for c, d in zip(body.centre_of_mass, apart, strict=True))
-    reduced = _times(share, body.mass)
-    if isinstance(body, Body):
-        assert body.inertia is not None, "a point mass clamps nothing"
-        inertia = total(body.inertia, clamp.rotary[0], _times(reduced, _dot(apart, apart)))
-        return msgspec.structs.replace(body, mass=mass, centre_of_mass=centre, inertia=inertia)
-    assert isinstance(body, SpatialBody) and body.inertia is not None, "a point mass clamps nothing"
-    x, y, z = clamp.rotary
-    columns = [[e.value for e in axis if isinstance(e, Number)] for axis in clamp.axes]
-    rows = tuple(zip(*columns, strict=True))
-    own = turned((x, y, z, ZERO, ZERO, ZERO), rows)  # type: ignore[arg-type]  # three rows of three
-    both = tuple(total(a, b) for a, b in zip(body.inertia, own, strict=True))
-    tensor = shifted(both, call("neg", reduced), apart)  # type: ignore[arg-type]  # six entries
-    return msgspec.structs.replace(body, mass=mass, centre_of_mass=centre, inertia=tensor)
+def _with_mass(body: AnyBody, further: _Mass) -> AnyBody:
+    """Return a body with a further mass and tensor of inertia at a place of its frame (Huygens, Steiner)."""
+    mass = total(body.mass, further.mass)
+    share = call("div", further.mass, mass)
+    apart = tuple(map(difference, further.place, body.centre_of_mass))
+    centre = tuple(total(c, product(share, d)) for c, d in zip(body.centre_of_mass, apart, strict=True))
+    reduced, inertia = product(share, body.mass), body.inertia
+    assert inertia is not None, "a point mass clamps nothing"
+    if isinstance(inertia, tuple):
+        a, b, c, d, e, f = map(total, inertia, further.inertia)
+        inertia = shifted((a, b, c, d, e, f), call("neg", reduced), apart)
+    else:
+        inertia = total(inertia, *further.inertia, product(reduced, dot(apart, apart)))
+    return msgspec.structs.replace(body, mass=mass, centre_of_mass=centre, inertia=inertia)
 
 
-# -- arithmetic ------------------------------------------------------------------------------------------------------
+# -- vectors ---------------------------------------------------------------------------------------------------------
 
 
-def _raw(e: Expr) -> float | str:
-    """Return a formula as a file gives it."""
-    return e.value if isinstance(e, Number) else to_text(e)
+def _within(frame: Sequence[Vec], vectors: Sequence[Vec]) -> tuple[Vec, ...]:
+    """Return vectors in the axes of a frame."""
+    return tuple(tuple(dot(vector, axis) for axis in frame) for vector in vectors)
+
+
+def _written(vector: Iterable[Expr]) -> list[float | str]:
+    """Return a vector as a file has it."""
+    return [file_value(e) for e in vector]
 
 
 def _times_text(size: Expr, part: float | str, node: str) -> str:
     """Return a load by length, times the length of beam that a node has, at that node."""
     own = _OWN.sub(lambda match: f"{node}.{match.group()}", str(part))
     return f"({to_text(size)})*({own})"
-
-
-def _times(a: Expr, b: Expr) -> Expr:
-    return ZERO if ZERO in (a, b) else b if a == ONE else a if b == ONE else call("mul", a, b)
-
-
-def _less(a: Expr, b: Expr) -> Expr:
-    return a if b == ZERO else call("neg", b) if a == ZERO else call("sub", a, b)
-
-
-def _dot(a: Vec, b: Vec) -> Expr:
-    return total(*(_times(x, y) for x, y in zip(a, b, strict=True)))
-
-
-def _length(v: Vec) -> Expr:
-    return call("sqrt", _dot(v, v))
-
-
-def _divided(v: Vec, length: Expr) -> Vec:
-    return tuple(e if e == ZERO else call("div", e, length) for e in v)
-
-
-def _three(scope: Scope, value: float | str | tuple[float | str, ...]) -> tuple[float | str, ...]:
-    if not isinstance(value, tuple):
-        raise scope.error("angular_velocity", "three numbers or expressions of parameters", words_of(value))
-    return value

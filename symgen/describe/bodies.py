@@ -13,7 +13,7 @@ from symgen.describe.scope import CENTRE
 from symgen.describe.sections import BodySection, OrientationSection, ShapeSection, SpatialBodySection
 from symgen.describe.start import Scalars, euler_parameters
 from symgen.errors import nearest, quoted
-from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, number, total
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, number, product, total
 from symgen.vocabulary.rotations import CONVENTIONS, IDENTITY, Matrix, Orientation, matrix
 
 if TYPE_CHECKING:
@@ -190,15 +190,6 @@ def _point(scope: Scope, point: str | tuple[float | str, ...], points: dict[str,
     return centre if point == CENTRE else points[point]
 
 
-def _times(*factors: Expr) -> Expr:
-    product: Expr = number(1.0)
-    for factor in factors:
-        if factor == ZERO:
-            return ZERO
-        product = factor if product == number(1.0) else call("mul", product, factor)
-    return product
-
-
 def turned(tensor: Tensor, a: Matrix) -> Tensor:
     """Return A I A^T."""
     xx, yy, zz, xy, xz, yz = tensor
@@ -206,7 +197,7 @@ def turned(tensor: Tensor, a: Matrix) -> Tensor:
 
     def entry(i: int, j: int) -> Expr:
         pairs = [(k, n) for k in range(3) for n in range(3) if a[i][k] * a[j][n] != 0.0]
-        return total(*(_times(number(a[i][k] * a[j][n]), rows[k][n]) for k, n in pairs))
+        return total(*(product(number(a[i][k] * a[j][n]), rows[k][n]) for k, n in pairs))
 
     return entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)
 
@@ -216,8 +207,8 @@ def shifted(tensor: Tensor, mass: Expr, d: Vec) -> Tensor:
 
     def entry(i: int, j: int) -> Expr:
         if i == j:
-            return _times(mass, total(*(_times(d[k], d[k]) for k in range(3) if k != i)))
-        return call("neg", _times(mass, d[i], d[j]))
+            return product(mass, total(*(product(d[k], d[k]) for k in range(3) if k != i)))
+        return call("neg", product(mass, d[i], d[j]))
 
     pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
     changes = [entry(i, j) for i, j in pairs]

@@ -34,6 +34,15 @@ Vector = Annotated[
     _Components,
     Meta(description="two numbers or expressions of parameters [x, y], in space three [x, y, z]"),
 ]
+Vertices = Annotated[tuple[Vector, ...], Meta(description="a list of points, two or more", min_length=2)]
+Sides = Annotated[
+    tuple[float | str | _Components, ...],
+    Meta(description="a direction [x, y, z] in the ground frame, or of a line one for each segment"),
+]
+Counts = Annotated[
+    int | tuple[int, ...],
+    Meta(description="a number of elements, or of a line a list of numbers, one for each segment"),
+]
 PotentialVector = Annotated[
     _Components, Meta(description="expressions [x, y] or [x, y, z], each of its own coordinate")
 ]

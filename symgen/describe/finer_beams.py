@@ -38,7 +38,7 @@ def refined(mechanism: Mechanism) -> tuple[Mechanism, dict[str, str]]:
 
     finer = {key: value if key == "mechanism" else walk(value) for key, value in raw.items() if key != "outputs"}
     for beam in finer["beams"].values():
-        beam["elements"] *= 2
+        beam["elements"] = [2 * count for count in beam["elements"]]
     for section in ("joints", "forces"):
         for table in finer.get(section, {}).values():
             _renumber(table, finer["beams"])

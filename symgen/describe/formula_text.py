@@ -26,6 +26,11 @@ def to_text(expression: Expr) -> str:
     return _print(expression)[0]
 
 
+def file_value(expression: Expr) -> float | str:
+    """Return an expression as a file has it: a number, or a formula."""
+    return expression.value if isinstance(expression, Number) else to_text(expression)
+
+
 def _bracketed(expression: Expr, least: int) -> str:
     text, strength = _print(expression)
     return text if strength >= least else f"({text})"

@@ -25,6 +25,8 @@ from symgen.vocabulary.measures import Effort
 #: What may jump, and what compares something with zero, or two values with each other.
 _SIDES = ("lt", "le", "gt", "ge", "sign")
 _COMPARED = (*_SIDES, *BENT)
+#: How these are written where a formula is encoded: with their lengths, as `le` stands in other words too.
+_COMPARED_TEXTS = tuple(map(msgspec.msgpack.encode, _COMPARED))
 
 
 #: Steps for which something may lie hidden are no longer than a run over this.
@@ -72,7 +74,7 @@ def _timely(mechanism: Mechanism) -> set[str]:
 def _may_pass(part: Any) -> bool:
     """Return whether comparisons or tables are written in a part of a mechanism: most have none, and a walk is long."""
     text = msgspec.msgpack.encode(part)
-    return any(name.encode() in text for name in (*_COMPARED, "table:"))
+    return b"table:" in text or any(name in text for name in _COMPARED_TEXTS)
 
 
 @dataclass(frozen=True)

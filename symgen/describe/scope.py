@@ -17,7 +17,7 @@ from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import OUTPUT, Readings
 from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest, quoted
-from symgen.vocabulary.expressions import ZERO, Expr, Number, call, moving, readings
+from symgen.vocabulary.expressions import ZERO, Expr, Number, call, dot, moving, readings
 from symgen.vocabulary.measures import GROUND, Direction, Marker, Measure
 
 #: The name by which a file means a body's centre of mass.
@@ -220,16 +220,11 @@ class Scope:
     def direction(self, key: str, body: str, vector: tuple[float | str, ...]) -> Direction:
         """Return a direction of length 1 fixed in `body`."""
         parts = self.vector(key, vector)
-        squares = [call("mul", e, e) for e in parts]
-        square = squares[0]
-        for e in squares[1:]:
-            square = call("add", square, e)
-        length = call("sqrt", square)
+        numbers = [e.value for e in parts if isinstance(e, Number)]
+        size = math.hypot(*numbers) if len(numbers) == len(parts) else 0.0
+        length = Number(size) if size > 0.0 else call("sqrt", dot(parts, parts))
         if not self.value(length, key) > 0:
             raise self.error(key, "a direction", "a vector of length 0")
-        if all(isinstance(e, Number) for e in parts):
-            size = math.hypot(*(e.value for e in parts if isinstance(e, Number)))
-            return Direction(body, tuple(Number(e.value / size) for e in parts if isinstance(e, Number)))
         return Direction(body, tuple(call("div", e, length) for e in parts))
 
     def joint(self, key: str, name: str) -> Joint:
@@ -277,6 +272,22 @@ class Scope:
                 key, what if self.spatial else "two numbers or expressions of parameters [x, y]", words_of(components)
             )
         return tuple(self.constant(key, e) for e in components)
+
+    def several(
+        self,
+        key: str,
+        value: float | str | tuple[float | str, ...],
+        count: int,
+        *,
+        alike: bool = False,
+        positive: bool = False,
+    ) -> Vec:
+        """Return `count` numbers or expressions of parameters; with `alike` one that is no list stands for each."""
+        parts = value if isinstance(value, tuple) else (value,) * (count if alike else 1)
+        if len(parts) != count:
+            expected = f"{count} numbers or expressions of parameters" if count > 1 else "one number or expression"
+            raise self.error(key, expected, words_of(value))
+        return tuple(self.constant(key, part, positive=positive) for part in parts)
 
     def optional(self, key: str, value: float | str | None) -> Expr | None:
         """Return as `constant` does, None for None."""

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 from symgen.describe.evaluate import scalars
 from symgen.describe.fields import words_of
-from symgen.describe.mechanism import SpatialBody
+from symgen.describe.mechanism import SpatialBody, Vec
 from symgen.describe.start import euler_parameters
-from symgen.vocabulary.expressions import Number, number
+from symgen.vocabulary.expressions import ZERO, Expr, Number, call, cross, difference, dot, number, product
 from symgen.vocabulary.measures import GROUND, Direction
 from symgen.vocabulary.rotations import matrix, rotate, rotate_back
 
@@ -88,6 +88,26 @@ def make_triads(
         else:
             first_b = _any_across(along_b)
     return _triad(a, first_a, along_a), _triad(b, first_b, along_b)
+
+
+def frame(scope: Scope, key: str, along: Vec, side: Vec) -> tuple[Vec, Vec, Vec]:
+    """Return three axes, all of them expressions of parameters: x along a direction of length 1, y on a side of it.
+
+    Raises
+    ------
+    InputError
+        About a key, if the side is no other direction.
+    """
+    rest = tuple(difference(s, product(dot(side, along), a)) for s, a in zip(side, along, strict=True))
+    size = call("sqrt", dot(rest, rest))
+    if not scope.value(size, key) > 1e-6:
+        raise scope.error(key, "a direction across the beam", "one along it")
+    across = tuple(_tidy_entry(e if e == ZERO else call("div", e, size)) for e in rest)
+    return along, across, tuple(map(_tidy_entry, cross(along, across)))
+
+
+def _tidy_entry(e: Expr) -> Expr:
+    return number(_tidy_number(e.value)) if isinstance(e, Number) else e
 
 
 def make_triad(
@@ -215,5 +235,9 @@ def _dot(a: _Triple, b: _Triple) -> float:
 
 def _tidy(v: _Triple) -> _Triple:
     """Return the vector without what is rounding of 0 or 1, so that nothing is emitted for it."""
-    x, y, z = (round(e) + 0.0 if abs(e - round(e)) < 1e-15 else e for e in v)
+    x, y, z = map(_tidy_number, v)
     return x, y, z
+
+
+def _tidy_number(x: float) -> float:
+    return round(x) + 0.0 if abs(x - round(x)) < 1e-15 else x

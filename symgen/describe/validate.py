@@ -44,6 +44,7 @@ from symgen.describe.sections import (
 from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
 from symgen.errors import InputError, nearest, quoted
+from symgen.memory import uncollected
 from symgen.vocabulary.expressions import ONE, call, names
 from symgen.vocabulary.measures import Marker
 
@@ -55,6 +56,7 @@ Raw = Mapping[str, Any]
 DEEPEST = 20
 
 
+@uncollected()
 def validate(raw: Raw, source: str) -> Mechanism:
     """Return the mechanism that the nested dictionary `raw` describes.
 
@@ -115,13 +117,12 @@ class _Validator:
         )
         scope = Scope(self.context, "mechanism")
         read_body = spatial_body if head.space == "spatial" else planar_body
-        written = self.raw
         beams = self.beams(read_body)
         gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
         bodies = tuple(read_body(self.scope("bodies", name), value) for name, value in self.entries("bodies"))
         if not bodies:
             raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
-        bodies = bodies if beams is None else tuple(map(beams.clamped, bodies))
+        bodies = bodies if beams is None else tuple(map(beams.with_ends, bodies))
         self.context = msgspec.structs.replace(self.context, bodies={body.name: body for body in bodies})
         joints = tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints"))
         forces = tuple(self.force(name, value) for name, value in self.entries("forces"))
@@ -147,7 +148,7 @@ class _Validator:
             cuts=tuple(self._cuts),
             holds=tuple(holds),
             shapes=tuple((body.name, shape) for scope, raw, body in described for shape in shapes_of(scope, raw)),
-            beams=b"" if beams is None else msgspec.json.encode(written),
+            beams=b"" if beams is None else msgspec.json.encode(beams.counted()),
             events=tuple(read_event(self.scope("events", n), n, event) for n, event in self.entries("events")),
         )
         check_columns(mechanism, self.source)

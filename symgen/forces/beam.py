@@ -10,8 +10,8 @@ import msgspec
 from symgen.describe.fields import Across, AxisPair, BodyPair, DirectionPair, PointPair, Scalar, words_of
 from symgen.describe.mechanism import Body, Force
 from symgen.describe.scope import Scope
-from symgen.describe.triads import make_triads
-from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, number, total
+from symgen.describe.triads import frame, make_triads
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, number, product, total
 from symgen.vocabulary.measures import Angle, Component, Direction, Dot, Flexure, Marker, Measure, Sum
 
 
@@ -25,8 +25,8 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     at : pair of points
         The ends of the element, origins of the two frames.
     axis : direction, or pair of directions
-        Along the beam at its ends: in the frame of each body, or in that of the first one, and from there in the
-        second's as both are described to start, turned by the curvature.
+        Along the beam at its ends: in the frame of each body; or in that of the first one, from which the second one
+        follows by the positions at the start and the curvature.
     reference : pair of directions
         In space, direction y of the section in the frame of each body.
     length : scalar
@@ -70,8 +70,8 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         ends = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
         length = scope.constant("length", self.length, positive=True)
         scope.only(*(("torsion",) if scope.spatial else ()), torsion=self.torsion)
-        bends = _listed(scope, "curvature", self.curvature, 3 if scope.spatial else 1)
-        rest = (length, *(ZERO,) * (2 if scope.spatial else 1), *(_times(length, bend) for bend in bends))
+        bends = scope.several("curvature", self.curvature, 3 if scope.spatial else 1, alike=self.curvature == 0.0)
+        rest = (length, *(ZERO,) * (2 if scope.spatial else 1), *(product(length, bend) for bend in bends))
         damping = scope.constant("damping", self.damping)
         if scope.value(damping, "damping") < 0.0:
             raise scope.error("damping", "a time of 0 or more", words_of(self.damping))
@@ -97,18 +97,22 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
                 if isinstance(part, float | int) and not math.isfinite(part):
                     hint = "shear is rigid where that key is left out" if key == "shear" else ""
                     raise scope.error(key, "a finite stiffness", repr(part), hint)
-            parts = _listed(scope, key, value, count, positive=True)
+            parts = scope.several(key, value, count, alike=True, positive=True)
             compliances += [call("div", ONE, part) for part in parts]
         return tuple(compliances)
 
     def _triads(self, scope: Scope, bodies: tuple[str, str], bends: tuple[Expr, ...]) -> tuple[Directions, Directions]:
         """Return the axes of the two frames in space: along the beam, then y and z of the section."""
-        apart = self.reference is None or not isinstance(self.axis[0], tuple)
-        if apart and any(bend != ZERO for bend in bends):
-            raise scope.error("axis", "two directions beside the key reference, as the element is curved", "fewer")
+        axes = [axis for axis in self.axis if isinstance(axis, tuple)]
+        if self.reference is None or len(axes) != 2:
+            if any(bend != ZERO for bend in bends):
+                raise scope.error("axis", "two directions beside the key reference, as the element is curved", "fewer")
+            a, b = make_triads(scope, bodies, self.axis, self.reference, fixed=True)
+            return (a.axis, a.first, a.second), (b.axis, b.first, b.second)
         return tuple(  # type: ignore[return-value]  # two
-            (triad.axis, triad.first, triad.second)
-            for triad in make_triads(scope, bodies, self.axis, self.reference, fixed=True)
+            tuple(Direction(body, vector) for vector in frame(scope, "reference", along.vector, side.vector))
+            for body, axis, reference in zip(bodies, axes, self.reference, strict=True)
+            for along, side in [(scope.direction("axis", body, axis), scope.direction("reference", body, reference))]
         )
 
     def _directions(self, scope: Scope, bodies: tuple[str, str], bend: Expr) -> tuple[Directions, Directions]:
@@ -120,7 +124,7 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         turned = total(*(_angle(scope, body, sign) for body, sign in zip(bodies, (1.0, -1.0), strict=True)), bend)
         cosine, sine = call("cos", turned), call("sin", turned)
         x, y = along[0].vector
-        vector = total(_times(cosine, x), _times(call("neg", sine), y)), total(_times(sine, x), _times(cosine, y))
+        vector = total(product(cosine, x), product(call("neg", sine), y)), total(product(sine, x), product(cosine, y))
         carried = Direction(bodies[1], vector), Direction(bodies[1], (call("neg", vector[1]), vector[0]))
         return along, carried
 
@@ -146,7 +150,7 @@ def _in_space(ends: tuple[Marker, Marker], u: Directions, v: Directions) -> tupl
 def _angle(scope: Scope, body: str, sign: float) -> Expr:
     """Return the angle of a planar body as described, times a sign."""
     described = scope.context.bodies.get(body)
-    return _times(number(sign), described.angle) if isinstance(described, Body) else ZERO
+    return product(number(sign), described.angle) if isinstance(described, Body) else ZERO
 
 
 def _turn(scope: Scope, axes: tuple[Directions, Directions], bend: Expr) -> Expr:
@@ -156,24 +160,6 @@ def _turn(scope: Scope, axes: tuple[Directions, Directions], bend: Expr) -> Expr
     described = total(*(_angle(scope, d[0].body, s) for d, s in zip(axes, (-1.0, 1.0), strict=True)), turn)
     around = round((scope.value(described, "axis") - scope.value(bend, "curvature")) / math.tau)
     return total(turn, number(-math.tau * around))
-
-
-def _listed(
-    scope: Scope, key: str, value: float | str | tuple[float | str, ...], count: int, *, positive: bool = False
-) -> tuple[Expr, ...]:
-    """Return as many numbers or formulas of parameters as a key has; one number is that of each."""
-    if isinstance(value, tuple):
-        if len(value) != count:
-            raise scope.error(key, f"{count} numbers" if count > 1 else "one number", words_of(value))
-        return tuple(scope.constant(key, part, positive=positive) for part in value)
-    one = scope.constant(key, value, positive=positive)
-    if key == "curvature" and count == 3 and one != ZERO:
-        raise scope.error(key, "three numbers: twist, and curvatures about y and z", words_of(value))
-    return (one,) * count
-
-
-def _times(a: Expr, b: Expr) -> Expr:
-    return ZERO if ZERO in (a, b) else b if a == ONE else a if b == ONE else call("mul", a, b)
 
 
 KIND = Beam

@@ -99,7 +99,7 @@ class Flexing:
 
     @cached_property
     def series(self) -> tuple[int, int, int, int]:
-        """C and (c - 1/2) / X with their derivatives by X."""
+        """The factor c and (c - 1/2) / X, each with its derivative by X."""
         g, x = self.graph, self.argument
         value = slope = g.zero
         for coefficient in reversed(SPACE if self.spatial else PLANE):
@@ -109,13 +109,13 @@ class Flexing:
 
     @cached_property
     def argument(self) -> int:
-        """X."""
+        """The argument X of the series."""
         g = self.graph
         return g.sub(g.constant(3.0), self.values[6]) if self.spatial else g.mul(self.values[2], self.values[2])
 
     @cached_property
     def across(self) -> tuple[int, int]:
-        """K and its derivative by X: k = (c - 1/2) / X / (4 - X)."""
+        """The factor k = (c - 1/2) / X / (4 - X) and its derivative by X."""
         g, (_, _, value, slope) = self.graph, self.series
         rest = g.sub(g.constant(4.0), self.argument)
         k = g.div(value, rest)
@@ -123,13 +123,13 @@ class Flexing:
 
     @cached_property
     def vectors(self) -> tuple[Triple, Triple]:
-        """Vectors s and b."""
+        """The vectors s and b."""
         v = self.values
         return (v[0], v[1], v[2]), (v[3], v[4], v[5])
 
     @cached_property
     def deformation(self) -> list[int]:
-        """Psi."""
+        """The components of psi."""
         g, v, c = self.graph, self.algebra, self.series[0]
         if not self.spatial:
             return [g.mul(c, self.values[0]), g.mul(c, self.values[1]), self.values[2]]
@@ -139,7 +139,7 @@ class Flexing:
 
     @cached_property
     def rate(self) -> list[int]:
-        """Psi' along the motion."""
+        """The rate of psi along the motion."""
         g, v, (c, slope, _, _) = self.graph, self.algebra, self.series
         rates = [m.rate(g, self.model.velocities) for m in self.measures]
         if not self.spatial:
@@ -156,7 +156,7 @@ class Flexing:
 
     @cached_property
     def excess(self) -> list[int]:
-        """D = psi - psi_0."""
+        """The deformation beyond that of the unloaded element, d = psi - psi_0."""
         rest = [self.model.expression(e) for e in self.flexure.rest]
         return [self.graph.sub(p, r) for p, r in zip(self.deformation, rest, strict=True)]
 
@@ -164,7 +164,7 @@ class Flexing:
 
     @cached_property
     def flexibility(self) -> list[list[int]]:
-        """F, its lower triangle."""
+        """The lower triangle of F."""
         g, v, h, k, c = self.graph, self.algebra, self.length, self.twelfth, self.compliances
         psi = self.deformation
         if self.spatial:
@@ -185,7 +185,7 @@ class Flexing:
 
     @cached_property
     def factors(self) -> tuple[list[list[int]], list[int]]:
-        """L below its diagonal of ones, and 1 / D, of F = L D L^T."""
+        """The factors of F = L D L^T: L below its diagonal of ones, and 1 / D."""
         g, f = self.graph, self.flexibility
         lower, inverse = list[list[int]](), list[int]()
         for i, row in enumerate(f):
@@ -210,12 +210,12 @@ class Flexing:
 
     @cached_property
     def stress(self) -> list[int]:
-        """P = F^-1 d."""
+        """The force and moment in the middle, P = F^-1 d."""
         return self.solved(self.excess)
 
     @cached_property
     def damped(self) -> list[int]:
-        """The damper's part of the force and moment: tau F^-1 psi'."""
+        """What damping adds to them, tau F^-1 psi'."""
         damping = self.model.expression(self.flexure.damping)
         if damping == self.graph.zero:
             return [damping] * len(self.compliances)
@@ -223,7 +223,7 @@ class Flexing:
 
     @cached_property
     def gradient(self) -> list[int]:
-        """dU/dpsi."""
+        """The derivatives of the energy by psi."""
         g, v, c, k = self.graph, self.algebra, self.compliances, self.twelfth
         p, psi = self.stress, self.deformation
         if not self.spatial:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from symgen.describe.evaluate import parameter_values
+from symgen.memory import uncollected
 from symgen.running.automatic import AUTO, SLOW, STRUCTURAL, TOGETHER, decide, facts_of, slow_steps, trial_of
 from symgen.running.continuation import continued
 from symgen.running.inputs import put_inputs
@@ -121,6 +122,7 @@ class Prepared:
         return outcome.states[:, : self.compiled.info.nq] if self.tree is None else self.tree.positions(outcome)
 
 
+@uncollected()
 def prepare(
     mechanism: Mechanism, settings: Settings, purpose: Purpose = Purpose.MOTION, near: Array | None = None
 ) -> Prepared:

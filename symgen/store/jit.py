@@ -9,18 +9,17 @@ of llvmlite.
 from __future__ import annotations
 
 import ast
-import contextlib
 import functools
-import gc
 import marshal
 import sys
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard, TypeVar, cast
 
 import llvmlite
 
 from symgen.errors import InputError
+from symgen.memory import uncollected
 from symgen.native import types
 from symgen.native.calls import caller, kind_of
 from symgen.native.compiler import compiler, interpreted
@@ -330,18 +329,6 @@ def _meaning(value: Any) -> str:
     if hasattr(function, "__qualname__"):
         return f"{function.__module__}.{function.__qualname__}"
     return repr(value) if value is None or isinstance(value, int | float | str) else ""
-
-
-@contextlib.contextmanager
-def uncollected() -> Iterator[None]:
-    """Look for no garbage where many objects are made, of which none is garbage."""
-    collecting = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if collecting:
-            gc.enable()
 
 
 def syntax_tree(lines: Sequence[str], function: Any) -> ast.FunctionDef | None:

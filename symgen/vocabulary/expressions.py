@@ -7,7 +7,7 @@ table from function name to action.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -163,3 +163,30 @@ def total(*terms: Expr) -> Expr:
         if term != ZERO:
             result = term if result == ZERO else call("add", result, term)
     return result
+
+
+def difference(a: Expr, b: Expr) -> Expr:
+    """Return a - b without terms that are the number 0; 0 of equal ones."""
+    return ZERO if a == b else a if b == ZERO else call("neg", b) if a == ZERO else call("sub", a, b)
+
+
+def product(*factors: Expr) -> Expr:
+    """Return the product of factors, those that are the number 1 left out; 0 if one of them is the number 0."""
+    if ZERO in factors:
+        return ZERO
+    result: Expr = ONE
+    for factor in factors:
+        if factor != ONE:
+            result = factor if result == ONE else call("mul", result, factor)
+    return result
+
+
+def dot(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
+    """Return the scalar product of two vectors."""
+    return total(*map(product, a, b))
+
+
+def cross(a: Sequence[Expr], b: Sequence[Expr]) -> tuple[Expr, Expr, Expr]:
+    """Return the vector product of two vectors in space."""
+    x, y, z = (difference(product(a[i - 2], b[i - 1]), product(a[i - 1], b[i - 2])) for i in range(3))
+    return x, y, z

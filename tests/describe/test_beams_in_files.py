@@ -6,7 +6,7 @@ import pytest
 from support.emitted import mechanism_of
 
 import symgen
-from symgen.describe.beams import weights
+from symgen.describe.beam_lines import weights
 from symgen.describe.finer_beams import refined
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError
@@ -79,12 +79,46 @@ WRONG = [
     ({"damping": -1.0}, "damping: expected a time of 0 or more"),
     ({"arc": 7.0}, "arc: expected less than a turn"),
     ({"lenght": 1.0}, "got the unknown key 'lenght'"),
+    (
+        {"start": None},
+        "start: expected a point, as a beam without the key line has a start and an end, got no such key",
+    ),
+    ({"line": [[0.0, 0.0], [1.0, 0.0]]}, "start: expected no such key beside the key line, got [0.0, 0.0]"),
+    ({"elements": [4, 4]}, "elements: expected a number of elements, 1 to 100000, got [4, 4]"),
+]
+CORNER = {"start": None, "end": None, "line": [[0.0, 0.0], [1.0, 0.0], [1.0, 0.7]], "elements": 4}
+SPATIAL = {"line": [[0.0] * 3, [1.0, 0.0, 0.0], [1.0, 0.7, 0.0]], "torsion": 1.0, "rotary": [1e-3] * 3}
+WRONG += [
+    ({**CORNER, **keys}, sentence)
+    for keys, sentence in (
+        ({"line": [[0.0, 0.0]]}, "line: expected a list of points, two or more, got [[0.0, 0.0]]"),
+        ({"line": [[0.0, 0.0], [1.0]]}, "line[1]: expected two numbers or expressions of parameters"),
+        (
+            {"line": [[0.0, 0.0], [1.0, 0.0], [1.0, 0.0]]},
+            "line[2]: expected another point than the one before, got the",
+        ),
+        ({"arc": 0.5}, "arc: expected no such key beside the key line, got 0.5"),
+        (
+            {"elements": 1},
+            "elements: expected a number of elements, 2 to 100000, or 2 numbers above 0, one for each seg",
+        ),
+        ({"elements": [3, 0]}, "one for each segment, got [3, 0]"),
+        ({"elements": "many"}, "elements: expected a number of elements, or of a line a list of numbers, one for each"),
+        ({"y_axis": [0.0, 1.0]}, "y_axis: expected no such key in the plane"),
+        (SPATIAL, "y_axis: expected a direction across the beam, got one along it"),
+        ({**SPATIAL, "y_axis": [[0.0, 1.0, 0.0]]}, "y_axis: expected one direction, or 2, one for each segment"),
+        (
+            {**SPATIAL, "y_axis": [0.0, 1.0, [0.0, 1.0, 0.0]]},
+            "y_axis: expected one direction, or 2, one for each segment",
+        ),
+    )
 ]
 
 
 @pytest.mark.parametrize(("beam", "sentence"), WRONG)
 def test_wrong_beams_get_one_sentence(beam, sentence):
-    description = raw({key: value for key, value in beam.items() if value is not None})
+    space = "spatial" if len(beam.get("line", [[]])[0]) == 3 else "planar"
+    description = raw({key: value for key, value in beam.items() if value is not None}, space)
     for key in (key for key, value in beam.items() if value is None):
         del description["beams"]["rod"][key]
     with pytest.raises(InputError) as error:
@@ -157,6 +191,24 @@ def test_section_and_material_give_the_stiffnesses_of_the_handbooks():
     tube = of(diameter=0.1, thickness=0.01)[0]
     second = np.pi / 64 * (0.1**4 - 0.08**4)
     np.testing.assert_allclose(tube[3:], [shear * 2 * second, 71.7e9 * second, 71.7e9 * second], rtol=1e-12)
+
+
+def test_elements_are_spread_over_the_segments_of_a_line():
+    """By their lengths, at least one each, and ends at vertices; twice as many keep the places of all nodes."""
+    line = {"line": [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.99, 1.0]], "elements": 8}
+    rod = {key: value for key, value in {**ROD, **line}.items() if key not in ("start", "end")}
+    push = {"type": "force", "body": "rod", "at": "at(0.497512)", "force": [1.0, 0.0]}
+    description = {"mechanism": {"name": "frame"}, "beams": {"rod": rod}, "forces": {"push": push}}
+    mechanism = mechanism_of(description)
+    places = {b.name: tuple(e.value for e in b.position) for b in mechanism.bodies}
+    assert [places[n] for n in ("rod.4", "rod.7", "rod.end")] == [(1.0, 0.0), (1.0, 1.0), (0.99, 1.0)]
+    assert mechanism.forces[-1].bodies == ("rod.4",)
+    finer, names = refined(mechanism)
+    twice = {b.name: tuple(e.value for e in b.position) for b in finer.bodies}
+    assert len(finer.bodies) == 17
+    np.testing.assert_allclose([twice[names[name]] for name in places], list(places.values()), atol=1e-15)
+    description["beams"]["rod"]["elements"] = [3, 3, 2]
+    assert body(mechanism_of(description), "rod.6").position[1].value == 1.0
 
 
 def test_elements_are_doubled():

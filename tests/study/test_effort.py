@@ -9,9 +9,10 @@ from symgen.methods import METHODS
 from symgen.running.automatic import AUTO, constant_integrator
 from symgen.running.prepare import make_plan
 from symgen.settings import Settings
+from symgen.study.references import routes
 from symgen.study.references.motion import CompiledEquations, motion
 from symgen.study.references.solvers import STIFF_FOLDINGS, OverBudgetError, fastest_modes, is_stiff
-from symgen.study.stress import cell_references, effort
+from symgen.study.stress import effort
 from symgen.study.stress.bench import Base
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
 from symgen.study.stress.families import levels_of
@@ -173,9 +174,7 @@ def test_two_formulations_take_over_beyond_the_budget(monkeypatch):
     assert best["how"].startswith("independently derived") and found["how"].startswith("direct-correction with dop853")
     np.testing.assert_allclose(found["q"], best["q"], atol=1e-9)
     longer = levels_of("duration", Base.of("slider-crank"), False)[1]
-    monkeypatch.setattr(
-        cell_references, "BUDGET", 100
-    )  # a run is stopped some time after that, the slower one at least
+    monkeypatch.setattr(routes, "BUDGET", 100)  # a run is stopped some time after that, the slower one at least
     failed = compute(CellReference(longer))
     assert failed["unusable"].startswith("the reference takes more than 100 evaluations; the reference by ")
     assert "does not come to" in failed["unusable"]
@@ -194,11 +193,11 @@ def sinking():
 def test_stiff_motions_in_space_have_a_reference():
     model = sinking()
     times = np.linspace(0.0, 1.0, 5)
-    found = cell_references.two_routes(model.mechanism, {"c": 1e8}, times, decay=1e8 / 2.0)
+    found = routes.two_routes(model.mechanism, {"c": 1e8}, times, decay=1e8 / 2.0)
     assert found.how.startswith("direct-correction with radau5") and found.estimated_error < 1e-9
     np.testing.assert_allclose(found.q[:, 2], -1.0 - 2.0 * 9.81 / 1e8 * times, rtol=0.0, atol=1e-9)
 
 
 def test_implicit_references_end_with_the_size():
     with pytest.raises(SimulationError, match="fastest decay, 1e\\+12 1/s, needs implicit steps"):
-        cell_references.two_routes(symgen.load("stewart-platform").mechanism, {}, np.linspace(0.0, 1.0, 3), decay=1e12)
+        routes.two_routes(symgen.load("stewart-platform").mechanism, {}, np.linspace(0.0, 1.0, 3), decay=1e12)

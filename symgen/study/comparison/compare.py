@@ -30,6 +30,7 @@ from symgen.study.comparison.measured_runs import measured
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
 from symgen.study.machine_class import machine_class, versions
 from symgen.study.references.reference import Array, Reference, reference
+from symgen.study.references.routes import fastest_decay, two_routes
 from symgen.study.references.solvers import AUTO, check_solver
 from symgen.study.runner import Cell, Status, run_cells
 
@@ -161,7 +162,12 @@ class ReferenceTask:
         compiled, start = prepare(mechanism, settings, Purpose.STATE).assembled.of_bodies
         values, state = parameter_values(mechanism, settings.parameters), compiled.info.parts(start.y)
         try:
-            motion = reference(mechanism, values, *state, self.times, self.reference_by, not settings.start)
+            if self.reference_by == AUTO and any(force.flexures for force in mechanism.forces):
+                # no second derivation has beam elements
+                decay = fastest_decay(mechanism, compiled, start)
+                motion = two_routes(mechanism, values, self.times, decay, settings.start)
+            else:
+                motion = reference(mechanism, values, *state, self.times, self.reference_by, not settings.start)
         except SimulationError as error:
             return {"unusable": str(error)}
         return {

@@ -109,7 +109,7 @@ def reference(
     """
     if any(force.flexures for force in mechanism.forces):
         expected = "a mechanism without beam elements, whose equations are derived a second time"
-        raise InputError("reference", expected, f"'{mechanism.name}'", "symgen run --verify estimates errors")
+        raise InputError("reference_by", expected, f"'{mechanism.name}'", f"'{AUTO}' takes two formulations that agree")
     if check_solver(solver) != AUTO:
         return _integrated(mechanism, parameters, (q, v), times, solver)
     closed = closed_form(mechanism) if own_start else None

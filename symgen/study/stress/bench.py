@@ -18,7 +18,7 @@ from symgen.describe.evaluate import evaluate
 from symgen.describe.load import read_raw
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.validate import validate
-from symgen.errors import SymgenError
+from symgen.errors import InputError, SymgenError, quoted
 from symgen.forces import FORCES
 
 #: Handles of a stressed mechanism and their neutral values.
@@ -117,11 +117,13 @@ class Base:
         Raises
         ------
         InputError
-            If there is no such model or it is wrong.
+            If there is no such model, it is wrong, or it has beam elements.
         """
         raw, _ = read_raw(model)
         base = cls(str(model), raw)
-        _ = base.mechanism  # refuses what is wrong
+        if any(force.flexures for force in base.mechanism.forces):
+            expected = "one without beam elements, which have no second derivation to judge cells by"
+            raise InputError("mechanism", expected, quoted(base.name))
         return base
 
     def without_events(self) -> Base:

@@ -1,9 +1,6 @@
 """What the runs of a case are compared with: closed forms, independent equations, or two formulations that agree.
 
-The second derivation of a spatial mechanism (`symgen.study.references.independent`) is interpreted: too slow for the
-many motions of a stress study. What can differ at the speed of compiled code is how the equations are formulated and
-integrated. The motion is that of `direct-correction` with Runge-Kutta steps at a tight tolerance; its error is
-estimated from `index1-augmented-lagrangian`, which solves another system for the accelerations, with Adams steps.
+Planar mechanisms have independent equations that are compiled, those in space two routes through compiled code.
 """
 
 from __future__ import annotations
@@ -18,10 +15,8 @@ from numpy.typing import NDArray
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.load import load as load_mechanism
-from symgen.describe.mechanism import Mechanism
 from symgen.errors import AssemblyError, InputError, SimulationError
 from symgen.result.points import Points
-from symgen.running.automatic import linearised
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
 from symgen.runtime import abi
@@ -31,10 +26,10 @@ from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.probe import Ready
 from symgen.settings import Settings
 from symgen.study.references.closed_forms import closed_form, parallel_cranks
-from symgen.study.references.reference import Reference, scaled_values
+from symgen.study.references.reference import scaled_values
+from symgen.study.references.routes import fastest_decay, two_routes
 from symgen.study.stress.bench import FREE_LENGTH, Level
 from symgen.study.stress.cell_outcome import ACCURATE, TRUSTED
-from symgen.study.stress.effort import LARGEST_IMPLICIT_REFERENCE, explicit_budget, implicit_budget
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
@@ -108,14 +103,6 @@ def without_reference(motion: Mapping[str, Any]) -> str | None:
     return None
 
 
-def fastest_decay(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> float:
-    """Return the fastest decay of the linearised motion at the start [1/s]; 0 where it cannot be told."""
-    jacobian = linearised(mechanism, compiled, start)
-    if not np.all(np.isfinite(jacobian)):
-        return 0.0
-    return float(max(0.0, -np.linalg.eigvals(jacobian).real.min(initial=0.0)))
-
-
 def times_of(level: Level) -> list[float]:
     """Return the output times of a case [s]."""
     return [level.until * k / level.outputs for k in range(level.outputs + 1)]
@@ -178,25 +165,6 @@ def _sines(equations: Any, times: Array, q: Array) -> Array:
     return np.array(values) / largest if largest > 0.0 else np.ones(len(times))
 
 
-Route = tuple[str, str, dict[str, str | float], float]
-#: Method, integrator, options and tolerance of the two routes; the first is the reference.
-ROUTES: tuple[Route, ...] = (
-    ("direct-correction", "dop853", {"method.weight": "mass"}, 1e-12),
-    ("index1-augmented-lagrangian", "abm", {}, 1e-11),
-)
-#: The same where decay asks explicit steps for more evaluations than they may take.
-STIFF_ROUTES: tuple[Route, ...] = (
-    ("direct-correction", "radau5", {"method.weight": "mass"}, 1e-10),
-    ("ggl", "radau5", {}, 1e-9),
-)
-#: The first ones where rounding of very stiff forces makes their tolerances unattainable.
-ROUGH_ROUTES = tuple((*route[:3], rtol) for route, rtol in zip(ROUTES, (1e-9, 1e-8), strict=True))
-#: Evaluations after which a route is given up, for small mechanisms.
-BUDGET, STIFF_BUDGET = 20_000_000, 300_000
-#: Evaluations that decay may ask explicit steps for, for small mechanisms; the stiff routes are taken beyond.
-STIFF_FROM = 6_000_000
-
-
 class EmittedGeometry:
     """Phi, D and nu of a compiled model as numbers.
 
@@ -216,68 +184,3 @@ class EmittedGeometry:
         Ready(self.compiled.model.geometry, abi.MEASURE)(t, y, self.start.p, w)
         section = self.compiled.section
         return section(w, "residual").copy(), self.compiled.jacobian(w), section(w, "nu").copy()
-
-
-def two_routes(mechanism: Mechanism, parameters: Mapping[str, float], times: Array, decay: float = 0.0) -> Reference:
-    """Return the motion by the first of `ROUTES`, or of `STIFF_ROUTES`, its error estimated by the second.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        What moves.
-    parameters : mapping
-        Values that differ from the mechanism's own.
-    times : Array
-        Where the motion is wanted [s], increasing from 0.
-    decay : float
-        Fastest decay at the start [1/s].
-
-    Raises
-    ------
-    SimulationError
-        If a route does not come to its end.
-    """
-    # twelve evaluations a step of dop853, which is stable up to 6.39 over the decay
-    stiff = decay * float(times[-1]) * 12.0 / 6.39 > explicit_budget(mechanism, STIFF_FROM)
-    if stiff and mechanism.body_coordinates > LARGEST_IMPLICIT_REFERENCE:
-        raise SimulationError(
-            f"its fastest decay, {decay:.2g} 1/s, needs implicit steps, whose dense matrices are too large for "
-            f"references from {LARGEST_IMPLICIT_REFERENCE} coordinates on"
-        )
-    if stiff:
-        return _by_routes(mechanism, parameters, times, STIFF_ROUTES, implicit_budget(mechanism, STIFF_BUDGET))
-    explicit = explicit_budget(mechanism, BUDGET)
-    try:
-        return _by_routes(mechanism, parameters, times, ROUTES, explicit)
-    except SimulationError:
-        return _by_routes(mechanism, parameters, times, ROUGH_ROUTES, explicit)
-
-
-def _by_routes(
-    mechanism: Mechanism, parameters: Mapping[str, float], times: Array, routes: tuple[Route, ...], budget: int
-) -> Reference:
-    motions = []
-    for method, integrator, options, rtol in routes:
-        settings = Settings(
-            method=method,
-            integrator=integrator,
-            options=options,
-            rtol=rtol,
-            atol=1e-2 * rtol,
-            until=float(times[-1]),
-            times=list(times),
-            parameters=parameters,
-            shape="straight" if routes is STIFF_ROUTES else "looped",
-        )
-        run = prepare(mechanism, settings).with_spec(max_evaluations=budget)
-        outcome = run.integrate()
-        if outcome.interrupted:
-            raise KeyboardInterrupt
-        if outcome.code != abi.DONE:
-            reason = f"it takes more than {budget:.3g} evaluations" if outcome.code == abi.STOPPED else outcome.reason
-            raise SimulationError(f"the reference by {method} with {integrator} does not come to its end: {reason}")
-        motions.append(run.positions(outcome))
-    apart = Points.of(mechanism, parameter_values(mechanism, parameters)).distance(*motions)
-    (method, integrator, _, rtol), (other, with_other, _, _) = routes
-    how = f"{method} with {integrator} at {rtol:g}; estimated from {other} with {with_other}"
-    return Reference(how, max(apart, 1e-14), times, motions[0])
