@@ -138,9 +138,7 @@ def command(
         if requested and rows and not used[option]:
             click.echo(f"symgen: {option} counted for nothing: no run of these integrators has such steps", err=True)
     if runs.left_out:
-        click.echo(
-            f"symgen: left out, as these integrators solve no form of them: {', '.join(runs.left_out)}", err=True
-        )
+        click.echo(f"symgen: these integrators solve no form of {', '.join(runs.left_out)}: left out", err=True)
     if as_json:
         tables = [study.to_json() for study in studies]
         write_json(tables[0] if len(models) == 1 else {"studies": tables})

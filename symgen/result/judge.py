@@ -1,8 +1,9 @@
 """What a run may claim: ok, unverified or failed, and the sentences that go with it.
 
 Small violations say nothing about the branch that was taken at a singular position, and there the step size does not
-control the error. So every run that came near one says so. A run is not ok unless a second run with finer steps agrees
-where nothing corrected the positions, or where the energy jumped: that is the trace of what steps and forces missed.
+control the error. So every run that came near one says so; where moreover nothing corrected the positions, the run is
+not ok unless a second run with finer steps agrees. Nor is it ok where the energy jumped over a passage: that is the
+trace of what steps that are too long, or joints that give, have missed there.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -
     run, outcome : Prepared, Outcome
         The run.
     second : Verification, optional
-        What a run with finer steps says of it; it settles doubts.
+        What a run with finer steps says of it; it settles doubts but those of energy that jumped.
     """
     verdict = judge_alone(outcome, run.compiled.law)
     verdict = replace(verdict, warnings=(*verdict.warnings, *_velocity_warning(run, outcome)))
@@ -53,6 +54,8 @@ def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -
         return verdict
     if second.doubt is not None:
         return replace(verdict, status=UNVERIFIED, reason=second.doubt)
+    if relative_jump(outcome) > JUMP_DOUBT:  # what joints give is in both runs
+        return verdict
     wanted = run.plan.verify or run.plan.notes  # else the status alone has the estimate
     notes = (second.note,) if wanted and second.note is not None else ()
     return replace(verdict, status=OK, reason=None, notes=notes)
