@@ -1,12 +1,12 @@
-"""What the literature on constraint stabilisation says, measured: each table one claim.
+"""Claims of the literature on constraint stabilisation, measured: one table each.
 
     python -m benchmarks.literature [gains] [adaptive] [energy] [violation] [projection] [classes]
 
 `gains`: errors of `baumgarte` with gains from the step, alpha = beta = g / h, against g, by schemes of order 1 to 8;
-`adaptive`: errors of `adaptive-baumgarte` against its largest gain; `energy`: what scaling velocities to the energy
-gains on one and on three degrees of freedom; `violation`: violations beside errors of the motion; `projection`: what a
-velocity projection takes of the energy beside what the integrator loses; `classes`: run times of methods that are the
-same in exact arithmetic, in turns.
+`adaptive`: errors of `adaptive-baumgarte` against its largest gain; `energy`: errors with and without scaling
+velocities to the energy, on one and on three degrees of freedom; `violation`: violations beside errors of the motion;
+`projection`: the energy that velocity projections take beside the energy error of the integrator; `classes`: run times
+of methods that are the same in exact arithmetic, in turns.
 """
 
 from __future__ import annotations
@@ -90,13 +90,12 @@ def exact(name: str, until: float) -> Array:
     """Return q of a fine run."""
     times = np.linspace(0.0, until, 9).tolist()
     model = opened_four_bar() if name == "open" else load(name)
-    found = model.simulate(integrator="dop853", rtol=1e-12, atol=1e-13, until=until, times=times)
-    return np.asarray(found.q)
+    return np.asarray(model.simulate(integrator="dop853", rtol=1e-12, atol=1e-13, until=until, times=times).q)
 
 
-def error(found: Result, name: str, until: float) -> float:
+def error(result: Result, name: str, until: float) -> float:
     """Return the largest error of q; infinite where the run broke off."""
-    q = np.asarray(found.q)
+    q = np.asarray(result.q)
     return float(np.abs(q - exact(name, until)).max()) if len(q) == 9 else np.inf
 
 
@@ -119,8 +118,8 @@ def gains() -> Table:
             errors = []
             for step in (first, first / 2, first / 4):
                 options = {"method.alpha": g / step, "method.beta": g / step} if g else {}
-                found = run(load("four-bar"), "baumgarte" if g else "lagrange", step, 2.0, options, name)
-                errors.append(error(found, "four-bar", 2.0))
+                one = run(load("four-bar"), "baumgarte" if g else "lagrange", step, 2.0, options, name)
+                errors.append(error(one, "four-bar", 2.0))
             cells.append(f"{errors[0]:.1e} ({np.log2(errors[1] / errors[2]):.1f})")
         result.add_row(name, str(INTEGRATORS.get(name).order), f"{first:g}", *cells)
     return result
@@ -136,9 +135,9 @@ def adaptive() -> Table:
     rows += [(f"gain {g:g}", "adaptive-baumgarte", {"method.gain": g}) for g in (1, 2, 5, 10, 20, 50, 1e9)]
     rows += [(rule, "adaptive-baumgarte", {"method.rule": rule}) for rule in ("taylor", "pole-placed")]
     for label, method, options in rows:
-        found = [run(load("four-bar"), method, step, 2.0, options) for step in (8e-3, 4e-3, 2e-3)]
-        cells = [f"{error(f, 'four-bar', 2.0):.1e}" for f in found]
-        result.add_row(label, *cells, f"{found[0].velocity_violation_max:.1e}")
+        runs = [run(load("four-bar"), method, step, 2.0, options) for step in (8e-3, 4e-3, 2e-3)]
+        cells = [f"{error(one, 'four-bar', 2.0):.1e}" for one in runs]
+        result.add_row(label, *cells, f"{runs[0].velocity_violation_max:.1e}")
     return result
 
 
@@ -155,8 +154,8 @@ def energy() -> Table:
                 run(model, method, 1e-2, until, options)
                 for method, options in (("direct-correction", MASS), ("energy-projection", {}))
             ]
-            errors = [error(found, name, until) for found in both]
-            cells = [f"{x:.1e}" for e, f in zip(errors, both, strict=True) for x in (e, f.energy_drift_max)]
+            errors = [error(one, name, until) for one in both]
+            cells = [f"{x:.1e}" for e, one in zip(errors, both, strict=True) for x in (e, one.energy_drift_max)]
             result.add_row(label, f"{until:g}", *cells, f"{errors[0] / errors[1]:.1f}")
     return result
 
@@ -173,8 +172,8 @@ def violation() -> Table:
         *(("dependent-correction", {}), ("coordinate-partitioning", {}), ("braun-goldfarb", {})),
     )
     for method, options in rows:
-        found = run(load("four-bar"), method, 2e-3, 40.0, options)
-        numbers = (found.position_violation_max, found.velocity_violation_max, error(found, "four-bar", 40.0))
+        one = run(load("four-bar"), method, 2e-3, 40.0, options)
+        numbers = (one.position_violation_max, one.velocity_violation_max, error(one, "four-bar", 40.0))
         result.add_row(method + (", mass" if options else ""), *(f"{x:.1e}" for x in numbers))
     return result
 
@@ -208,7 +207,7 @@ def energy_taken(step: float, until: float, order: int) -> tuple[float, float]:
 
 
 def projection() -> Table:
-    """Return what velocity projections take of the energy, beside the energy error of the run."""
+    """Return the energy that velocity projections take, beside the energy error of the run."""
     result = table(
         "four-bar, 10 s: energy that projections take in all, and energy error at the end [J]",
         ("order", "step [s]", "taken", "energy error", "share"),
@@ -225,13 +224,13 @@ def classes(turns: int = 9) -> Table:
     result = table(title, ("class", "method", "time", "error [m, rad]"), 2)
     model = load("four-bar")
     for label, method, options in CLASSES:
-        ratios, found = list[float](), run(model, method, 1e-3, 10.0, options)
+        ratios, one = list[float](), run(model, method, 1e-3, 10.0, options)
         for _ in range(turns):
             base = run(model, "lagrange", 1e-3, 10.0, {}, repeat=9).seconds.run
             ratios.append(run(model, method, 1e-3, 10.0, options, repeat=9).seconds.run / base)
         time = f"{statistics.median(ratios):.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
         words = " ".join(str(x) for x in options.values() if isinstance(x, str))
-        result.add_row(label, f"{method} {words}".strip(), time, f"{error(found, 'four-bar', 10.0):.1e}")
+        result.add_row(label, f"{method} {words}".strip(), time, f"{error(one, 'four-bar', 10.0):.1e}")
     return result
 
 
@@ -242,7 +241,7 @@ TABLES: dict[str, Callable[[], Table]] = {
 
 
 def main(arguments: list[str]) -> int:
-    """Print the tables asked for, or all."""
+    """Print the tables that are named, or all."""
     for name in arguments or TABLES:
         show(TABLES[name]())
     return 0

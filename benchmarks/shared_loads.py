@@ -1,7 +1,7 @@
 """Reactions of an overconstrained beam: shared like the stiffness of its bars, beside those of minimum norm.
 
-A beam hangs on three parallel bars, of which two determine its motion. Bars that would give by as little as a load
-makes them share it like ``k_i (u + x_i phi)``, u and phi from the balance of forces and moments: a closed form.
+A beam hangs on three parallel bars, of which two determine its motion. Bars that give a little under a load
+share it like ``k_i (u + x_i phi)``, u and phi from the balance of forces and moments: a closed form.
 
     python -m benchmarks.shared_loads
 """
@@ -62,8 +62,8 @@ def main() -> int:
         table.add_column(heading)
     for stiffness in CASES:
         exact = shares(stiffness, MASS * GRAVITY * float(np.cos(0.3)))
-        found = [tensions(stiffness, method)[0][0] for method in METHODS]
-        numbers = [", ".join(f"{x:.4f}" for x in row) for row in (exact, *found)]
+        rows = [exact, *(tensions(stiffness, method)[0][0] for method in METHODS)]
+        numbers = [", ".join(f"{x:.4f}" for x in row) for row in rows]
         table.add_row(", ".join(f"{k:g}" for k in stiffness), *numbers)
     show(table)
     return 0

@@ -93,6 +93,20 @@ def by_family(study: Stress) -> str:
     return table(["family", *(f"`{name}`" for name in COLUMNS)], lines)
 
 
+def by_method(study: Stress) -> str:
+    """Return the accurate cells of each method by family, with what became of the others."""
+    rows = [row for row in map_rows(study.rows) if row.outcome not in (REFUSED, UNJUDGED)]
+    families, lines = tuple(dict.fromkeys(row.family for row in rows)), []
+    for method in dict.fromkeys(row.method for row in rows):
+        line = [f"`{method}`"]
+        for family in families:
+            count = Counter(row.outcome for row in rows if (row.method, row.family) == (method, family))
+            others = ", ".join(f"{count[name]} {name}" for name in OUTCOMES if count[name] and name != GOOD)
+            line.append(f"{count[GOOD]} of {count.total()}" + (f"; {others}" if others else ""))
+        lines.append(line)
+    return table(["method", *families], lines)
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Print the tables; draw the shares of accurate cells if that is asked for."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
@@ -108,6 +122,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     print(f"auto: {dict(auto.most_common())}; named: {len(false)} false successes of {len(named)}\n")
     print(by_cause(study))
     print(by_family(study))
+    print(by_method(study))
     if given.picture:
         from symgen.report.stress_figures import overview
 

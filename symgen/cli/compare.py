@@ -137,6 +137,8 @@ def command(
     for option, requested in (("--steps", step_list), ("--rtols", rtol_list)):
         if requested and rows and not used[option]:
             click.echo(f"symgen: {option} counted for nothing: no run of these integrators has such steps", err=True)
+    if runs.left_out:
+        click.echo(f"symgen: these integrators solve no form of {', '.join(runs.left_out)}: left out", err=True)
     if as_json:
         tables = [study.to_json() for study in studies]
         write_json(tables[0] if len(models) == 1 else {"studies": tables})

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.ir.numerics import WARN
-from symgen.result.judge import JUMP_FAILURE, judge_alone
+from symgen.result.judge import JUMP_DOUBT, judge_alone
 from symgen.result.result import FAILED, OK
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
@@ -66,7 +66,7 @@ def judge_all(
     status[~done] = NOT_RUN
     passed = (column(summary, "rank_event_count") > 0.0) | (column(summary, "smallest_pivot") < WARN)
     doubtful = (column(summary, "start") != e.ASSEMBLED) | (column(summary, "code") != abi.DONE)
-    doubtful |= passed if not law.position_correction else law.energy_correction | _jumped(summary)
+    doubtful |= law.energy_correction | _jumped(summary) | (passed & (not law.position_correction))
     for i in np.flatnonzero(done & doubtful):
         row = summary[i]
         if column(row, "start") != e.ASSEMBLED:
@@ -89,7 +89,7 @@ def warnings_all(summary: Array, done: NDArray[np.bool_], law: LawInfo, spec: Ru
         As for `judge_all`.
     """
     odd = (column(summary, "rank_event_count") > 0.0) | (column(summary, "smallest_pivot") < WARN)
-    odd |= (column(summary, "energy_jump") > 0.0) | (column(summary, "light_evaluations") > 0.0)
+    odd |= column(summary, "light_evaluations") > 0.0
     ready, projected = done & (column(summary, "start") == e.ASSEMBLED), column(summary, "start_velocities") == 1.0
     warnings: dict[int, tuple[str, ...]] = {int(i): (_PROJECTED,) for i in np.flatnonzero(ready & projected)}
     for i in np.flatnonzero(ready & odd).tolist():
@@ -117,7 +117,7 @@ def _of_events(row: Array, events: Sequence[str]) -> str | None:
 
 
 def _jumped(summary: Array) -> NDArray[np.bool_]:
-    return np.asarray(column(summary, "energy_jump") > 0.5 * JUMP_FAILURE * column(summary, "energy_scale"))
+    return np.asarray(column(summary, "energy_jump") > 0.5 * JUMP_DOUBT * column(summary, "energy_scale"))
 
 
 def _ended(row: Array, spec: RunSpec) -> Ended:

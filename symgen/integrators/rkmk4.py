@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from symgen.integrators._tableau import Tableau
 from symgen.integrators.rk4 import KIND as RK4
@@ -16,7 +17,7 @@ from symgen.runtime.integrator import Array, Setup, law_functions
 from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
     from symgen.runtime.run import RunSpec
 
 
@@ -36,15 +37,20 @@ class LieTableau(Tableau):
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
-        from symgen.runtime.scheme_records import Rotations
         from symgen.runtime.schemes import lie
 
         info = compiled.info
-        assert spec.step is not None, "a constant step is given"
+        assert spec.step is not None, "constant steps have a length"
         spins, stage = np.array([j for _, j in info.spins], dtype=np.int64), lie.stage_width(info.nq, info.nv, info.ny)
-        scheme = Rotations(self.record(False), spins, stage)
-        functions, room = law_functions(compiled, "turn"), lie.room(padded(info.ny), stage, self.stages)
-        return Setup(self.loop(False), functions, scheme, spec.step, 0, room)
+        scheme, further = self.scheme(info, spins, stage)
+        room = lie.room(padded(info.ny), stage, self.stages) + further
+        return Setup(self.loop(False), law_functions(compiled, "turn"), scheme, spec.step, 0, room)
+
+    def scheme(self, info: ModelInfo, spins: NDArray[np.int64], stage: int) -> tuple[Any, int]:
+        """Return the record of the scheme, and the room that its updates need beside that of stages."""
+        from symgen.runtime.scheme_records import Rotations
+
+        return Rotations(self.record(False), spins, stage), 0
 
 
 KIND = LieTableau(

@@ -6,16 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from symgen.integrators.rk4 import KIND as RK4
 from symgen.integrators.rkmk4 import LieTableau
-from symgen.runtime.integrator import Setup, law_functions
-from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.integrator import Array
-    from symgen.runtime.run import RunSpec
+    from symgen.runtime.compiled import ModelInfo
 
 
 @dataclass(frozen=True)
@@ -28,18 +25,13 @@ class ScrewTableau(LieTableau):
 
         return screw.constant
 
-    def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
-        """Return the arguments of the loop."""
+    def scheme(self, info: ModelInfo, spins: NDArray[np.int64], stage: int) -> tuple[Any, int]:
+        """Return the record of the scheme with the bodies that move freely, and the room of their screws."""
         from symgen.runtime.scheme_records import Screws
-        from symgen.runtime.schemes import lie
 
-        info, names = compiled.info, [q.name for q in compiled.info.velocities]
-        assert spec.step is not None, "a constant step is given"
+        names = [q.name for q in info.velocities]
         free = [(e, j) for e, j in info.spins if j >= 3 and names[j - 3] == names[j].rpartition(".")[0] + ".vx"]
-        spins, stage = np.array([j for _, j in info.spins], dtype=np.int64), lie.stage_width(info.nq, info.nv, info.ny)
-        scheme = Screws(self.record(False), spins, np.array(free, dtype=np.int64).ravel(), stage)
-        room = lie.room(padded(info.ny), stage, self.stages) + 2 * info.nv + 3
-        return Setup(self.loop(False), law_functions(compiled, "turn"), scheme, spec.step, 0, room)
+        return Screws(self.record(False), spins, np.array(free, dtype=np.int64).ravel(), stage), 2 * info.nv + 3
 
 
 KIND = ScrewTableau(

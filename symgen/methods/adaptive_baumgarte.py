@@ -17,17 +17,17 @@ class AdaptiveBaumgarte(MultiplierMethod):
     """`baumgarte` with gains that follow the step h.
 
     ``rule=gain``: ``alpha = beta = min(gain, a / h)``, our own: a / h keeps the root inside the region of stability of
-    every explicit integrator (whose real boundary is at least 2), whatever the step, and `gain` bounds it where steps
-    are short. ``rule=taylor``: ``alpha = 1 / h``, ``beta = sqrt(2) / h``, from ``Phi + h Phi' + h^2 Phi'' / 2 = 0``.
-    ``rule=pole-placed``: the roots are zeros of the integrator's stability function over h, so that one step ends a
-    violation of linear constraints.
+    every explicit integrator but `abm`, whatever the step, and `gain` bounds it where steps are short. ``rule=taylor``:
+    ``alpha = 1 / h``, ``beta = sqrt(2) / h``, from ``Phi + h Phi' + h^2 Phi'' / 2 = 0``. ``rule=pole-placed``: the
+    roots are zeros of the integrator's stability function over h, so that one step ends a violation of linear
+    constraints.
 
-    What it gives is stability at any step, not accuracy: gains that grow like 1 / h feed the violations of the stages,
+    It is for stability at any step, not for accuracy: gains that grow like 1 / h feed the violations of the stages,
     which are no error of the step, back times 1 / h^2, and leave order 2 of any integrator.
     """
 
     name = "adaptive-baumgarte"
-    summary = "Baumgarte's gains by the step: stable at any step, not accurate at all"
+    summary = "Baumgarte's gains by the step: stable at any step; gains of 1/h leave order 2"
     reference = (
         "Chang, Nikravesh, J. Mech. Trans. Autom. Des. 107 (1985) 488-492 (gains that follow the run); "
         "Weijia, Zhenkuan, Yibing, Appl. Math. Mech. 21 (2000) 103-108 (taylor); "
@@ -61,7 +61,7 @@ class AdaptiveBaumgarte(MultiplierMethod):
         return system.gamma - (2.0 * alpha) * drift - square * system.phi
 
     def placed(self, options: Mapping[str, str], zero: complex | None, integrator: str) -> dict[str, float]:
-        """Return the root that the integrator damps most, for the rule that takes it."""
+        """Return the zero of the integrator's stability function, for the rule that takes it."""
         if options["rule"] != "pole-placed":
             return {}
         if zero is None:

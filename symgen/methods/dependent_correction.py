@@ -12,9 +12,9 @@ from symgen.methods._formula import System
 class DependentCorrection(MultiplierMethod):
     """As `lagrange`, all coordinates integrated; after each step ``dv = -P D^T (D P D^T)^-1 Phi``, and so for v.
 
-    P keeps the dependent columns, chosen as for `coordinate-partitioning`, whose stages are closed as well. Near a
+    P keeps the dependent columns, chosen as for `coordinate-partitioning`, which closes the stages as well. Near a
     singular position no partition determines the motion: there all coordinates are corrected in the metric of M. The
-    reference chooses the partition by another criterion.
+    references choose the partition by another criterion.
     """
 
     name = "dependent-correction"

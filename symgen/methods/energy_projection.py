@@ -13,8 +13,8 @@ class EnergyProjection(MultiplierMethod):
 
     ``v_p = M^-1 D^T S^-1 nu`` is what drivers prescribe; the rest is orthogonal to it in the metric of M, so that ``s^2
     = (E0 + W - V - T(v_p)) / T(v - v_p)``. This is the smallest change in the metric of M that keeps ``D v = nu``.
-    Where s^2 would leave 1/4 to 4, as at turning points, the velocities stay. The formula is our reading: only the
-    abstract of the reference was available. The energy of such a run says nothing of its error.
+    Where s^2 would be outside of 1/4 to 4, as at turning points, velocities are not scaled. The formula is our reading:
+    only the abstract of the reference was available. The energy of such a run says nothing about its error.
     """
 
     name = "energy-projection"

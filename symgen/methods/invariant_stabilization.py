@@ -1,4 +1,4 @@
-"""Stabilised invariants: the rates of positions are changed so that violations decay exactly."""
+"""Stabilised invariants: the rates of positions are changed so that their violations decay exactly."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ from symgen.methods._formula import Scalar, System
 class InvariantStabilization(Method):
     """``q' = N (v - D^+ (w + kappa Phi))``, ``D v' = gamma - kappa w`` with w = D v - nu: ``Phi' = -kappa Phi``.
 
-    ``D^+ = M^-1 D^T S^-1``, so that v' and the change of q' are solved with one factor of S. Both violations decay with
-    the rate kappa and do not oscillate; with kappa near 1 / h it is `post-stabilization` within a step. Gains that
-    grow like 1 / h feed the stages' own violations back and cost the integrator its order. The form with a change of q'
-    is our reading of the references, of which the first was available as an abstract.
+    ``D^+ = M^-1 D^T S^-1``, so that v' and the change of q' are solved with one factor of S. Phi decays with the rate
+    kappa exactly and does not oscillate; w does but for the turning of D along the change of q', a term of the order of
+    v times the violations. With kappa near 1 / h it is `post-stabilization` within a step. Gains that grow like 1 / h
+    feed the stages' own violations back and cost the integrator its order. The form with a change of q' is our reading
+    of the references; of the first only the abstract was available.
     """
 
     name = "invariant-stabilization"

@@ -106,7 +106,7 @@ SAME_TIME, RESOLVED_TIME = 1e-9, 4e-16
     WARN_PIVOT,
     SMALLEST_PIVOT,
     POTENTIAL_START,
-    ENERGY_ENTRY,  # E - E0 - W where the run entered a warn zone
+    ENERGY_ENTRY,  # E - E0 - W at the last accepted state before a passage
     MAX_ENERGY_JUMP,  # largest change of it over a passage
     LAST_TIME,  # time, root of the smallest pivot, and how fast that root fell, at the accepted state before
     LAST_SINE,
@@ -116,8 +116,9 @@ SAME_TIME, RESOLVED_TIME = 1e-9, 4e-16
     CHOSEN,  # largest value of the smallest pivot since rows were chosen that stand for all
     LAST_KINETIC,  # kinetic energy at the accepted state before
     FORCE,  # largest change of kinetic energy or work over its way, where the balance of energy was in doubt
-) = range(21)
-N_GAUGES = 21
+    LARGEST_SINE,  # largest root of the smallest pivot so far
+) = range(22)
+N_GAUGES = 22
 
 #: Columns of the table of rank events.
 EVENT_IN, EVENT_OUT, EVENT_RANK, EVENT_PIVOT = range(4)

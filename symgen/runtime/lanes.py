@@ -46,6 +46,7 @@ _START, _SCALE, _POTENTIAL_START = abi.ENERGY_START * _L, abi.ENERGY_SCALE * _L,
 _LIMIT_PHI, _LIMIT_DRIFT, _LIMIT_ENERGY = abi.LIMIT_PHI * _L, abi.LIMIT_DRIFT * _L, abi.LIMIT_ENERGY * _L
 _SMALLEST, _LAST_SINE, _FALL = abi.SMALLEST_PIVOT * _L, abi.LAST_SINE * _L, abi.FALL * _L
 _LAST_TIME, _WARN, _CHOSEN = abi.LAST_TIME * _L, abi.WARN_PIVOT * _L, abi.CHOSEN * _L
+_LARGEST_SINE, _PASSAGE = abi.LARGEST_SINE * _L, watching.PASSAGE
 _SUSPECTS, _FAILURES = LANE_COUNTERS.index("suspects") * _L, LANE_COUNTERS.index("failures") * _L
 _ITERATIONS = LANE_COUNTERS.index("iterations") * _L
 #: Behind the gauges of all lanes: the largest coordinate, the rank at the start, 1 for lanes left to single runs, and
@@ -158,10 +159,12 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
         gauges[_FALL + lane] = (before - sine) / elapsed if elapsed > 0.0 else 0.0
         gauges[_LAST_TIME + lane] = t
         gauges[_LAST_SINE + lane] = sine
+        most = sine if sine > gauges[_LARGEST_SINE + lane] else gauges[_LARGEST_SINE + lane]
+        gauges[_LARGEST_SINE + lane] = most
         phi, drift = w[_PHI_MEASURE + lane], w[_DRIFT_MEASURE + lane]
         best = pivot if pivot > gauges[_CHOSEN + lane] else gauges[_CHOSEN + lane]
         gauges[_CHOSEN + lane] = best
-        bad = met | (pivot < warn) | (pivot < gauges[_LEAST_PART + lane] * best)
+        bad = met | (pivot < warn) | (sine <= _PASSAGE * most) | (pivot < gauges[_LEAST_PART + lane] * best)
         bad |= w[_RANK + lane] != gauges[_FIRST_RANK + lane]
         bad |= not phi <= gauges[_LIMIT_PHI + lane] * length
         bad |= not drift <= gauges[_LIMIT_DRIFT + lane] * w[_SPEED + lane]

@@ -17,6 +17,9 @@ _WINDOW = 10_000
 VANISHING = 1e-2
 #: An error of the energy below this part of kinetic and potential energy is no failure.
 NEGLIGIBLE = 1e-9
+#: A passage lasts while the root of the smallest pivot is below this part of its largest value. The energy that is lost
+#: or gained over it shows what steps that are too long, or joints that give, have missed there.
+PASSAGE = 0.2
 #: A way below this part of the mechanism's length is none: so far two motions that agree may be apart.
 NO_WAY = 1e-4
 
@@ -144,6 +147,12 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     )
     near = pivot < gauges[abi.WARN_PIVOT] or met
     entered = gauges[abi.LAST_TIME] if met and pivot >= gauges[abi.WARN_PIVOT] else t
+    gauges[abi.LARGEST_SINE] = max(gauges[abi.LARGEST_SINE], sine)
+    small = PASSAGE * gauges[abi.LARGEST_SINE]
+    if sine > small and not met:
+        if gauges[abi.LAST_SINE] <= small or control[abi.IN_ZONE] == 1:
+            gauges[abi.MAX_ENERGY_JUMP] = max(gauges[abi.MAX_ENERGY_JUMP], abs(error - gauges[abi.ENERGY_ENTRY]))
+        gauges[abi.ENERGY_ENTRY] = error
     gauges[abi.FALL] = (gauges[abi.LAST_SINE] - sine) / elapsed if elapsed > 0.0 else 0.0
     # so does the length of a gradient that vanishes; what the row says behind that nobody knows
     short, fell = math.sqrt(max(w[abi.SHORTEST_ROW], 0.0)), gauges[abi.SHORT_FALL]
@@ -151,10 +160,6 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     gauges[abi.SHORT_FALL] = (gauges[abi.LAST_SHORT] - short) / elapsed if elapsed > 0.0 else 0.0
     gauges[abi.LAST_TIME], gauges[abi.LAST_SINE], gauges[abi.LAST_SHORT] = t, sine, short
     if near or control[abi.IN_ZONE] == 1 or rank != control[abi.LAST_RANK]:
-        if near and control[abi.IN_ZONE] == 0:
-            gauges[abi.ENERGY_ENTRY] = error
-        elif not near and control[abi.IN_ZONE] == 1:
-            gauges[abi.MAX_ENERGY_JUMP] = max(gauges[abi.MAX_ENERGY_JUMP], abs(error - gauges[abi.ENERGY_ENTRY]))
         k = control[abi.EVENTS] - 1
         if control[abi.IN_ZONE] == 0:
             k += 1

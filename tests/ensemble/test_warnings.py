@@ -10,6 +10,8 @@ import symgen
 from symgen.ensemble.sweep_study import lines_of
 from symgen.errors import InputError
 from symgen.runtime.stops import foreseen
+from symgen.study.stress.bench import Base
+from symgen.study.stress.families import singular_passage
 
 STEP = 1e-2
 CONSTANT = {"method": "lagrange", "integrator": "rk4", "step": STEP, "until": 1.0}
@@ -70,6 +72,17 @@ def test_rows_have_what_single_runs_say_of_singular_positions():
     }
     everywhere = symgen.sweep("pendulum", {"bob_mass": [1.0, -1.0]}, **unstable)
     assert "is unstable with" in everywhere.warnings[0][0] and everywhere.warnings[1] == ()
+
+
+@pytest.mark.parametrize("target", ["cpu", "lanes"])
+@pytest.mark.parametrize("method", ["direct-correction", "velocity-projection"])
+def test_rows_are_in_doubt_where_energy_jumps_as_single_runs_are(target, method):
+    model = symgen.load(singular_passage(Base.of("four-bar"), 1e-2).mechanism)
+    chosen = {"method": method, "integrator": "rk4", "step": 1e-3, "until": 2.0}
+    found = symgen.sweep(model, {"crank.omega": [-1.0, -1.2]}, target=target, **chosen)
+    alone = model.simulate(start={"crank.omega": -1.0}, **chosen)
+    assert list(found.status) == ["unverified"] * 2 and alone.status == "unverified"
+    assert found.reason[0] == alone.reason and "energy jumped by 0.00" in alone.reason
 
 
 @pytest.mark.parametrize(

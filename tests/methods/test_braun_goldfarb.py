@@ -20,12 +20,12 @@ def test_a_start_that_is_off_closes_by_the_stability_function_at_minus_one():
 
 
 def test_the_order_of_rk4_is_lost():
-    found = all_orders.observe("braun-goldfarb", "rk4")
-    assert found.slope is not None and 1.8 < found.slope < 3.0, found
+    order = all_orders.observe("braun-goldfarb", "rk4")
+    assert order.slope is not None and 1.8 < order.slope < 3.0, order
 
 
 def test_adaptive_runs_begin_before_there_is_a_step():
-    found = load("four-bar").simulate(method="braun-goldfarb", integrator="dop853", until=1.0)
-    assert found.status == "ok", found.reason
+    result = load("four-bar").simulate(method="braun-goldfarb", integrator="dop853", until=1.0)
+    assert result.status == "ok", result.reason
     usual = load("four-bar").simulate(integrator="dop853", until=1.0)
-    np.testing.assert_allclose(np.asarray(found.q), np.asarray(usual.q), rtol=0.0, atol=1e-6)
+    np.testing.assert_allclose(np.asarray(result.q), np.asarray(usual.q), rtol=0.0, atol=1e-6)

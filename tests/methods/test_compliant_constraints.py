@@ -37,8 +37,8 @@ def test_at_rest_the_violation_is_the_force_over_a_stiffness(method, compliance)
     name, value = ("penalty", 1.0 / compliance) if method == "penalty" else ("compliance", compliance)
     one = LawAt(described("pendulum"), method, {}, {name: value, "omega": OMEGA})
     y, multiplier = at_rest(compliance)
-    _, acceleration, found = one.rates([0.0, y], np.zeros(2))
-    assert np.abs(acceleration).max() < 1e-9 and found[0] == pytest.approx(multiplier, rel=1e-9)
+    _, acceleration, multipliers = one.rates([0.0, y], np.zeros(2))
+    assert np.abs(acceleration).max() < 1e-9 and multipliers[0] == pytest.approx(multiplier, rel=1e-9)
     stretch = y + np.linalg.norm(one.q)
     _, acceleration, _ = one.rates([0.0, y - 0.1 * stretch], np.zeros(2))
     assert acceleration[1] == pytest.approx(0.1 * OMEGA**2 * stretch, rel=0.02)
@@ -55,8 +55,8 @@ def test_a_run_settles_there():
         "max_violation": 1.0,
         "max_energy_error": 1.0,
     }
-    found = model.simulate(method="compliant-constraints", options={"method.compliance": 1e-2}, **keys)
-    assert found["bob.y"][-1] == pytest.approx(at_rest(1e-2)[0], abs=1e-9) and found["bob.y"][-1] < -1.0009
+    result = model.simulate(method="compliant-constraints", options={"method.compliance": 1e-2}, **keys)
+    assert result["bob.y"][-1] == pytest.approx(at_rest(1e-2)[0], abs=1e-9) and result["bob.y"][-1] < -1.0009
 
 
 def test_singular_positions_need_no_decision_on_rank():

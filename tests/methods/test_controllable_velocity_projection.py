@@ -1,4 +1,4 @@
-"""A part of the velocity projection takes a known part of the energy."""
+"""A part of the velocity projection takes the part of the energy that theta determines."""
 
 import numpy as np
 import pytest

@@ -34,8 +34,8 @@ def test_what_closing_stages_buys_beside_closing_steps():
     exact = model.simulate(integrator="dop853", rtol=1e-12, atol=1e-13, until=2.0, times=times)
     errors = {}
     for method in ("dependent-correction", "coordinate-partitioning", "lagrange"):
-        found = model.simulate(method=method, integrator="rk4", step=4e-3, until=2.0, times=times, max_violation=1e-3)
-        errors[method] = np.abs(np.asarray(found.q) - np.asarray(exact.q)).max()
+        result = model.simulate(method=method, integrator="rk4", step=4e-3, until=2.0, times=times, max_violation=1e-3)
+        errors[method] = np.abs(np.asarray(result.q) - np.asarray(exact.q)).max()
     assert errors["dependent-correction"] < 0.5 * errors["lagrange"]
     assert errors["dependent-correction"] < 4.0 * errors["coordinate-partitioning"]
 

@@ -62,28 +62,28 @@ def test_velocities_stay_where_no_factor_gives_the_energy():
 @pytest.mark.parametrize("keys", [{}, {"shape": "looped"}, {"coordinates": "joint"}], ids=str)
 def test_the_energy_of_a_run(keys):
     model = load("four-bar")
-    found = model.simulate(method=METHOD, integrator="rk4", step=4e-3, until=2.0, **keys)
+    result = model.simulate(method=METHOD, integrator="rk4", step=4e-3, until=2.0, **keys)
     usual = model.simulate(
         method="direct-correction", options={"method.weight": "mass"}, integrator="rk4", step=4e-3, until=2.0, **keys
     )
-    assert found.energy_drift_max < 1e-11 < 1e-7 < usual.energy_drift_max
-    assert found.position_violation_max < 1e-11 and found.velocity_violation_max < 1e-13
+    assert result.energy_drift_max < 1e-11 < 1e-7 < usual.energy_drift_max
+    assert result.position_violation_max < 1e-11 and result.velocity_violation_max < 1e-13
 
 
 def test_the_work_of_drivers_is_part_of_the_balance():
-    found = Model(validate(swing_on_a_cart(), "test")).simulate(method=METHOD, integrator="rk4", step=2e-3, until=1.0)
-    assert np.abs(np.asarray(found.work)).max() > 0.1 and found.energy_drift_max < 1e-11
+    result = Model(validate(swing_on_a_cart(), "test")).simulate(method=METHOD, integrator="rk4", step=2e-3, until=1.0)
+    assert np.abs(np.asarray(result.work)).max() > 0.1 and result.energy_drift_max < 1e-11
 
 
 def gain(raw, until):
     """Error of the motion without scaling over that with it."""
     model, times = Model(validate(raw, "test")), np.linspace(0.0, until, 11)
     exact = model.simulate(integrator="dop853", rtol=1e-12, atol=1e-13, until=until, times=times)
-    found = []
+    errors = []
     for method, options in ((METHOD, {}), ("direct-correction", {"method.weight": "mass"})):
         run = model.simulate(method=method, options=options, integrator="rk4", step=1e-2, until=until, times=times)
-        found.append(np.abs(np.asarray(run.q) - np.asarray(exact.q)).max())
-    return found[1] / found[0]
+        errors.append(np.abs(np.asarray(run.q) - np.asarray(exact.q)).max())
+    return errors[1] / errors[0]
 
 
 def test_energy_fixes_the_motion_of_one_degree_of_freedom_only():
@@ -95,8 +95,8 @@ def test_energy_fixes_the_motion_of_one_degree_of_freedom_only():
 
 def test_such_runs_are_not_judged_by_their_energy():
     model = load("four-bar")
-    found = model.simulate(method=METHOD, integrator="rk4", step=1e-3, until=1.0, max_energy_error=1e-30)
-    assert found.status == "unverified" and "velocities are scaled to the energy" in found.reason
+    result = model.simulate(method=METHOD, integrator="rk4", step=1e-3, until=1.0, max_energy_error=1e-30)
+    assert result.status == "unverified" and "velocities are scaled to the energy" in result.reason
     assert model.simulate(method=METHOD, integrator="rk4", step=1e-3, until=1.0, verify=True).status == "ok"
     rows = symgen.sweep(model, {"coupler_mass": [7.0, 8.0, 9.0]}, method=METHOD, integrator="rk4", step=1e-3, until=0.2)
     assert set(rows.status) == {"unverified"}

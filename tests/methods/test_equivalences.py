@@ -127,20 +127,20 @@ def test_one_law_under_many_names(name, options):
     for q, v in states(name):
         e = laws[0].equations(q, v)
         for one in laws:
-            _, found, multipliers = one.rates(q, v)
-            close(e.mass @ found + e.d.T @ multipliers, e.f, "M v' + D^T lambda", tolerance)
+            _, acceleration, multipliers = one.rates(q, v)
+            close(e.mass @ acceleration + e.d.T @ multipliers, e.f, "M v' + D^T lambda", tolerance)
             for form in FORMS:
-                close(found, form(e.mass, e.d, e.f, e.gamma), form.__name__, tolerance)
+                close(acceleration, form(e.mass, e.d, e.f, e.gamma), form.__name__, tolerance)
 
 
 @pytest.mark.parametrize("options", SOLVERS[1:], ids=str)
 def test_forms_for_singular_mass_matrices_are_oracles_for_the_solvers_that_need_no_inverse(options):
     one = law("massless", "lagrange", *options)
     for q, v in states("massless"):
-        e, (_, found, _) = one.equations(q, v), one.rates(q, v)
+        e, (_, acceleration, _) = one.equations(q, v), one.rates(q, v)
         assert np.linalg.matrix_rank(e.mass) == 6
         for form in REGULAR:
-            close(found, form(e.mass, e.d, e.f, e.gamma), form.__name__, ITERATED)
+            close(acceleration, form(e.mass, e.d, e.f, e.gamma), form.__name__, ITERATED)
         p = scipy.linalg.null_space(e.d) @ scipy.linalg.null_space(e.d).T
         # Aghili's matrix is singular where a massless direction is one of constraint forces, M x = 0 and x = D^T y
         assert np.linalg.matrix_rank(e.mass + p @ e.mass - e.mass @ p) < 9
@@ -150,11 +150,11 @@ def test_what_inconsistent_rows_get():
     """Aghili's form and the pseudoinverse spread what cannot be had over the rows; a row that is dropped has it all."""
     q, v = next(states("redundant", 1))
     one = law("redundant", "lagrange")
-    e, (_, found, _) = one.equations(q, v), one.rates(q, v)
+    e, (_, acceleration, _) = one.equations(q, v), one.rates(q, v)
     gamma = e.gamma + 0.1 * np.eye(len(e.gamma))[-1]
     rest = e.d @ aghili(e.mass, e.d, e.f, gamma) - gamma
     close(rest, e.d @ np.linalg.lstsq(e.d, gamma, rcond=None)[0] - gamma, "least squares", TOLERANCE)
-    dropped = e.d @ found - gamma
+    dropped = e.d @ acceleration - gamma
     assert np.abs(dropped[:-1]).max() < TOLERANCE
     assert abs(dropped[-1]) == pytest.approx(0.1, rel=1e-9) and np.linalg.norm(rest) < 0.5 * np.linalg.norm(dropped)
 
@@ -176,8 +176,8 @@ def test_a_penalty_is_a_compliance(penalty):
         right = e.d @ np.linalg.solve(e.mass, e.f) - stabilised(e)
         multipliers = np.linalg.solve(e.schur() + np.eye(len(right)) / penalty, right)
         for one, rounding in ((stiff, 1e-15 * penalty), (soft, 0.0)):
-            _, found, reported = one.rates(q, v)
-            close(e.mass @ found + e.d.T @ multipliers, e.f, "v'", TOLERANCE + rounding)
+            _, acceleration, reported = one.rates(q, v)
+            close(e.mass @ acceleration + e.d.T @ multipliers, e.f, "v'", TOLERANCE + rounding)
             close(reported, multipliers, "lambda", TOLERANCE + rounding)
 
 
@@ -215,8 +215,9 @@ def test_the_metric_with_penalties_is_that_of_the_mass(a):
     one = law("regular", "velocity-projection", ("weight", "mass"))
     for q, v in states("regular"):
         e = one.equations(q, v)
-        found = one.accepted(q, v)[1]
-        close(found, projected(one, e.mass + a * e.d.T @ e.d, q, v), "v", 1e-9 if a > 1.0 else TOLERANCE)
+        close(
+            one.accepted(q, v)[1], projected(one, e.mass + a * e.d.T @ e.d, q, v), "v", 1e-9 if a > 1.0 else TOLERANCE
+        )
 
 
 def test_mass_orthogonal_projection_is_direct_correction_in_the_metric_of_mass():
@@ -228,8 +229,8 @@ def test_mass_orthogonal_projection_is_direct_correction_in_the_metric_of_mass()
     closed = other.accepted(one.q, np.zeros(9))[0]
     close(one.accepted(closed, v)[1], other.accepted(closed, v)[1], "v", 1e-10)
     for size in (1e-3, 5e-4):
-        found = [x.accepted(closed + size * off, v)[0] for x in (one, other, plain)]
-        apart.append([float(np.abs(found[0] - x).max()) for x in found[1:]])
+        ends = [x.accepted(closed + size * off, v)[0] for x in (one, other, plain)]
+        apart.append([float(np.abs(ends[0] - x).max()) for x in ends[1:]])
     assert apart[0][0] / apart[1][0] == pytest.approx(4.0, rel=0.1)
     assert apart[0][1] / apart[1][1] == pytest.approx(2.0, rel=0.1)  # the other metric leads elsewhere
 

@@ -43,8 +43,8 @@ def test_second_derivatives_of_constraints_enter_reported_multipliers_only():
 
     def reads_gamma(name, *places):
         ends = [index for place, index in parts[name].outputs if not places or place in places]
-        found = needed(ends, lambda i: record.operations[i].operands)
-        return any(record.operations[i].payload == ("gamma",) for i in found)
+        reached = needed(ends, lambda i: record.operations[i].operands)
+        return any(record.operations[i].payload == ("gamma",) for i in reached)
 
     assert not any(reads_gamma(name) for name in ("begin", "iterate"))
     assert not reads_gamma("finish", "rates.q", "rates.v") and reads_gamma("finish", "rates.work")

@@ -48,8 +48,8 @@ def test_braun_goldfarb_is_the_same_at_one_over_the_step():
         law.w[STATUS.index("step")] = h
     for _ in range(3):
         q, v = one.q + 0.1 * rng.standard_normal(one.nq), rng.standard_normal(one.nv)
-        for found, expected, what in zip(one.rates(q, v), other.rates(q, v), ("q'", "v'", "lambda"), strict=True):
-            close(found, expected, what, 1e-12)
+        for value, expected, what in zip(one.rates(q, v), other.rates(q, v), ("q'", "v'", "lambda"), strict=True):
+            close(value, expected, what, 1e-12)
 
 
 def test_loops_refuse_it_in_a_sentence(cli):
@@ -61,6 +61,8 @@ def test_in_space_and_in_joint_coordinates():
     times = np.linspace(0.0, 0.5, 6)
     for name, coordinates in (("heavy-top", "absolute"), ("four-bar", "joint")):
         keys = {"integrator": "dop853", "until": 0.5, "times": times, "coordinates": coordinates}
-        found, usual = (load(name).simulate(method=m, **keys) for m in ("invariant-stabilization", "direct-correction"))
-        assert found.status == "ok", found.reason
-        np.testing.assert_allclose(np.asarray(found.q), np.asarray(usual.q), rtol=0.0, atol=1e-6)
+        result, usual = (
+            load(name).simulate(method=m, **keys) for m in ("invariant-stabilization", "direct-correction")
+        )
+        assert result.status == "ok", result.reason
+        np.testing.assert_allclose(np.asarray(result.q), np.asarray(usual.q), rtol=0.0, atol=1e-6)

@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.emitted import mechanism_of
-from support.models import parallelogram
+from support.convergence import MOTIONS, compared, orders, redundant
 from support.textbook import Textbook, first_step
 
 from symgen.api import load
@@ -32,28 +31,11 @@ def test_a_step_meets_the_equations_of_the_scheme(name):
     np.testing.assert_allclose(d @ v1, nu, rtol=0.0, atol=1e-13)
 
 
-@pytest.mark.parametrize(
-    ("name", "until", "keys"),
-    [
-        ("four-bar", 2.0, {}),
-        ("four-bar", 2.0, {"coordinates": "joint"}),
-        ("spatial-slider-crank", 0.5, {}),
-        ("spatial-slider-crank", 0.5, {"coordinates": "joint"}),
-        ("rolling-disc", 0.5, {}),
-        ("four-bar", 2.0, {"shape": "looped"}),
-    ],
-)
+@pytest.mark.parametrize(("name", "until", "keys"), MOTIONS)
 def test_order_two_with_both_constraints_to_rounding(name, until, keys):
-    model = load(name)
-    exact = model.simulate(method="direct-correction", rtol=1e-11, atol=1e-12, until=until, times=[until])
-    errors = []
-    for h in (4e-3, 2e-3, 1e-3):
-        result = model.simulate(method="rattle", step=h, until=until, times=[until], **keys)
-        assert result.status == "ok", result.reason
-        assert result.position_violation_max < 1e-13 and result.velocity_violation_max < 1e-13
-        errors.append(np.abs(np.asarray(result.q)[-1] - np.asarray(exact.q)[-1]).max())
-    slopes = np.log2(errors[:-1]) - np.log2(errors[1:])
-    np.testing.assert_allclose(slopes, 2.0, atol=0.1)
+    results, errors = compared(load(name), until, method="rattle", **keys)
+    assert max(max(r.position_violation_max, r.velocity_violation_max) for r in results) < 1e-13
+    np.testing.assert_allclose(orders(errors), 2.0, atol=0.1)
 
 
 @pytest.mark.parametrize("name", ["four-bar", "spatial-slider-crank", "rolling-disc"])
@@ -95,8 +77,4 @@ def test_the_error_of_energy_is_bounded_over_1000_swings():
 
 
 def test_redundant_rows_are_left_out():
-    model, keys = load(mechanism_of(parallelogram())), {"until": 0.5, "times": [0.5]}
-    exact = model.simulate(method="direct-correction", rtol=1e-11, atol=1e-12, **keys)
-    result = model.simulate(method="rattle", step=1e-3, **keys)
-    assert result.status == exact.status == "ok" and result.rank.rank < result.rank.rows
-    np.testing.assert_allclose(np.asarray(result.q), np.asarray(exact.q), rtol=0.0, atol=1e-5)
+    assert redundant("rattle")[1] < 1e-5

@@ -14,17 +14,17 @@ METHOD = "stiffness-scaled-penalty"
 
 @pytest.mark.parametrize("stiffness", CASES)
 def test_bars_share_a_load_like_their_stiffness(stiffness):
-    found, _ = tensions(stiffness, METHOD)
-    np.testing.assert_allclose(found[0], shares(stiffness, MASS * GRAVITY * np.cos(0.3)), rtol=1e-9)
-    np.testing.assert_allclose(found[1], shares(stiffness, found[1].sum()), rtol=1e-9)  # in motion as well
+    own, _ = tensions(stiffness, METHOD)
+    np.testing.assert_allclose(own[0], shares(stiffness, MASS * GRAVITY * np.cos(0.3)), rtol=1e-9)
+    np.testing.assert_allclose(own[1], shares(stiffness, own[1].sum()), rtol=1e-9)  # in motion as well
     equal, _ = tensions(stiffness, "direct-correction")
     np.testing.assert_allclose(equal[0], MASS * GRAVITY * np.cos(0.3) / 3.0, rtol=1e-9)
 
 
 def test_symmetric_bars_are_strained_alike():
-    found, _ = tensions((1e6, 2e6, 1e6), METHOD)
-    np.testing.assert_allclose(found[:, 1], 2.0 * found[:, 0], rtol=1e-9)
-    np.testing.assert_allclose(found[:, 2], found[:, 0], rtol=1e-9)
+    own, _ = tensions((1e6, 2e6, 1e6), METHOD)
+    np.testing.assert_allclose(own[:, 1], 2.0 * own[:, 0], rtol=1e-9)
+    np.testing.assert_allclose(own[:, 2], own[:, 0], rtol=1e-9)
 
 
 def test_the_motion_does_not_depend_on_the_stiffness():
@@ -37,9 +37,9 @@ def test_the_motion_does_not_depend_on_the_stiffness():
 @pytest.mark.parametrize("ratio", [1.0, 1e6])
 def test_shares_depend_on_ratios_alone(unit, ratio):
     stiffness = (unit, 2.0 * ratio * unit, 5.0 * unit)
-    found = np.asarray(beam(stiffness).simulate(method=METHOD, until=0.1, times=[0.0]).lam)[0]
+    own = np.asarray(beam(stiffness).simulate(method=METHOD, until=0.1, times=[0.0]).lam)[0]
     expected = shares(stiffness, MASS * GRAVITY * np.cos(0.3))
-    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-10)
+    np.testing.assert_allclose(own, expected, rtol=0.0, atol=1e-10)
 
 
 def test_both_solvers_share_alike():

@@ -190,6 +190,17 @@ def test_pairs_that_do_not_suit_are_left_out():
     assert [r.integrator for r in own.rows] == ["generalized-alpha"]
 
 
+def test_methods_of_all_that_no_integrator_suits_are_left_out(cli):
+    code, out, err = cli(
+        "compare", "pendulum", "--methods", "all", "--integrators", "rattle", "--until", "0.01", "--json"
+    )
+    assert code == 0 and {row["method"] for row in json.loads(out)["rows"]} == {"rattle"}
+    (line,) = (line for line in err.splitlines() if "solve no form of" in line)
+    assert "lagrange" in line and "rattle" not in line and line.endswith(": left out")
+    with pytest.raises(InputError, match=r"one that solves a form of ggl \(index-2\)"):
+        symgen.compare("pendulum", ["all", "ggl"], ["rk4"], until=0.01)
+
+
 def test_without_methods_the_six_of_the_source_are_compared():
     assert combinations._named((), combinations.DEFAULT_METHODS, ()) == combinations.DEFAULT_METHODS
     assert (

@@ -67,12 +67,15 @@ class Combinations:
         Raises
         ------
         InputError
-            If there is no such method or integrator, or none of these solves a form of a method.
+            If there is no such method or integrator, or none of these solves a form of a method that is named.
         """
+        left_out = self.left_out
         for state in tuple(dict.fromkeys(self.coordinates)) or COORDINATES[:1]:
             for words in _named(self.methods, DEFAULT_METHODS, METHODS.names):
                 method, variant = variant_of(words)
                 methods = [variant_of(other)[0] for other in self.methods]
+                if method in left_out:
+                    continue
                 for integrator in _suitable(method, self.integrators):
                     options = _options_for(base.options, method, methods, integrator, self.integrators)
                     both = {f"{owner}.{name}" for owner in ("method", method) for name in variant}
@@ -80,6 +83,15 @@ class Combinations:
                     options |= {f"method.{name}": x for name, x in variant.items()}
                     one = replace(base, coordinates=state, method=method, integrator=integrator, options=options)
                     yield from self._steps(one, own)
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """Methods of ``all`` of which no integrator that is named solves a form; none if no method would be left."""
+        named = {variant_of(words)[0] for words in self.methods}
+        if ALL not in named or not self.integrators:
+            return ()
+        unfit = tuple(n for n in METHODS.names if n not in named and not _fitting(n, self.integrators))
+        return unfit if len(unfit) < len(METHODS.names) else ()
 
     def _steps(self, common: Settings, own: float) -> Iterator[Settings]:
         name = str(common.integrator)
@@ -132,13 +144,17 @@ def _suitable(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
     InputError
         If integrators were named and none of them does.
     """
-    chosen = METHODS.get(method, "methods")
-    named = _named(integrators, DEFAULT_INTEGRATORS, INTEGRATORS.names)
-    fit = tuple(n for n in named if set(INTEGRATORS.get(n, "integrators").forms) & set(chosen.forms))
+    chosen, fit = METHODS.get(method, "methods"), _fitting(method, integrators)
     if fit or not integrators:
         return fit or (chosen.default_integrator,)
     forms = ", ".join(chosen.forms)
     raise InputError("integrators", f"one that solves a form of {method} ({forms})", f"'{', '.join(integrators)}'")
+
+
+def _fitting(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
+    forms = set(METHODS.get(method, "methods").forms)
+    named = _named(integrators, DEFAULT_INTEGRATORS, INTEGRATORS.names)
+    return tuple(name for name in named if forms & set(INTEGRATORS.get(name, "integrators").forms))
 
 
 def _options_for(
