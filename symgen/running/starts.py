@@ -83,9 +83,9 @@ def start_of(
 
 def states_at_start(mechanism: Mechanism, numbers: Scalars, holds: Sequence[Hold]) -> list[float]:
     """Return the values of the states of a file where a run begins: those asked for, else those described."""
-    asked = {hold.name: hold.value for hold in holds}
+    values = {hold.name: hold.value for hold in holds}
     return [
-        numbers.value(asked.get(x.name) or x.start, f"{mechanism.name}: states.{x.name}.start")
+        numbers.value(values.get(x.name) or x.start, f"{mechanism.name}: states.{x.name}.start")
         for x in mechanism.states
     ]
 
@@ -185,5 +185,5 @@ def closed_by(
     start = close(compiled, plan.solver_is_free)
     if not start.light:
         return compiled, start
-    compiled = compiled_for(plan.mechanism, plan.choice.given(solver="augmented"))
+    compiled = compiled_for(plan.mechanism, plan.choice.with_options(solver="augmented"))
     return compiled, close(compiled, False)
