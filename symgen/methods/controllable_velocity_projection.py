@@ -1,4 +1,4 @@
-"""Velocity projection of which a part is carried out, so that the energy that it takes is chosen."""
+"""Partial velocity projection: its parameter determines the energy that it removes."""
 
 from __future__ import annotations
 
