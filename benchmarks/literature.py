@@ -90,13 +90,13 @@ def exact(name: str, until: float) -> Array:
     """Return q of a fine run."""
     times = np.linspace(0.0, until, 9).tolist()
     model = opened_four_bar() if name == "open" else load(name)
-    reference = model.simulate(integrator="dop853", rtol=1e-12, atol=1e-13, until=until, times=times)
-    return np.asarray(reference.q)
+    found = model.simulate(integrator="dop853", rtol=1e-12, atol=1e-13, until=until, times=times)
+    return np.asarray(found.q)
 
 
-def error(motion: Result, name: str, until: float) -> float:
+def error(found: Result, name: str, until: float) -> float:
     """Return the largest error of q; infinite where the run broke off."""
-    q = np.asarray(motion.q)
+    q = np.asarray(found.q)
     return float(np.abs(q - exact(name, until)).max()) if len(q) == 9 else np.inf
 
 
@@ -119,8 +119,8 @@ def gains() -> Table:
             errors = []
             for step in (first, first / 2, first / 4):
                 options = {"method.alpha": g / step, "method.beta": g / step} if g else {}
-                motion = run(load("four-bar"), "baumgarte" if g else "lagrange", step, 2.0, options, name)
-                errors.append(error(motion, "four-bar", 2.0))
+                found = run(load("four-bar"), "baumgarte" if g else "lagrange", step, 2.0, options, name)
+                errors.append(error(found, "four-bar", 2.0))
             cells.append(f"{errors[0]:.1e} ({np.log2(errors[1] / errors[2]):.1f})")
         result.add_row(name, str(INTEGRATORS.get(name).order), f"{first:g}", *cells)
     return result
@@ -136,9 +136,9 @@ def adaptive() -> Table:
     rows += [(f"gain {g:g}", "adaptive-baumgarte", {"method.gain": g}) for g in (1, 2, 5, 10, 20, 50, 1e9)]
     rows += [(rule, "adaptive-baumgarte", {"method.rule": rule}) for rule in ("taylor", "pole-placed")]
     for label, method, options in rows:
-        motions = [run(load("four-bar"), method, step, 2.0, options) for step in (8e-3, 4e-3, 2e-3)]
-        cells = [f"{error(f, 'four-bar', 2.0):.1e}" for f in motions]
-        result.add_row(label, *cells, f"{motions[0].velocity_violation_max:.1e}")
+        found = [run(load("four-bar"), method, step, 2.0, options) for step in (8e-3, 4e-3, 2e-3)]
+        cells = [f"{error(f, 'four-bar', 2.0):.1e}" for f in found]
+        result.add_row(label, *cells, f"{found[0].velocity_violation_max:.1e}")
     return result
 
 
@@ -155,7 +155,7 @@ def energy() -> Table:
                 run(model, method, 1e-2, until, options)
                 for method, options in (("direct-correction", MASS), ("energy-projection", {}))
             ]
-            errors = [error(motion, name, until) for motion in both]
+            errors = [error(found, name, until) for found in both]
             cells = [f"{x:.1e}" for e, f in zip(errors, both, strict=True) for x in (e, f.energy_drift_max)]
             result.add_row(label, f"{until:g}", *cells, f"{errors[0] / errors[1]:.1f}")
     return result
@@ -173,8 +173,8 @@ def violation() -> Table:
         *(("dependent-correction", {}), ("coordinate-partitioning", {}), ("braun-goldfarb", {})),
     )
     for method, options in rows:
-        motion = run(load("four-bar"), method, 2e-3, 40.0, options)
-        numbers = (motion.position_violation_max, motion.velocity_violation_max, error(motion, "four-bar", 40.0))
+        found = run(load("four-bar"), method, 2e-3, 40.0, options)
+        numbers = (found.position_violation_max, found.velocity_violation_max, error(found, "four-bar", 40.0))
         result.add_row(method + (", mass" if options else ""), *(f"{x:.1e}" for x in numbers))
     return result
 
@@ -225,13 +225,13 @@ def classes(turns: int = 9) -> Table:
     result = table(title, ("class", "method", "time", "error [m, rad]"), 2)
     model = load("four-bar")
     for label, method, options in CLASSES:
-        ratios, motion = list[float](), run(model, method, 1e-3, 10.0, options)
+        ratios, found = list[float](), run(model, method, 1e-3, 10.0, options)
         for _ in range(turns):
             base = run(model, "lagrange", 1e-3, 10.0, {}, repeat=9).seconds.run
             ratios.append(run(model, method, 1e-3, 10.0, options, repeat=9).seconds.run / base)
         time = f"{statistics.median(ratios):.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
         words = " ".join(str(x) for x in options.values() if isinstance(x, str))
-        result.add_row(label, f"{method} {words}".strip(), time, f"{error(motion, 'four-bar', 10.0):.1e}")
+        result.add_row(label, f"{method} {words}".strip(), time, f"{error(found, 'four-bar', 10.0):.1e}")
     return result
 
 

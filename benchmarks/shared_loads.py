@@ -62,8 +62,8 @@ def main() -> int:
         table.add_column(heading)
     for stiffness in CASES:
         exact = shares(stiffness, MASS * GRAVITY * float(np.cos(0.3)))
-        rows = [tensions(stiffness, method)[0][0] for method in METHODS]
-        numbers = [", ".join(f"{x:.4f}" for x in row) for row in (exact, *rows)]
+        found = [tensions(stiffness, method)[0][0] for method in METHODS]
+        numbers = [", ".join(f"{x:.4f}" for x in row) for row in (exact, *found)]
         table.add_row(", ".join(f"{k:g}" for k in stiffness), *numbers)
     show(table)
     return 0

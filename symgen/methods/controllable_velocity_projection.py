@@ -1,4 +1,4 @@
-"""Partial velocity projection: its parameter determines the energy that it removes."""
+"""Velocity projection of which a part is carried out, so that the energy that it takes is chosen."""
 
 from __future__ import annotations
 
