@@ -98,8 +98,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("studies", type=Path, nargs="+", help="what symgen stress --json wrote")
     parser.add_argument("--picture", type=Path, help="SVG of the shares of accurate cells by method and model")
-    options = parser.parse_args(arguments)
-    study = studied(options.studies)
+    given = parser.parse_args(arguments)
+    study = studied(given.studies)
     named = [row for row in study.rows if row.method != AUTO and row.watched]
     false = [row for row in study.false_successes if row.method != AUTO]
     auto = Counter(row.outcome for row in study.rows if row.method == AUTO)
@@ -108,10 +108,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     print(f"auto: {dict(auto.most_common())}; named: {len(false)} false successes of {len(named)}\n")
     print(by_cause(study))
     print(by_family(study))
-    if options.picture:
+    if given.picture:
         from symgen.report.stress_figures import overview
 
-        options.picture.write_text(slim(overview(study).data.decode()), encoding="utf-8")
+        given.picture.write_text(slim(overview(study).data.decode()), encoding="utf-8")
 
 
 if __name__ == "__main__":

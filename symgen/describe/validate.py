@@ -360,11 +360,11 @@ class _Validator:
         if len(angles) != 1:
             got = f"a {joint.kind} joint with {len(angles) or 'none'}"
             raise scope.error("rotor_inertia", "a joint with one angle", got)
-        values = {
+        given = {
             key: read_value(Scalar, raw.get(key, 1.0), scope.where(key)) for key in ("rotor_inertia", "gear_ratio")
         }
-        inertia = scope.constant("rotor_inertia", values["rotor_inertia"], positive=True)
-        ratio = scope.constant("gear_ratio", values["gear_ratio"])
+        inertia = scope.constant("rotor_inertia", given["rotor_inertia"], positive=True)
+        ratio = scope.constant("gear_ratio", given["gear_ratio"])
         if ratio != ONE:
             inertia = call("mul", inertia, call("mul", ratio, ratio))
         self._rotors[joint.name] = Rotor(joint.name, angles[0], inertia)

@@ -227,7 +227,7 @@ def make_ensemble(
     moving = read_by_motions(mechanism, grid.names)
     if not moving:  # before anything is derived; where it depends on what varies, rows fail one by one
         refuse_jumps(mechanism, plan.parameters, spec.until)
-    quantities, events = _events(mechanism, plan, quantities)
+    kept_names, events = _events(mechanism, plan, quantities)
     acting = mechanism if target == "cpu" else structs.replace(mechanism, outputs=())  # others integrate no outputs
     passed_times = foreseen(acting, events)
     looks = spec.adaptive and bool(discontinuities_of(acting))
@@ -246,20 +246,20 @@ def make_ensemble(
     if target == "lanes" and spec.adaptive:  # runs side by side take the same steps
         got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with `step`, or rk4"
         raise InputError("target 'lanes'", "a constant step", got, hint)
-    signals = choose_quantities(mechanism, compiled.info, quantities)
+    kept = choose_quantities(mechanism, compiled.info, kept_names)
     if mechanism.states and target != "cpu":
         names_of_states = ", ".join(x.name for x in mechanism.states)
         raise InputError(f"target '{target}'", "cpu, where a file has states", names_of_states, "leave --target out")
-    integral = integrated(mechanism, signals)
+    integral = integrated(mechanism, kept)
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
         raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave `target` out, or name others")
     resets = any(event.action == RESET for event in events)
-    late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in signals)
+    late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in kept)
     # what Python does something between; and measures behind the loops know the inputs of one part
-    measured = driving.changes and any(q.source >= SIDE for q in signals)
+    measured = driving.changes and any(q.source >= SIDE for q in kept)
     parts = resets or late or measured
-    alone = parts or (joint and not {q.source for q in signals} <= PLAIN)
+    alone = parts or (joint and not {q.source for q in kept} <= PLAIN)
     watch = Watch(mechanism, events, ends, alone) if parts or joint or events or looks else None
     # single runs add up all that outputs ask for, which their steps follow, too
     adds = integral is not None or (
@@ -273,14 +273,14 @@ def make_ensemble(
     if plan.solver_is_free:  # the few runs with light bodies are not worth lanes of their own
         choice = plan.choice.with_options(solver="augmented")
         other, where = with_sums(compile_model(mechanism, choice)), "cpu" if target == "lanes" else target
-        spare = _code(mechanism, choice, other, where, joint, signals)
+        spare = _code(mechanism, choice, other, where, joint, kept)
     recipe = Recipe(
-        first=_code(mechanism, plan.choice, compiled, target, joint, signals),
+        first=_code(mechanism, plan.choice, compiled, target, joint, kept),
         spare=spare,
         integrator=plan.integrator.name,
         spec=spec,
         method_parameters=dict(plan.method_parameters),
-        quantities=signals,
+        quantities=kept,
         held=targets.held,
         strict=plan.settings.strict,
         code=code_identity(),
@@ -315,14 +315,14 @@ def _code(
     compiled: CompiledModel,
     target: str,
     joint: bool,
-    signals: Sequence[Signal],
+    kept: Sequence[Signal],
 ) -> Code:
     """Return the code that runs use for one solver, with how quantities behind the loops are worked out."""
     return Code(
         Module.of(compiled),
         Module.of(compile_model(mechanism, choice, target=target)) if target != "cpu" else None,
         Module.of(tree_code(mechanism, choice, compiled)[1]) if joint else None,
-        make_measures(mechanism, compiled, signals),
+        make_measures(mechanism, compiled, kept),
     )
 
 

@@ -83,9 +83,9 @@ def start_of(
 
 def states_at_start(mechanism: Mechanism, numbers: Scalars, holds: Sequence[Hold]) -> list[float]:
     """Return the values of the states of a file where a run begins: those asked for, else those described."""
-    values = {hold.name: hold.value for hold in holds}
+    asked = {hold.name: hold.value for hold in holds}
     return [
-        numbers.value(values.get(x.name) or x.start, f"{mechanism.name}: states.{x.name}.start")
+        numbers.value(asked.get(x.name) or x.start, f"{mechanism.name}: states.{x.name}.start")
         for x in mechanism.states
     ]
 
