@@ -98,12 +98,12 @@ def rows(model: models.Model, only: str = "") -> Iterator[Row]:
             if only not in f"{label}, {text}":
                 continue
             all_options = options | chosen.get("options", {})
-            asked = common | chosen | {"method": method, "options": all_options}
-            asked["coordinates"] = "joint" if label.startswith("joint") else "absolute"
-            result = loaded.simulate(**asked)
+            arguments = common | chosen | {"method": method, "options": all_options}
+            arguments["coordinates"] = "joint" if label.startswith("joint") else "absolute"
+            result = loaded.simulate(**arguments)
             if result.status != "failed" and result.seconds.run < BUDGET / REPEATS:
                 repeat = min(MOST, max(REPEATS, round(ENOUGH / result.seconds.run)))
-                result = loaded.simulate(**asked, repeat=repeat)
+                result = loaded.simulate(**arguments, repeat=repeat)
             done = len(result.t) == len(times)
             angles = np.column_stack([result[c] for c in columns])
             error = reference.largest_error(angles, truth) if done else float("nan")
@@ -129,19 +129,19 @@ def peers(names: Sequence[str], python: Path, target: Path, tools: str) -> list[
     chosen = [word for name in names for word in ("--model", name)]
     command = [str(python), "-m", "benchmarks.peers", *chosen, "--peers", tools, "--json", str(target)]
     subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-    found: list[Row] = json.loads(target.read_text(encoding="utf-8"))
-    return found
+    peer_rows: list[Row] = json.loads(target.read_text(encoding="utf-8"))
+    return peer_rows
 
 
-def summary(names: Sequence[str], found: Sequence[Row], target: float) -> Table:
+def summary(names: Sequence[str], rows: Sequence[Row], target: float) -> Table:
     """Return the table of least times at an error."""
     table = Table(title=f"least loop time at an error of {target:g} rad")
     for column in ("mechanism", "tool", "setting", "error [rad]", "loop [ms]", "times symgen's", "best error [rad]"):
         table.add_column(column, justify="left" if column in ("mechanism", "tool", "setting") else "right")
     for name in names:
-        ours = fastest([r for r in found if r["model"] == name and r["peer"] == "symgen"], target)
-        for tool in dict.fromkeys(r["peer"] for r in found if r["model"] == name):
-            own = [r for r in found if r["model"] == name and r["peer"] == tool]
+        ours = fastest([r for r in rows if r["model"] == name and r["peer"] == "symgen"], target)
+        for tool in dict.fromkeys(r["peer"] for r in rows if r["model"] == name):
+            own = [r for r in rows if r["model"] == name and r["peer"] == tool]
             errors = [r["error"] for r in own if r["error"] is not None]
             best = fastest(own, target)
             floor = f"{min(errors):.1e}" if errors else "-"
@@ -169,22 +169,22 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--rows", action="store_true", help="print every row of symgen as well")
     options = parser.parse_args(arguments)
     names = options.model or list(models.NAMES)
-    found: list[Row] = []
+    measured: list[Row] = []
     for name in names:
-        found += rows(models.load(name), options.only)
+        measured += rows(models.load(name), options.only)
     if options.rows:
         from benchmarks.peers.measure import table
 
-        print("\n".join(table(found)))
+        print("\n".join(table(measured)))
     if options.peers_json is not None:
         earlier: list[Row] = json.loads(options.peers_json.read_text(encoding="utf-8"))
-        found += [r for r in earlier if r["model"] in names]
+        measured += [r for r in earlier if r["model"] in names]
     else:
         with tempfile.TemporaryDirectory() as folder:
-            found += peers(names, options.peers_python, Path(folder) / "peers.json", options.peers)
+            measured += peers(names, options.peers_python, Path(folder) / "peers.json", options.peers)
     if options.json is not None:
-        options.json.write_text(json.dumps(found, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    show(summary(names, found, options.error))
+        options.json.write_text(json.dumps(measured, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    show(summary(names, measured, options.error))
 
 
 if __name__ == "__main__":

@@ -97,7 +97,7 @@ class Pair:
     halvings: float
 
     @property
-    def kept(self) -> bool:
+    def is_right(self) -> bool:
         """Whether the declared order is seen."""
         return self.slope is not None and self.slope >= self.order - TOLERANCE
 
@@ -184,7 +184,7 @@ def table(pairs: list[Pair]) -> Table:
     for p in pairs:
         ends = [f"{p.errors[i]:.1e} ({p.counts[i]})" for i in (0, -1)]
         slope = "none" if p.slope is None else f"{p.slope:.2f}"
-        mark = "" if p.kept else UNSEEN.get((p.method, p.integrator), "MISSED")
+        mark = "" if p.is_right else UNSEEN.get((p.method, p.integrator), "MISSED")
         result.add_row(p.method, p.integrator, str(p.order), slope, f"{p.halvings:.1f}", f"{p.floor:.1e}", *ends, mark)
     return result
 
@@ -193,7 +193,7 @@ def main(arguments: list[str]) -> int:
     """Print the table for the methods asked for; the exit status is 1 if an order is missed."""
     pairs = [observe(m, i) for m, i in allowed_pairs() if not arguments or m in arguments]
     show(table(pairs))
-    return 0 if all(p.kept or (p.method, p.integrator) in UNSEEN for p in pairs) else 1
+    return 0 if all(p.is_right or (p.method, p.integrator) in UNSEEN for p in pairs) else 1
 
 
 if __name__ == "__main__":

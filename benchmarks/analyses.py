@@ -107,17 +107,17 @@ def own() -> list[dict[str, Any]]:
         for coordinates in ("absolute", "joint"):
             settings = Settings(coordinates=coordinates)
             subject, y = subject_at(NamedPlace(model.mechanism, settings, "equilibrium", model.simulate))
-            seconds, found = fastest(partial(modes, subject, y))
+            seconds, result = fastest(partial(modes, subject, y))
             call, _ = fastest(partial(model.modes, coordinates=coordinates))
-            error = float(np.abs(found.omega_squared / truth - 1.0).max())
+            error = float(np.abs(result.omega_squared / truth - 1.0).max())
             way = f"modes, {coordinates} coordinates"
             rows.append({"problem": problem, "way": way, "error": error, "seconds": seconds, "call": call})
     for n in (100, LARGE):
         model = chain(n)
-        call, found = fastest(partial(model.modes, count=10))
+        call, result = fastest(partial(model.modes, count=10))
         error = math.nan
         if n == 100:
-            error = float(np.abs(found.omega_squared / (GRAVITY * roots_laguerre(n)[0][:10]) - 1.0).max())
+            error = float(np.abs(result.omega_squared / (GRAVITY * roots_laguerre(n)[0][:10]) - 1.0).max())
         rows.append({"problem": f"chain of {n}", "way": "modes(count=10), sparse", "error": error, "call": call})
         call, _ = fastest(partial(model.equilibrium, shape="looped"))
         rows.append({"problem": f"chain of {n}", "way": "equilibrium, sparse", "error": math.nan, "call": call})
@@ -135,14 +135,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--peers-python", type=Path, default=ROOT / ".bench-venv" / "bin" / "python")
     parser.add_argument("--peers-json", type=Path)
-    asked = parser.parse_args()
+    options = parser.parse_args()
     rows = own()
-    if asked.peers_json is not None:
-        rows += json.loads(asked.peers_json.read_text())
-    elif asked.peers_python.exists():
+    if options.peers_json is not None:
+        rows += json.loads(options.peers_json.read_text())
+    elif options.peers_python.exists():
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "rows.json"
-            command = [str(asked.peers_python), "-m", "benchmarks.peers.analyses", "--json", str(path)]
+            command = [str(options.peers_python), "-m", "benchmarks.peers.analyses", "--json", str(path)]
             subprocess.run(command, check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
             rows += json.loads(path.read_text())
     table = Table("problem", "who", "way", "error", "ms", "whole call [ms]")

@@ -35,11 +35,11 @@ REPEATS, TURNS = 3, 15
 
 def chain(links: int) -> list[Limb]:
     """Return a tree with a branch at every third link, so that operations grow about as fast as links."""
-    found = list[Limb]()
+    limbs = list[Limb]()
     for k in range(links):
         parent = "" if k == 0 else f"link{k - 1 if k % 3 else max(0, k // 2 - 1)}"
-        found.append(limb_of(f"link{k}", parent, "zyx"[k % 3], (0.3, 0.0, 0.1), 100 + k))
-    return found
+        limbs.append(limb_of(f"link{k}", parent, "zyx"[k % 3], (0.3, 0.0, 0.1), 100 + k))
+    return limbs
 
 
 def measured(links: int, longest: int, turns: int) -> tuple[int, float, list[float]]:
@@ -47,9 +47,9 @@ def measured(links: int, longest: int, turns: int) -> tuple[int, float, list[flo
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-m", "benchmarks.compile_time", "--one", str(links), str(longest), str(turns)]
         environment = {**os.environ, "SYMGEN_CACHE_DIR": folder}
-        said = subprocess.run(command, check=True, capture_output=True, text=True, env=environment).stdout
-    found = json.loads(said)
-    return found["operations"], found["compile"], found["evaluation"]
+        output = subprocess.run(command, check=True, capture_output=True, text=True, env=environment).stdout
+    answer = json.loads(output)
+    return answer["operations"], answer["compile"], answer["evaluation"]
 
 
 def one(links: int, longest: int, turns: int) -> None:
@@ -64,13 +64,13 @@ def one(links: int, longest: int, turns: int) -> None:
     repeat: Any = _repeat_emitted
     began = time.process_time()
     Ready(model.law_module.rhs, abi.RHS)(0.0, *arrays)
-    seconds, count, found = time.process_time() - began, operations(carried), list[float]()
+    seconds, count, seconds_of_parts = time.process_time() - began, operations(carried), list[float]()
     calls = max(200, int(4e6 / count))
     for _ in range(turns):
         start = time.perf_counter()
         repeat(model.law_module.rhs, *arrays, calls)
-        found.append((time.perf_counter() - start) / calls)
-    print(json.dumps({"operations": count, "compile": seconds, "evaluation": found}))
+        seconds_of_parts.append((time.perf_counter() - start) / calls)
+    print(json.dumps({"operations": count, "compile": seconds, "evaluation": seconds_of_parts}))
 
 
 def main() -> None:

@@ -63,9 +63,9 @@ def device_of(model: str, name: str, settings: Settings) -> DeviceRuns:
     """Return the kernel that would run a model, not compiled."""
     loaded = symgen.load(model)
     value = loaded.parameters({}).get(name, 1.0)
-    found = kernel_of(make_ensemble(loaded, settings, {name: [value]}, {}, None, "cuda").recipe).first.runs
-    assert isinstance(found, DeviceRuns), "the target is cuda"
-    return found
+    kernel = kernel_of(make_ensemble(loaded, settings, {name: [value]}, {}, None, "cuda").recipe).first.runs
+    assert isinstance(kernel, DeviceRuns), "the target is cuda"
+    return kernel
 
 
 def assembler() -> str | None:
@@ -84,11 +84,11 @@ def assemble(ptx: str, ptxas: str) -> dict[str, str]:
         source = Path(folder) / "kernel.ptx"
         source.write_text(ptx, encoding="utf-8")
         command = [ptxas, "-v", f"-arch=sm_{CAPABILITY[0]}{CAPABILITY[1]}", str(source), "-o", str(source) + ".cubin"]
-        said = subprocess.run(command, capture_output=True, text=True, check=True).stderr
+        messages = subprocess.run(command, capture_output=True, text=True, check=True).stderr
     # the kernel's own line comes before those of the functions that it calls
-    spilled = re.search(r"(\d+) bytes stack frame, (\d+) bytes spill stores, (\d+) bytes spill loads", said)
-    registers = re.search(r"Used (\d+) registers", said)
-    assert spilled is not None and registers is not None, said
+    spilled = re.search(r"(\d+) bytes stack frame, (\d+) bytes spill stores, (\d+) bytes spill loads", messages)
+    registers = re.search(r"Used (\d+) registers", messages)
+    assert spilled is not None and registers is not None, messages
     return {"registers": registers[1], "stack": spilled[1], "spilled": f"{spilled[2]} + {spilled[3]}"}
 
 
@@ -114,12 +114,12 @@ def compile_all() -> None:
         with patch.object(dispatcher, "get_current_device", lambda: SimpleNamespace(compute_capability=CAPABILITY)):
             ptx = str(cuda.compile_ptx(kernel, SIGNATURE, cc=CAPABILITY)[0])
         seconds = time.perf_counter() - began
-        said = assemble(ptx, ptxas) if ptxas is not None else {}
+        usage = assemble(ptx, ptxas) if ptxas is not None else {}
         table.add_row(
             *(model, method, integrator, str(operations(runs)), str(runs.need.local_bytes), f"{len(ptx) / 1e3:.0f}"),
             str(len(re.findall(r"\b(?:add|sub|mul|fma|div|rcp|sqrt)(?:\.rn)?\.f64", ptx))),
             str(len(re.findall(r"\.f32|\.approx|\.ftz", ptx))),
-            *(f"{seconds:.1f}", said.get("registers", "-"), said.get("stack", "-"), said.get("spilled", "-")),
+            *(f"{seconds:.1f}", usage.get("registers", "-"), usage.get("stack", "-"), usage.get("spilled", "-")),
         )
     show(table)
     if ptxas is None:
@@ -147,17 +147,17 @@ def run_all(runs: int, until: float) -> None:
         loaded = symgen.load(model)
         settings = Settings(until=until, times=(until,), **changes)
         vary = {varied: np.linspace(first, last, runs)}
-        found = {}
+        figures = {}
         seconds = math.nan
         for target in ("cpu", "cuda"):
             began = time.perf_counter()
             symgen.sweep(loaded, {varied: [first]}, settings=settings, target=target)
             seconds = time.perf_counter() - began
-            found[target] = min(
+            figures[target] = min(
                 (symgen.sweep(loaded, vary, settings=settings, target=target) for _ in range(3)),
                 key=lambda sweep: sweep.seconds,
             )
-        cpu, device = found["cpu"], found["cuda"]
+        cpu, device = figures["cpu"], figures["cuda"]
         both = np.isfinite(cpu.values) & np.isfinite(device.values)
         largest = np.abs(cpu.values - device.values)[both].max(initial=0.0)
         integrator = device.ensemble.plan.integrator.name

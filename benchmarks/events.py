@@ -64,17 +64,17 @@ def crossings(wanted: int) -> list[tuple[str, ...]]:
         )
         for k, g in enumerate(functions):
             expected, _ = changes(g, _UNTIL)
-            found = np.array([event.t for event in result.events if event.name == f"g{k}"])
+            passages = np.array([event.t for event in result.events if event.name == f"g{k}"])
             apart = np.diff(np.concatenate([[-1.0], expected, [_UNTIL + 1.0]]))
             lonely = (apart[:-1] > STEP) & (apart[1:] > STEP)
-            nearest = np.abs(found[np.clip(np.searchsorted(found, expected), 0, len(found) - 1)] - expected)
-            before = np.abs(found[np.clip(np.searchsorted(found, expected) - 1, 0, len(found) - 1)] - expected)
+            nearest = np.abs(passages[np.clip(np.searchsorted(passages, expected), 0, len(passages) - 1)] - expected)
+            before = np.abs(passages[np.clip(np.searchsorted(passages, expected) - 1, 0, len(passages) - 1)] - expected)
             distance = np.minimum(nearest, before)
             for count, chosen in ((wide, lonely), (narrow, ~lonely)):
                 count[0] += int(chosen.sum())
                 count[1] += int((distance[chosen] > 1e-9).sum())
             farthest = max(farthest, float(distance[distance < 1e-9].max(initial=0.0)))
-            false += len(found) - int((distance < 1e-9).sum())
+            false += len(passages) - int((distance < 1e-9).sum())
     seconds = time.perf_counter() - began
     return [
         ("farther apart than a step", f"{wide[0]}", f"{wide[1]}"),

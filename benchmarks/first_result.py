@@ -88,18 +88,18 @@ def _processor() -> float:
 
 def measure(folder: Path, repeat: int) -> dict[str, list[Timed]]:
     """Return the processes of each situation."""
-    found: dict[str, list[Timed]] = {"symgen --help": [], "everything cold": [], "model new": [], "warm": []}
+    timings: dict[str, list[Timed]] = {"symgen --help": [], "everything cold": [], "model new": [], "warm": []}
     shared = folder / "shared"
     timed(shared, "--help", stages=False)  # byte code of symgen itself is not what is measured
     timed(shared, "run", str(four_bar(folder / "first.toml")), *OPTIONS)
     for i in range(repeat):
-        found["symgen --help"].append(timed(shared, "--help", stages=False))
+        timings["symgen --help"].append(timed(shared, "--help", stages=False))
         cold = four_bar(folder / f"cold{i}.toml")
-        found["everything cold"].append(timed(folder / f"empty{i}", "run", str(cold), *OPTIONS))
+        timings["everything cold"].append(timed(folder / f"empty{i}", "run", str(cold), *OPTIONS))
         new = four_bar(folder / f"new{i}.toml")
-        found["model new"].append(timed(shared, "run", str(new), *OPTIONS))
-        found["warm"].append(timed(shared, "run", str(new), *OPTIONS))
-    return found
+        timings["model new"].append(timed(shared, "run", str(new), *OPTIONS))
+        timings["warm"].append(timed(shared, "run", str(new), *OPTIONS))
+    return timings
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -108,11 +108,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--repeat", type=int, default=5, help="processes for each situation")
     options = parser.parse_args(arguments)
     with tempfile.TemporaryDirectory() as folder:
-        found = measure(Path(folder), options.repeat)
+        timings = measure(Path(folder), options.repeat)
     table = Table(title=f"time to the first result of a four-bar, whole processes, median of {options.repeat} [s]")
     for column in ("situation", "process", "spread", "processor", *STAGES, "start-up and the rest"):
         table.add_column(column, justify="left" if column == "situation" else "right")
-    for situation, runs in found.items():
+    for situation, runs in timings.items():
         walls = [r.wall for r in runs]
         cells = [f"{statistics.median(walls):.2f}", f"{min(walls):.2f} .. {max(walls):.2f}"]
         cells.append(f"{statistics.median(r.processor for r in runs):.2f}")

@@ -51,20 +51,20 @@ class Outcome:
 
     Attributes
     ----------
-    said : tuple of str
+    verdicts : tuple of str
         For each of them ``"same"``, ``"error"``, ``"another answer"``, ``"traceback"`` or ``"signal n"``.
     words : str
         Standard error, shortened.
     """
 
     flip: Flip
-    said: tuple[str, ...]
+    verdicts: tuple[str, ...]
     words: str
 
     @property
     def bad(self) -> bool:
         """Whether a run was silent about another answer, or did not end in words."""
-        return any(word not in ("same", "error") for word in self.said)
+        return any(word not in ("same", "error") for word in self.verdicts)
 
 
 def answer(words: tuple[str, ...], cache: Path) -> tuple[int, str, str]:
@@ -78,26 +78,26 @@ def answer(words: tuple[str, ...], cache: Path) -> tuple[int, str, str]:
         check=False,
     )
     try:
-        found: dict[str, Any] = json.loads(done.stdout)
-        told = json.dumps({key: value for key, value in found.items() if key not in MOODY})
+        fields: dict[str, Any] = json.loads(done.stdout)
+        output = json.dumps({key: value for key, value in fields.items() if key not in MOODY})
     except ValueError:
-        told = done.stdout
-    return done.returncode, told, done.stderr
+        output = done.stdout
+    return done.returncode, output, done.stderr
 
 
 def flips(caches: list[Path], count: int, seed: int) -> list[Flip]:
     """Return random flips in the files of caches, as many of each kind of file."""
     rng = random.Random(seed)
-    found = []
+    drawn = []
     for number in range(count):
         run = number % len(caches)
         files = sorted(p for p in caches[run].rglob("*") if p.is_file() and p.stat().st_size > 0)
         kinds = {kind: [p for p in files if _kind(p) == kind] for kind in ("json", "source", "machine code")}
-        kind = rng.choice([kind for kind, known in kinds.items() if known])
+        kind = rng.choice([kind for kind, candidates in kinds.items() if candidates])
         file = rng.choice(kinds[kind])
         byte, bit = rng.randrange(file.stat().st_size), rng.randrange(8)
-        found.append(Flip(number, run, str(file.relative_to(caches[run])), byte, bit))
-    return found
+        drawn.append(Flip(number, run, str(file.relative_to(caches[run])), byte, bit))
+    return drawn
 
 
 def _kind(path: Path) -> str:
@@ -113,22 +113,22 @@ def tried(flip: Flip, caches: list[Path], expected: list[str]) -> Outcome:
         content = bytearray(path.read_bytes())
         content[flip.byte] ^= 1 << flip.bit
         path.write_bytes(content)
-        said, words = [], ""
+        verdicts, words = [], ""
         for _ in range(2):
-            code, told, err = answer(RUNS[flip.run], cache)
-            said.append(_said(code, told, err, expected[flip.run]))
-            words = words or (err[-400:] if said[-1] != "same" else "")
-    return Outcome(flip, tuple(said), words)
+            code, output, err = answer(RUNS[flip.run], cache)
+            verdicts.append(_verdict(code, output, err, expected[flip.run]))
+            words = words or (err[-400:] if verdicts[-1] != "same" else "")
+    return Outcome(flip, tuple(verdicts), words)
 
 
-def _said(code: int, told: str, err: str, expected: str) -> str:
+def _verdict(code: int, output: str, err: str, expected: str) -> str:
     if code < 0:
         return f"signal {-code}"
     if "Traceback (most recent call last)" in err:
         return "traceback"
-    if told == expected:
+    if output == expected:
         return "same"
-    return "error" if code != 0 and not told and 0 < err.count("\n") <= SENTENCES else "another answer"
+    return "error" if code != 0 and not output and 0 < err.count("\n") <= SENTENCES else "another answer"
 
 
 def main() -> int:
@@ -138,24 +138,24 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--output", type=Path, default=Path("out/flips.jsonl"))
-    given = parser.parse_args()
-    given.output.parent.mkdir(parents=True, exist_ok=True)
+    options = parser.parse_args()
+    options.output.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         caches = [Path(folder) / str(k) for k in range(len(RUNS))]
         expected = [filled(words, cache) for words, cache in zip(RUNS, caches, strict=True)]
         counts: Counter[str] = Counter()
         bad = 0
-        with given.output.open("w", encoding="utf-8") as file, ThreadPoolExecutor(given.jobs) as pool:
-            todo = flips(caches, given.flips, given.seed)
+        with options.output.open("w", encoding="utf-8") as file, ThreadPoolExecutor(options.jobs) as pool:
+            todo = flips(caches, options.flips, options.seed)
             for outcome in pool.map(lambda flip: tried(flip, caches, expected), todo):
                 kind = _kind(Path(outcome.flip.file))
-                counts[f"{kind}: {' then '.join(outcome.said)}"] += 1
+                counts[f"{kind}: {' then '.join(outcome.verdicts)}"] += 1
                 bad += outcome.bad
                 file.write(json.dumps(asdict(outcome)) + "\n")
                 file.flush()
     for what, count in sorted(counts.items()):
         print(f"{count:6d}  {what}")
-    print(f"{bad} of {given.flips} are findings")
+    print(f"{bad} of {options.flips} are findings")
     return 1 if bad else 0
 
 

@@ -41,8 +41,8 @@ def bases() -> list[dict[str, Any]]:
 
     folders = [Path(str(symgen.__file__)).parent / "catalogue", Path(__file__).resolve().parents[1] / "examples"]
     texts = [path.read_text(encoding="utf-8") for folder in folders for path in sorted(folder.glob("*.toml"))]
-    found = [tomllib.loads(text) for text in texts if len(text) <= LARGEST_BASE]
-    return [raw for raw in found if len(raw["bodies"]) <= MOST_BODIES]
+    contents = [tomllib.loads(text) for text in texts if len(text) <= LARGEST_BASE]
+    return [raw for raw in contents if len(raw["bodies"]) <= MOST_BODIES]
 
 
 def files(seed: int, first: int, count: int, whole: float) -> Iterator[File]:
@@ -90,30 +90,30 @@ def main() -> int:
     parser.add_argument("--whole", type=float, default=0.05, help="share of the valid files that are assembled")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--output", type=Path, default=Path("out/fuzz.jsonl"))
-    given = parser.parse_args()
-    given.output.parent.mkdir(parents=True, exist_ok=True)
+    options = parser.parse_args()
+    options.output.parent.mkdir(parents=True, exist_ok=True)
     codes: Counter[str] = Counter()
-    found: Counter[str] = Counter()
+    outcomes: Counter[str] = Counter()
     slowest = 0.0
-    jobs = files(given.seed, given.first, given.files, given.whole)
-    with given.output.open("w", encoding="utf-8") as file:
-        for answer in answers(check, jobs, given.jobs, PATIENCE, ADDRESSES, worn):
+    jobs = files(options.seed, options.first, options.files, options.whole)
+    with options.output.open("w", encoding="utf-8") as file:
+        for answer in answers(check, jobs, options.jobs, PATIENCE, ADDRESSES, worn):
             line = answer.value
             if line is None:
                 line = {"number": answer.job.number, "code": None, "wrong": [answer.died], "text": answer.job.text}
             codes[str(line["code"])] += 1
             slowest = max(slowest, line.get("seconds", 0.0))
             for wrong in line["wrong"]:
-                found[signature(wrong)] += 1
+                outcomes[signature(wrong)] += 1
             if line["wrong"]:
                 file.write(json.dumps(line) + "\n")
                 file.flush()
             if sum(codes.values()) % 1000 == 0:
-                print(dict(codes), dict(found), file=sys.stderr, flush=True)
+                print(dict(codes), dict(outcomes), file=sys.stderr, flush=True)
     print("exit codes:", dict(codes), f"longest {slowest:.1f} s of the processor")
-    for what, count in found.most_common():
+    for what, count in outcomes.most_common():
         print(f"{count:6d}  {what}")
-    return 1 if found else 0
+    return 1 if outcomes else 0
 
 
 if __name__ == "__main__":

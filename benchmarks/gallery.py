@@ -135,7 +135,7 @@ def measure(entry: CatalogueEntry) -> None:
         reference={"how": study.how, "estimated_error": study.estimated_error, "note": study.note},
         versions=versions(),
         machine=machine_class(),
-        rows=[_kept(row) for row in study.rows],
+        rows=[_fields(row) for row in study.rows],
     )
 
 
@@ -165,9 +165,9 @@ def keep(entry: CatalogueEntry, **facts: Any) -> None:
     now = digest(load(model_name(entry)).mechanism)
     before = data(entry.name) or {}
     same = before if before.get("digest") == now else {}
-    found = {"model": model_name(entry), "digest": now, **{k: v for k, v in same.items() if k != "model"}, **facts}
+    content = {"model": model_name(entry), "digest": now, **{k: v for k, v in same.items() if k != "model"}, **facts}
     DATA.mkdir(parents=True, exist_ok=True)
-    text = json.dumps(found, indent=1, ensure_ascii=False) + "\n"
+    text = json.dumps(content, indent=1, ensure_ascii=False) + "\n"
     (DATA / f"{entry.name}.json").write_text(text, encoding="utf-8")
 
 
@@ -187,7 +187,7 @@ KEPT = (
 )
 
 
-def _kept(row: Row) -> dict[str, Any]:
+def _fields(row: Row) -> dict[str, Any]:
     """Return of a row what the pages show, to three digits."""
     all_of_it = asdict(row)
     return {k: float(f"{x:.3g}") if isinstance(x := all_of_it[k], float) else x for k in KEPT}
@@ -225,8 +225,8 @@ def slim(svg: str) -> str:
 def data(name: str) -> Mapping[str, Any] | None:
     """Return what was measured of an entry, None where nothing was."""
     path = DATA / f"{name}.json"
-    found: Mapping[str, Any] | None = json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
-    return found
+    content: Mapping[str, Any] | None = json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+    return content
 
 
 def page(entry: CatalogueEntry) -> str:
@@ -345,12 +345,12 @@ def index() -> str:
 
 def _across() -> list[str]:
     """Return what each pair did over all entries: how many runs ended ok, and medians relative to `lagrange`."""
-    found: dict[tuple[str, str], list[tuple[Mapping[str, Any], Mapping[str, Any] | None]]] = {}
+    rows_by_pair: dict[tuple[str, str], list[tuple[Mapping[str, Any], Mapping[str, Any] | None]]] = {}
     for entry in entries():
         rows = (data(entry.name) or {}).get("rows", ())
         base = {row["integrator"]: row for row in rows if row["method"] == YARDSTICK}
         for row in rows:
-            found.setdefault((row["method"], row["integrator"]), []).append((row, base.get(row["integrator"])))
+            rows_by_pair.setdefault((row["method"], row["integrator"]), []).append((row, base.get(row["integrator"])))
     lines = [
         "## Over all entries",
         "",
@@ -360,7 +360,7 @@ def _across() -> list[str]:
         "| method | integrator | entries | ended ok | error | time |",
         "| --- | --- | ---: | ---: | ---: | ---: |",
     ]
-    for (method, integrator), pairs in found.items():
+    for (method, integrator), pairs in rows_by_pair.items():
         errors = [r["error"] / b["error"] for r, b in pairs if b and r["error"] and b["error"]]
         times = [r["cost_ratio"] for r, _ in pairs if r["cost_ratio"]]
         ok = sum(row["status"] == "ok" for row, _ in pairs)
@@ -419,19 +419,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("names", nargs="*")
     for flag in ("missing", "draw", "pages", "pictures"):
         parser.add_argument(f"--{flag}", action="store_true")
-    asked = parser.parse_args(arguments)
-    known = {entry.name: entry for entry in every()}
-    everything = not (asked.names or asked.missing or asked.draw or asked.pages or asked.pictures)
-    chosen = [known[re.sub(r":\d+$", "", name)] for name in asked.names]
-    chosen += [e for e in entries() if everything or (asked.missing and "rows" not in (data(e.name) or {}))]
+    options = parser.parse_args(arguments)
+    by_name = {entry.name: entry for entry in every()}
+    everything = not (options.names or options.missing or options.draw or options.pages or options.pictures)
+    chosen = [by_name[re.sub(r":\d+$", "", name)] for name in options.names]
+    chosen += [e for e in entries() if everything or (options.missing and "rows" not in (data(e.name) or {}))]
     for entry in chosen:
         print(f"measuring {model_name(entry)}", flush=True)
         measure(entry)
-    undrawn = [e for e in known.values() if asked.draw and "caption" not in (data(e.name) or {})]
+    undrawn = [e for e in by_name.values() if options.draw and "caption" not in (data(e.name) or {})]
     for entry in dict.fromkeys((*chosen, *undrawn)):
         print(f"drawing {model_name(entry)}", flush=True)
         draw(entry)
-    if everything or asked.pictures:
+    if everything or options.pictures:
         readme_pictures()
     write_pages()
 

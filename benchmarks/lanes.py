@@ -89,8 +89,8 @@ def measure(name: str, table: Table) -> None:
     ):
         least, median = seconds(one, 1)
         fast, usual = seconds(partial(many_lanes, many, z, COUNT), LANES)
-        found = (least, median, fast, usual)
-        table.add_row(name, what, *(f"{1e9 * x:.1f}" for x in found), f"{least / fast:.1f}")
+        times = (least, median, fast, usual)
+        table.add_row(name, what, *(f"{1e9 * x:.1f}" for x in times), f"{least / fast:.1f}")
 
 
 def main(names: list[str]) -> None:

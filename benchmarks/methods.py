@@ -74,21 +74,21 @@ def row(name: str, method: str, step: float, until: float, repeat: int) -> Row:
     """Measure one method."""
     model = load(name)
     before = simulate(model, "lagrange", step, until, repeat)
-    found = simulate(model, method, step, until, repeat)
+    result = simulate(model, method, step, until, repeat)
     after = simulate(model, "lagrange", step, until, repeat)
-    whole = found.steps > 0 and found.status != "failed" and before.status != "failed"
+    whole = result.steps > 0 and result.status != "failed" and before.status != "failed"
     base = min(before.seconds.run, after.seconds.run)
     return Row(
         model=name,
         method=method,
-        integrator=found.integrator,
+        integrator=result.integrator,
         step=step,
-        status=found.status,
-        reason=found.reason or "",
-        position=found.position_violation_max,
-        velocity=found.velocity_violation_max,
-        energy=found.energy_drift_max,
-        ratio=found.seconds.run / base if whole else None,
+        status=result.status,
+        reason=result.reason or "",
+        position=result.position_violation_max,
+        velocity=result.velocity_violation_max,
+        energy=result.energy_drift_max,
+        ratio=result.seconds.run / base if whole else None,
     )
 
 

@@ -93,10 +93,10 @@ def measure(model: str, pair: str, shape: str) -> dict[str, Any]:
         assert loaded.simulate(shape=shape, until=steps * STEP, **keys).status == "ok"
         return time.process_time() - begin
 
-    found = factors(model, pair, shape)
-    count = min(600, max(50, 200_000 // found["unknowns"]))  # the first singular passage comes later
+    figures = factors(model, pair, shape)
+    count = min(600, max(50, 200_000 // figures["unknowns"]))  # the first singular passage comes later
     few, many = (min(seconds(steps) for _ in range(5)) for steps in (10, 10 + count))
-    return {"compile": ready - began, "step": (many - few) / count, **found}
+    return {"compile": ready - began, "step": (many - few) / count, **figures}
 
 
 def process(cache: str, *arguments: str) -> dict[str, Any]:
@@ -105,8 +105,8 @@ def process(cache: str, *arguments: str) -> dict[str, Any]:
     done = subprocess.run(
         command, env=os.environ | {"SYMGEN_CACHE_DIR": cache}, capture_output=True, text=True, check=True
     )
-    found: dict[str, Any] = json.loads(done.stdout)
-    return found
+    figures: dict[str, Any] = json.loads(done.stdout)
+    return figures
 
 
 def main() -> None:
@@ -115,24 +115,24 @@ def main() -> None:
     parser.add_argument("--one", nargs=3, metavar=("MODEL", "PAIR", "SHAPE"))
     parser.add_argument("--sizes", default="1,10,100,400")
     parser.add_argument("--models", default="n-four-bar")
-    given = parser.parse_args()
-    if given.one:
-        print(json.dumps(measure(*given.one)))
+    options = parser.parse_args()
+    if options.one:
+        print(json.dumps(measure(*options.one)))
         return
     print("| model | run | shape | unknowns | entries | L and U | compile [s] | step [ms] | [us] an unknown |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
-    for name in given.models.split(","):
+    for name in options.models.split(","):
         for pair in PAIRS:
             with tempfile.TemporaryDirectory() as cache:
-                for size in (int(n) for n in given.sizes.split(",")):
+                for size in (int(n) for n in options.sizes.split(",")):
                     for shape in ("looped", "straight"):
                         if shape == "straight" and size > LARGEST_STRAIGHT:
                             continue
-                        found = process(cache, f"{name}:{size}", pair, shape)
-                        each = 1e6 * found["step"] / found["unknowns"]
+                        figures = process(cache, f"{name}:{size}", pair, shape)
+                        each = 1e6 * figures["step"] / figures["unknowns"]
                         cells = [f"`{name}:{size}`", f"`{pair}`", shape]
-                        cells += [str(found[key]) for key in ("unknowns", "entries", "stored")]
-                        cells += [f"{found['compile']:.2f}", f"{1e3 * found['step']:.3g}", f"{each:.3g}"]
+                        cells += [str(figures[key]) for key in ("unknowns", "entries", "stored")]
+                        cells += [f"{figures['compile']:.2f}", f"{1e3 * figures['step']:.3g}", f"{each:.3g}"]
                         print("| " + " | ".join(cells) + " |", flush=True)
 
 

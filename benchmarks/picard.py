@@ -88,7 +88,7 @@ def work(names: list[str]) -> None:
     factors: dict[float, list[float]] = {level: [] for level in LEVELS}
     for name in names or list(MODELS):
         for coordinates in ("joint", "absolute"):
-            end, known = exact(name, coordinates)
+            end, columns = exact(name, coordinates)
             for method in ("lagrange", "direct-correction"):
                 rows: dict[str, list[tuple[float, float]]] = {integrator: [] for integrator in INTEGRATORS}
                 for tolerance in TOLERANCES:
@@ -104,7 +104,7 @@ def work(names: list[str]) -> None:
                     first, second = (time_at(rows[integrator], level) * 1e6 for integrator in INTEGRATORS)
                     factors[level].append(first / second)
                     cells.append(f"{first:.1f} / {second:.1f} = {first / second:.2f}")
-                table.add_row(name, coordinates, method, f"{known:.0e}", *cells)
+                table.add_row(name, coordinates, method, f"{columns:.0e}", *cells)
     medians = (
         f"{np.nanmedian(factors[x]):.2f} ({np.nanmin(factors[x]):.2f} to {np.nanmax(factors[x]):.2f})" for x in LEVELS
     )
@@ -126,15 +126,15 @@ def starts(arguments: list[str]) -> None:
     table = Table("model", "rtol", "integrator", "runs", "failed", "error over rtol: 10 %", "median", "90 %", "99 %")
     for name, (place, speed, until) in STARTS.items():
         model, rng = symgen.load(name), np.random.default_rng(1)
-        found = model.simulate(
+        result = model.simulate(
             method="lagrange", integrator="dop853", coordinates="joint", until=MODELS[name][0], rtol=1e-9
         )
         errors: dict[tuple[float, str], list[float]] = {}
         failed: dict[tuple[float, str], int] = {}
         for _ in range(count // len(STARTS)):
-            k = rng.integers(1, len(found.t))
+            k = rng.integers(1, len(result.t))
             factor = rng.uniform(0.8, 1.26) if name == "bricard" else 0.2 * 25.0 ** rng.uniform()
-            start = {place: float(found[place][k]), speed: float(found[speed][k]) * factor}
+            start = {place: float(result[place][k]), speed: float(result[speed][k]) * factor}
             more = {"method": "lagrange", "coordinates": "joint", "start": start, "max_violation": 1.0}
             ends = prepared(model.mechanism, "dop853", until, rtol=3e-14, atol=1e-15, **more).integrate()
             if ends.code != 0:

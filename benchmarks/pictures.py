@@ -52,9 +52,9 @@ def _coordinates(model: Model) -> list[str]:
 def _described(page: str, name: str) -> str:
     """Return a mechanism as a page of docs describes it."""
     text = (DOCS / page).read_text(encoding="utf-8")
-    found = re.search(rf"```toml\n(\[mechanism\]\nname = \"{name}\".*?)```", text, re.DOTALL)
-    assert found is not None, f"{page} describes '{name}'"
-    return Model(validate(parse_toml(found[1], page), page)).draw().svg
+    match = re.search(rf"```toml\n(\[mechanism\]\nname = \"{name}\".*?)```", text, re.DOTALL)
+    assert match is not None, f"{page} describes '{name}'"
+    return Model(validate(parse_toml(match[1], page), page)).draw().svg
 
 
 #: Name of the file -> what draws it.

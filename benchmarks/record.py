@@ -94,15 +94,15 @@ def observe(model: Model, settings: dict[str, Any]) -> dict[str, Any]:
 
 def rows(path: Path) -> dict[str, dict[str, Any]]:
     """Return what a file holds, by key; a line that was cut off counts as missing."""
-    found: dict[str, dict[str, Any]] = {}
+    rows_by_name: dict[str, dict[str, Any]] = {}
     if path.exists():
         for line in path.read_text(encoding="utf-8").splitlines():
             try:
                 row = json.loads(line)
             except ValueError:
                 continue
-            found[row.pop("key")] = row
-    return found
+            rows_by_name[row.pop("key")] = row
+    return rows_by_name
 
 
 def append(path: Path, key: str, row: dict[str, Any]) -> None:
@@ -113,9 +113,9 @@ def append(path: Path, key: str, row: dict[str, Any]) -> None:
 
 def record_method(path: Path, name: str, method: str) -> None:
     """Record the rows of one method that are missing, in this process."""
-    model, known = load(name), rows(path)
+    model, recorded = load(name), rows(path)
     for key, settings in runs(model, method):
-        if (whole := f"{name} {method} {key}") not in known:
+        if (whole := f"{name} {method} {key}") not in recorded:
             append(path, whole, observe(model, settings))
 
 
@@ -132,9 +132,9 @@ def record(path: Path, chosen: list[str]) -> None:
                 code = str(subprocess.run(command, timeout=PATIENCE, check=False).returncode)
             except subprocess.TimeoutExpired:
                 code = "late"
-            known = rows(path)
+            recorded = rows(path)
             for key in expected:
-                if key not in known:
+                if key not in recorded:
                     append(path, key, {"status": "lost", "reason": f"the process ended with {code}"})
             print(f"{name} {method}: {len(expected)} rows", flush=True)
 
@@ -166,13 +166,13 @@ def compare(old: Path, new: Path) -> int:
     worst = 0
     for key in sorted(before.keys() | after.keys()):
         if key not in after or key not in before:
-            said = "missing in " + ("new" if key not in after else "old")
+            text = "missing in " + ("new" if key not in after else "old")
         else:
-            said = difference(before[key], after[key])
-        if said:
+            text = difference(before[key], after[key])
+        if text:
             other = before.get(key.replace(" straight ", " looped "), {})
             shapes = difference(other, before.get(key.replace(" looped ", " straight "), {})) if other else ""
-            print(f"{key}: {said}" + (f" (shapes: {shapes})" if shapes else ""))
+            print(f"{key}: {text}" + (f" (shapes: {shapes})" if shapes else ""))
             worst += not key.endswith("whole")
     both = before.keys() & after.keys()
     print(f"{len(both)} rows in both; {worst} differ over the short span")
@@ -189,13 +189,13 @@ def main() -> int:
             command.add_argument(argument, type=Path if argument in ("file", "old", "new") else str)
         if name == "run":
             command.add_argument("models", nargs="*")
-    given = parser.parse_args()
-    if given.command == "compare":
-        return int(compare(given.old, given.new) > 0)
-    if given.command == "method":
-        record_method(given.file, given.model, given.method)
+    options = parser.parse_args()
+    if options.command == "compare":
+        return int(compare(options.old, options.new) > 0)
+    if options.command == "method":
+        record_method(options.file, options.model, options.method)
     else:
-        record(given.file, given.models)
+        record(options.file, options.models)
     return 0
 
 

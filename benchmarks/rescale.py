@@ -47,11 +47,11 @@ def dimension_of(unit: str) -> Dimension | None:
             sign = -1
         elif part not in ("(", ")", "*"):
             letters, _, power = part.partition("^")
-            known = _LETTERS.get(letters)
-            if known is None or (power and not power.lstrip("-").isdigit()):
+            dimensions = _LETTERS.get(letters)
+            if dimensions is None or (power and not power.lstrip("-").isdigit()):
                 return None
             for k in range(3):
-                total[k] += sign * known[k] * int(power or 1)
+                total[k] += sign * dimensions[k] * int(power or 1)
     return (total[0], total[1], total[2]) if unit.strip() else None
 
 
@@ -87,8 +87,8 @@ class Rescaler:
     def _formula(self, text: str, words: Mapping[str, Dimension]) -> str:
         """Return a formula whose names are brought back to the old units."""
 
-        def replaced(found: re.Match[str]) -> str:
-            name = found.group()
+        def replaced(match: re.Match[str]) -> str:
+            name = match.group()
             dimension = self._name(name, words)
             return name if dimension is None else _times(name, 1.0 / self.units.factor(dimension))
 
@@ -115,20 +115,20 @@ class Rescaler:
 
     def file(self) -> dict[str, Any]:
         """Return the tables of the file in the other units."""
-        found: dict[str, Any] = dict(self.raw)
+        changed: dict[str, Any] = dict(self.raw)
         head = dict(self.raw["mechanism"])
         if "gravity" in head:
             head["gravity"] = self.scaled(head["gravity"], (1, 0, -2))
-        found["mechanism"] = head
+        changed["mechanism"] = head
         run = {"until": 10.0, "step": 1e-3, **self.raw.get("run", {})}  # what holds where a file says nothing
-        found["run"] = {key: self.scaled(value, TIME) for key, value in run.items()}
+        changed["run"] = {key: self.scaled(value, TIME) for key, value in run.items()}
         if "parameters" in self.raw:
-            found["parameters"] = {n: self._parameter(n, e) for n, e in self.raw["parameters"].items()}
-        found["bodies"] = {name: self._body(table) for name, table in self.raw["bodies"].items()}
+            changed["parameters"] = {n: self._parameter(n, e) for n, e in self.raw["parameters"].items()}
+        changed["bodies"] = {name: self._body(table) for name, table in self.raw["bodies"].items()}
         for section, change in (("joints", self._joint), ("forces", self._force)):
             if section in self.raw:
-                found[section] = {name: change(table) for name, table in self.raw[section].items()}
-        return found
+                changed[section] = {name: change(table) for name, table in self.raw[section].items()}
+        return changed
 
     def _parameter(self, name: str, entry: Any) -> Any:
         dimension = self.parameters[name]
@@ -138,15 +138,15 @@ class Rescaler:
 
     def _body(self, table: Mapping[str, Any]) -> dict[str, Any]:
         dimensions = {"mass": MASS, "inertia": INERTIA, "velocity": SPEED, "angular_velocity": TURNING}
-        found = dict(table)
+        changed = dict(table)
         for key, value in table.items():
             if key in dimensions:
-                found[key] = self.scaled(value, dimensions[key])
+                changed[key] = self.scaled(value, dimensions[key])
             elif key in ("position", "centre_of_mass", "inertia_at"):
-                found[key] = self.point(value)
+                changed[key] = self.point(value)
             elif key == "points":
-                found[key] = {label: self.scaled(point, LENGTH) for label, point in value.items()}
-        return found
+                changed[key] = {label: self.scaled(point, LENGTH) for label, point in value.items()}
+        return changed
 
     def coordinate(self, joint: str | None, label: str | None) -> Dimension:
         """Return the dimension of a coordinate that a joint reports."""
@@ -157,30 +157,30 @@ class Rescaler:
         return LENGTH if label.startswith("displacement") or label in ("x", "y", "z") else NONE
 
     def _joint(self, table: Mapping[str, Any]) -> dict[str, Any]:
-        found = dict(table)
+        changed = dict(table)
         if "at" in table:
-            found["at"] = self.points(table)
+            changed["at"] = self.points(table)
         for key in ("on", "centre", "point"):
             if key in table:
-                found[key] = self.point(table[key])
+                changed[key] = self.point(table[key])
         for key in ("length", "radius", "radii", "pitch"):
             if key in table:
-                found[key] = self.scaled(table[key], LENGTH)
+                changed[key] = self.scaled(table[key], LENGTH)
         if table["type"] == "driver":
             dimension = self.coordinate(table.get("joint"), table.get("coordinate"))
-            found["value"] = self.scaled(table["value"], dimension, {"t": TIME})
+            changed["value"] = self.scaled(table["value"], dimension, {"t": TIME})
         elif "ratio" in table:
             joints, labels = table.get("joints", (None, None)), table.get("coordinates", (None, None))
             (a, b) = (self.coordinate(j, label) for j, label in zip(joints, labels, strict=True))
-            found["ratio"] = self.scaled(table["ratio"], (a[0] - b[0], 0, 0))
-            found["offset"] = self.scaled(table.get("offset", 0.0), a)
+            changed["ratio"] = self.scaled(table["ratio"], (a[0] - b[0], 0, 0))
+            changed["offset"] = self.scaled(table.get("offset", 0.0), a)
         elif "offset" in table:
-            found["offset"] = self.scaled(table["offset"], LENGTH)
-        return found
+            changed["offset"] = self.scaled(table["offset"], LENGTH)
+        return changed
 
     def _force(self, table: Mapping[str, Any]) -> dict[str, Any]:
-        found = {key: self._force_key(table["type"], key, value) for key, value in table.items() if key != "at"}
-        return {**found, "at": self.points(table)} if "at" in table else found
+        changed = {key: self._force_key(table["type"], key, value) for key, value in table.items() if key != "at"}
+        return {**changed, "at": self.points(table)} if "at" in table else changed
 
     def _force_key(self, kind: str, key: str, value: Any) -> Any:
         if kind == "bushing":

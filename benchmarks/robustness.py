@@ -79,8 +79,8 @@ def parallel_motion(times: Array) -> Array:
     def rate(_: float, y: Array) -> list[float]:
         return [float(y[1]), -GRAVITY * moment / inertia * float(np.cos(y[0]))]
 
-    found = solve_ivp(rate, (0.0, times[-1]), [START, 0.0], "DOP853", times, rtol=3e-14, atol=1e-14, max_step=0.01)
-    theta = np.asarray(found.y[0])
+    solution = solve_ivp(rate, (0.0, times[-1]), [START, 0.0], "DOP853", times, rtol=3e-14, atol=1e-14, max_step=0.01)
+    theta = np.asarray(solution.y[0])
     c, s, zero = LENGTH * np.cos(theta), LENGTH * np.sin(theta), np.zeros(len(times))
     columns = [c / 2, s / 2, theta, BASE + c / 2, s / 2, theta]
     columns += [BASE / 2 + c, s, zero, BASE / 2 + c / 2, s / 2, zero]
@@ -98,7 +98,7 @@ class Row:
     status: str
     error: float
     result: Result | None
-    said: str
+    reason: str
 
 
 def attempt(model: Model, method: str, step: float, exact: Array, times: Array, **keys: dict[str, float]) -> Row:
@@ -205,7 +205,7 @@ def rows_table(title: str, rows: list[Row]) -> Table:
     for r in rows:
         rank = "" if r.result is None else f"{r.result.rank.rank} of {r.result.rank.rows}"
         events = "" if r.result is None else str(r.result.rank_event_count)
-        table.add_row(r.method, fine_integrator(r.method), r.status, f"{r.error:.1e}", rank, events, r.said[:70])
+        table.add_row(r.method, fine_integrator(r.method), r.status, f"{r.error:.1e}", rank, events, r.reason[:70])
     return table
 
 

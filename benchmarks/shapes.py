@@ -108,8 +108,8 @@ def process(cache: str, *arguments: str) -> dict[str, Any]:
     done = subprocess.run(
         command, env=os.environ | {"SYMGEN_CACHE_DIR": cache}, capture_output=True, text=True, check=True
     )
-    found: dict[str, Any] = json.loads(done.stdout)
-    return found
+    figures: dict[str, Any] = json.loads(done.stdout)
+    return figures
 
 
 def main() -> None:

@@ -87,9 +87,9 @@ def methods(names: Sequence[str] = tuple(SOURCE), rounds: int = 5) -> Table:
                     best[method] = min(best[method], result.seconds.run)
         cells = []
         for method in METHODS:
-            known = SOURCE[name].get(method)
+            figure = SOURCE[name].get(method)
             ratio = f"{best[method] / best['lagrange']:.2f}" if math.isfinite(best[method]) else "failed"
-            cells.append(ratio + (f" ({known:.2f})" if known else ""))
+            cells.append(ratio + (f" ({figure:.2f})" if figure else ""))
         table.add_row(f"{name}, {best['lagrange'] * 1e3:.1f} ms", *cells)
     return table
 
@@ -101,11 +101,11 @@ def points_of(q: Array) -> Array:
     """Return P1 to P4, shape (k, 4, 3), of coordinates, shape (k, 35)."""
     from scipy.spatial.transform import Rotation
 
-    found = []
+    rows = []
     for rod, place in JOINTS:
         x, e = q[:, 7 * rod : 7 * rod + 3], q[:, 7 * rod + 3 : 7 * rod + 7]
-        found.append(x + Rotation.from_quat(e[:, [1, 2, 3, 0]]).apply(place))
-    return np.stack(found, axis=1)
+        rows.append(x + Rotation.from_quat(e[:, [1, 2, 3, 0]]).apply(place))
+    return np.stack(rows, axis=1)
 
 
 def reference(times: Array) -> Array:
@@ -114,10 +114,10 @@ def reference(times: Array) -> Array:
     compiled = model.compile()
     start = model.assemble(compiled)
     nq = compiled.info.nq
-    found = second_derivation(model.mechanism, {}, start.y[:nq], start.y[nq:-1], times)
-    if found.estimated_error > 1e-11:
-        raise AssertionError(f"the reference may be off by {found.estimated_error:g} m")
-    return points_of(found.q)
+    motion = second_derivation(model.mechanism, {}, start.y[:nq], start.y[nq:-1], times)
+    if motion.estimated_error > 1e-11:
+        raise AssertionError(f"the reference may be off by {motion.estimated_error:g} m")
+    return points_of(motion.q)
 
 
 def rows(times: Array, truth: Array) -> Iterator[dict[str, Any]]:
@@ -131,13 +131,13 @@ def rows(times: Array, truth: Array) -> Iterator[dict[str, Any]]:
         settings.append((f"rk4 {times[1] / count:.3g} s", {"integrator": "rk4", "step": times[1] / count}))
     for method in ("direct-correction", "lagrange"):
         for text, chosen in settings:
-            asked = {"method": method, "until": float(times[-1]), "times": times, **chosen}
-            result = model.simulate(**asked)
+            arguments = {"method": method, "until": float(times[-1]), "times": times, **chosen}
+            result = model.simulate(**arguments)
             if result.status == "failed":
                 continue
-            result = model.simulate(**asked, repeat=min(300, max(5, round(0.5 / result.seconds.run))))
-            found = points_of(np.column_stack([result[name] for name in names]))
-            error = float(np.linalg.norm(found - truth, axis=2).max())
+            result = model.simulate(**arguments, repeat=min(300, max(5, round(0.5 / result.seconds.run))))
+            points = points_of(np.column_stack([result[name] for name in names]))
+            error = float(np.linalg.norm(points - truth, axis=2).max())
             setting, seconds = f"{method}, {text}", result.seconds.run
             yield {"peer": "symgen", "version": symgen.__version__, "setting": setting, "cpu": seconds, "error": error}
 
@@ -146,23 +146,31 @@ def peers(python: Path) -> tuple[Table, list[dict[str, Any]]]:
     """Return the table of least times at each error, and all rows."""
     times = np.linspace(0.0, 10.0, 101)
     truth = reference(times)
-    found = list(rows(times, truth))
+    lines = list(rows(times, truth))
     if python.exists():
         with tempfile.TemporaryDirectory() as folder:
-            given, made = Path(folder) / "reference.json", Path(folder) / "peers.json"
-            given.write_text(json.dumps({"times": times.tolist(), "points": truth.tolist()}), encoding="utf-8")
-            command = [str(python), "-m", "benchmarks.peers.bricard", "--reference", str(given), "--json", str(made)]
+            truth_file, made = Path(folder) / "reference.json", Path(folder) / "peers.json"
+            truth_file.write_text(json.dumps({"times": times.tolist(), "points": truth.tolist()}), encoding="utf-8")
+            command = [
+                str(python),
+                "-m",
+                "benchmarks.peers.bricard",
+                "--reference",
+                str(truth_file),
+                "--json",
+                str(made),
+            ]
             subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-            found += json.loads(made.read_text(encoding="utf-8"))
+            lines += json.loads(made.read_text(encoding="utf-8"))
     else:
         print(f"no peers: {python} does not exist (see benchmarks/README.md)", file=sys.stderr)
     table = Table(title="Bricard's six-bar, 10 s: least loop time at an error")
     for column in ("error [m]", "tool", "setting", "reached [m]", "loop [ms]", "times symgen's"):
         table.add_column(column, justify="left" if column in ("tool", "setting") else "right")
     for target in TARGETS:
-        ours = _fastest([r for r in found if r["peer"] == "symgen"], target)
-        for tool in dict.fromkeys(r["peer"] for r in found):
-            best = _fastest([r for r in found if r["peer"] == tool], target)
+        ours = _fastest([r for r in lines if r["peer"] == "symgen"], target)
+        for tool in dict.fromkeys(r["peer"] for r in lines):
+            best = _fastest([r for r in lines if r["peer"] == tool], target)
             if best is None or ours is None:
                 table.add_row(f"{target:g}", tool, "not reached", "-", "-", "-")
                 continue
@@ -170,11 +178,11 @@ def peers(python: Path) -> tuple[Table, list[dict[str, Any]]]:
             cells = (best["setting"], f"{best['error']:.1e}", f"{best['cpu'] * 1e3:.2f}", f"{ratio:.1f}")
             table.add_row(f"{target:g}", f"{tool} {best['version']}", *cells)
         table.add_section()
-    return table, found
+    return table, lines
 
 
-def _fastest(found: Sequence[dict[str, Any]], target: float) -> dict[str, Any] | None:
-    good = [r for r in found if r["error"] is not None and r["error"] <= target]
+def _fastest(rows: Sequence[dict[str, Any]], target: float) -> dict[str, Any] | None:
+    good = [r for r in rows if r["error"] is not None and r["error"] <= target]
     return min(good, key=lambda r: float(r["cpu"]), default=None)
 
 
@@ -191,10 +199,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if "methods" in wanted:
         show(methods())
     if "peers" in wanted:
-        table, found = peers(options.peers_python)
+        table, lines = peers(options.peers_python)
         show(table)
         if options.json is not None:
-            options.json.write_text(json.dumps(found, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+            options.json.write_text(json.dumps(lines, indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -69,13 +69,13 @@ def measured(model: symgen.Model, method: str, integrator: str) -> dict[str, flo
         for k in range(COUNT // 10):
             sim.step(STEP, {name: value * (1.0 + 1e-6 * (k % 2))} if change else None)
 
-    found = {"inside": least(inside), "step": least(steps), "input": least(inputs)}
+    seconds = {"inside": least(inside), "step": least(steps), "input": least(inputs)}
     sim._loop.direct = False  # the judge of the other
-    found["as ever"] = least(lambda: some(False), COUNT // 10, BATCHES // 10)
+    seconds["as ever"] = least(lambda: some(False), COUNT // 10, BATCHES // 10)
     sim._loop.direct = True
-    found["set"] = least(lambda: some(True), COUNT // 10, BATCHES // 10)
+    seconds["set"] = least(lambda: some(True), COUNT // 10, BATCHES // 10)
     assert np.all(np.isfinite(sim.state))
-    return found
+    return seconds
 
 
 def peers(python: Path, name: str) -> list[dict[str, Any]]:
@@ -112,17 +112,17 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parameters = (*mechanism.parameters, Parameter(INPUT, 0.0, input=True))
     model = symgen.Model(msgspec.structs.replace(mechanism, parameters=parameters))
     for method, integrator in PAIRS:
-        found = {key: 1e6 * seconds for key, seconds in measured(model, method, integrator).items()}
-        first = first or found["step"]
-        beyond = found["step"] - found["inside"]
+        microseconds = {key: 1e6 * seconds for key, seconds in measured(model, method, integrator).items()}
+        first = first or microseconds["step"]
+        beyond = microseconds["step"] - microseconds["inside"]
         cells = (
-            found["inside"],
-            found["step"],
+            microseconds["inside"],
+            microseconds["step"],
             beyond,
-            found["input"],
-            found["set"],
-            found["as ever"],
-            found["step"] / first,
+            microseconds["input"],
+            microseconds["set"],
+            microseconds["as ever"],
+            microseconds["step"] / first,
         )
         table.add_row("symgen", f"{method}, {integrator}", *(f"{x:.3g}" for x in cells))
     for row in peers(options.peers_python, options.model):

@@ -78,12 +78,12 @@ class Row:
 @cache
 def reference() -> tuple[Array, float]:
     """Return q at `TIMES` from tight runs of `radau5` with two methods, and their distance [m]."""
-    found = []
+    rows = []
     for method, step in (("direct-correction", 1e-4), ("ggl", 1.25e-4)):
         result = run(model(), method, "radau5", step, TIMES)
         assert result.status == "ok", result.reason
-        found.append(positions(result))
-    return found[0], points().distance(found[0], found[1])
+        rows.append(positions(result))
+    return rows[0], points().distance(rows[0], rows[1])
 
 
 def points() -> Points:

@@ -32,19 +32,19 @@ def studied(paths: Iterable[Path]) -> Stress:
     """Return one study of several in JSON."""
     rows: dict[tuple[object, ...], StressRow] = {}
     limits: dict[tuple[object, ...], Limit] = {}
-    kept: dict[str, list[tuple[Any, ...]]] = {"skipped": [], "unusable": [], "left_out": []}
+    tables: dict[str, list[tuple[Any, ...]]] = {"skipped": [], "unusable": [], "left_out": []}
     models: list[str] = []
     for path in paths:
-        found = json.loads(path.read_text(encoding="utf-8"))
-        models += [model for model in found["models"] if model not in models]
-        for row in (msgspec.convert(each, StressRow) for each in found["rows"]):
+        content = json.loads(path.read_text(encoding="utf-8"))
+        models += [model for model in content["models"] if model not in models]
+        for row in (msgspec.convert(each, StressRow) for each in content["rows"]):
             rows[row.model, row.family, row.case, row.method, row.integrator, row.step, row.values] = row
-        for limit in (msgspec.convert(each, Limit) for each in found["limits"]):
+        for limit in (msgspec.convert(each, Limit) for each in content["limits"]):
             limits[limit.model, limit.family, limit.case, limit.method, limit.integrator] = limit
-        for name, lines in kept.items():
-            lines += [tuple(each.values()) for each in found[name] if tuple(each.values()) not in lines]
+        for name, lines in tables.items():
+            lines += [tuple(each.values()) for each in content[name] if tuple(each.values()) not in lines]
     ordered = sorted(rows.values(), key=lambda row: row.model)
-    return Stress(tuple(models), tuple(ordered), tuple(limits.values()), **{k: tuple(v) for k, v in kept.items()})  # type: ignore[arg-type]  # of JSON
+    return Stress(tuple(models), tuple(ordered), tuple(limits.values()), **{k: tuple(v) for k, v in tables.items()})  # type: ignore[arg-type]  # of JSON
 
 
 def table(head: Sequence[str], lines: Iterable[Sequence[object]]) -> str:
@@ -67,11 +67,11 @@ def by_model(study: Stress) -> str:
 
 def by_cause(study: Stress) -> str:
     """Return why named methods say ok and are wrong, with the families in which they do."""
-    found: dict[str, Counter[str]] = {}
+    causes: dict[str, Counter[str]] = {}
     for row in study.false_successes:
         if row.method != AUTO:
-            found.setdefault(cause(row), Counter())[row.family] += 1
-    ordered = sorted(found.items(), key=lambda item: -item[1].total())
+            causes.setdefault(cause(row), Counter())[row.family] += 1
+    ordered = sorted(causes.items(), key=lambda item: -item[1].total())
     lines = [(c.total(), why, ", ".join(f"{name} {n}" for name, n in c.most_common())) for why, c in ordered]
     return table(["cells", "why", "families"], lines)
 

@@ -35,8 +35,8 @@ SINGLE = 200
 def timed(work: Callable[[], Any]) -> tuple[float, float, Any]:
     """Return seconds of the wall clock, seconds of the processor, and what the work gave."""
     wall, processor = time.perf_counter(), time.process_time()
-    found = work()
-    return time.perf_counter() - wall, time.process_time() - processor, found
+    result = work()
+    return time.perf_counter() - wall, time.process_time() - processor, result
 
 
 def main(words: list[str]) -> None:
@@ -61,10 +61,10 @@ def main(words: list[str]) -> None:
         for jobs in sorted({1, processors()}):
             before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
             call = partial(symgen.sweep, quantities=("crank.theta",), settings=settings)
-            wall, processor, found = timed(partial(call, model, vary, jobs=jobs, target=target))
+            wall, processor, study = timed(partial(call, model, vary, jobs=jobs, target=target))
             grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024
-            assert found.counts["ok"] == len(found), found.reasons()
-            row(f"{name}, {jobs} thread{'s' if jobs > 1 else ''} (+{grown:.0f} MiB)", len(found), wall, processor)
+            assert study.counts["ok"] == len(study), study.reasons()
+            row(f"{name}, {jobs} thread{'s' if jobs > 1 else ''} (+{grown:.0f} MiB)", len(study), wall, processor)
 
     questions(model, side, settings)
     run = prepare(model.mechanism, settings)
@@ -105,19 +105,19 @@ def questions(model: Any, side: int, settings: Settings) -> None:
     for heading in ("asked", "runs", "us of processor a run", "to the plain sweep"):
         table.add_column(heading, justify="left" if heading == "asked" else "right")
     plain = math.nan
-    for asked, (quantities, changes, part) in QUESTIONS.items():
+    for label, (quantities, changes, part) in QUESTIONS.items():
         sweep = partial(symgen.sweep, model, settings=settings, quantities=quantities, jobs=1, **changes)
         sweep(vary={"crank_mass": [2.0]})  # compiles
         few = max(2, round(side * math.sqrt(part)))
         grid = {"crank_mass": f"lin(1, 3, {few})", "coupler_mass": f"lin(4, 12, {few})"}
-        found, processor = None, math.inf
+        study, processor = None, math.inf
         for _ in range(3):
-            _, once, found = timed(partial(sweep, vary=grid))
+            _, once, study = timed(partial(sweep, vary=grid))
             processor = min(processor, once)
-        assert found is not None and found.counts["ok"] == len(found), asked
-        each = 1e6 * processor / len(found)
+        assert study is not None and study.counts["ok"] == len(study), label
+        each = 1e6 * processor / len(study)
         plain = each if math.isnan(plain) else plain
-        table.add_row(asked, str(len(found)), f"{each:.4g}", f"{each / plain:.2f}")
+        table.add_row(label, str(len(study)), f"{each:.4g}", f"{each / plain:.2f}")
     show(table)
 
 

@@ -77,13 +77,13 @@ def arm() -> list[Limb]:
 
 def humanoid() -> list[Limb]:
     """Return a free body with 28 hinges: 34 velocities."""
-    found = [limb_of("pelvis", "", "free", (0.0, 0.0, 0.0), 20)]
+    limbs = [limb_of("pelvis", "", "free", (0.0, 0.0, 0.0), 20)]
 
     def chain(stem: str, root: str, at: tuple[float, float, float], axes: str, step: tuple[float, float, float]) -> str:
         parent = root
         for k, axis in enumerate(axes):
             place = at if k == 0 else (step if k in (3, 4) else (0.0, 0.0, 0.0))
-            found.append(limb_of(f"{stem}{k}", parent, axis, place, 20 + len(found)))
+            limbs.append(limb_of(f"{stem}{k}", parent, axis, place, 20 + len(limbs)))
             parent = f"{stem}{k}"
         return parent
 
@@ -93,7 +93,7 @@ def humanoid() -> list[Limb]:
     for side, y in (("left", 0.2), ("right", -0.2)):
         chain(f"{side}arm", chest, (0.0, y, 0.3), "yxzyzy", (0.0, 0.0, -0.3))
     chain("head", chest, (0.0, 0.0, 0.4), "zy", (0.0, 0.0, 0.0))
-    return found
+    return limbs
 
 
 def balls() -> list[Limb]:

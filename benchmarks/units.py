@@ -113,11 +113,11 @@ def cases(entries: list[str], mechanisms: int, seed: int) -> Iterator[Case]:
 
 def options(case: Case, units: Units) -> dict[str, Any]:
     """Return a method's options, its parameters in the units asked for."""
-    found: dict[str, Any] = dict(EXACT[case.method]) if case.exact else {}
+    limits: dict[str, Any] = dict(EXACT[case.method]) if case.exact else {}
     if not case.exact:
         for name, (value, unit) in PARAMETERS.get(case.method, {}).items():
-            found[f"method.{name}"] = value * units.factor(dimension_of(unit) or (0, 0, 0))
-    return found if case.method != "null-space" else {}
+            limits[f"method.{name}"] = value * units.factor(dimension_of(unit) or (0, 0, 0))
+    return limits if case.method != "null-space" else {}
 
 
 def solved(case: Case, units: Units, folder: Path) -> Any:
@@ -259,7 +259,7 @@ def four_bars(integrator: str, runs: int, method: str = "direct-correction") -> 
                     for end in ends
                 ]
     exact = np.array(angles.pop("exact"))
-    return {name: list(np.abs(np.array(found) - exact)) for name, found in angles.items()}
+    return {name: list(np.abs(np.array(values) - exact)) for name, values in angles.items()}
 
 
 def _print_four_bars(runs: int) -> int:
@@ -268,10 +268,10 @@ def _print_four_bars(runs: int) -> int:
     for integrator in ("dop853", "dopri5"):
         errors = four_bars(integrator, runs)
         limit = 10.0 * max(errors["1 m"])
-        for name, found in errors.items():
-            above = sum(error > 1e-7 for error in found)
-            bad += max(found) > limit
-            table.add_row(integrator, name, f"{np.median(found):.1e}", f"{max(found):.1e}", f"{above} of {runs}")
+        for name, values in errors.items():
+            above = sum(error > 1e-7 for error in values)
+            bad += max(values) > limit
+            table.add_row(integrator, name, f"{np.median(values):.1e}", f"{max(values):.1e}", f"{above} of {runs}")
     show(table)
     return 1 if bad else 0
 
@@ -288,37 +288,37 @@ def main() -> int:
     parser.add_argument("--four-bar", action="store_true")
     parser.add_argument("--runs", type=int, default=50)
     parser.add_argument("--output", type=Path, default=Path("out/units.jsonl"))
-    given = parser.parse_args()
-    if given.four_bar:
-        return _print_four_bars(given.runs)
-    if not given.compiled:
+    options = parser.parse_args()
+    if options.four_bar:
+        return _print_four_bars(options.runs)
+    if not options.compiled:
         os.environ["NUMBA_DISABLE_JIT"] = "1"
-    given.output.parent.mkdir(parents=True, exist_ok=True)
+    options.output.parent.mkdir(parents=True, exist_ok=True)
     counts: Counter[str] = Counter()
-    with given.output.open("w", encoding="utf-8") as file, tempfile.TemporaryDirectory() as folder:
-        for case in cases([name for name in given.entries.split(",") if name], given.mechanisms, given.seed):
+    with options.output.open("w", encoding="utf-8") as file, tempfile.TemporaryDirectory() as folder:
+        for case in cases([name for name in options.entries.split(",") if name], options.mechanisms, options.seed):
             one, other = (solved(case, units, Path(folder)) for units in (Units(), case.units))
-            found, largest = first_difference(one, other, case.units, case.exact)
+            difference, largest = first_difference(one, other, case.units, case.exact)
             if case.adaptive and without_adaptive(one):
-                found = "not offered: a relative tolerance alone"
+                difference = "not offered: a relative tolerance alone"
             line = {
                 "name": case.name,
                 "method": case.method,
                 "exact": case.exact,
                 "adaptive": case.adaptive,
                 "units": asdict(case.units),
-                "first": found,
+                "first": difference,
                 "largest": largest,
             }
             file.write(json.dumps(line) + "\n")
             file.flush()
             same = "the same bits, yes" if case.exact and largest == 0.0 else "yes"
-            counts[f"{'equal' if case.exact else 'alike'}: {found.partition(':')[0] or same}"] += 1
+            counts[f"{'equal' if case.exact else 'alike'}: {difference.partition(':')[0] or same}"] += 1
             print(
                 case.name,
                 case.method,
                 [int(np.log2(x)) for x in asdict(case.units).values()],
-                found or f"same, within {largest:.0e}" * (largest > 0.0) or "same",
+                difference or f"same, within {largest:.0e}" * (largest > 0.0) or "same",
                 flush=True,
             )
     for what, count in sorted(counts.items()):

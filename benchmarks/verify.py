@@ -48,34 +48,36 @@ def main() -> int:
     parser.add_argument("--output", type=Path, default=Path("out/verify.jsonl"))
     parser.add_argument("--show", type=Path, help="only print the table of an earlier run")
     parser.add_argument("--shrink", metavar="SEED/INDEX", help="the smallest mechanism in which a run is dishonest")
-    given = parser.parse_args()
-    if given.show:
-        return summary(_lines(given.show))
-    shapes = tuple(given.shapes.split(","))
-    if given.interpreted:
+    options = parser.parse_args()
+    if options.show:
+        return summary(_lines(options.show))
+    shapes = tuple(options.shapes.split(","))
+    if options.interpreted:
         os.environ["NUMBA_DISABLE_JIT"] = "1"  # for the processes: symgen is not imported here
-    if given.shrink:
-        seed, index = (int(x) for x in given.shrink.split("/"))
-        print(shrunk(Job(seed, index, shapes, given.methods, None, given.least)))
+    if options.shrink:
+        seed, index = (int(x) for x in options.shrink.split("/"))
+        print(shrunk(Job(seed, index, shapes, options.methods, None, options.least)))
         return 0
-    return _run(given, shapes)
+    return _run(options, shapes)
 
 
-def _run(given: argparse.Namespace, shapes: tuple[str, ...]) -> int:
-    given.output.parent.mkdir(parents=True, exist_ok=True)
-    done = {(line["seed"], line["index"]) for line in _lines(given.output)}
-    space = {"planar": False, "spatial": True, "both": None}[given.space]
-    numbers = range(given.first, given.first + given.mechanisms)
+def _run(options: argparse.Namespace, shapes: tuple[str, ...]) -> int:
+    options.output.parent.mkdir(parents=True, exist_ok=True)
+    done = {(line["seed"], line["index"]) for line in _lines(options.output)}
+    space = {"planar": False, "spatial": True, "both": None}[options.space]
+    numbers = range(options.first, options.first + options.mechanisms)
     jobs = [
-        Job(given.seed, i, shapes, given.methods, space, given.least) for i in numbers if (given.seed, i) not in done
+        Job(options.seed, i, shapes, options.methods, space, options.least)
+        for i in numbers
+        if (options.seed, i) not in done
     ]
-    with given.output.open("a", encoding="utf-8") as file:
-        for answer in answers(examine, jobs, given.jobs, PATIENCE):
+    with options.output.open("a", encoding="utf-8") as file:
+        for answer in answers(examine, jobs, options.jobs, PATIENCE):
             line = answer.value or {"seed": answer.job.seed, "index": answer.job.index, "died": answer.died}
             file.write(json.dumps(line, allow_nan=False) + "\n")
             file.flush()
             print(_short(line), file=sys.stderr, flush=True)
-    return summary(_lines(given.output))
+    return summary(_lines(options.output))
 
 
 def _lines(path: Path) -> list[dict[str, Any]]:
@@ -89,8 +91,8 @@ def _short(line: dict[str, Any]) -> str:
     name = f"{line['seed']}/{line['index']}"
     if "died" in line or "unusable" in line:
         return f"{name}: {line.get('died') or line['unusable']}"
-    found = ", ".join(f"{r['run']} {r['status']}{'' if r['honest'] else ' DISHONEST'}" for r in line["runs"])
-    return f"{name}: {found}"
+    runs = ", ".join(f"{r['run']} {r['status']}{'' if r['honest'] else ' DISHONEST'}" for r in line["runs"])
+    return f"{name}: {runs}"
 
 
 @dataclass
@@ -102,20 +104,20 @@ class _Count:
 
 def counted(lines: list[dict[str, Any]]) -> Iterator[tuple[str, str, _Count]]:
     """Yield run, status and how many of these were right, wrong, or not to be compared."""
-    found: dict[tuple[str, str], _Count] = {}
+    counts: dict[tuple[str, str], _Count] = {}
     for line in lines:
         for run in line.get("runs", ()):
             if "contradiction" in line:
                 continue
-            count = found.setdefault((run["run"], run["status"]), _Count())
+            count = counts.setdefault((run["run"], run["status"]), _Count())
             if run["right"] is None:
                 count.untold += 1
             elif run["right"]:
                 count.right += 1
             else:
                 count.wrong += 1
-    for key in sorted(found):
-        yield *key, found[key]
+    for key in sorted(counts):
+        yield *key, counts[key]
 
 
 def summary(lines: list[dict[str, Any]]) -> int:
@@ -132,8 +134,8 @@ def summary(lines: list[dict[str, Any]]) -> int:
     print(", ".join(f"{reason} {count}" for reason, count in reasons.most_common()) or "none")
     still = [line for line in lines if "contradiction" in line]
     print(f"{len(still)} whose constraints contradict each other: ", end="")
-    said = Counter(run["status"] for line in still for run in line["runs"])
-    print(", ".join(f"{status} {count}" for status, count in said.most_common()) or "none")
+    statuses = Counter(run["status"] for line in still for run in line["runs"])
+    print(", ".join(f"{status} {count}" for status, count in statuses.most_common()) or "none")
     bad = 0
     for line in lines:
         if "died" in line:

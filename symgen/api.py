@@ -25,7 +25,7 @@ from symgen.running.prepare import Prepared, prepare
 from symgen.running.starts import start_of
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.run import Array
-from symgen.settings import COORDINATES, SHAPES, Settings, changed, is_given
+from symgen.settings import COORDINATES, SHAPES, Settings, changed, is_set
 
 if TYPE_CHECKING:
     from symgen import compare as _compare
@@ -336,7 +336,7 @@ class Model(Analysed, Shown):
 
         settings = changed(settings, changes)
         for name in ("output_step", "times", "verify", "repeat"):
-            if is_given(settings, name):
+            if is_set(settings, name):
                 raise InputError(f"start: {name}", "settings of a run without outputs", f"one with {name}")
         settings = replace(settings, times=())
 

@@ -102,9 +102,9 @@ class Registry(Generic[T]):
         if resolved not in self._loaded and resolved not in self._scan():
             names = (*self.names, *self.aliases)
             hint = nearest(name, names)
-            known = " (known: " + ", ".join(sorted(names)) + ")"
-            if not hint.startswith("known") and len(known) <= _LISTED:  # a longer list buries the hint
-                hint += known
+            choices = " (known: " + ", ".join(sorted(names)) + ")"
+            if not hint.startswith("known") and len(choices) <= _LISTED:  # a longer list buries the hint
+                hint += choices
             raise InputError(where or self.what, f"{article} {self.what}", quoted(name), hint)
         return resolved
 

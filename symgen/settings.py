@@ -232,7 +232,7 @@ def default(name: str) -> Any:
     return getattr(Settings(), name)
 
 
-def is_given(settings: Settings, name: str) -> bool:
+def is_set(settings: Settings, name: str) -> bool:
     """Whether a setting differs from its default."""
     value, usual = getattr(settings, name), default(name)
     return bool(value is not None if usual is None else value != usual)  # an array of times has no one truth

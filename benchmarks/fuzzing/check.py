@@ -72,10 +72,10 @@ def _warmed() -> None:
     import symgen.runtime.assembly  # noqa: F401  # loaded beforehand: its time is not that of a file
 
     Path("file.toml").write_text('[mechanism]\nname = "a"\n[bodies.b]\ntype = "point"\nmass = 1\n', encoding="utf-8")
-    _said(["check", "file.toml"])
+    _answer(["check", "file.toml"])
 
 
-def _said(words: list[str]) -> tuple[Any, str, str, str]:
+def _answer(words: list[str]) -> tuple[Any, str, str, str]:
     """Return exit code, standard output, standard error and the traceback of a command."""
     from symgen.cli import main
 
@@ -113,7 +113,7 @@ def check(file: File) -> dict[str, Any]:
     code, out, err, raised = _read("file.toml")
     if code == 0 and file.whole:
         limit = ASSEMBLY
-        code, out, err, raised = _said(["check", "file.toml"])
+        code, out, err, raised = _answer(["check", "file.toml"])
     seconds = time.process_time() - began
     wrong = _wrong(code, out, err, raised)
     if seconds > limit:
@@ -149,25 +149,25 @@ def _most() -> int:
 def _wrong(code: Any, out: str, err: str, raised: str) -> list[str]:
     if raised:
         return [f"raised {raised.strip().splitlines()[-1][:300]}"]
-    found = []
+    faults = []
     if code not in (0, 2):
-        found.append(f"exit code {code}")
+        faults.append(f"exit code {code}")
     if code == 2 and not (err.startswith("symgen: ") and err.count("\n") == 1 and not out):
-        found.append(f"not one sentence: {err[:300]!r}")
+        faults.append(f"not one sentence: {err[:300]!r}")
     if len(err) > LONGEST:
-        found.append(f"a sentence of {len(err)} characters")
-    for name, said in (("output", out), ("sentence", err)):
-        if _CONTROL.search(said):
-            found.append(f"control characters in the {name}: {said[:300]!r}")
-    return found
+        faults.append(f"a sentence of {len(err)} characters")
+    for name, text in (("output", out), ("sentence", err)):
+        if _CONTROL.search(text):
+            faults.append(f"control characters in the {name}: {text[:300]!r}")
+    return faults
 
 
 def _left(home: Path) -> list[str]:
     """Return what a file made beside itself, and remove it."""
-    found = []
+    faults = []
     for folder, own in ((home / "work", {"file.toml"}), (home / "home", set())):
         for path in folder.iterdir():
             if path.name not in own:
-                found.append(f"left {path.name[:80]!r} behind")
+                faults.append(f"left {path.name[:80]!r} behind")
                 shutil.rmtree(path, ignore_errors=True) if path.is_dir() else path.unlink()
-    return found
+    return faults

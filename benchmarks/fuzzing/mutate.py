@@ -30,16 +30,16 @@ def changed(rng: random.Random, good: Raw, other: Raw) -> str:
         return _letters(rng, text(raw))
     for _ in range(rng.choice([1, 1, 1, 2, 3, 6])):
         _change(rng, raw, other)
-    found = text(raw)
-    return _letters(rng, found) if rng.random() < 0.1 else found
+    mutant = text(raw)
+    return _letters(rng, mutant) if rng.random() < 0.1 else mutant
 
 
 def _change(rng: random.Random, raw: Raw, other: Raw) -> None:
-    known = list(places(raw))
-    if not known:
+    positions = list(places(raw))
+    if not positions:
         raw[texts.key(rng)] = texts.value(rng)
         return
-    holder, key = rng.choice(known)
+    holder, key = rng.choice(positions)
     way = rng.randrange(9)
     if way == 0:
         del holder[key]
@@ -55,7 +55,7 @@ def _change(rng: random.Random, raw: Raw, other: Raw) -> None:
     elif way == 7 and isinstance(holder, list):
         holder.extend(copy.deepcopy(holder[key : key + 1]) * rng.choice([1, 2, 50]))
     else:
-        source, at = rng.choice(known)
+        source, at = rng.choice(positions)
         holder[key], source[at] = source[at], holder[key]
         _untangled(raw)
 

@@ -66,7 +66,7 @@ def _value(rng: random.Random, schema: Schema, root: Schema, key: str = "") -> A
 
 def _table(rng: random.Random, schema: Schema, root: Schema, key: str) -> dict[str, Any]:
     required = schema.get("required", ())
-    found = {
+    table = {
         name: _value(rng, inner, root, name)
         for name, inner in schema.get("properties", {}).items()
         if name in required or rng.random() < 0.3
@@ -78,8 +78,8 @@ def _table(rng: random.Random, schema: Schema, root: Schema, key: str) -> dict[s
             if key in ("bodies", "points")
             else [f"{key[:1]}{i}" for i in range(2)]
         )
-        found |= {name: _value(rng, free, root, name) for name in names}
-    return found
+        table |= {name: _value(rng, free, root, name) for name in names}
+    return table
 
 
 def _word(rng: random.Random, key: str) -> str:
@@ -99,7 +99,7 @@ def _word(rng: random.Random, key: str) -> str:
 
 
 def _followed(root: Schema, reference: str) -> Schema:
-    found: Any = root
+    part_of_schema: Any = root
     for part in reference.removeprefix("#/").split("/"):
-        found = found[part]
-    return dict(found)
+        part_of_schema = part_of_schema[part]
+    return dict(part_of_schema)

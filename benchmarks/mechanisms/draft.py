@@ -35,8 +35,8 @@ class Pose:
     @property
     def centre_at(self) -> Array:
         """The centre of mass in the ground frame."""
-        found: Array = self.origin + self.matrix @ self.centre
-        return found
+        place: Array = self.origin + self.matrix @ self.centre
+        return place
 
 
 class Draft:
@@ -121,8 +121,8 @@ class Draft:
         if not self.chance(0.12) or value == 0.0:
             return value
         name = self.name("k", VALUES)
-        kept = float(value)
-        self.raw["parameters"][name] = {"value": kept, "unit": "1"} if self.chance(0.5) else kept
+        number = float(value)
+        self.raw["parameters"][name] = {"value": number, "unit": "1"} if self.chance(0.5) else number
         return self.rng.choice([name, f"{name}*1.0", f"2*{name}/2", f"({name})"])
 
     # -- bodies --------------------------------------------------------------------------------------------------------
@@ -230,8 +230,8 @@ class Draft:
         if point == "centre":
             return pose.centre_at
         at = self.raw["bodies"][body]["points"][point] if isinstance(point, str) else point
-        found: Array = pose.origin + pose.matrix @ np.array(at, dtype=float)
-        return found
+        place: Array = pose.origin + pose.matrix @ np.array(at, dtype=float)
+        return place
 
     def some_point(self, body: str) -> Any:
         """Return a point of a body as a file may write it."""
@@ -249,15 +249,15 @@ class Draft:
                 return self.poses[body].origin.copy()
         places = [self.poses[b].centre_at for b in bodies if b != GROUND]
         middle = np.mean(places, axis=0) if places else np.zeros(self.dimension)
-        found: Array = middle + np.array(self.vector(0.8))
-        return found
+        place: Array = middle + np.array(self.vector(0.8))
+        return place
 
     def pick(self, *, rigid: bool = False, ground: bool = True, other: Sequence[str] = ()) -> str | None:
         """Return a body, None where there is none."""
-        known = [b for b, pose in self.poses.items() if (pose.rigid or not rigid) and b not in other]
+        bodies = [b for b, pose in self.poses.items() if (pose.rigid or not rigid) and b not in other]
         if ground and GROUND not in other:
-            known.append(GROUND)
-        return self.rng.choice(known) if known else None
+            bodies.append(GROUND)
+        return self.rng.choice(bodies) if bodies else None
 
     def joint(self, kind: str, **keys: Any) -> str:
         """Add a joint and return its name."""

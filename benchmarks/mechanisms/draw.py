@@ -136,10 +136,10 @@ def _joined(draft: Draft, module: Any, a: str, b: str, kinds: list[str]) -> bool
 def _twin(draft: Draft) -> None:
     """Write a joint twice, once in other words: rows that repeat others for ever."""
     kinds = ("revolute", "spherical", "distance", "rigid", "point-on-plane", "pin-in-slot")
-    known = [name for name, table in draft.raw["joints"].items() if table["type"] in kinds]
-    if not known:
+    joints = [name for name, table in draft.raw["joints"].items() if table["type"] in kinds]
+    if not joints:
         return
-    table = dict(draft.raw["joints"][draft.rng.choice(known)])
+    table = dict(draft.raw["joints"][draft.rng.choice(joints)])
     if draft.chance(0.5):
         table["at"] = [[f"1*{x!r}" for x in p] if isinstance(p, list) and i else p for i, p in enumerate(table["at"])]
     draft.joint(table.pop("type"), **table)
@@ -222,7 +222,7 @@ def _velocities(draft: Draft, system: System, at: Start, rank: int) -> None:
         if way < 0.4 and draft.chance(0.5):
             draft.features.add("completed")
             continue
-        own = v[body.first_v : body.first_v + len(body.given)]
+        own = v[body.first_v : body.first_v + len(body.velocities)]
         table = draft.raw["bodies"][name]
         table["velocity"] = own[:dimension].tolist()
         if body.rigid:

@@ -58,19 +58,19 @@ def filled(draft: Draft, text: str, size: float, **words: str) -> str | float:
     text = text.format(a=f"({a})", A=abs(a) or 1.0, b=f"({b})", **words)
     if "B." in text:
         turns = any(f"B.{label}" in text for label in ("theta", "omega", "wx", "wy", "wz", "e0"))
-        known = [n for n, pose in draft.poses.items() if pose.rigid or not turns]
-        if not known:
+        bodies = [n for n, pose in draft.poses.items() if pose.rigid or not turns]
+        if not bodies:
             return a
-        text = text.replace("B.", f"{draft.rng.choice(known)}.")
+        text = text.replace("B.", f"{draft.rng.choice(bodies)}.")
     while "TAB" in text:
         text = text.replace("TAB", _table(draft), 1)
     return text
 
 
 def _table(draft: Draft) -> str:
-    known: list[str] = list(draft.raw["tables"])
-    if known and draft.chance(0.5):
-        return draft.rng.choice(known)
+    tables: list[str] = list(draft.raw["tables"])
+    if tables and draft.chance(0.5):
+        return draft.rng.choice(tables)
     name = draft.name("tab", VALUES)
     x = sorted({draft.number(-2.0, 2.0, 2) for _ in range(draft.rng.randint(2, 6))})
     if len(x) < 2:
@@ -130,10 +130,10 @@ def _angles(draft: Draft) -> list[tuple[str, str]]:
 def _about(draft: Draft) -> dict[str, Any] | None:
     """Return the keys that say which angle a torsional spring works on."""
     if draft.spatial:
-        known = _angles(draft)
-        if not known:
+        angles = _angles(draft)
+        if not angles:
             return None
-        joint, label = draft.rng.choice(known)
+        joint, label = draft.rng.choice(angles)
         return {"joint": joint, **({"coordinate": label} if label != "angle" else {})}
     a = draft.pick(rigid=True)
     b = draft.pick(rigid=True, other=(a,)) if a else None

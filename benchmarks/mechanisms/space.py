@@ -72,8 +72,8 @@ def measured(draft: Draft, joint: str, label: str) -> float:
     system = read({**draft.raw, "joints": kinds, "forces": {}})
     q = np.concatenate([body.start for body in system.bodies.values()])
     choose_turns(system, 0.0, q)
-    found = next(j for j in system.joints if j.name == joint)
-    return float(found.coordinates[label](system.at(0.0, q, np.zeros(system.nv))).value)
+    axis = next(j for j in system.joints if j.name == joint)
+    return float(axis.coordinates[label](system.at(0.0, q, np.zeros(system.nv))).value)
 
 
 def turns(draft: Draft) -> float:
@@ -244,10 +244,10 @@ def _coordinates(draft: Draft, unit: str) -> list[tuple[str, str]]:
 
 def gear(draft: Draft, a: str, b: str) -> bool:
     """Gear the angles of two joints."""
-    known = _coordinates(draft, "angle")
-    if len({name for name, _ in known}) < 2:
+    angles = _coordinates(draft, "angle")
+    if len({name for name, _ in angles}) < 2:
         return False
-    one, other = draft.rng.sample(known, 2)
+    one, other = draft.rng.sample(angles, 2)
     if one[0] == other[0]:
         return False
     r_a, r_b = draft.positive(0.2, 1.2), draft.positive(0.2, 1.2)

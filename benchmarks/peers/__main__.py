@@ -38,8 +38,8 @@ def collect(model: models.Model, peer: str) -> Iterable[Row]:
             raise reason
 
         return [row(peer, "", "import", model.name, missing)]
-    found: Iterable[Row] = module.rows(model)
-    return found
+    result: Iterable[Row] = module.rows(model)
+    return result
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -73,10 +73,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         except KeyError as problem:
             parser.error(str(problem.args[0]))
         for peer in peers:
-            found = list(collect(model, peer))
-            results += found
-            print("\n".join(table(found)), flush=True)
-            best = fastest(found, options.error)
+            collected = list(collect(model, peer))
+            results += collected
+            print("\n".join(table(collected)), flush=True)
+            best = fastest(collected, options.error)
             chosen = "not reached" if best is None else f"{best['seconds']:.5f} s with {best['setting']}"
             summary.append(f"{name:15} {peer:8} {chosen}")
             if options.json is not None:

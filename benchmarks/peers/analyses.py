@@ -195,12 +195,12 @@ def measured(answer: Callable[[str, int], tuple[Any, str] | None], problem: str,
     best: dict[str, Any] = {"problem": problem if problem != "chain" else f"chain of {n}", "seconds": None}
     for _ in range(1 if answer is sympy else 3):
         try:
-            found = answer(problem, n)
+            result = answer(problem, n)
         except Exception as error:  # whatever a tool raises is its answer
             return best | {"way": f"failed: {str(error).splitlines()[0][:60]}", "error": None}
-        if found is None:
+        if result is None:
             return best | {"way": "not asked", "error": None}
-        (squares, seconds), way = found
+        (squares, seconds), way = result
         squares = np.sort(squares)
         error = float(np.abs(squares / truth - 1.0).max()) if len(squares) == len(truth) else math.nan
         if best["seconds"] is None or seconds < best["seconds"]:
@@ -212,7 +212,7 @@ def main() -> None:
     """Ask all that are installed."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--json", type=Path)
-    asked = parser.parse_args()
+    options = parser.parse_args()
     warnings.simplefilter("ignore")
     rows = []
     for peer in (exudyn, mujoco, sympy):
@@ -224,8 +224,8 @@ def main() -> None:
         for problem, n in (("rod", 1), *(("chain", n) for n in CHAINS), ("four-bar", 3), ("catenary", 10)):
             rows.append({"peer": peer.__name__, "version": version, **measured(peer, problem, n)})
             sys.stdout.write(json.dumps(rows[-1]) + "\n")
-    if asked.json is not None:
-        asked.json.write_text(json.dumps(rows))
+    if options.json is not None:
+        options.json.write_text(json.dumps(rows))
 
 
 if __name__ == "__main__":

@@ -92,11 +92,11 @@ def pinocchio_rows(times: Array, truth: Array) -> Iterator[Row]:
     torque = np.zeros(5)
 
     def points_of(motion: Array) -> Array:
-        found = np.zeros((len(motion), 4, 3))
+        points = np.zeros((len(motion), 4, 3))
         for k, q in enumerate(motion):
             pin.forwardKinematics(model, data, q)
-            found[k] = [data.oMi[i].translation for i in range(2, 6)]
-        return found
+            points[k] = [data.oMi[i].translation for i in range(2, 6)]
+        return points
 
     def fixed(substeps: int, proximal: Any) -> Run:
         step = times[1] / substeps
@@ -205,12 +205,12 @@ def mujoco_rows(times: Array, truth: Array) -> Iterator[Row]:
                     motion[k] = data.qpos
 
             loop()
-            found = np.zeros((len(times), 4, 3))
+            points = np.zeros((len(times), 4, 3))
             for k, q in enumerate(motion):
                 data.qpos[:] = q
                 mujoco.mj_kinematics(model, data)
-                found[k] = data.xpos[2:6]
-            return found, loop
+                points[k] = data.xpos[2:6]
+            return points, loop
 
         return run
 
@@ -218,9 +218,9 @@ def mujoco_rows(times: Array, truth: Array) -> Iterator[Row]:
         for substeps in (20, 30, 50, 100, 200, 400, 1000):
             setting = f"RK4 {times[1] / substeps:.3g} s, constraints {spring[0]:g} steps, ratio {spring[1]:g}"
             run = run_of(substeps, spring)
-            found = row("mujoco", str(mujoco.__version__), setting, NAME, lambda run=run: measured(run, truth))
-            yield found
-            if found.get("cpu", 0.0) > LIMIT:
+            line = row("mujoco", str(mujoco.__version__), setting, NAME, lambda run=run: measured(run, truth))
+            yield line
+            if line.get("cpu", 0.0) > LIMIT:
                 break
 
 
@@ -243,9 +243,9 @@ def exudyn_rows(times: Array, truth: Array) -> Iterator[Row]:
         system = container.AddSystem()
         bodies = [system.CreateGround()]
         for i in range(5):
-            given = RigidBodyInertia(mass=MASS, inertiaTensor=inertia(i))
+            body = RigidBodyInertia(mass=MASS, inertiaTensor=inertia(i))
             middle = (POINTS[i] + POINTS[i + 1]) / 2
-            bodies.append(system.CreateRigidBody(inertia=given, referencePosition=list(middle), gravity=list(GRAVITY)))
+            bodies.append(system.CreateRigidBody(inertia=body, referencePosition=list(middle), gravity=list(GRAVITY)))
         for i in range(6):
             pair = [bodies[i], bodies[(i + 1) % 6]]
             system.CreateRevoluteJoint(
@@ -306,9 +306,9 @@ def exudyn_rows(times: Array, truth: Array) -> Iterator[Row]:
         for substeps in (20, 50, 100, 200, 500):
             setting = f"{method}, {times[1] / substeps:.3g} s"
             run = run_of(substeps, method)
-            found = row("exudyn", str(exu.__version__), setting, NAME, lambda run=run: measured(run, truth))
-            yield found
-            if found.get("cpu", 0.0) > LIMIT:
+            line = row("exudyn", str(exu.__version__), setting, NAME, lambda run=run: measured(run, truth))
+            yield line
+            if line.get("cpu", 0.0) > LIMIT:
                 break
 
 
@@ -322,17 +322,17 @@ def main() -> None:
     parser.add_argument("--peers", default=",".join(PEERS), help="comma-separated")
     parser.add_argument("--json", type=Path, help="file for the rows")
     options = parser.parse_args()
-    given = json.loads(options.reference.read_text(encoding="utf-8"))
-    times, truth = np.array(given["times"]), np.array(given["points"])
+    content = json.loads(options.reference.read_text(encoding="utf-8"))
+    times, truth = np.array(content["times"]), np.array(content["points"])
     results: list[Row] = []
     for name in options.peers.split(","):
         try:
-            found = list(PEERS[name](times, truth))
+            lines = list(PEERS[name](times, truth))
         except ImportError as problem:
             print(f"{name}: {problem}", file=sys.stderr)
             continue
-        results += found
-        print("\n".join(table(found)), flush=True)
+        results += lines
+        print("\n".join(table(lines)), flush=True)
         if options.json is not None:
             options.json.write_text(json.dumps(results, indent=1, allow_nan=False) + "\n", encoding="utf-8")
 

@@ -233,8 +233,8 @@ def _variable(
         try:
             return _integrator(model, dynamics, options, truth)
         except RuntimeError as problem:
-            found = re.search(r"CV_\w+", str(problem))
-            reason = found.group() if found else str(problem)
+            match = re.search(r"CV_\w+", str(problem))
+            reason = match.group() if match else str(problem)
     # Raised here, where no frame keeps the integrator and its files alive.
     raise RuntimeError(reason)
 

@@ -66,10 +66,10 @@ def places(model: Model) -> list[Place]:
     list of dict
         One place a body.
     """
-    found: dict[int, Place] = {}
+    centres: dict[int, Place] = {}
     for joint in model.tree()[0]:
-        found[joint.b] = _add(_world(found, joint.a, joint.point_a), {joint.b: joint.point_b}, -1.0)
-    return [found[i] for i in range(len(model.bodies))]
+        centres[joint.b] = _add(_world(centres, joint.a, joint.point_a), {joint.b: joint.point_b}, -1.0)
+    return [centres[i] for i in range(len(model.bodies))]
 
 
 def _world(centres: dict[int, Place] | Sequence[Place], body: int, point: Point) -> Place:
@@ -234,8 +234,8 @@ def _taylor(model: Model, equations: list[tuple[Any, Any]], tolerance: float, tr
         integrator.state[:] = first
         return integrator.propagate_grid(grid)
 
-    found = loop()
-    values = np.asarray(found[-1])
+    motion = loop()
+    values = np.asarray(motion[-1])
     error = reference.largest_error(values[:, : len(model.bodies)], truth)
     if not np.isfinite(error):
         return 0.0, 0.0, 0.0, error

@@ -122,11 +122,11 @@ extern "C" double repeat(int world, long n)
 
 def pinocchio(limbs: list[Limb], folder: Path) -> ctypes.CDLL | None:
     """Return the library with `aba` and a tree in it, None where it cannot be built."""
-    found = [Path(x) / "cmeel.prefix" for x in sys.path if (Path(x) / "cmeel.prefix/include/pinocchio").is_dir()]
-    if not found:
+    folders = [Path(x) / "cmeel.prefix" for x in sys.path if (Path(x) / "cmeel.prefix/include/pinocchio").is_dir()]
+    if not folders:
         print("no Pinocchio here: left out")
         return None
-    root = found[0]
+    root = folders[0]
     index = {"": 0} | {limb.name: k + 1 for k, limb in enumerate(limbs)}
     lines = [str(len(limbs))]
     for limb in limbs:
@@ -224,22 +224,22 @@ def of_symgen(run: TreeRun, limbs: list[Limb], state: State) -> dict[str, Array]
     ydot, p, w = np.zeros(info.ny), run.start.p.copy(), run.start.w.copy()
     run.compiled.law_module.rhs(0.0, y, p, w, np.zeros(abi.N_COUNTERS, dtype=np.int64), ydot)
     vdot = ydot[info.nq :]
-    found, turning = dict[str, Array](), {"": np.zeros(3)}
+    rates, turning = dict[str, Array](), {"": np.zeros(3)}
     for limb in limbs:
         own = pose[limb.parent].T @ pose[limb.name]
         carried = own.T @ spin[limb.parent]
         if limb.joint in AXES:
-            found[limb.name] = np.array([vdot[speeds[f"j_{limb.name}.angle.rate"]]])
+            rates[limb.name] = np.array([vdot[speeds[f"j_{limb.name}.angle.rate"]]])
             relative = np.array(AXES[limb.joint]) * state.v[limb.name][0]
-            gained = np.array(AXES[limb.joint]) * found[limb.name][0]
+            gained = np.array(AXES[limb.joint]) * rates[limb.name][0]
             turning[limb.name] = gained + own.T @ turning[limb.parent] - np.cross(relative, carried)
         else:
             turning[limb.name] = np.array([vdot[speeds[f"{limb.name}.w{x}"]] for x in "xyz"])
             relative = spin[limb.name] - carried
             against = turning[limb.name] - own.T @ turning[limb.parent] + np.cross(relative, carried)
             moved = [vdot[speeds[f"{limb.name}.v{x}"]] for x in "xyz"] if limb.joint == "free" else []
-            found[limb.name] = np.array([*moved, *against])
-    return found
+            rates[limb.name] = np.array([*moved, *against])
+    return rates
 
 
 def quaternion(matrix: Array) -> Array:
@@ -264,7 +264,7 @@ def of_mujoco(limbs: list[Limb], states: list[State]) -> list[dict[str, Array]] 
         print("no MuJoCo here: left out")
         return None
     model = mujoco.MjModel.from_xml_string(mjcf(limbs))
-    data, found = mujoco.MjData(model), []
+    data, rates = mujoco.MjData(model), []
     for state in states:
         first = 0
         for limb in limbs:  # bodies in the file's order of depth, which is MuJoCo's
@@ -278,8 +278,8 @@ def of_mujoco(limbs: list[Limb], states: list[State]) -> list[dict[str, Array]] 
         for limb in limbs:
             speed = model.jnt_dofadr[model.body(limb.name).jntadr[0]]
             result[limb.name] = data.qacc[speed : speed + len(state.v[limb.name])].copy()
-        found.append(result)
-    return found
+        rates.append(result)
+    return rates
 
 
 def of_pinocchio(built: ctypes.CDLL, limbs: list[Limb], state: State) -> dict[str, Array]:
@@ -296,15 +296,15 @@ def of_pinocchio(built: ctypes.CDLL, limbs: list[Limb], state: State) -> dict[st
         v += own_v.tolist()
     q_, v_, out = np.array(q), np.array(v), np.zeros(len(v))
     built.accelerations(*(ctypes.c_void_p(x.ctypes.data) for x in (q_, v_, out)))
-    found, first = dict[str, Array](), 0
+    rates, first = dict[str, Array](), 0
     for limb in limbs:
         size = len(state.v[limb.name])
         own = out[first : first + size].copy()
         if limb.joint == "free":
             own[:3] = turns[limb.name] @ (own[:3] + np.cross(v_[first + 3 : first + 6], v_[first : first + 3]))
-        found[limb.name] = own
+        rates[limb.name] = own
         first += size
-    return found
+    return rates
 
 
 def worst(a: dict[str, Array], b: dict[str, Array]) -> float:
@@ -335,19 +335,19 @@ def times(
         [ctypes.c_void_p(a.ctypes.data) for a in (y, p, w, iw, ydot)],
     )
     count = max(500, int(1e7 / block.operations))
-    found: dict[str, list[float]] = {"symgen": [], "gcc": [], "aba local": [], "aba world": []}
+    timings: dict[str, list[float]] = {"symgen": [], "gcc": [], "aba local": [], "aba world": []}
     _repeat_emitted(run.compiled.law_module.rhs, y, p, w, iw, ydot, 10)
     for _ in range(REPEATS):
         began = time.perf_counter()
         _repeat_emitted(run.compiled.law_module.rhs, y, p, w, iw, ydot, count)
         middle = time.perf_counter()
         c.repeat(entry, *pointers, ctypes.c_long(count))
-        found["gcc"].append((time.perf_counter() - middle) / count)
-        found["symgen"].append((middle - began) / count)
+        timings["gcc"].append((time.perf_counter() - middle) / count)
+        timings["symgen"].append((middle - began) / count)
         if built is not None:
-            found["aba local"].append(float(built.repeat(0, ctypes.c_long(count // 4))))
-            found["aba world"].append(float(built.repeat(1, ctypes.c_long(count // 4))))
-    return block.operations, found
+            timings["aba local"].append(float(built.repeat(0, ctypes.c_long(count // 4))))
+            timings["aba world"].append(float(built.repeat(1, ctypes.c_long(count // 4))))
+    return block.operations, timings
 
 
 def main() -> None:
@@ -371,12 +371,12 @@ def main() -> None:
             if built is not None:
                 others = [of_pinocchio(built, limbs, state) for state in states]
                 line += f", Pinocchio {max(worst(a, b) for a, b in zip(ours, others, strict=True)):.1e}"
-            operations, found = times(on_tree(described), run, built, Path(folder))
+            operations, timings = times(on_tree(described), run, built, Path(folder))
         print(f"{line} (relative, {count} states); {operations} operations")
-        print("   " + ", ".join(f"{key} {min(x) * 1e9:.0f} ns" for key, x in found.items() if x))
+        print("   " + ", ".join(f"{key} {min(x) * 1e9:.0f} ns" for key, x in timings.items() if x))
         if built is not None:
-            fastest = min(("aba local", "aba world"), key=lambda key: median(found[key]))
-            ratios = [a / b for a, b in zip(found[fastest], found["symgen"], strict=True)]
+            fastest = min(("aba local", "aba world"), key=lambda key: median(timings[key]))
+            ratios = [a / b for a, b in zip(timings[fastest], timings["symgen"], strict=True)]
             print(f"   {fastest} / symgen: median {median(ratios):.2f} ({min(ratios):.2f} to {max(ratios):.2f})")
 
 

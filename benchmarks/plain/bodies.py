@@ -37,8 +37,8 @@ class Body:
         The centre of mass in the body's frame [m].
     start : Array
         The part of q as it is described.
-    given : list of float or None
-        Velocities as they are described.
+    velocities : list of float or None
+        As they are described.
     """
 
     name: str
@@ -48,7 +48,7 @@ class Body:
     centre: Array
     points: Mapping[str, Array]
     start: Array
-    given: list[float | None]
+    velocities: list[float | None]
     first_q: int
     first_v: int
 
@@ -71,13 +71,13 @@ def _labels(dimension: int, rigid: bool) -> tuple[list[str], list[str]]:
 
 def bodies(document: Document) -> dict[str, Body]:
     """Return the bodies of a file in their order."""
-    found: dict[str, Body] = {}
+    bodies: dict[str, Body] = {}
     nq = nv = 0
     for name, table in document.section("bodies").items():
         body = _body(document, name, table, nq, nv)
-        found[name] = body
-        nq, nv = nq + len(body.start), nv + len(body.given)
-    return found
+        bodies[name] = body
+        nq, nv = nq + len(body.start), nv + len(body.velocities)
+    return bodies
 
 
 def _body(document: Document, name: str, table: Mapping[str, Any], nq: int, nv: int) -> Body:
@@ -92,8 +92,8 @@ def _body(document: Document, name: str, table: Mapping[str, Any], nq: int, nv: 
     if rigid and document.spatial:
         matrix = orientation(document, table.get("orientation"))
         tensor, turn = inertia(document, table, mass, centre), euler_parameters(matrix)
-        given = table.get("angular_velocity")
-        spin = [None] * 3 if given is None else [float(x) for x in document.array(given)]
+        turning = table.get("angular_velocity")
+        spin = [None] * 3 if turning is None else [float(x) for x in document.array(turning)]
         position = position + matrix @ centre
     elif rigid:
         angle = document.number(table.get("angle", 0.0))
@@ -133,7 +133,7 @@ class State:
     v: Array
     turns: Mapping[Any, float]
     frames: dict[str, tuple[Array, Array, Array]] = field(default_factory=dict)
-    kept: dict[Any, Moving] = field(default_factory=dict)
+    motions: dict[Any, Moving] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for body in self.bodies.values():
@@ -141,7 +141,7 @@ class State:
             matrix, spin = np.eye(d), np.zeros(3 if d == 3 else 1)
             if body.rigid:
                 matrix = rotation(self.q[i + 3 : i + 7]) if d == 3 else plane_turn(float(self.q[i + 2]))
-                spin = self.v[k + d : k + len(body.given)]
+                spin = self.v[k + d : k + len(body.velocities)]
             self.frames[body.name] = self.q[i : i + d], matrix, spin
 
     @property
@@ -172,44 +172,44 @@ class State:
 
     def point(self, marker: Marker) -> Moving:
         """Return where a marker is."""
-        if marker not in self.kept:
-            found = self.fixed(marker.body, marker.at)
+        if marker not in self.motions:
+            moving = self.fixed(marker.body, marker.at)
             if marker.body != GROUND:
                 body, d = self.bodies[marker.body], len(marker.at)
-                found.value = found.value + self.frames[marker.body][0]
-                found.gradient[:, body.first_v : body.first_v + d] += np.eye(d)
-                found.rate = found.rate + self.v[body.first_v : body.first_v + d]
-            self.kept[marker] = found
-        return self.kept[marker]
+                moving.value = moving.value + self.frames[marker.body][0]
+                moving.gradient[:, body.first_v : body.first_v + d] += np.eye(d)
+                moving.rate = moving.rate + self.v[body.first_v : body.first_v + d]
+            self.motions[marker] = moving
+        return self.motions[marker]
 
     def between(self, a: Marker, b: Marker) -> Moving:
         """Return the vector from a to b."""
-        if (a, b) not in self.kept:
-            self.kept[a, b] = self.point(b) - self.point(a)
-        return self.kept[a, b]
+        if (a, b) not in self.motions:
+            self.motions[a, b] = self.point(b) - self.point(a)
+        return self.motions[a, b]
 
     def along(self, direction: Marker) -> Moving:
         """Return a direction, kept as a marker whose coordinates are the direction's components."""
         key = ("direction", direction)
-        if key not in self.kept:
-            self.kept[key] = self.fixed(direction.body, direction.at)
-        return self.kept[key]
+        if key not in self.motions:
+            self.motions[key] = self.fixed(direction.body, direction.at)
+        return self.motions[key]
 
     def angle(self, body: str) -> Moving:
         """Return the angle of a body in the plane."""
         if body == GROUND:
             return constant(0.0, self.nv)
         k, i = self.bodies[body].first_v + 2, self.bodies[body].first_q + 2
-        found = constant(self.q[i], self.nv)
-        found.gradient[k] = 1.0
-        found.rate = np.asarray(self.v[k])
-        return found
+        number = constant(self.q[i], self.nv)
+        number.gradient[k] = 1.0
+        number.rate = np.asarray(self.v[k])
+        return number
 
     def spin(self, body: str) -> Moving:
         """Return the angular velocity in ground axes as if it were a rate: its `rate` is it, its `curve` its rate."""
-        found = constant(np.zeros(3), self.nv)
+        vector = constant(np.zeros(3), self.nv)
         if body != GROUND and self.bodies[body].rigid:
             k = self.bodies[body].first_v + 3
-            found.gradient[:, k : k + 3] = self.frames[body][1]
-            found.rate = self.frames[body][1] @ self.frames[body][2]
-        return found
+            vector.gradient[:, k : k + 3] = self.frames[body][1]
+            vector.rate = self.frames[body][1] @ self.frames[body][2]
+        return vector

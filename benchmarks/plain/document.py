@@ -46,34 +46,34 @@ class Document:
         }
         self.parameters: dict[str, float] = {}
         for name, entry in raw.get("parameters", {}).items():
-            given = entry["value"] if isinstance(entry, Mapping) else entry
-            self.parameters[name] = self._number(given, {})
+            content = entry["value"] if isinstance(entry, Mapping) else entry
+            self.parameters[name] = self._number(content, {})
         self.parameters |= dict(parameters or {})
-        self._known: Mapping[str, Number] = dict(self.parameters)
+        self._values: Mapping[str, Number] = dict(self.parameters)
 
     @classmethod
     def read(cls, path: str | Path, parameters: Mapping[str, float] | None = None) -> Document:
         """Return the document of a file."""
         return cls(tomllib.loads(Path(path).read_text(encoding="utf-8")), parameters)
 
-    def _number(self, given: Any, names: Mapping[str, Number]) -> float:
-        return plain(value(parsed(given), names, self.tables)) if isinstance(given, str) else float(given)
+    def _number(self, entry: Any, names: Mapping[str, Number]) -> float:
+        return plain(value(parsed(entry), names, self.tables)) if isinstance(entry, str) else float(entry)
 
-    def number(self, given: Any) -> float:
+    def number(self, entry: Any) -> float:
         """Return a number, or the value of a formula of parameters."""
-        return self._number(given, self._known)
+        return self._number(entry, self._values)
 
-    def array(self, given: Any) -> Array:
+    def array(self, entry: Any) -> Array:
         """Return numbers or formulas, nested as they are, as an array."""
-        return np.array([self.array(x) if isinstance(x, list | tuple) else self.number(x) for x in given])
+        return np.array([self.array(x) if isinstance(x, list | tuple) else self.number(x) for x in entry])
 
     def vector(self, table: Mapping[str, Any], key: str) -> Array:
         """Return a vector of the file, 0 where there is none."""
         return self.array(table[key]) if key in table else np.zeros(self.dimension)
 
-    def formula(self, given: Any) -> Tree:
+    def formula(self, entry: Any) -> Tree:
         """Return the tree of a number or a formula of time and state."""
-        return parsed(given) if isinstance(given, str) else ("number", float(given))
+        return parsed(entry) if isinstance(entry, str) else ("number", float(entry))
 
     @property
     def gravity(self) -> Array:
@@ -82,5 +82,5 @@ class Document:
 
     def section(self, name: str) -> Mapping[str, Mapping[str, Any]]:
         """Return the tables of a section."""
-        found: Mapping[str, Mapping[str, Any]] = self.raw.get(name, {})
-        return found
+        section: Mapping[str, Mapping[str, Any]] = self.raw.get(name, {})
+        return section

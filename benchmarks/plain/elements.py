@@ -33,9 +33,9 @@ class Turn:
 
     def __call__(self, state: State) -> Moving:
         """Return the angle on the branch nearest to the one remembered."""
-        if self not in state.kept:
-            state.kept[self] = self.of(state, state.turns.get(self, 0.0))
-        return state.kept[self]
+        if self not in state.motions:
+            state.motions[self] = self.of(state, state.turns.get(self, 0.0))
+        return state.motions[self]
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +102,7 @@ class Parts:
         self.document, self.bodies, self._kinds = document, bodies, kinds
         self._joints: dict[str, Joint] = {}
         q = np.concatenate([b.start for b in bodies.values()])
-        self.described = State(bodies, 0.0, q, np.zeros(sum(len(b.given) for b in bodies.values())), {})
+        self.described = State(bodies, 0.0, q, np.zeros(sum(len(b.velocities) for b in bodies.values())), {})
 
     def joint(self, name: str) -> Joint:
         """Return a joint, made when it is first asked for: a driver may stand before the joint it drives."""
@@ -129,8 +129,8 @@ class Parts:
     def unit(self, vector: Any) -> Array:
         """Return a direction of length 1."""
         x = self.document.array(vector)
-        found: Array = x / np.linalg.norm(x)
-        return found
+        unit: Array = x / np.linalg.norm(x)
+        return unit
 
     def triad(self, body: str, axis: Any, reference: Any = None) -> Triad:
         """Return a triad about an axis of one body."""
@@ -161,8 +161,8 @@ class Parts:
 def across(vector: Array, axis: Array) -> Array:
     """Return the part of a vector across an axis, of length 1."""
     rest = vector - (vector @ axis) * axis
-    found: Array = rest / np.linalg.norm(rest)
-    return found
+    unit: Array = rest / np.linalg.norm(rest)
+    return unit
 
 
 def across_any(axis: Array) -> Array:

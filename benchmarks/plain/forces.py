@@ -21,11 +21,11 @@ Force = Callable[[State], Load]
 
 def names(parts: Parts, s: State, **own: Number) -> dict[str, Number]:
     """Return what the names in a formula of time and state stand for."""
-    found: dict[str, Number] = {**parts.document.parameters, "t": s.t, **own}
+    names: dict[str, Number] = {**parts.document.parameters, "t": s.t, **own}
     for body in parts.bodies.values():
-        found |= dict(zip(body.coordinates, s.q[body.first_q :].tolist(), strict=False))
-        found |= dict(zip(body.speeds, s.v[body.first_v :].tolist(), strict=False))
-    return found
+        names |= dict(zip(body.coordinates, s.q[body.first_q :].tolist(), strict=False))
+        names |= dict(zip(body.speeds, s.v[body.first_v :].tolist(), strict=False))
+    return names
 
 
 def of_state(parts: Parts, tree: Tree, s: State, **own: Number) -> float:
@@ -141,19 +141,19 @@ def bushing(parts: Parts, name: str, table: Table) -> Force:
         return slid + [x.times(0.5) for x in twisted]
 
     def load(s: State) -> Load:
-        found = displacements(s)
-        x, rate = np.array([m.value for m in found]), np.array([m.rate for m in found])
-        gradient = np.stack([m.gradient for m in found])
+        places = displacements(s)
+        x, rate = np.array([m.value for m in places]), np.array([m.rate for m in places])
+        gradient = np.stack([m.gradient for m in places])
         return Load(-(k @ x) @ gradient, -(c @ rate) @ gradient, float(0.5 * x @ k @ x))
 
     return load
 
 
-def _matrix(parts: Parts, given: Any) -> Array:
-    if given is None:
+def _matrix(parts: Parts, value: Any) -> Array:
+    if value is None:
         return np.zeros((6, 6))
-    found = parts.document.array(given)
-    return np.diag(found) if found.ndim == 1 else found
+    matrix = parts.document.array(value)
+    return np.diag(matrix) if matrix.ndim == 1 else matrix
 
 
 KINDS: dict[str, Callable[[Parts, str, Table], Force]] = {

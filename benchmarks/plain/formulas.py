@@ -53,12 +53,12 @@ class _Reader:
         position = 0
         text = text.strip()
         while position < len(text):
-            found = _TOKEN.match(text, position)
-            if found is None:
+            match = _TOKEN.match(text, position)
+            if match is None:
                 raise ValueError(f"no formula: {text!r} at {position}")
-            kind = str(found.lastgroup)
-            self.tokens.append((kind, re.sub(r"\s", "", found.group(kind))))
-            position = found.end()
+            kind = str(match.lastgroup)
+            self.tokens.append((kind, re.sub(r"\s", "", match.group(kind))))
+            position = match.end()
         self.tokens.append(("end", ""))
         self.at = 0
 
@@ -209,13 +209,13 @@ def _chosen(tree: Tree, names: Mapping[str, Number], tables: Mapping[str, Lines]
 
 
 def _call(
-    name: str, given: tuple[Tree, ...], names: Mapping[str, Number], tables: Mapping[str, Lines] | None
+    name: str, arguments: tuple[Tree, ...], names: Mapping[str, Number], tables: Mapping[str, Lines] | None
 ) -> Number:
     if name == "piecewise":
-        tree = given[-1]
-        for condition, result in zip(given[-3::-2], given[-2::-2], strict=True):
+        tree = arguments[-1]
+        for condition, result in zip(arguments[-3::-2], arguments[-2::-2], strict=True):
             tree = ("if", condition, result, tree)
         return value(tree, names, tables)
     if tables is not None and name in tables:
-        return tables[name](plain(value(given[0], names, tables)))
-    return called(name, [value(argument, names, tables) for argument in given])
+        return tables[name](plain(value(arguments[0], names, tables)))
+    return called(name, [value(argument, names, tables) for argument in arguments])

@@ -208,10 +208,10 @@ def point_on_plane(parts: Parts, name: str, table: Table) -> Joint:
 
 def coordinate(parts: Parts, joint: str, label: str | None, unit: str = "") -> Measure:
     """Return a coordinate of a joint: the only one of its unit where no label is given."""
-    found = parts.joint(joint).coordinates
+    coordinates = parts.joint(joint).coordinates
     if label is None:
-        label = next(name for name in found if unit == "" or name.startswith({"rad": "angle", "m": "disp"}[unit]))
-    return found[label]
+        label = next(name for name in coordinates if unit == "" or name.startswith({"rad": "angle", "m": "disp"}[unit]))
+    return coordinates[label]
 
 
 def gear(parts: Parts, name: str, table: Table) -> Joint:

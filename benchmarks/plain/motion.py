@@ -119,9 +119,11 @@ class _Run:
         reactions = system.reactions(state, c.d, lam)
         # by so little of what is open, of the size of the others, a multiplier may differ
         unique = np.linalg.norm(open_, axis=1) < 1e-10 if len(lam) else np.ones(0, dtype=bool)
-        told = np.array([self._told(i, c.d, open_) for i in range(len(system.joints))], dtype=bool)
+        determined = np.array([self._determined(i, c.d, open_) for i in range(len(system.joints))], dtype=bool)
         motion.unique = unique if motion.unique is None else motion.unique & unique
-        motion.unique_reactions = told if motion.unique_reactions is None else motion.unique_reactions & told
+        motion.unique_reactions = (
+            determined if motion.unique_reactions is None else motion.unique_reactions & determined
+        )
         motion.t.append(t)
         motion.q.append(q.copy())
         motion.v.append(v.copy())
@@ -129,7 +131,7 @@ class _Run:
         motion.reactions.append(np.concatenate([*reactions.values(), np.zeros(0)]))
         motion.energies.append(np.array([system.kinetic(v), energy, y[-1]]))
 
-    def _told(self, joint: int, d: Array, open_: Array) -> bool:
+    def _determined(self, joint: int, d: Array, open_: Array) -> bool:
         """Whether no change of multipliers that balances itself reaches the joint's reaction."""
         first = sum(len(j.rows) for j in self.system.joints[:joint])
         rows = slice(first, first + len(self.system.joints[joint].rows))

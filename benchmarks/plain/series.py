@@ -77,12 +77,12 @@ def divided(a: float, b: float) -> float:
 def quiet(f: Callable[..., float], *arguments: float) -> float:
     """Return a function's value, nan where it has none and infinity where it is too large."""
     try:
-        found = f(*arguments)
+        result = f(*arguments)
     except ValueError:
         return NAN
     except OverflowError:
         return math.inf
-    return NAN if isinstance(found, complex) else found
+    return NAN if isinstance(result, complex) else result
 
 
 def power(a: Number, b: Number) -> Number:
@@ -172,8 +172,8 @@ def called(name: str, arguments: list[Number]) -> Number:
     """Return the value of a function of formulas, with derivatives where an argument has them."""
     if name in UNARY:
         x = arguments[0]
-        found = UNARY[name](plain(x))
-        return x.through(*found) if isinstance(x, Series) else found[0]
+        result = UNARY[name](plain(x))
+        return x.through(*result) if isinstance(x, Series) else result[0]
     if name == "atan2":
         return _atan2(arguments[0], arguments[1])
     # nan goes through: a comparison with it is never true

@@ -157,18 +157,18 @@ def start(system: System, t: float = 0.0) -> Start:
         If there is none near it.
     """
     described = np.concatenate([body.start for body in system.bodies.values()])
-    given = [x for body in system.bodies.values() for x in body.given]
+    velocities = [x for body in system.bodies.values() for x in body.velocities]
     choose_turns(system, t, described)
     q = closed(system, t, described)
     system.follow(system.at(t, q, np.zeros(system.nv)))
     c = system.constraints(system.at(t, q, np.zeros(system.nv)))
-    kept = np.array([x is not None for x in given], dtype=bool)
-    v = np.array([0.0 if x is None else x for x in given])
-    unique = bool(kept.all()) or not (v.any() or c.nu.any())
+    fixed = np.array([x is not None for x in velocities], dtype=bool)
+    v = np.array([0.0 if x is None else x for x in velocities])
+    unique = bool(fixed.all()) or not (v.any() or c.nu.any())
     if len(c.d):
-        free, scale = c.d[:, ~kept], levers(system, t, described)[0][~kept]
-        v[~kept] += scale * np.linalg.lstsq(free * scale, c.nu - c.d @ v, rcond=1e-7)[0]
-        unique = unique or system.rank(free) == int((~kept).sum())
+        free, scale = c.d[:, ~fixed], levers(system, t, described)[0][~fixed]
+        v[~fixed] += scale * np.linalg.lstsq(free * scale, c.nu - c.d @ v, rcond=1e-7)[0]
+        unique = unique or system.rank(free) == int((~fixed).sum())
         largest = max(1.0, float(np.abs(v).max()))
         if np.linalg.norm(c.d @ v - c.nu) > 1e-9 * largest:  # contradicted: projected in the metric of the masses
             unique = False

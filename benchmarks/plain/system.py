@@ -80,7 +80,7 @@ class System:
             k, d = body.first_v, self.document.dimension
             m[k : k + d, k : k + d] = body.mass * np.eye(d)
             if body.rigid:
-                n = len(body.given)
+                n = len(body.velocities)
                 m[k + d : k + n, k + d : k + n] = body.inertia
         return m
 
@@ -102,7 +102,7 @@ class System:
         for joint in self.joints:
             for measure in joint.coordinates.values():
                 measure(state)
-        self.turns = {**self.turns, **{k: float(x.value) for k, x in state.kept.items() if isinstance(k, Turn)}}
+        self.turns = {**self.turns, **{k: float(x.value) for k, x in state.motions.items() if isinstance(k, Turn)}}
 
     def constraints(self, state: State) -> Constraints:
         """Return the constraints and their two derivatives."""
@@ -140,23 +140,23 @@ class System:
         """Return q'."""
         if not self.document.spatial:
             return v
-        found = np.zeros(self.nq)
+        speeds = np.zeros(self.nq)
         for body in self.bodies.values():
             i, k = body.first_q, body.first_v
-            found[i : i + 3] = v[k : k + 3]
+            speeds[i : i + 3] = v[k : k + 3]
             if body.rigid:
-                found[i + 3 : i + 7] = rates(q[i + 3 : i + 7], v[k + 3 : k + 6])
-        return found
+                speeds[i + 3 : i + 7] = rates(q[i + 3 : i + 7], v[k + 3 : k + 6])
+        return speeds
 
     def moved(self, q: Array, dv: Array) -> Array:
         """Return q + N dv with Euler parameters of length 1."""
-        found = q + self.rates_of(q, dv)
+        moved = q + self.rates_of(q, dv)
         if self.document.spatial:
             for body in self.bodies.values():
                 if body.rigid:
-                    e = found[body.first_q + 3 : body.first_q + 7]
+                    e = moved[body.first_q + 3 : body.first_q + 7]
                     e /= np.linalg.norm(e)
-        return found
+        return moved
 
     # -- accelerations, multipliers, reactions -------------------------------------------------------------------------
 
@@ -208,13 +208,13 @@ class System:
         Moments are about the joint's point on that body; where a kind of joint has no point, about the centre of mass,
         on the ground about the origin (docs/results.md).
         """
-        found, i = {}, 0
+        places, i = {}, 0
         for joint in self.joints:
             n = len(joint.rows)
             works = -d[i : i + n].T @ lam[i : i + n]
-            found[joint.name] = self._moved(state, joint, self._reaction(state, joint.bodies[0], works))
+            places[joint.name] = self._moved(state, joint, self._reaction(state, joint.bodies[0], works))
             i += n
-        return found
+        return places
 
     def _moved(self, state: State, joint: Joint, reaction: Array) -> Array:
         """Return force and moment about the joint's point of those about the centre of mass or the origin."""
@@ -244,7 +244,7 @@ class System:
         k = body.first_v
         moment = np.zeros(3 if d == 3 else 1)
         if body.rigid:
-            moment = works[k + d : k + len(body.given)]
+            moment = works[k + d : k + len(body.velocities)]
             moment = state.matrix(name) @ moment if d == 3 else moment
         return np.concatenate([works[k : k + d], moment])
 

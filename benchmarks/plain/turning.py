@@ -15,8 +15,8 @@ def rotation(e: Array) -> Array:
     """Return the matrix of Euler parameters of any length above 0."""
     e = e / np.sqrt(e @ e)
     k = skew(e[1:])
-    found: Array = np.eye(3) + 2.0 * (e[0] * k + k @ k)
-    return found
+    rotation: Array = np.eye(3) + 2.0 * (e[0] * k + k @ k)
+    return rotation
 
 
 def turned(vector: Array) -> Array:
@@ -25,8 +25,8 @@ def turned(vector: Array) -> Array:
     if size == 0.0:
         return np.eye(3)
     k = skew(vector / size)
-    found: Array = np.eye(3) + np.sin(size) * k + (1.0 - np.cos(size)) * (k @ k)
-    return found
+    rotation: Array = np.eye(3) + np.sin(size) * k + (1.0 - np.cos(size)) * (k @ k)
+    return rotation
 
 
 def euler_parameters(r: Array) -> Array:
@@ -75,11 +75,11 @@ def orientation(document: Document, table: Mapping[str, Any] | None) -> Array:
 
 def inertia(document: Document, table: Mapping[str, Any], mass: float, centre: Array) -> Array:
     """Return the tensor about the centre of mass in body axes, from all ways a file may write it."""
-    given = document.array(table["inertia"])
-    if given.shape == (3, 3):
-        tensor = given
+    entries = document.array(table["inertia"])
+    if entries.shape == (3, 3):
+        tensor = entries
     else:
-        xx, yy, zz, xy, xz, yz = given if len(given) == 6 else (*given, 0.0, 0.0, 0.0)
+        xx, yy, zz, xy, xz, yz = entries if len(entries) == 6 else (*entries, 0.0, 0.0, 0.0)
         tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     if "inertia_axes" in table:
         a = orientation(document, table["inertia_axes"])
@@ -92,5 +92,5 @@ def inertia(document: Document, table: Mapping[str, Any], mass: float, centre: A
             point = document.array(table["points"][at] if isinstance(at, str) else at)
         d = point - centre
         tensor = tensor - mass * ((d @ d) * np.eye(3) - np.outer(d, d))
-    found: Array = tensor
-    return found
+    inertia: Array = tensor
+    return inertia

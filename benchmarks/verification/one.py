@@ -18,7 +18,7 @@ from benchmarks.plain.start import CannotClose, start
 from benchmarks.plain.system import read
 from benchmarks.verification.judge import Verdict, judge
 from benchmarks.verification.reference import LEAST, OUTPUTS, Contradiction, Reference, Unusable, prepared
-from benchmarks.verification.runs import Asked, Came, basic, every_method, run
+from benchmarks.verification.runs import Configuration, Outcome, basic, every_method, run
 
 
 @dataclass(frozen=True)
@@ -33,10 +33,10 @@ class Job:
     least: float = LEAST
 
     @property
-    def asked(self) -> list[Asked]:
+    def configurations(self) -> list[Configuration]:
         """The runs."""
         if self.methods:
-            return [asked for shape in self.shapes for asked in every_method(shape)]
+            return [configuration for shape in self.shapes for configuration in every_method(shape)]
         return basic(list(self.shapes))
 
 
@@ -47,17 +47,17 @@ def examine(job: Job) -> dict[str, Any]:
         drawn = draw(job.seed, job.index, job.spatial)
     except Refused as refused:
         return {**line, "unusable": str(refused)}
-    return {**line, "features": list(drawn.features), **compared(drawn.raw, job.asked, job.least)}
+    return {**line, "features": list(drawn.features), **compared(drawn.raw, job.configurations, job.least)}
 
 
-def compared(raw: Mapping[str, Any], asked: list[Asked], least: float = LEAST) -> dict[str, Any]:
+def compared(raw: Mapping[str, Any], configurations: list[Configuration], least: float = LEAST) -> dict[str, Any]:
     """Return the runs of a mechanism with what is to be said of them, or why nothing is.
 
     Parameters
     ----------
     raw : mapping
         Its file.
-    asked : list of Asked
+    configurations : list of Configuration
         What to run.
     least : float
         How near to singular positions motions may come; see `prepared`.
@@ -69,20 +69,22 @@ def compared(raw: Mapping[str, Any], asked: list[Asked], least: float = LEAST) -
             begin = None if _determined(raw) else _theirs(path, raw)
             reference = prepared(raw, begin=begin, least=least)
         except Contradiction as unusable:
-            return _contradicted(path, asked, str(unusable))
+            return _contradicted(path, configurations, str(unusable))
         except (Unusable, CannotClose, np.linalg.LinAlgError) as unusable:
             return {"unusable": str(unusable)}
         steady = reference.coarse is not None
-        runs = [_line(a, *_judged(path, a, reference)) for a in asked if steady or a.rtol is not None]
+        runs = [_line(a, *_judged(path, a, reference)) for a in configurations if steady or a.rtol is not None]
     return {"until": float(reference.times[-1]), "growth": reference.growth["q"], "runs": runs}
 
 
-def _judged(path: Path, asked: Asked, reference: Reference) -> tuple[Came, Verdict]:
-    came = run(path, asked, reference.times, reference.step)
-    verdict = judge(reference, asked, came)
-    if verdict.right is False and came.status == "ok" and asked.rtol is None:
-        verdict = judge(reference, asked, came, run(path, asked, reference.times, reference.step / 2))
-    return came, verdict
+def _judged(path: Path, configuration: Configuration, reference: Reference) -> tuple[Outcome, Verdict]:
+    outcome = run(path, configuration, reference.times, reference.step)
+    verdict = judge(reference, configuration, outcome)
+    if verdict.right is False and outcome.status == "ok" and configuration.rtol is None:
+        verdict = judge(
+            reference, configuration, outcome, run(path, configuration, reference.times, reference.step / 2)
+        )
+    return outcome, verdict
 
 
 def _determined(raw: Mapping[str, Any]) -> bool:
@@ -93,11 +95,11 @@ def _theirs(path: Path, raw: Mapping[str, Any]) -> tuple[Array, Array]:
     """Return symgen's own start where the file leaves a choice, once it is seen to be one the file allows."""
     system = read(raw)
     mine = start(system)
-    came = run(path, Asked("lagrange", "rk4", "straight"), np.linspace(0.0, 1e-3, 2), 1e-3)
-    if not len(came.t):
-        raise Unusable(f"symgen has no start: {came.reason}")
+    outcome = run(path, Configuration("lagrange", "rk4", "straight"), np.linspace(0.0, 1e-3, 2), 1e-3)
+    if not len(outcome.t):
+        raise Unusable(f"symgen has no start: {outcome.reason}")
     q, v = (
-        came.columns[name][0, [came.names[name].index(n) for n in names]]
+        outcome.columns[name][0, [outcome.names[name].index(n) for n in names]]
         for name, names in (("q", system.names_q), ("v", system.names_v))
     )
     c = system.constraints(system.at(0.0, q, v))
@@ -113,27 +115,27 @@ class BadStart(Exception):
     """A start of symgen's that the file does not allow."""
 
 
-def _contradicted(path: Path, asked: list[Asked], why: str) -> dict[str, Any]:
+def _contradicted(path: Path, configurations: list[Configuration], why: str) -> dict[str, Any]:
     """Return runs of a mechanism that has no motion: none of them may be `ok`."""
     runs = []
-    for a in asked:
-        came = run(path, a, np.linspace(0.0, 1.0, OUTPUTS + 1), 1.0 / 400)
-        verdict = Verdict(came.status not in ("ok", "raised"), came.status != "ok", {}, {}, ("no motion",))
-        runs.append(_line(a, came, verdict))
+    for a in configurations:
+        outcome = run(path, a, np.linspace(0.0, 1.0, OUTPUTS + 1), 1.0 / 400)
+        verdict = Verdict(outcome.status not in ("ok", "raised"), outcome.status != "ok", {}, {}, ("no motion",))
+        runs.append(_line(a, outcome, verdict))
     return {"contradiction": why, "runs": runs}
 
 
-def _line(asked: Asked, came: Came, verdict: Verdict) -> dict[str, Any]:
+def _line(configuration: Configuration, outcome: Outcome, verdict: Verdict) -> dict[str, Any]:
     return {
-        "run": asked.label,
-        "status": came.status,
-        "reason": came.reason,
+        "run": configuration.label,
+        "status": outcome.status,
+        "reason": outcome.reason,
         "honest": verdict.honest,
         "right": verdict.right,
         "wrong": list(verdict.wrong),
         "errors": {n: _finite(x) for n, x in verdict.errors.items()},
         "bounds": {n: _finite(x) for n, x in verdict.bounds.items()},
-        "facts": {k: _finite(x) if isinstance(x, float) else x for k, x in came.facts.items()},
+        "facts": {k: _finite(x) if isinstance(x, float) else x for k, x in outcome.facts.items()},
     }
 
 

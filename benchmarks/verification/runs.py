@@ -1,4 +1,4 @@
-"""Runs of symgen, each in its own words: what is asked for, and what came of it as plain arrays."""
+"""Runs of symgen: their configurations, and their outcomes as plain arrays."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from benchmarks.plain.moving import Array
 
 
 @dataclass(frozen=True)
-class Asked:
+class Configuration:
     """One run.
 
     Attributes
@@ -43,8 +43,8 @@ class Asked:
 
 
 @dataclass
-class Came:
-    """What came of a run.
+class Outcome:
+    """Status and results of a run.
 
     Attributes
     ----------
@@ -71,14 +71,14 @@ class Came:
     facts: dict[str, Any] = field(default_factory=dict)
 
 
-def run(path: Path, asked: Asked, times: Array, step: float | None = None) -> Came:
-    """Return what came of a run of the file at `path`.
+def run(path: Path, configuration: Configuration, times: Array, step: float | None = None) -> Outcome:
+    """Return the outcome of a run of the file at `path`.
 
     Parameters
     ----------
     path : Path
         A mechanism file.
-    asked : Asked
+    configuration : Configuration
         What to run.
     times : Array
         Output times [s], the last of which is the end.
@@ -87,21 +87,21 @@ def run(path: Path, asked: Asked, times: Array, step: float | None = None) -> Ca
     """
     import symgen
 
-    changes: dict[str, Any] = {"until": float(times[-1]), "times": times, "options": dict(asked.options)}
-    if asked.rtol is not None:
-        changes |= {"rtol": asked.rtol, "atol": 1e-2 * asked.rtol}
+    changes: dict[str, Any] = {"until": float(times[-1]), "times": times, "options": dict(configuration.options)}
+    if configuration.rtol is not None:
+        changes |= {"rtol": configuration.rtol, "atol": 1e-2 * configuration.rtol}
     elif step is not None:
         changes["step"] = step
     began = time.perf_counter()
     try:
         model = symgen.load(path)
-        joint = asked.shape == "joint"
-        changes |= {"shape": "straight", "coordinates": "joint"} if joint else {"shape": asked.shape}
-        result = model.simulate(method=asked.method, integrator=asked.integrator, **changes)
+        joint = configuration.shape == "joint"
+        changes |= {"shape": "straight", "coordinates": "joint"} if joint else {"shape": configuration.shape}
+        result = model.simulate(method=configuration.method, integrator=configuration.integrator, **changes)
     except symgen.SymgenError as error:
-        return Came("refused", str(error), facts={"seconds": time.perf_counter() - began})
+        return Outcome("refused", str(error), facts={"seconds": time.perf_counter() - began})
     except Exception as error:  # whatever else is raised is what is looked for here
-        return Came("raised", f"{type(error).__name__}: {error}", facts={"seconds": time.perf_counter() - began})
+        return Outcome("raised", f"{type(error).__name__}: {error}", facts={"seconds": time.perf_counter() - began})
     tables = {name: getattr(result, name) for name in ("q", "v", "lam", "reactions")}
     facts = {
         "warnings": list(result.warnings),
@@ -120,7 +120,7 @@ def run(path: Path, asked: Asked, times: Array, step: float | None = None) -> Ca
         "not_unique": list(result.non_unique_reactions),
         "seconds": time.perf_counter() - began,
     }
-    return Came(
+    return Outcome(
         result.status,
         result.reason or "",
         np.asarray(result.t),
@@ -131,17 +131,17 @@ def run(path: Path, asked: Asked, times: Array, step: float | None = None) -> Ca
     )
 
 
-def basic(shapes: list[str]) -> list[Asked]:
+def basic(shapes: list[str]) -> list[Configuration]:
     """Return the runs of every mechanism: adaptive and constant steps, and everything chosen automatically."""
-    found = []
+    configurations = []
     for shape in shapes:
         if shape == "auto":
-            found.append(Asked("auto", "auto", "auto"))
+            configurations.append(Configuration("auto", "auto", "auto"))
             continue
-        found.append(Asked("lagrange", "dop853", shape, 1e-10))
-        found.append(Asked("lagrange", "picard", shape, 1e-10))
-        found.append(Asked("direct-correction", "rk4", shape))
-    return found
+        configurations.append(Configuration("lagrange", "dop853", shape, 1e-10))
+        configurations.append(Configuration("lagrange", "picard", shape, 1e-10))
+        configurations.append(Configuration("direct-correction", "rk4", shape))
+    return configurations
 
 
 #: Every method with an integrator that goes with it, and a tolerance where that is adaptive (docs/methods.md); but the
@@ -182,9 +182,9 @@ DENSE = (
 )
 
 
-def every_method(shape: str) -> list[Asked]:
+def every_method(shape: str) -> list[Configuration]:
     """Return one run by every method."""
     return [
-        Asked(name, integrator, "straight" if name in DENSE and shape == "looped" else shape, rtol)
+        Configuration(name, integrator, "straight" if name in DENSE and shape == "looped" else shape, rtol)
         for name, (integrator, rtol) in METHODS.items()
     ]

@@ -18,10 +18,10 @@ def shrunk(job: Job) -> str:
 
     def bad(raw: Raw) -> bool:
         try:
-            found = compared(raw, job.asked, job.least)
+            line = compared(raw, job.configurations, job.least)
         except Exception:  # a piece that is no mechanism any more
             return False
-        return any(not run["honest"] for run in found.get("runs", ()))
+        return any(not run["honest"] for run in line.get("runs", ()))
 
     return text(smallest(draw(job.seed, job.index, job.spatial).raw, bad))
 
@@ -36,12 +36,12 @@ def smallest(raw: Raw, bad: Callable[[Raw], bool]) -> Raw:
     bad : callable
         Says whether a file still is.
     """
-    found = True
-    while found:
-        found = False
+    smaller_one = True
+    while smaller_one:
+        smaller_one = False
         for smaller in _smaller(raw):
             if bad(smaller):
-                raw, found = smaller, True
+                raw, smaller_one = smaller, True
                 break
     return raw
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,9 @@ from symgen.analyses.reduced import StateTangent, tangent
 from symgen.analyses.steady import at_rest, named_states, system
 from symgen.analyses.subject import Subject
 from symgen.errors import InputError
+
+if TYPE_CHECKING:
+    from scipy.signal import StateSpace
 
 Array = NDArray[np.float64]
 
@@ -68,7 +71,7 @@ class LinearSystem:
         """Return the eigenvalues of A, by decreasing real part, then by decreasing imaginary part."""
         return in_order(np.array(self.poles) if self.poles else eigenvalues_of(self.A)[0])
 
-    def state_space(self) -> Any:
+    def state_space(self) -> StateSpace:
         """Return the system as `scipy.signal.StateSpace`."""
         from scipy.signal import StateSpace
 

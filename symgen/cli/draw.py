@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     "--view",
     "angles",
     metavar="TURN,TILT",
-    show_default="where no body hides another",
+    show_default="34,24, or the view that hides least",
     help="In space: degrees about the vertical, and from above.",
 )
 @setting_options("parameters", "start")

@@ -134,7 +134,7 @@ def command(
             progress=progress,
         )
     tell(study.ensemble.notes)
-    tell(f"warning: in {count} of {len(study)} runs: {sentence}" for sentence, count in study.told())
+    tell(f"warning: in {count} of {len(study)} runs: {sentence}" for sentence, count in study.common_warnings())
     if as_json:
         write_json({**study.to_json(), "output": output})
     else:

@@ -11,7 +11,7 @@ import click
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
 from symgen.cli._options import examples, json_option, setting_options
 from symgen.errors import InputError
-from symgen.settings import Settings, flag, is_given, names
+from symgen.settings import Settings, flag, is_set, names
 
 if TYPE_CHECKING:
     from symgen.player.recording import Recording
@@ -135,5 +135,5 @@ def command(
 def _refuse(settings: Settings, allowed: Collection[str], what: str) -> None:
     """Refuse settings that mean nothing where nothing is run by them."""
     for name in names():
-        if name not in allowed and is_given(settings, name):
+        if name not in allowed and is_set(settings, name):
             raise InputError(flag(name), f"settings of {what}", "one of a run")

@@ -41,7 +41,7 @@ def weighed(choice: MethodChoice, massless: bool) -> MethodChoice:
     """
     if "weight" not in choice.options:
         return choice
-    return choice.given(weight="body" if massless else "mass")
+    return choice.with_options(weight="body" if massless else "mass")
 
 
 def choose_coordinates(mechanism: Mechanism, coordinates: str, shape: str) -> Taken:

@@ -64,7 +64,7 @@ class MethodChoice:
         """File stem of its module."""
         return self.method.stem(self.options, self.implicit)
 
-    def given(self, **options: str) -> MethodChoice:
+    def with_options(self, **options: str) -> MethodChoice:
         """Return the same with other values of some options."""
         return replace(self, options={**self.options, **options})
 
@@ -86,7 +86,7 @@ def for_coordinates(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:
     """Return a choice as the mechanism's coordinates say it: the metric of bodies is the identity in their own."""
     if mechanism.topology is not None or choice.options.get("weight") != "body":
         return choice
-    return choice.given(weight="identity")
+    return choice.with_options(weight="identity")
 
 
 def for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = True) -> MethodChoice:
@@ -101,7 +101,7 @@ def for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = True) ->
         return choice
     if choice.method.needs_regular_mass(choice.options):
         raise InputError(f"method '{choice.method.name}'", "one that does with massless bodies", "one that inverts M")
-    return choice.given(solver="augmented") if free and "solver" in choice.options else choice
+    return choice.with_options(solver="augmented") if free and "solver" in choice.options else choice
 
 
 def folder_of(mechanism: Mechanism) -> str:

@@ -224,7 +224,7 @@ def quantities(mechanism: Mechanism) -> tuple[tuple[Quantity, ...], tuple[Quanti
     return q, v
 
 
-def known_coordinates(mechanism: Mechanism, topology: Topology) -> dict[Measure, tuple[int, int, float]]:
+def state_measures(mechanism: Mechanism, topology: Topology) -> dict[Measure, tuple[int, int, float]]:
     """Return measures that are coordinates of the state: where they stand in q and v, and with which sign."""
     names, speeds = state_names(mechanism, topology)
     q, v = ({name: i for i, (name, _) in enumerate(part)} for part in (names, speeds))

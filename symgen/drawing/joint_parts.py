@@ -9,7 +9,7 @@ import numpy as np
 from symgen.describe.mechanism import Joint
 from symgen.describe.topology import articulation_of
 from symgen.drawing.pen import EARTH, FILLED, PLAIN, BodyPoint, Pen, PlacedMechanism, across, parts
-from symgen.drawing.scene import COLOURS, GREY, GROUNDED, Array, Look, Mark
+from symgen.drawing.scene import GREY, GROUNDED, Array, Look, Mark
 from symgen.vocabulary.measures import Component, Sum, Turning
 
 DRIVE = Look("#a0522d", "", 1.6)
@@ -102,7 +102,7 @@ def wheel_marks(
     pen: Pen, centre: BodyPoint, axis: Array, radius: float, body: str, look: Look | None = None
 ) -> list[Mark]:
     """Return a circle with a spoke, in the colour of its body."""
-    colour = COLOURS[pen.numbers.index[body] % len(COLOURS)] if body in pen.numbers.index else GREY
+    colour = pen.colour(pen.numbers.index[body])
     at = pen.numbers.out(centre)
     ring = pen.ring(centre.body, at, axis, radius, look or Look(colour, colour, 1.6, 0.13))
     rim = pen.numbers.now.out(ring.body, ring.points)

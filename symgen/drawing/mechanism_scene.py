@@ -15,7 +15,6 @@ from symgen.drawing.force_parts import force_item
 from symgen.drawing.joint_parts import along_of
 from symgen.drawing.pen import RIGID, BodyPoint, Pen, PlacedMechanism, across, parts
 from symgen.drawing.scene import (
-    COLOURS,
     GROUNDED,
     Array,
     Disc,
@@ -150,7 +149,7 @@ def _body_item(pen: Pen, body: AnyBody, points: list[Point], guided: set[str]) -
     """Return a body: its shape where it has one, else an outline of its points, and its centre of mass."""
     numbers = pen.numbers
     i = numbers.index[body.name]
-    colour = COLOURS[i % len(COLOURS)]
+    colour = pen.colour(i)
     centre = BodyPoint(i, (0.0, 0.0, 0.0))
     if "." in body.name:  # a node of a beam, whose elements draw it
         return Item("body", body.name, "node", (pen.dot(centre, 0.18, RIGID),), label=(i, (0.0, 0.0, 0.0)))

@@ -47,7 +47,19 @@ class Circle:
 
 @dataclass(frozen=True)
 class Drawn:
-    """An item on paper: its parts, how near it is, and where its name stands."""
+    """An item on paper.
+
+    Attributes
+    ----------
+    item : Item
+        Of the scene.
+    parts : tuple of Path or Circle
+        From the back to the front.
+    depth : float
+        Of its farthest point, so that a small item inside a large one is drawn after it [m].
+    label : (float, float) or None
+        Place of its name.
+    """
 
     item: Item
     parts: tuple[Path | Circle, ...]
@@ -107,13 +119,13 @@ def _drawn(item: Item, poses: Poses, eye: Array) -> Drawn:
     depths: list[float] = []
     for mark in item.marks:
         for points, part in _parts(mark, poses, eye):
-            depths.append(float(points[:, 2].mean()))
+            depths.append(float(points[:, 2].min()))
             parts.append(part)
     label = None
     if item.label is not None:
         x, y, _ = eye @ poses.out(item.label[0], [item.label[1]])[0]
         label = float(x), float(y)
-    return Drawn(item, tuple(parts), float(np.mean(depths)) if depths else 0.0, label)
+    return Drawn(item, tuple(parts), min(depths, default=0.0), label)
 
 
 def _parts(mark: Mark, poses: Poses, eye: Array) -> Iterator[tuple[Array, Path | Circle]]:

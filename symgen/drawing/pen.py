@@ -13,6 +13,7 @@ import numpy as np
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import AnyBody, Mechanism
 from symgen.drawing.scene import (
+    COLOURS,
     GREY,
     GROUNDED,
     INK,
@@ -160,6 +161,10 @@ class Pen:
     def __init__(self, numbers: PlacedMechanism, unit: float, up: Point) -> None:
         self.numbers, self.unit, self.up = numbers, unit, np.array(up)
         self.carried: list[CarriedFrame] = []
+
+    def colour(self, body: int) -> str:
+        """Return the colour of a body; the ground is grey."""
+        return GREY if body == GROUNDED else COLOURS[body % len(COLOURS)]
 
     def carry(self, place: BodyPoint, turned: int) -> int:
         """Return the number of a frame that goes with a point and has the directions of a body, or of the ground.

@@ -23,7 +23,7 @@ from symgen.drawing.joint_parts import (
     wheel_marks,
 )
 from symgen.drawing.pen import RIGID, BodyPoint, Pen, PlacedMechanism, across, parts
-from symgen.drawing.scene import COLOURS, GREY, GROUNDED, PAPER, RED, Array, Item, Line, Look, Mark
+from symgen.drawing.scene import GREY, GROUNDED, PAPER, RED, Array, Item, Line, Look, Mark
 from symgen.vocabulary.measures import AnyAngle, Component, LinkStretch, PointSpeed, RimHeight, RollingSpeed, Sum, Turn
 
 
@@ -217,7 +217,8 @@ def _shaft(pen: Pen, joint: Joint) -> list[Mark]:
     marks: list[Mark] = [*grounded(pen, (stand, b)), pen.tube(a.body, *ends, 0.2, Look(GREY, "#d4dae1", 0.8))]
     if joint.kind == "translational":
         frame = np.stack([axis, *across(axis)])
-        marks.append(pen.box(b.body, on, frame, np.array([1.8, 1.0, 1.0]) * u, Look("#20262e", "#dfe4ea", 1.0)))
+        look = Look("#20262e", pen.colour(b.body), 1.0, 0.45)
+        marks.append(pen.box(b.body, on, frame, np.array([1.8, 1.0, 1.0]) * u, look))
         return marks
     marks.append(pen.tube(b.body, on - 0.9 * u * axis, on + 0.9 * u * axis, 0.45))
     if joint.kind == "screw":
@@ -276,7 +277,7 @@ def _round(pen: Pen, joint: Joint) -> list[Mark]:
     axis = rims[0].axis
     if axis is not None:
         return [plane, *wheel_marks(pen, centre, numbers.direction(axis), radius, joint.bodies[0])]
-    colour = COLOURS[centre.body % len(COLOURS)]
+    colour = pen.colour(centre.body)
     ball = replace(pen.dot(centre, 1.0, Look(colour, colour, 1.2, 0.2)), radius=radius)
     rings = [pen.ring(centre.body, numbers.out(centre), e, radius, Look(colour, "", 0.7)) for e in np.eye(3)]
     return [plane, ball, *rings]

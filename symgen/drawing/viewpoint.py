@@ -1,51 +1,49 @@
-"""From where a scene in space is seen unless a view is set: from where no body hides another one."""
+"""The view of a scene in space unless one is set: one in which every body can be recognised."""
 
 from __future__ import annotations
 
-from itertools import product
+from dataclasses import replace
+from itertools import product, starmap
 
 import numpy as np
 
-from symgen.drawing.paper import View, axes
+from symgen.drawing.paper import Circle, Path, View, axes, on_paper
 from symgen.drawing.scene import Array, Disc, Line, Mark, Poses, Scene, Solid, Tube
 
-#: The usual view, and how much each body has to be seen beside all others, as a part of what there is of it.
-USUAL, ENOUGH = View(), 0.4
-#: Further turns and tilts in the order in which they are tried [rad].
+#: The usual view, and how much of each body it has to show (see `_least_shown`).
+USUAL, ENOUGH = View(), 0.95
+#: Turns and tilts of the views to choose from [rad].
 TURNS = (0.6, 0.9, 0.3, 1.2, 0.0, -0.3, -0.6, -0.9, -1.2, 1.57)
 TILTS = (0.42, 0.62, 0.22)
-#: How far bodies are apart in a picture where none hides the other, in units; points along a bar, and of all bodies.
-APART, ALONG, MOST = 2.0, 24, 300
+#: Points along a bar, and of all bodies.
+ALONG, MOST = 24, 300
 
 
 def viewpoint(scene: Scene, q: Array) -> View:
-    """Return the first view in which every body is seen for the most part, or else that in which most of each is.
+    """Return the usual view where it shows enough of every body, or else the one with the largest least share.
 
     Parameters
     ----------
     scene : Scene
         What is drawn; in the plane there is one view.
     q : Array, shape (nq,)
-        Where it is.
+        Coordinates of all bodies.
     """
     if not scene.spatial:
         return USUAL
-    poses, clouds = scene.poses(q), list[Array]()
+    poses, clouds = scene.poses(q), dict[str, Array]()
     for item in scene.items:
         points = [p for mark in item.marks for p in _points(mark, poses)] if item.role == "body" else []
         if points:
-            clouds.append(np.concatenate(points))
-    every = max(1, sum(map(len, clouds)) // MOST)
-    clouds = [cloud[::every] for cloud in clouds]
-    best, view = -1.0, USUAL
-    for tilt, turn in product(TILTS, TURNS):
-        candidate = View(turn, tilt)
-        least = _least_seen(clouds, axes(scene, candidate), APART * scene.unit)
-        if least > best + 1e-9:
-            best, view = least, candidate
-        if best >= ENOUGH:
-            break
-    return view
+            clouds[item.name] = np.concatenate(points)
+    every = max(1, sum(map(len, clouds.values())) // MOST)
+    clouds = {name: cloud[::every] for name, cloud in clouds.items()}
+    bodies = replace(scene, items=tuple(x for x in scene.items if x.role == "body" and x.name in clouds))
+
+    def least(view: View) -> float:
+        return round(_least_shown(bodies, q, clouds, view), 9)  # views that differ by rounding are alike
+
+    return USUAL if least(USUAL) >= ENOUGH else max(starmap(View, product(TURNS, TILTS)), key=least)
 
 
 def _points(mark: Mark, poses: Poses) -> list[Array]:
@@ -60,15 +58,36 @@ def _points(mark: Mark, poses: Poses) -> list[Array]:
     return [poses.out(mark.body, [mark.at])] if isinstance(mark, Disc) and not mark.mass else []
 
 
-def _least_seen(clouds: list[Array], eye: Array, apart: float) -> float:
-    """Return the part of the body that is seen least: how much of it is clear of all others, and how long it looks."""
-    flat = [cloud @ eye[:2].T for cloud in clouds]
-    owner = np.concatenate([np.full(len(cloud), k) for k, cloud in enumerate(clouds)] or [np.zeros(0)])
-    everyone = np.concatenate(flat or [np.zeros((0, 2))])
-    parts = [1.0]
-    for k, own in enumerate(flat):
-        others = everyone[owner != k]
-        away = np.hypot(*(own[:, None] - others[None]).transpose(2, 0, 1)).min(axis=1, initial=np.inf)
-        whole, seen = (float(np.linalg.norm(np.ptp(points, axis=0))) for points in (clouds[k], own))
-        parts.append(float(np.mean(away > apart)) * (seen / whole if whole else 1.0))
-    return min(parts)
+def _least_shown(bodies: Scene, q: Array, clouds: dict[str, Array], view: View) -> float:
+    """Return how much is shown of the body that is shown least.
+
+    That is the visible share of its points, areas in front of a point counting with their opacity, or twice the ratio
+    of its length on paper to its length in space where that is less.
+    """
+    eye, drawn = axes(bodies, view)[:2], on_paper(bodies, q, view)
+    own = [clouds[each.item.name] for each in drawn]
+    ends = np.cumsum([0, *map(len, own)])
+    points = np.concatenate([np.zeros((0, 2)), *(cloud @ eye.T for cloud in own)])
+    clear = np.ones(len(points))
+    for end, each in zip(ends, drawn, strict=False):
+        for part in each.parts:
+            clear[:end][_inside(part, points[:end])] *= 1.0 - part.look.opacity
+    least = 1.0
+    for cloud, start, end in zip(own, ends[:-1], ends[1:], strict=True):
+        whole, seen = (float(np.linalg.norm(np.ptp(x, axis=0))) for x in (cloud, points[start:end]))
+        least = min(least, float(clear[start:end].mean()), 2.0 * seen / whole if whole else 1.0)
+    return least
+
+
+def _inside(part: Path | Circle, points: Array) -> Array:
+    """Return which points the area of a part covers, shape (k,)."""
+    if isinstance(part, Circle):
+        return np.asarray(np.hypot(points[:, 0] - part.x, points[:, 1] - part.y) < part.radius)
+    if not (part.closed and part.look.fill):
+        return np.zeros(len(points), dtype=bool)
+    inside = np.all((points > part.points.min(axis=0)) & (points < part.points.max(axis=0)), axis=1)
+    (x, y), (ax, ay), (bx, by) = points[inside].T[:, :, None], part.points.T, np.roll(part.points, -1, axis=0).T
+    passed = (ay > y) != (by > y)  # edges that a ray from the point to the right may cross
+    beyond = ((bx - ax) * (y - ay) - (x - ax) * (by - ay)) * np.sign(by - ay) > 0.0
+    inside[inside] = np.sum(passed & beyond, axis=1) % 2 == 1
+    return np.asarray(inside)

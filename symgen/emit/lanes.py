@@ -95,9 +95,9 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     title = f"Method `{info.method}` for model `{model.name}` in lanes, for {LANES} runs at once."
     header = [*law_header(info, summary, reference, made), *_ABOUT.format(lanes=LANES, **bases).split("\n")]
     shared = ("sine", "cosine", *table_names(model.tables, slopes=False))
-    known = {name: (f"model{SUFFIXES['lanes']}", name) for name in shared}
+    imported = {name: (f"model{SUFFIXES['lanes']}", name) for name in shared}
     offsets = {name: (at, "places in z") for name, at in {"numbers": bases["numbers"], **constants}.items()}
-    return module(title, header, codes, known, offsets)
+    return module(title, header, codes, imported, offsets)
 
 
 def _over_lanes(block: Block, access: LaneAccess, turning: Container[int]) -> ModulePiece:

@@ -85,7 +85,7 @@ class LoopRuns:
         """
         recipe, compiled, setup, summary = self.recipe, self.compiled, self.setup, out.summary
         info, model, law, adaptive = compiled.info, compiled.model, compiled.law_module, recipe.spec.adaptive
-        rates, sizes, span, kept = rates_of(law), sizes_of(compiled), span_of(recipe.spec, setup), self._kept()
+        rates, sizes, span, series = rates_of(law), sizes_of(compiled), span_of(recipe.spec, setup), self._series()
         sources = {*self.picks[::2].tolist()}
         needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if self.width is None else set())
         observe = model.observe if self.width is None else model.bodies
@@ -100,11 +100,11 @@ class LoopRuns:
         results = out.values.reshape(-1), summary.reshape(-1), out.events.reshape(-1)
         arrays = (selected, *(x.ravel() for x in starts), recipe.limits, self.picks, *results)
         chunk = RowChunk._make((*arrays, *wants, *places))
-        room = max(setup.room, 2 * info.ny + kept.observed.rows.shape[1])
+        room = max(setup.room, 2 * info.ny + series.observed.rows.shape[1])
         state = new_state(compiled, sizes, setup.memory, room)._replace(control=control)
         observers = sizes, *rates, law.accept, observe
         if self.lanes is not None:
-            if self._in_lanes(self.lanes, observers, span, chunk, state, kept) < len(selected):
+            if self._in_lanes(self.lanes, observers, span, chunk, state, series) < len(selected):
                 return False
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
         system, inner = (sizes, *setup.functions), self.integrator.loop(adaptive)
@@ -117,10 +117,10 @@ class LoopRuns:
         loop = over_rows(self.integrator.loop(adaptive), self.watched is not None, recipe.stops)
         if recipe.stops:
             system = with_table(compiled, system, inner, adaptive, rows.stops or ((),))
-        done = loop((system, observers), setup.scheme, span, chunk, state, kept)
+        done = loop((system, observers), setup.scheme, span, chunk, state, series)
         return bool(done == len(chunk.selected))
 
-    def _kept(self) -> Kept:
+    def _series(self) -> Kept:
         """Return room for the outputs of one run, and for what is observed at them."""
         times, info = self.recipe.times, self.compiled.info
         k, rows = len(times), info.observed if self.width is None else self.width
@@ -128,7 +128,7 @@ class LoopRuns:
         return Kept(new_outputs(info, times), observed)
 
     def _in_lanes(
-        self, lanes: CompiledModel, observers: tuple[Any, ...], span: Span, chunk: RowChunk, state: State, kept: Kept
+        self, lanes: CompiledModel, observers: tuple[Any, ...], span: Span, chunk: RowChunk, state: State, series: Kept
     ) -> int:
         """Run selected rows several at once; those that single runs have to do get the code `LEFT` in the summary.
 
@@ -139,7 +139,7 @@ class LoopRuns:
         observers : tuple
             The sizes of the model, and what single runs call at outputs: rates and their confirmation, ``accept``,
             ``observe``.
-        span, chunk, state, kept
+        span, chunk, state, series
             As for `symgen.runtime.rows.run_rows`.
 
         Returns
@@ -150,10 +150,10 @@ class LoopRuns:
         from symgen.runtime.lanes import lane_runs, room_of_lanes
 
         info, law, scheme, (sizes, *others) = lanes.info, lanes.law_module, self.setup.scheme, observers
-        lengths = len(state.p), len(state.w), info.windings, len(kept.outputs.times)
+        lengths = len(state.p), len(state.w), info.windings, len(series.outputs.times)
         state = state._replace(room=aligned(room_of_lanes(info.ny, scheme.stages, *lengths)))
         wide = sizes._replace(width=LANES * lane_bases(info.ny, 0, 0)["ydot"])
-        return int(lane_runs((wide, law.rhs, law.accept, *others), scheme, span, chunk, state, kept))
+        return int(lane_runs((wide, law.rhs, law.accept, *others), scheme, span, chunk, state, series))
 
 
 @dataclass(frozen=True)

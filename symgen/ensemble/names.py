@@ -155,10 +155,10 @@ def targets_of(names: Names, varied: Sequence[str], holds: Sequence[Hold], info:
 
     joints = [quantity.name for quantity in info.joint_coordinates]
     coordinates, turned, rates = map(among, (names.coordinates, joints, [f"{name}.rate" for name in joints]))
-    kept = [names.velocities.index(hold.name) for hold in others if hold.name in names.velocities]
+    columns = [names.velocities.index(hold.name) for hold in others if hold.name in names.velocities]
     held = Held(
         coordinates=dict.fromkeys(coordinates.values(), 0.0),
-        velocities=dict.fromkeys(kept, 0.0),
+        velocities=dict.fromkeys(columns, 0.0),
         fixed=tuple(sorted({j for name in places for j in _columns(name, info)})),
         joints=dict.fromkeys(turned.values(), 0.0),
         rates=dict.fromkeys(rates.values(), 0.0),

@@ -155,12 +155,12 @@ class SingleRuns:
         count = int(simulation.state.control[abi.OUTPUTS])
         shown = outcome if tree is None else tree.carried(outcome)
         late = self.watch.ends and len(shown.times) > count  # an event has ended it
-        outputs_kept = slice(-1, None) if late else slice(count)
+        instants = slice(-1, None) if late else slice(count)
         columns = self._columns(shown, out.summary[r, e.REDUNDANT_ROWS] == 0.0)
-        size = columns[:, outputs_kept].shape[1]
-        out.values[r, :, :size] = columns[:, outputs_kept]
+        size = columns[:, instants].shape[1]
+        out.values[r, :, :size] = columns[:, instants]
         if self.measures is not None and size:
-            out.behind[r, :, :size] = self._behind(self.measures, shown, columns)[:, outputs_kept]
+            out.behind[r, :, :size] = self._behind(self.measures, shown, columns)[:, instants]
         return True
 
     def _events(self, rows: Rows, r: int) -> Watched | None:

@@ -119,15 +119,15 @@ def sweep(
         expected = "the address of a Dask scheduler, or a client"
         raise InputError("scheduler", expected, arguments.shown(scheduler))
     varied = {
-        what: arguments.mapping(what, given, "values by the names of what varies")
-        for what, given in (("vary", vary), ("runs", runs))
+        what: arguments.mapping(what, values, "values by the names of what varies")
+        for what, values in (("vary", vary), ("runs", runs))
     }
-    kept = None if quantities is None else arguments.words("quantities", quantities)
+    names = None if quantities is None else arguments.words("quantities", quantities)
     path = None if output is None else arguments.path("output", output)
     folder = None if path is None else folder_of(path, resume)
     if resume and path is None:
         raise InputError("resume", "an output that was begun", "none")
-    ensemble = make_ensemble(load(model), changed(settings, changes), varied["vary"], varied["runs"], kept, target)
+    ensemble = make_ensemble(load(model), changed(settings, changes), varied["vary"], varied["runs"], names, target)
     _check_room(ensemble, path, folder)
     table = (
         RowTable(*ensemble.sizes)

@@ -271,7 +271,7 @@ def make_ensemble(
 
     compiled, spare = with_sums(compiled), None
     if plan.solver_is_free:  # the few runs with light bodies are not worth lanes of their own
-        choice = plan.choice.given(solver="augmented")
+        choice = plan.choice.with_options(solver="augmented")
         other, where = with_sums(compile_model(mechanism, choice)), "cpu" if target == "lanes" else target
         spare = _code(mechanism, choice, other, where, joint, kept)
     recipe = Recipe(

@@ -26,37 +26,37 @@ def sweep_figure(sweep: Sweep, what: Sequence[str], over: str) -> Any:
     InputError
         If a quantity was not kept.
     """
-    kept = {signal.name: signal for signal in sweep.ensemble.recipe.quantities}
-    tables, model = {name: signal.table for name, signal in kept.items()}, sweep.ensemble.model.name
-    names = [*choose(tables, what, model, (*TABLES,))] if what else [*kept]
+    signals = {signal.name: signal for signal in sweep.ensemble.recipe.quantities}
+    tables, model = {name: signal.table for name, signal in signals.items()}, sweep.ensemble.model.name
+    names = [*choose(tables, what, model, (*TABLES,))] if what else [*signals]
     varied, times = sweep.ensemble.grid.values(0, len(sweep)), sweep.ensemble.recipe.spec.times
     over = over or ("t" if len(times) > 1 else next(iter(varied)))
-    if over not in ("t", *varied, *kept):
+    if over not in ("t", *varied, *signals):
         expected = "t, what varies, or a quantity that was kept"
-        raise InputError("over", expected, quoted(over), nearest(over, ("t", *varied, *kept)))
+        raise InputError("over", expected, quoted(over), nearest(over, ("t", *varied, *signals)))
     shown = [name for name in names if name != over][:MOST_PANELS]
     count = "" if len(names) <= MOST_PANELS else f", the first {MOST_PANELS} of {len(names)} quantities"
     end = f" at t = {times[-1]:g} s" if over in varied and len(times) else ""
     figure, axes = empty(f"{model}, {len(sweep)} runs{end}{count}", len(shown))
-    lines = [*_lines(sweep, over, varied, kept)]
+    lines = [*_lines(sweep, over, varied, signals)]
     for ax, name in zip(axes, shown, strict=False):
-        place = [*kept].index(name)
+        place = [*signals].index(name)
         for i, (text, along, runs) in enumerate(lines):
             values = sweep.values[runs, place, -1] if over in varied else sweep.values[runs[0], place]
             ax.plot(along, values, label=text, marker="." if len(along) < 2 else None, **style(i, len(lines)))
-        ax.set_ylabel(label(name, kept[name].unit))
+        ax.set_ylabel(label(name, signals[name].unit))
         if 1 < len(lines) <= LONGEST_LEGEND:
             legend(ax)
     if len(lines) > LONGEST_LEGEND:
         ends = f"dark: {lines[0][0]}; light: {lines[-1][0]}"
         axes[0].set_title(ends, fontsize=8, loc="left")
-    units = {"t": "s"} | sweep.units() | {name: signal.unit for name, signal in kept.items()}
+    units = {"t": "s"} | sweep.units() | {name: signal.unit for name, signal in signals.items()}
     axes[-1].set_xlabel(label(over, units[over]))
     return figure
 
 
 def _lines(
-    sweep: Sweep, over: str, varied: dict[str, Array], kept: dict[str, Signal]
+    sweep: Sweep, over: str, varied: dict[str, Array], signals: dict[str, Signal]
 ) -> Iterator[tuple[str, Array, Any]]:
     """Yield the lines of each panel: what tells one from the others, where its points are, and its runs."""
     with_it = next((axis.values for axis in sweep.ensemble.grid.axes if over in axis.values), {})
@@ -74,5 +74,5 @@ def _lines(
             along = varied[over][runs]
         else:
             times = sweep.ensemble.recipe.spec.times
-            along = times if over == "t" else sweep.values[runs[0], [*kept].index(over)]
+            along = times if over == "t" else sweep.values[runs[0], [*signals].index(over)]
         yield text, np.asarray(along), runs

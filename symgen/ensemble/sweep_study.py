@@ -131,7 +131,7 @@ class Sweep:
         most = whole("most", most, 0, 10**9)
         return kinds.most_common(most)
 
-    def told(self) -> list[tuple[str, int]]:
+    def common_warnings(self) -> list[tuple[str, int]]:
         """Return one of the warnings of each kind, that of the first run, with the number of runs it is said of."""
         first, count = dict[str, str](), Counter[str]()
         for sentences, runs in Counter(self.warnings).items():  # most have none, or the same
@@ -211,7 +211,7 @@ class Sweep:
                 },
                 "status": {name.replace(" ", "_"): count for name, count in counts.items()},
                 "reasons": [{"reason": reason, "runs": count} for reason, count in self.reasons()],
-                "warnings": [{"warning": sentence, "runs": count} for sentence, count in self.told()],
+                "warnings": [{"warning": sentence, "runs": count} for sentence, count in self.common_warnings()],
                 "seconds": self.seconds,
                 "interrupted": self.interrupted,
             }

@@ -218,7 +218,7 @@ class FolderTable(RowTable):
 
     def _read_log(self) -> None:
         path = self.folder / DONE
-        content, kept = path.read_bytes() if path.exists() else b"", b""
+        content, log = path.read_bytes() if path.exists() else b"", b""
         for line in content.split(b"\n")[:-1]:  # behind the last line end is a line that a kill tore, or nothing
             match = _LINE.fullmatch(line)
             index = int(match[1]) if match else self.chunks
@@ -226,9 +226,9 @@ class FolderTable(RowTable):
             own = _line(index, self.values[first:last].tobytes(), self.summary[first:last].tobytes())
             if index < self.chunks and index not in self.finished and own == line + b"\n":
                 self.finished.add(index)
-                kept += line + b"\n"
-        if kept != content:
-            write_whole(path, kept)
+                log += line + b"\n"
+        if log != content:
+            write_whole(path, log)
         self._log = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
 
     def _write(self, index: int, chunk: Chunk) -> None:

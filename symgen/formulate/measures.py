@@ -300,8 +300,8 @@ class ModelNodes(Formulas):
             assert not isinstance(leaf.source, Exerted | Driven | Integral | Flexed), "rows read measures"
             return self.motion(leaf.source)
         body, _, label = leaf.name.partition(".")
-        known = self.mechanism.body(body)
-        labels = known.speeds if is_speed(leaf.name) else known.coordinates
+        owner = self.mechanism.body(body)
+        labels = owner.speeds if is_speed(leaf.name) else owner.coordinates
         value = self.names[leaf.name]
         return DerivedMeasure(value, {self.first[body] + labels.index(label): self.graph.one}, self.graph.zero)
 

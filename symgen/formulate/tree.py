@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from symgen.describe.mechanism import Link, SpatialBody
-from symgen.describe.topology import known_coordinates
+from symgen.describe.topology import state_measures
 from symgen.formulate.equations import DriverPower, MassBlock, mass_blocks
 from symgen.formulate.of_time import Coordinate, prescribed_coordinates
 
@@ -39,7 +39,7 @@ class Tree(ABC):
     coordinates : dict of int to Coordinate
         The coordinates of joints by `Coordinate.number`.
     measures : dict
-        Measures that are coordinates of the state, see `symgen.describe.topology.known_coordinates`.
+        Measures that are coordinates of the state, see `symgen.describe.topology.state_measures`.
     """
 
     def __init__(self, model: ModelNodes) -> None:
@@ -61,7 +61,7 @@ class Tree(ABC):
         self.columns += [{i: g.one} for i in range(self.size)]
         self.velocities = (*velocities, *(g.input("v", i) for i in range(self.size)))
         self.biases = (*biases, *(g.zero for _ in range(self.size)))
-        self.measures = known_coordinates(model.mechanism, topology)
+        self.measures = state_measures(model.mechanism, topology)
 
     @abstractmethod
     def begin(self) -> None:

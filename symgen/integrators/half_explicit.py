@@ -1,4 +1,4 @@
-"""A half-explicit Runge-Kutta scheme of order 3 on index 2: its stages meet D v = nu."""
+"""A half-explicit Runge-Kutta scheme of order 3 on index 2: its stages satisfy D v = nu."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Collocation at nine Lobatto points, iterated after Picard with all nodes at once in vectors."""
+"""Collocation at nine Lobatto points, with Picard iteration at all nodes at once in vectors."""
 
 from __future__ import annotations
 

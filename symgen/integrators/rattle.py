@@ -1,4 +1,4 @@
-"""RATTLE: two halves of velocities around one step of positions; order 2, its own adjoint."""
+"""RATTLE: two half steps of velocities around one step of positions; order 2, its own adjoint."""
 
 from __future__ import annotations
 

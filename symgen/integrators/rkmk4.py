@@ -1,4 +1,4 @@
-"""The classical scheme of order 4 on the rotation group (Runge-Kutta-Munthe-Kaas): bodies turn by exponentials.
+"""The classical scheme of order 4 on the rotation group (Runge-Kutta-Munthe-Kaas): bodies rotate by exponentials.
 
 In the plane it is `rk4`. In space Euler parameters keep their length by construction.
 """

@@ -1,4 +1,4 @@
-"""The classical scheme of order 4 on SE(3): bodies turn and move by exponentials of screws, as `rkmk4` turns them."""
+"""The classical scheme of order 4 on SE(3): bodies rotate and translate by exponentials of screws."""
 
 from __future__ import annotations
 

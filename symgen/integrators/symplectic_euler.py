@@ -1,4 +1,4 @@
-"""The symplectic Euler scheme: order 1, one evaluation a step, the one of game engines."""
+"""The symplectic Euler scheme: order 1, one evaluation per step, used by game engines."""
 
 from __future__ import annotations
 

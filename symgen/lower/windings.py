@@ -8,7 +8,7 @@ from typing import Any
 
 from symgen.describe.mechanism import Force, Joint, Mechanism
 from symgen.describe.repeats import without_repeats
-from symgen.describe.topology import known_coordinates
+from symgen.describe.topology import state_measures
 from symgen.vocabulary.expressions import Reading, moving, readings
 from symgen.vocabulary.measures import FormulaMeasure, FormulaSpeed, Holonomic, Measure, Sum, Turning
 
@@ -66,7 +66,7 @@ def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
     """
     if mechanism.space == "planar":
         return ()
-    coordinates = {} if mechanism.topology is None else known_coordinates(mechanism, mechanism.topology)
+    coordinates = {} if mechanism.topology is None else state_measures(mechanism, mechanism.topology)
     distinct, _ = without_repeats(mechanism)
     efforts = [m for force in distinct.forces for m in measures_of(force)]
     efforts += [rotor.angle for rotor in distinct.rotors]

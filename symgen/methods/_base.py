@@ -1,4 +1,4 @@
-"""What a constraint stabilisation method is: an acceleration law, a correction after each accepted step, parameters.
+"""Constraint stabilisation methods: an acceleration law, a correction after each accepted step, parameters.
 
 A method is a formula over named blocks (`symgen.methods._formula.System`), lowered like everything else, so one file
 serves every layout of the emitted code.

@@ -1,4 +1,4 @@
-"""What a method may ask of the equations of motion, and the values it gets: formulas on whole vectors.
+"""Formulas on whole vectors: the operations that methods apply to the equations of motion, and their values.
 
 Nothing is computed while a method writes its law. Every value stands for an operation on a `Tape`, which holds what was
 asked for in the order in which it was asked for. Code for one mechanism replays the tape element by element
@@ -38,7 +38,7 @@ class FormulaStep:
 
 @dataclass(eq=False)
 class Tape:
-    """Operations in the order in which they were asked for; the same operation stands there once.
+    """Operations in the order of their first use, each of them once.
 
     Attributes
     ----------
@@ -86,7 +86,7 @@ def needed(ends: Iterable[int], operands: Callable[[int], tuple[int, ...]]) -> l
 
 @dataclass(frozen=True, eq=False)
 class Value:
-    """What an operation gives."""
+    """The result of an operation."""
 
     tape: Tape
     index: int

@@ -1,4 +1,4 @@
-"""Baumgarte stabilisation with gains that follow the step size."""
+"""Baumgarte stabilisation with gains that depend on the step size."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _ZERO = (1.729444231067705, 0.8889743761218646)
 
 
 class AdaptiveBaumgarte(MultiplierMethod):
-    """`baumgarte` with gains that follow the step h.
+    """`baumgarte` with gains that depend on the step h.
 
     ``rule=gain``: ``alpha = beta = min(gain, a / h)``, our own: a / h keeps the root inside the region of stability of
     every explicit integrator but `abm`, whatever the step, and `gain` bounds it where steps are short. ``rule=taylor``:

@@ -1,4 +1,4 @@
-"""Elimination of drift after Braun and Goldfarb: violations are to vanish within a step."""
+"""Elimination of drift after Braun and Goldfarb: gains of 1/h close violations within a few steps."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from symgen.methods.invariant_stabilization import InvariantStabilization
 
 
 class BraunGoldfarb(InvariantStabilization):
-    """`invariant-stabilization` with kappa = 1 / h, h being the step that is taken.
+    """`invariant-stabilization` with kappa = 1 / h, where h is the current step.
 
     ``q' = N (v - M^-1 D^T S^-1 (w + Phi / h))``, ``D v' = gamma - w / h``: the smallest changes of velocities and
     accelerations in the metric of M that close positions and velocities at the end of an Euler step. Schemes of higher

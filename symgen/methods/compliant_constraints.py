@@ -1,4 +1,4 @@
-"""Constraints that give way: S + e in place of S, regular whatever the rank of D."""
+"""Compliant constraints: S + e in place of S, regular for any rank of D."""
 
 from __future__ import annotations
 

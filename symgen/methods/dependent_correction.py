@@ -1,4 +1,4 @@
-"""Correction of dependent coordinates alone: independent ones stay as the integrator leaves them."""
+"""Correction of dependent coordinates alone: independent ones keep the integrator's values."""
 
 from __future__ import annotations
 

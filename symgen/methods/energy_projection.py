@@ -1,4 +1,4 @@
-"""Energy projection: after the mass-orthogonal correction, velocities are scaled to the balance of energy."""
+"""Energy projection: after the mass-orthogonal correction, velocities are scaled so that the energy balances."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Half-explicit Runge-Kutta: every explicit stage meets the velocity constraint, by its own multipliers."""
+"""Half-explicit Runge-Kutta: every explicit stage satisfies the velocity constraint by its own multipliers."""
 
 from __future__ import annotations
 

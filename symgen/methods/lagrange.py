@@ -1,4 +1,4 @@
-"""Standard Lagrange multipliers: index-1 form, nothing against drift."""
+"""Standard Lagrange multipliers: index-1 form without stabilisation."""
 
 from __future__ import annotations
 

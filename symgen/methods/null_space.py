@@ -1,4 +1,4 @@
-"""Null-space method: accelerations in a basis of the tangent space that is carried on from step to step."""
+"""Null-space method: accelerations in a basis of the tangent space that is continued from step to step."""
 
 from __future__ import annotations
 

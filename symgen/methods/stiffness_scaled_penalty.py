@@ -1,4 +1,4 @@
-"""Multipliers by penalties like the stiffness of rows: redundant rows share their load."""
+"""Multipliers by penalties in proportion to stiffness: redundant rows share the load."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _HEAVY, _PASSES = 1e6, 6
 
 
 class StiffnessScaledPenalty(Method):
-    """The motion of `direct-correction`; of all multipliers that give it, those of rows that give in proportion to k.
+    """The motion of `direct-correction` with the multipliers of elastic rows of stiffness k.
 
     The force of constraints F = D^T lambda is known from the rows that are independent. ``(M + D^T a D) z = F``,
     ``lambda += a D z``, ``F -= D^T a D z`` with penalties a like the stiffness k, of redundant rows as well, gives

@@ -144,7 +144,7 @@ def at_start(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, Mechan
     run = prepare(structs.replace(mechanism, outputs=()), settings, Purpose.STATE)
     choice, solver = run.plan.choice, str(run.compiled.law.options.get("solver", ""))
     if solver and solver != choice.options["solver"]:  # bodies are light
-        choice = choice.given(solver=solver)
+        choice = choice.with_options(solver=solver)
     return run, mechanism if run.tree is None else run.mechanism, choice
 
 

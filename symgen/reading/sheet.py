@@ -201,8 +201,8 @@ class Sheet:
         e = self.equations
         own, inputs = (tuple(p for p in e.parameters if (p.name in e.inputs) == is_input) for is_input in (False, True))
         states = [("States", e.states)] if e.states else []
-        known = [("Coordinates", e.coordinates), ("Velocities", e.velocities)]
-        return [*known, *states, ("Parameters", own), ("Inputs", inputs)]
+        moving = [("Coordinates", e.coordinates), ("Velocities", e.velocities)]
+        return [*moving, *states, ("Parameters", own), ("Inputs", inputs)]
 
 
 def indexed(letter: str, index: str) -> Box:

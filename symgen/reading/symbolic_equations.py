@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from html import escape
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import sympy as sp
 
@@ -29,10 +29,13 @@ if TYPE_CHECKING:
 LARGEST = 30_000
 
 
-class _Lazy(cached_property[Any]):
-    """A value that is computed at its first use, with its docstring."""
+T = TypeVar("T")
 
-    def __init__(self, doc: str, make: Callable[[Any], Any]) -> None:
+
+class _Lazy(cached_property[T], Generic[T]):
+    """A value that is computed at its first use, with its docstring and type."""
+
+    def __init__(self, doc: str, make: Callable[[Any], T]) -> None:
         super().__init__(make)
         self.__doc__ = doc
 
@@ -83,41 +86,45 @@ class SymbolicEquations:
         return tuple(row.name for row in self.derived.rows)
 
     @property
-    def t(self) -> Any:
+    def t(self) -> sp.Symbol:
         """The symbol of time."""
         return self._plain.symbols["t", 0]
 
-    q = _Lazy("Symbols of the coordinates, by name.", lambda e: e._symbols("q"))
-    v = _Lazy("Symbols of the velocities, by name.", lambda e: e._symbols("v"))
-    parameters = _Lazy("Symbols of the parameters and inputs, by name.", lambda e: e._symbols("p"))
-    turned = _Lazy(
+    q = _Lazy[Mapping[str, sp.Symbol]]("Symbols of the coordinates, by name.", lambda e: e._symbols("q"))
+    v = _Lazy[Mapping[str, sp.Symbol]]("Symbols of the velocities, by name.", lambda e: e._symbols("v"))
+    parameters = _Lazy[Mapping[str, sp.Symbol]](
+        "Symbols of the parameters and inputs, by name.", lambda e: e._symbols("p")
+    )
+    turned = _Lazy[Mapping[str, sp.Symbol]](
         "Symbols of angles as they were last, for measures that count turns: these are on the nearest branch.",
         lambda e: e._symbols("winding"),
     )
     # -- quantities ------------------------------------------------------------------------------------------------
 
-    Phi = _Lazy(
+    Phi = _Lazy[sp.ImmutableDenseMatrix](
         "Constraints, a matrix of shape (m, 1); 0 in nonholonomic rows, which have none.", lambda e: e._matrix("Phi")
     )
-    D = _Lazy("Jacobian of the constraints, shape (m, nv).", lambda e: e._matrix("D"))
-    nu = _Lazy("Right-hand side of the velocity constraints D v = nu, shape (m, 1).", lambda e: e._matrix("nu"))
-    gamma = _Lazy(
+    D = _Lazy[sp.ImmutableDenseMatrix]("Jacobian of the constraints, shape (m, nv).", lambda e: e._matrix("D"))
+    nu = _Lazy[sp.ImmutableDenseMatrix](
+        "Right-hand side of the velocity constraints D v = nu, shape (m, 1).", lambda e: e._matrix("nu")
+    )
+    gamma = _Lazy[sp.ImmutableDenseMatrix](
         "Right-hand side of the acceleration constraints D v' = gamma, shape (m, 1).", lambda e: e._matrix("gamma")
     )
-    N = _Lazy("Kinematic map of q' = N v, shape (nq, nv).", lambda e: e._matrix("N"))
-    M = _Lazy("Mass matrix, shape (nv, nv).", lambda e: e._matrix("M"))
-    f = _Lazy("Forces, shape (nv, 1).", lambda e: e._matrix("f"))
-    T = _Lazy("Kinetic energy [J].", lambda e: e._matrix("T")[0, 0])
-    V = _Lazy("Potential energy [J].", lambda e: e._matrix("V")[0, 0])
-    power = _Lazy(
+    N = _Lazy[sp.ImmutableDenseMatrix]("Kinematic map of q' = N v, shape (nq, nv).", lambda e: e._matrix("N"))
+    M = _Lazy[sp.ImmutableDenseMatrix]("Mass matrix, shape (nv, nv).", lambda e: e._matrix("M"))
+    f = _Lazy[sp.ImmutableDenseMatrix]("Forces, shape (nv, 1).", lambda e: e._matrix("f"))
+    T = _Lazy[sp.Expr]("Kinetic energy [J].", lambda e: e._matrix("T")[0, 0])
+    V = _Lazy[sp.Expr]("Potential energy [J].", lambda e: e._matrix("V")[0, 0])
+    power = _Lazy[sp.Expr](
         "Power of the forces without potential [W]; that of drivers of prescribed coordinates is no part of it.",
         lambda e: e._matrix("power")[0, 0],
     )
-    b = _Lazy(
+    b = _Lazy[sp.ImmutableDenseMatrix](
         "What v' is multiplied by in the power of the drivers that prescribe coordinates, b v' + c; shape (1, nv).",
         lambda e: e._matrix("b"),
     )
-    c = _Lazy(
+    c = _Lazy[sp.Expr](
         "The power of the drivers that prescribe coordinates where v' is 0 [W]; 0 without such drivers.",
         lambda e: e._matrix("c")[0, 0],
     )
@@ -302,7 +309,7 @@ class SymbolicEquations:
         names = shared_terms(self._written.graph, ends, structure(self.mechanism, self._written), taken)
         return Symbolic(self._written, names)
 
-    def _symbols(self, space: str) -> Mapping[str, Any]:
+    def _symbols(self, space: str) -> Mapping[str, sp.Symbol]:
         symbols = [s for (kind, _), s in self._plain.symbols.items() if kind == space]
         return MappingProxyType({s.name: s for s in symbols})
 
@@ -312,7 +319,7 @@ class SymbolicEquations:
     def _is_large(self, name: str) -> bool:
         return self._size(name) > LARGEST
 
-    def _matrix(self, name: str) -> Any:
+    def _matrix(self, name: str) -> sp.ImmutableDenseMatrix:
         shape, entries = self.nodes[name]
         display = self._named if self.sharing or self._is_large(name) else self._plain
         values = {(i, j): self._put(display.expression(node)) for i, j, node in entries}

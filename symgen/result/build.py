@@ -137,7 +137,7 @@ def _last_state(run: Prepared, outcome: Outcome) -> LastState:
     mechanism, info, start = run.plan.mechanism, outcome.compiled.info, outcome.start
     if isinstance(outcome, CarriedOutcome):  # in joint coordinates: where bodies are, and all that was kept of joints
         y, work, w = outcome.end_state, outcome.work, outcome.w
-        arrays = _arrays(outcome.inner) | outcome.tree.kept(outcome)
+        arrays = _arrays(outcome.inner) | outcome.tree.arrays(outcome)
     else:
         arrays = _arrays(outcome)
         y, work, w = arrays["y"], arrays["y"][info.work], arrays["w"]

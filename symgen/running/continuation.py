@@ -15,7 +15,7 @@ from symgen.ir.program import FORMAT
 from symgen.lower.windings import winding_order
 from symgen.running.starts import closed_by, compiled_for, states_at_start
 from symgen.runtime.assembly import Start, assemble
-from symgen.runtime.new_state import is_as_kept
+from symgen.runtime.new_state import lengths_match
 from symgen.version import __version__
 from symgen.vocabulary.expressions import Number
 
@@ -88,8 +88,8 @@ def _from_coordinates(plan: Plan, last: LastState, compiled: CompiledModel, ask_
     p = compiled.parameter_array(values, plan.method_parameters)
     whence = last.t, _windings(plan.mechanism, compiled, last)
     start = assemble(compiled, q, v, p, plan.settings.strict, None, ask_light, None, whence)
-    asked = [Hold(name, Number(x)) for name, x in (last.states or {}).items()]
-    start.y[info.own_states] = states_at_start(plan.mechanism, scalars(values), asked)
+    holds = [Hold(name, Number(x)) for name, x in (last.states or {}).items()]
+    start.y[info.own_states] = states_at_start(plan.mechanism, scalars(values), holds)
     return start
 
 
@@ -104,7 +104,7 @@ def _windings(mechanism: Mechanism, compiled: CompiledModel, last: LastState) ->
 def choice_after(plan: Plan, last: LastState) -> MethodChoice:
     """Return the method of a run that goes on from another one, with the solver that light bodies chose there."""
     if plan.solver_is_free and (last.made or {}).get("options", {}).get("solver") == "augmented":
-        return plan.choice.given(solver="augmented")
+        return plan.choice.with_options(solver="augmented")
     return plan.choice
 
 
@@ -126,7 +126,7 @@ def taken_up(compiled: CompiledModel, plan: Plan, last: LastState) -> Start | No
     if last.arrays is None or last.other_than({key: x for key, x in making.items() if key != "events"}):
         return None
     memory = plan.integrator.setup(compiled, plan.spec, compiled.scratch()).memory
-    if not is_as_kept(compiled, memory, last.arrays):
+    if not lengths_match(compiled, memory, last.arrays):
         return None
     other = last.other_than(making)
     y, p, w = (last.arrays[name] for name in ("y", "p", "w"))

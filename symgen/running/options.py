@@ -45,9 +45,9 @@ def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[
         else:
             own = [f"method.{name}" for name in (*numeric, *(o.name for o in base.options))]
             own += [f"integrator.{p.name}" for p in tableau.parameters]
-            known_owners = ("method", base.name, "integrator", tableau.name)
+            owners = ("method", base.name, "integrator", tableau.name)
             bare = [full for full in own if full.partition(".")[2] == key]
-            hint = f"did you mean '{bare[0]}'?" if bare else nearest(owner, known_owners) if name else nearest(key, own)
+            hint = f"did you mean '{bare[0]}'?" if bare else nearest(owner, owners) if name else nearest(key, own)
             raise InputError(f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", hint)
     return choose_method(s.method, structural, not EXPLICIT_FORMS & set(tableau.forms)), parameters, integrator
 

@@ -176,7 +176,7 @@ def _started(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] | None, 
         return list(plans), None, harmless(error)
     solver = assembled.compiled.law.options.get("solver", "")
     if usual.solver_is_free and solver != usual.choice.options["solver"]:
-        plans = [replace(p, choice=p.choice.given(solver=solver)) if p.solver_is_free else p for p in plans]
+        plans = [replace(p, choice=p.choice.with_options(solver=solver)) if p.solver_is_free else p for p in plans]
     try:
         refuse_jumps(usual.mechanism, {}, usual.spec.until)
     except InputError as error:

@@ -185,5 +185,5 @@ def closed_by(
     start = close(compiled, plan.solver_is_free)
     if not start.light:
         return compiled, start
-    compiled = compiled_for(plan.mechanism, plan.choice.given(solver="augmented"))
+    compiled = compiled_for(plan.mechanism, plan.choice.with_options(solver="augmented"))
     return compiled, close(compiled, False)

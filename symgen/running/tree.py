@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from symgen.compiling.carrying import carrying_of
 from symgen.compiling.choices import on_tree
 from symgen.describe.mechanism import Topology
-from symgen.describe.topology import known_coordinates
+from symgen.describe.topology import state_measures
 from symgen.errors import InputError
 from symgen.lower.windings import winding_order
 from symgen.running.continuation import choice_after, taken_up
@@ -123,7 +123,7 @@ class TreeRun:
         end = self._of_bodies(outcome.end, last, outcome.p)
         return CarriedOutcome(**values, inner=outcome, end_state=end, work=last[own.work], tree=self)
 
-    def kept(self, outcome: CarriedOutcome) -> dict[str, NDArray[Any]]:
+    def arrays(self, outcome: CarriedOutcome) -> dict[str, NDArray[Any]]:
         """Return the arrays from which another run goes on, beside those of the loop."""
         y = self.body_start.y.copy()
         y[: self.bodies.info.work] = outcome.end_state
@@ -234,7 +234,7 @@ class TreeRun:
 
     def _turns(self, states: Array, windings: Array) -> list[Array]:
         """Return the angles that count turns as the code for bodies remembers them, at the outputs."""
-        coordinates = known_coordinates(self.mechanism, self.topology)
+        coordinates = state_measures(self.mechanism, self.topology)
         own = {m: i for i, m in enumerate(winding_order(self.mechanism, "straight"))}
         turns = list[Array]()
         for measure in winding_order(self.whole, self.bodies.shape):

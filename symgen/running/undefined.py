@@ -42,11 +42,11 @@ def undefined_at_end(mechanism: Mechanism, outcome: Outcome) -> str:
         *(("joint", x) for x in mechanism.joints),
         *(("force", x) for x in mechanism.forces),
     ]
-    found = [(f"{kind} '{part.name}'", *pair) for kind, part in parts for pair in restricted(part)]
-    if not found:
+    limited = [(f"{kind} '{part.name}'", *pair) for kind, part in parts for pair in restricted(part)]
+    if not limited:
         return ""
     # a whole formula with a value has left aside what is undefined in it
-    formulas = [pair for label, whole, e in found for pair in ((label, whole), (f"{to_text(e)} of {label}", e))]
+    formulas = [pair for label, whole, e in limited for pair in ((label, whole), (f"{to_text(e)} of {label}", e))]
     side = compile_side(mechanism, outcome.compiled, "undefined", "Formulas with limits", formulas)
     y, before = outcome.states[-1], outcome.states[-2:][0]
     elapsed = outcome.times[-1] - outcome.times[-2:][0]

@@ -88,7 +88,7 @@ def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> 
     )
 
 
-def is_as_kept(compiled: CompiledModel, memory: int, arrays: Mapping[str, NDArray[Any]]) -> bool:
+def lengths_match(compiled: CompiledModel, memory: int, arrays: Mapping[str, NDArray[Any]]) -> bool:
     """Return whether what another run kept has the lengths that a run has here; another version may have had others.
 
     Parameters
@@ -134,7 +134,7 @@ class Snapshot:
         self.state = type(state)(**views)
         self.front = block[: ends[-len(_BEHIND) - 1]]
         self.copy, self._events = self.front.copy(), self.state.events.copy()
-        self.rows, self._kept = 0, dict[str, NDArray[Any]]()
+        self.rows, self._memory = 0, dict[str, NDArray[Any]]()
         self._names: tuple[str, ...] | None = None
 
     def take(self, scheme: Any) -> None:
@@ -143,11 +143,11 @@ class Snapshot:
         self.rows = min(int(self.state.control[abi.EVENTS]), abi.MAX_EVENTS) * abi.N_EVENT
         self._events[: self.rows] = self.state.events[: self.rows]
         if self._names is None:
-            self._names = names_kept(scheme)
+            self._names = memory_fields(scheme)
         for name in self._names:
-            array, there = getattr(scheme, name), self._kept.get(name)
+            array, there = getattr(scheme, name), self._memory.get(name)
             if there is None or len(there) != len(array):
-                self._kept[name] = array.copy()
+                self._memory[name] = array.copy()
             else:
                 there[:] = array
 
@@ -156,17 +156,17 @@ class Snapshot:
         self.front[:] = self.copy
         self.state.events[: self.rows] = self._events[: self.rows]
         self.state.events[self.rows :] = 0.0
-        for name, array in self._kept.items():
-            scheme = with_kept(scheme, name, array)
+        for name, array in self._memory.items():
+            scheme = with_memory(scheme, name, array)
         return scheme
 
 
-def names_kept(scheme: Any) -> tuple[str, ...]:
+def memory_fields(scheme: Any) -> tuple[str, ...]:
     """Return the fields of a scheme's record that belong to what a run keeps."""
     return tuple(name for name in KEPT if hasattr(scheme, name))
 
 
-def with_kept(scheme: Any, name: str, array: NDArray[Any]) -> Any:
+def with_memory(scheme: Any, name: str, array: NDArray[Any]) -> Any:
     """Return a scheme's record with numbers that it kept, in the same memory where there is room for just these."""
     there = getattr(scheme, name)
     if there.shape != array.shape:

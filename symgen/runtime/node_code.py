@@ -71,7 +71,7 @@ def _each_row(builder: Any, rows: Any) -> Any:
     return each_of(builder, I64(1), builder.add(_at(builder, rows, I64(0)), I64(1)), 1)
 
 
-def extrapolate(builder: Any, rows: Any, degree: Any, ratio: Any, places: Any, kept: Any, out: Any) -> None:
+def extrapolate(builder: Any, rows: Any, degree: Any, ratio: Any, places: Any, coefficients: Any, out: Any) -> None:
     """Write `symgen.runtime.nodes.extrapolate`."""
     one = ir.Constant(VECTOR, [1.0] * NODES)
     twice = spread(builder, builder.fmul(ratio, ir.Constant(ir.DoubleType(), 2.0)))
@@ -87,7 +87,7 @@ def extrapolate(builder: Any, rows: Any, degree: Any, ratio: Any, places: Any, k
     with _each_row(builder, rows) as c:
         i = _at(builder, rows, c)
         first = builder.mul(i, I64(2 * NODES))
-        factors = [spread(builder, _at(builder, kept, builder.add(first, I64(p)))) for p in range(POINTS)]
+        factors = [spread(builder, _at(builder, coefficients, builder.add(first, I64(p)))) for p in range(POINTS)]
         store(builder, _sum(builder, factors, polynomials), out, _eight(builder, i))
 
 

@@ -39,15 +39,15 @@ def _place(h: float, rows: Any, y: Any, first: Any, rates: Any, table: Any, out:
                 out[q * NODES + k] = y[q] + h * table[PLACES + k] * y[i] + h * h * twice
 
 
-def _extrapolate(rows: Any, degree: int, ratio: float, places: Any, kept: Any, out: Any) -> None:
-    """Set `out` to rates at the nodes of a step `ratio` times as long as that of the Legendre coefficients `kept`."""
+def _extrapolate(rows: Any, degree: int, ratio: float, places: Any, coefficients: Any, out: Any) -> None:
+    """Set `out` to rates at the nodes of a step `ratio` times as long as that of the Legendre `coefficients`."""
     for k in range(NODES):
         x = 1.0 + 2.0 * ratio * places[k]
         for c in range(1, rows[0] + 1):
             i = rows[c]
-            total, before, here = kept[2 * NODES * i], 1.0, x
+            total, before, here = coefficients[2 * NODES * i], 1.0, x
             for p in range(1, degree + 1):
-                total += kept[2 * NODES * i + p] * here
+                total += coefficients[2 * NODES * i + p] * here
                 before, here = here, ((2 * p + 1) * x * here - p * before) / (p + 1)
             out[i * NODES + k] = total
 

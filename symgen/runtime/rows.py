@@ -61,7 +61,7 @@ def take_notes(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
     return code
 
 
-def pick(sizes: Any, picks: Any, kept: Any, count: int, start: float, values: Any) -> None:
+def pick(sizes: Any, picks: Any, series: Any, count: int, start: float, values: Any) -> None:
     """Write what is asked for at the outputs of a run, one quantity after the other; nan where there is no output.
 
     Parameters
@@ -70,7 +70,7 @@ def pick(sizes: Any, picks: Any, kept: Any, count: int, start: float, values: An
         Of the model.
     picks : Array of int64
         (source, column) of each quantity.
-    kept : Kept
+    series : Kept
         Of the run.
     count : int
         Outputs that it has reached.
@@ -79,7 +79,7 @@ def pick(sizes: Any, picks: Any, kept: Any, count: int, start: float, values: An
     values : Array
         Written.
     """
-    outputs, observed, status, work = kept.outputs, kept.observed, kept.outputs.status, sizes.nq + sizes.nv
+    outputs, observed, status, work = series.outputs, series.observed, series.outputs.status, sizes.nq + sizes.nv
     n_times = outputs.states.shape[0]
     for c in range(picks.shape[0] // 2):
         source, column, to = picks[2 * c], picks[2 * c + 1], c * n_times
@@ -156,7 +156,7 @@ def hold(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: 
     """Do nothing: the same parameters hold at all outputs of a run without stops."""
 
 
-def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, kept: Any) -> None:
+def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, series: Any) -> None:
     """Keep what a run gave.
 
     Parameters
@@ -167,21 +167,21 @@ def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, s
         What the loop took.
     model : tuple
         Its sizes, and the functions that are called at outputs.
-    chunk, state, kept
+    chunk, state, series
         As for `run_rows`; `state` is that of the run at its end.
     """
     sizes, rates, confirm, accept, observe = model
     law, nw, count = (sizes, rates, confirm, accept), state.w.shape[0], state.control[abi.OUTPUTS]
     summarise(code, state, part(chunk.summary, r * e.N_SUMMARY, e.N_SUMMARY))
-    until = kept.outputs.times[kept.outputs.times.shape[0] - 1]
+    until = series.outputs.times[series.outputs.times.shape[0] - 1]
     if chunk.ends == 1 and count == 0 and code == abi.DONE:  # an event has ended it
-        kept.outputs.times[0] = state.clock[abi.TIME]
-        store(sizes, state.w, kept.outputs, 0, state.y)
+        series.outputs.times[0] = state.clock[abi.TIME]
+        store(sizes, state.w, series.outputs, 0, state.y)
         count = 1
     if chunk.rates == 1:
         for i in range(state.iw.shape[0]):
             state.iw[i] = 0
-    begun, outputs, observed = part(chunk.ws, r * nw, nw), kept.outputs, kept.observed
+    begun, outputs, observed = part(chunk.ws, r * nw, nw), series.outputs, series.observed
     follows = state.control[abi.MASKED] > 0 and chunk.dense.shape[0] > 0
     for k in range(count if chunk.rates == 1 or chunk.joints == 1 else 0):
         hold(system, span, chunk, r, state, outputs.times, k)
@@ -193,18 +193,18 @@ def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, s
                 observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
         if chunk.joints == 1:
             observe_rows(observe, sizes, here, 1, state.p, state.w, seen, state.room)
-    length = (chunk.picks.shape[0] // 2) * kept.outputs.times.shape[0]
+    length = (chunk.picks.shape[0] // 2) * series.outputs.times.shape[0]
     values = part(chunk.values, r * length, length)
-    pick(sizes, chunk.picks, kept, count, state.gauges[abi.ENERGY_START], values)
+    pick(sizes, chunk.picks, series, count, state.gauges[abi.ENERGY_START], values)
     if chunk.rates == 1 or chunk.joints == 1:
         # loops take what fills up arrays behind a state for zeros; what was observed need not even be a number
-        for i in range(2 * sizes.ny + kept.observed.rows.shape[1]):
+        for i in range(2 * sizes.ny + series.observed.rows.shape[1]):
             state.room[i] = 0.0
-    kept.outputs.times[kept.outputs.times.shape[0] - 1] = until
+    series.outputs.times[series.outputs.times.shape[0] - 1] = until
     state.control[e.RUNS_DONE] += 1
 
 
-def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: Any) -> int:
+def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series: Any) -> int:
     """Run the selected rows from starts that `symgen.runtime.starting.close_runs` left.
 
     Parameters
@@ -218,7 +218,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: A
         The rows.
     state : State
         Memory of one run; `control` has one element more, which counts finished runs.
-    kept : Kept
+    series : Kept
         Outputs of one run, at the same times for every run.
 
     Returns
@@ -226,7 +226,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: A
     int
         How many of the selected rows are done: all of them, unless the run was stopped.
     """
-    chunk, state, kept = bare(chunk), bare(state), bare(kept)
+    chunk, state, series = bare(chunk), bare(state), bare(series)
     system, observers = model
     ny, n_p, nw = observers[0].ny, state.p.shape[0], state.w.shape[0]
     for s in range(chunk.selected.shape[0]):
@@ -239,13 +239,13 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: A
         take(chunk.ps, r * n_p, n_p, state.p)
         take(chunk.ws, r * nw, nw, state.w)
         forget(state)
-        code = integrate(system, scheme, span, state, kept.outputs)
+        code = integrate(system, scheme, span, state, series.outputs)
         while code == abi.CHOOSE or code == abi.NOTED or code == abi.MET:
             if code == abi.CHOOSE:
                 follow_rows(chunk, state, state.w)
             elif take_notes(code, r, observers[0].width, chunk, state) == abi.DONE:
                 break
-            code = integrate(system, scheme, span, state, kept.outputs)
+            code = integrate(system, scheme, span, state, series.outputs)
         if code == abi.STOPPED:
             return int(s)
         if code == abi.DONE:  # a grid of steps meets the end up to rounding
@@ -254,7 +254,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: A
             code = abi.DONE
         else:
             take_notes(code, r, observers[0].width, chunk, state)
-        end_run(code, r, system, span, observers, chunk, state, kept)
+        end_run(code, r, system, span, observers, chunk, state, series)
     return int(chunk.selected.shape[0])
 
 

@@ -14,7 +14,7 @@ from symgen.errors import InputError
 from symgen.ir.numerics import WARN
 from symgen.runtime import abi
 from symgen.runtime.changes import Changes
-from symgen.runtime.new_state import Snapshot, names_kept, new_outputs, new_state, sizes_of, span_of, with_kept
+from symgen.runtime.new_state import Snapshot, memory_fields, new_outputs, new_state, sizes_of, span_of, with_memory
 from symgen.runtime.probe import rates_of
 from symgen.runtime.redundancy import row_chooser
 
@@ -130,7 +130,7 @@ class Simulation:
         """Go on from what another run has kept, with the limits, outputs and inputs of this one."""
         info = self.compiled.info
         state: Any = self.state  # a `HuntingState` where there are events
-        names = {*state._fields, *names_kept(self.scheme)}  # files of before hold empty arrays beside these
+        names = {*state._fields, *memory_fields(self.scheme)}  # files of before hold empty arrays beside these
         taken = {name: array for name, array in saved.items() if name in names}
         # other events, or these as another version kept them: on which side they are is to be seen
         anew = self.events is not None and len(taken.get("hunt", ())) != len(state.hunt)
@@ -323,7 +323,7 @@ class Simulation:
     @cached_property
     def _copied(self) -> bool:
         """Whether all that is remembered stands in one stop of memory, but for passages."""
-        return not names_kept(self.scheme)
+        return not memory_fields(self.scheme)
 
     def warm(self, outputs: Outputs) -> None:
         """Compile everything, so that clocks see loops alone.
@@ -344,7 +344,7 @@ class Simulation:
     def save(self) -> dict[str, NDArray[Any]]:
         """Return copies of all arrays that the run keeps, by name."""
         arrays = {name: array for name, array in self.state._asdict().items() if name != "room"}
-        arrays |= {name: getattr(self.scheme, name) for name in names_kept(self.scheme)}
+        arrays |= {name: getattr(self.scheme, name) for name in memory_fields(self.scheme)}
         return {name: array.copy() for name, array in arrays.items()}
 
     def restore(self, saved: Mapping[str, NDArray[Any]], spec: RunSpec | None = None) -> None:
@@ -353,7 +353,7 @@ class Simulation:
             if hasattr(self.state, name):
                 getattr(self.state, name)[:] = array
             else:
-                self.scheme = with_kept(self.scheme, name, array)
+                self.scheme = with_memory(self.scheme, name, array)
         if self.events is not None:
             self.events.forget_after(self._clock[abi.TIME])
         self.divide(self.spec if spec is None else spec)

@@ -2,13 +2,17 @@
 
 import numpy as np
 import pytest
+from matplotlib.path import Path as Outline
 
 from symgen.api import Model, load
 from symgen.describe.builder import MechanismBuilder
-from symgen.drawing import build_scene
-from symgen.drawing.paper import axes
+from symgen.drawing import Drawing, build_scene
+from symgen.drawing.paper import Circle, axes, on_paper
+from symgen.drawing.paper import Path as Stroke
 from symgen.drawing.scene import Line
 from symgen.drawing.viewpoint import USUAL
+
+Part = Stroke | Circle
 
 
 def seen(view: object, scene: object, line: np.ndarray) -> np.ndarray:
@@ -52,6 +56,41 @@ def test_the_crank_of_a_slider_crank_in_space_is_no_part_of_its_rod() -> None:
 @pytest.mark.parametrize("name", ["chain", "heavy-top", "bicycle", "rolling-disc"])
 def test_the_usual_view_stays_where_it_hides_nothing(name: str) -> None:
     assert load(name).draw().view == USUAL
+
+
+def least_visible(drawing: Drawing) -> float:
+    """Return the least visible share of a body's outline, on a grid; what is in front counts with its opacity."""
+    drawn = [each for each in on_paper(drawing.scene, np.array(drawing.q), drawing.view) if each.item.role == "body"]
+
+    def covered(part: Part, grid: np.ndarray) -> np.ndarray:
+        if isinstance(part, Circle):
+            return np.asarray(np.hypot(*(grid - [part.x, part.y]).T) <= part.radius)
+        filled = part.closed and part.look.fill
+        return np.asarray(Outline(part.points).contains_points(grid) if filled else np.zeros(len(grid), dtype=bool))
+
+    least = 1.0
+    for k, body in enumerate(drawn):
+        corners = np.concatenate([p.points for p in body.parts if not isinstance(p, Circle)])
+        axes_of_grid = [np.linspace(low, high, 120) for low, high in zip(corners.min(0), corners.max(0), strict=True)]
+        grid = np.stack(np.meshgrid(*axes_of_grid), axis=-1).reshape(-1, 2)
+        grid = grid[np.any([covered(part, grid) for part in body.parts], axis=0)]
+        clear = np.ones(len(grid))
+        for part in (part for each in drawn[k + 1 :] for part in each.parts):
+            clear[covered(part, grid)] *= 1.0 - part.look.opacity
+        least = min(least, float(clear.mean()))
+    return least
+
+
+@pytest.mark.parametrize("name", ["stewart-platform", "flyball-governor", "front-suspension", "bricard"])
+def test_no_body_is_mostly_hidden(name: str) -> None:
+    """Legs of a platform cross in every view; each is still recognised."""
+    assert least_visible(load(name).draw()) > 0.75
+
+
+def test_a_body_inside_another_one_is_drawn_after_it() -> None:
+    drawing = load("flyball-governor").draw()
+    order = [each.item.name for each in on_paper(drawing.scene, np.array(drawing.q), drawing.view)]
+    assert order.index("shaft") < order.index("slider") < order.index("sleeve")
 
 
 def test_the_scissor_lift_has_a_platform_and_a_cylinder() -> None:

@@ -38,7 +38,8 @@ def test_a_push_that_is_shorter_than_a_step_is_said_of_all_rows(target):
     assert found.counts["ok"] == 2
     alone = model.simulate(**CONSTANT).warnings
     assert list(found.warnings) == [alone, alone] and "formulas change at t = 0.123 and 0.128 s" in alone[0]
-    assert found.told() == [(alone[0], 2)] and found.to_json()["warnings"] == [{"warning": alone[0], "runs": 2}]
+    assert found.common_warnings() == [(alone[0], 2)]
+    assert found.to_json()["warnings"] == [{"warning": alone[0], "runs": 2}]
     heading, lines = lines_of(found)
     assert [line[heading.index("warnings")] for line in lines] == [alone[0]] * 2
     assert list(found.to_xarray()["warnings"].values) == [alone[0]] * 2

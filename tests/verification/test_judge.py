@@ -11,10 +11,10 @@ from benchmarks.mechanisms.draw import draw
 from benchmarks.mechanisms.toml import text
 from benchmarks.verification.judge import judge
 from benchmarks.verification.reference import Contradiction, Reference, groups, prepared
-from benchmarks.verification.runs import Asked, Came
+from benchmarks.verification.runs import Configuration, Outcome
 from benchmarks.verification.workers import answers
 
-ASKED = Asked("direct-correction", "rk4", "straight")
+CONFIGURATION = Configuration("direct-correction", "rk4", "straight")
 
 
 @pytest.fixture(scope="module")
@@ -22,12 +22,12 @@ def reference() -> Reference:
     return prepared(draw(5, 2, spatial=True).raw, until=0.2, steps=100)
 
 
-def came(reference: Reference, status: str = "ok") -> Came:
+def outcome(reference: Reference, status: str = "ok") -> Outcome:
     """A run that is the reference's own motion."""
     system, motion = reference.system, reference.motion
     joints = {joint.name: k for k, joint in enumerate(system.joints)}
     labels = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
-    return Came(
+    return Outcome(
         status,
         "",
         reference.times,
@@ -43,7 +43,7 @@ def came(reference: Reference, status: str = "ok") -> Came:
 
 
 def test_the_reference_itself_is_right(reference: Reference) -> None:
-    verdict = judge(reference, ASKED, came(reference))
+    verdict = judge(reference, CONFIGURATION, outcome(reference))
     assert verdict.honest and verdict.right and set(verdict.errors) == set(groups(reference.system, reference.motion))
 
 
@@ -53,42 +53,42 @@ def test_what_is_off_is_found_and_is_dishonest_only_where_it_is_called_ok(
     reference: Reference, group: str, change: float
 ) -> None:
     for status, honest in (("ok", False), ("unverified", True), ("failed", True)):
-        run = came(reference, status)
+        run = outcome(reference, status)
         values = run.energies if group == "energies" else run.columns[group]
         values[-1] = values[-1] * change
-        verdict = judge(reference, ASKED, run)
+        verdict = judge(reference, CONFIGURATION, run)
         assert verdict.right is False and group in verdict.wrong and verdict.honest is honest
 
 
 def test_a_run_that_ended_early_is_right_where_it_went_and_not_ok(reference: Reference) -> None:
-    run = came(reference, "failed")
+    run = outcome(reference, "failed")
     short = dataclasses.replace(
         run, t=run.t[:4], columns={k: x[:4] for k, x in run.columns.items()}, energies=run.energies[:4]
     )
-    assert judge(reference, ASKED, short).right
-    assert not judge(reference, ASKED, dataclasses.replace(short, status="ok")).honest
+    assert judge(reference, CONFIGURATION, short).right
+    assert not judge(reference, CONFIGURATION, dataclasses.replace(short, status="ok")).honest
 
 
 def test_an_error_that_falls_with_the_step_is_the_step_s_and_others_are_not(reference: Reference) -> None:
     """Sixteen times less with half the step: order four. As much with half the step: something else is wrong."""
-    run, finer = came(reference), came(reference)
+    run, finer = outcome(reference), outcome(reference)
     shift = 1e-5 * np.linspace(0.0, 1.0, len(run.t))[:, np.newaxis]
     run.columns["v"] = run.columns["v"] + shift
-    assert judge(reference, ASKED, run).right is False
+    assert judge(reference, CONFIGURATION, run).right is False
     for part, right in ((16.0, True), (4.0, False), (1.0, False)):
-        finer.columns["v"] = came(reference).columns["v"] + shift / part
-        assert judge(reference, ASKED, run, finer).right is right
-    finer.columns["v"] = came(reference).columns["v"]
-    run.columns["v"] = came(reference).columns["v"] + 1e6 * shift  # of the step, and wrong all the same
-    assert judge(reference, ASKED, run, finer).right is False
-    adaptive = dataclasses.replace(ASKED, rtol=1e-10)
-    run.columns["v"] = came(reference).columns["v"] + shift
+        finer.columns["v"] = outcome(reference).columns["v"] + shift / part
+        assert judge(reference, CONFIGURATION, run, finer).right is right
+    finer.columns["v"] = outcome(reference).columns["v"]
+    run.columns["v"] = outcome(reference).columns["v"] + 1e6 * shift  # of the step, and wrong all the same
+    assert judge(reference, CONFIGURATION, run, finer).right is False
+    adaptive = dataclasses.replace(CONFIGURATION, rtol=1e-10)
+    run.columns["v"] = outcome(reference).columns["v"] + shift
     assert judge(reference, adaptive, run, finer).right is False
 
 
 def test_refusals_are_honest_and_tracebacks_are_not(reference: Reference) -> None:
-    assert judge(reference, ASKED, Came("refused", "a sentence")).honest
-    assert not judge(reference, ASKED, Came("raised", "ValueError: no")).honest
+    assert judge(reference, CONFIGURATION, Outcome("refused", "a sentence")).honest
+    assert not judge(reference, CONFIGURATION, Outcome("raised", "ValueError: no")).honest
 
 
 def test_constraints_that_contradict_each_other_are_known() -> None:

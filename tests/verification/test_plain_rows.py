@@ -24,7 +24,7 @@ def along(system: System, q, v, a, time: float):
     found, rate = q.copy(), v + time * a
     for body in system.bodies.values():
         i, k, d = body.first_q, body.first_v, system.document.dimension
-        n = d if d == 3 else len(body.given)
+        n = d if d == 3 else len(body.velocities)
         found[i : i + n] = q[i : i + n] + time * v[k : k + n] + 0.5 * time**2 * a[k : k + n]
         if d == 3 and body.rigid:
             turned = Rotation.from_rotvec(time * v[k + 3 : k + 6] + 0.5 * time**2 * a[k + 3 : k + 6])

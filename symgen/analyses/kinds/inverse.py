@@ -21,7 +21,7 @@ from symgen.analyses.kinds import (
 from symgen.digits import digits, scale_of
 from symgen.errors import InputError
 from symgen.keywords import DrivenKeywords
-from symgen.settings import Settings, flag, is_given
+from symgen.settings import Settings, flag, is_set
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -91,7 +91,7 @@ def command(
     symgen inverse andrews --from run.nc --actuators drive
     """
     for name in OF_DRIVEN if motion is not None else ():
-        if is_given(settings, name):
+        if is_set(settings, name):
             raise InputError(flag(name), "settings of a recorded motion", "one of drivers' motion")
     if quantities and save is None and plot is None:
         raise InputError("--quantity", "--save or --plot, where quantities go", "neither")

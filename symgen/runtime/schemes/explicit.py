@@ -131,12 +131,12 @@ def interpolate(
     width, start, column, value = system.sizes.width, scheme.start, scheme.column, scheme.value
     stages, last, every, count = run.memory, scheme.stages, scheme.nodes.shape[0], scheme.count
     degree, lanes = scheme.degree, scheme.dense.shape[0] // scheme.degree
-    new, kept = part(run.room, 0, width), part(run.room, width, width)
+    new, measured = part(run.room, 0, width), part(run.room, width, width)
     powers, weights = part(run.room, 3 * width, lanes), part(run.room, 3 * width + lanes, lanes)
     windings = outputs.status.shape[1] - abi.N_STATUS
     angles = part(run.room, 3 * width + 2 * lanes, windings)
     for i in range(abi.N_STATUS):
-        kept[i] = run.w[i]
+        measured[i] = run.w[i]
     for i in range(windings):
         angles[i] = run.w[abi.WINDING + i]
     if run.control[abi.KNOWN] == 0:
@@ -162,7 +162,7 @@ def interpolate(
         out += 1
     run.control[abi.OUTPUTS] = out
     for i in range(abi.N_STATUS):
-        run.w[i] = kept[i]
+        run.w[i] = measured[i]
     for i in range(windings):
         run.w[abi.WINDING + i] = angles[i]
 

@@ -137,8 +137,8 @@ def attempt(
         begin(system, run, t)
     last = head[STEP]
     if last > 0.0:
-        kept = part(run.memory, NODES + width, 2 * size)
-        extrapolate(rows, scheme.degree, h / last, part(table, PLACES, NODES), kept, old)
+        coefficients = part(run.memory, NODES + width, 2 * size)
+        extrapolate(rows, scheme.degree, h / last, part(table, PLACES, NODES), coefficients, old)
     else:
         for c in range(1, rows[0] + 1):
             i = rows[c]
@@ -239,8 +239,8 @@ def crossed(system: Any, scheme: Any, span: Any, run: Any, t: float, following: 
     stages = part(run.room, _WIDE + _STATES * width, tableau.nodes.shape[0] * width)
     copied(width, part(run.memory, NODES, width), stages)
     room = part(run.room, _WIDE + _WEIGHED * width, 3 * width)
-    kept = run.y, run.trial, run.p, run.w, run.iw, run.clock, run.gauges, run.control, run.events, stages
-    one = Run(*kept, run.share, run.metric, run.scales, room)
+    fields = run.y, run.trial, run.p, run.w, run.iw, run.clock, run.gauges, run.control, run.events, stages
+    one = Run(*fields, run.share, run.metric, run.scales, room)
     error = one_step(system, tableau, span, one, t, following, h, False)
     run.control[abi.ORDER] = NODES
     run.room[ADRIFT] = 1.0

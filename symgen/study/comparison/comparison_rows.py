@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, field, fields, replace
 from os import PathLike
 from pathlib import Path
 from statistics import median
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from symgen.arguments import one_of, words
 from symgen.arguments import path as argument_path
@@ -18,6 +18,9 @@ from symgen.result.contract import finite
 from symgen.result.export import PLOTTED
 from symgen.result.labelled import html_table
 from symgen.result.result import FAILED
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 #: Ratios of run time are to this method, with the same integrator and the same step or tolerance.
 YARDSTICK = "lagrange"
@@ -312,7 +315,7 @@ class Study:
         }
         return cast(dict[str, Any], finite(contract))
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self) -> pd.DataFrame:
         """Return the rows as a pandas data frame."""
         from symgen.files import need
 
