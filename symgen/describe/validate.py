@@ -366,7 +366,9 @@ class _Validator:
         ratio = scope.constant("gear_ratio", given["gear_ratio"])
         if ratio != ONE:
             inertia = call("mul", inertia, call("mul", ratio, ratio))
-        self._rotors[joint.name] = Rotor(joint.name, angles[0], inertia)
+        way = articulation_of(joint)
+        axes = (way.of_a[2], way.of_b[2]) if way is not None and way.turn == "axis" and way.of_a else ()
+        self._rotors[joint.name] = Rotor(joint.name, angles[0], inertia, axes)
 
     def force(self, name: str, raw: object) -> Force:
         path = f"forces.{name}"
