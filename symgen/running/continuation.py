@@ -88,8 +88,8 @@ def _from_coordinates(plan: Plan, last: LastState, compiled: CompiledModel, ask_
     p = compiled.parameter_array(values, plan.method_parameters)
     whence = last.t, _windings(plan.mechanism, compiled, last)
     start = assemble(compiled, q, v, p, plan.settings.strict, None, ask_light, None, whence)
-    asked = [Hold(name, Number(x)) for name, x in (last.states or {}).items()]
-    start.y[info.own_states] = states_at_start(plan.mechanism, scalars(values), asked)
+    holds = [Hold(name, Number(x)) for name, x in (last.states or {}).items()]
+    start.y[info.own_states] = states_at_start(plan.mechanism, scalars(values), holds)
     return start
 
 
