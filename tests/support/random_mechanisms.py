@@ -103,7 +103,10 @@ def _joint(b: Bodies, kind: str, joints: dict) -> dict:
         return keys | {"rows": draw(st.sampled_from([rows, rows[:1], rows[1:]]))}
     if kind == "coupling":
         pairs_ = ("revolute", "angle"), ("translational", "displacement")
-        keys |= {"terms": {b.coordinate(joints, *pair): draw(above_zero) for pair in pairs_}, "value": b.formula(OF_TIME)}
+        keys |= {
+            "terms": {b.coordinate(joints, *pair): draw(above_zero) for pair in pairs_},
+            "value": b.formula(OF_TIME),
+        }
         if draw(st.booleans()):
             keys |= {"of": b.coordinate(joints, "pin-in-slot", "displacement"), "polynomial": draw(coefficients)}
         return keys
