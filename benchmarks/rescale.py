@@ -174,8 +174,24 @@ class Rescaler:
             (a, b) = (self.coordinate(j, label) for j, label in zip(joints, labels, strict=True))
             found["ratio"] = self.scaled(table["ratio"], (a[0] - b[0], 0, 0))
             found["offset"] = self.scaled(table.get("offset", 0.0), a)
+        elif table["type"] == "coupling":
+            found |= self._coupling(table)
+        elif table["type"] == "rows":
+            found["rows"] = [{"position": self.scaled(row["position"], LENGTH)} for row in table["rows"]]
         elif "offset" in table:
             found["offset"] = self.scaled(table["offset"], LENGTH)
+        return found
+
+    def _coupling(self, table: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the numbers of a coupling: its row has the dimension of its first coordinate."""
+        powers = [self.coordinate(*text.split("."))[0] for text in (*table["terms"], table.get("of", "a.angle"))]
+        whole, of = powers[0], powers[-1]
+        terms = zip(table["terms"].items(), powers, strict=False)
+        found: dict[str, Any] = {"terms": {text: self.scaled(factor, (whole - n, 0, 0)) for (text, factor), n in terms}}
+        found["value"] = self.scaled(table["value"], (whole, 0, 0))
+        if "of" in table:
+            powers_of = enumerate(table["polynomial"])
+            found["polynomial"] = [self.scaled(c, (whole - k * of, 0, 0)) for k, c in powers_of]
         return found
 
     def _force(self, table: Mapping[str, Any]) -> dict[str, Any]:
