@@ -248,7 +248,9 @@ def rows(parts: Parts, name: str, table: Table) -> Joint:
         if kind == "minus":
             return lambda s: -a(s)
         (b,) = others
-        joined = {"+": lambda x, y: x + y, "-": lambda x, y: x - y, "*": lambda x, y: x.scaled(y)}[kind]
+        joined: Callable[[Moving, Moving], Moving] = {"+": Moving.__add__, "-": Moving.__sub__, "*": Moving.scaled}[
+            kind
+        ]
         return lambda s: joined(a(s), b(s))
 
     held = [

@@ -144,7 +144,7 @@ def _bodies(row: Row) -> Iterator[str]:
     """Yield the bodies that a row reads."""
     for part in parts(row):
         if isinstance(part, Name) and "." in part.name:
-            yield part.name.partition(".")[0]
+            yield part.name.rpartition(".")[0]
         elif isinstance(part, Marker | Direction):
             yield part.body
         elif isinstance(part, Angle | Spin):
