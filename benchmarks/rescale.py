@@ -174,8 +174,26 @@ class Rescaler:
             (a, b) = (self.coordinate(j, label) for j, label in zip(joints, labels, strict=True))
             changed["ratio"] = self.scaled(table["ratio"], (a[0] - b[0], 0, 0))
             changed["offset"] = self.scaled(table.get("offset", 0.0), a)
+        elif table["type"] == "coupling":
+            changed |= self._coupling(table)
+        elif table["type"] == "rows":
+            changed["rows"] = [{"position": self.scaled(row["position"], LENGTH)} for row in table["rows"]]
         elif "offset" in table:
             changed["offset"] = self.scaled(table["offset"], LENGTH)
+        return changed
+
+    def _coupling(self, table: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the numbers of a coupling: its row has the dimension of its first coordinate."""
+        powers = [self.coordinate(*text.split("."))[0] for text in (*table["terms"], table.get("of", "a.angle"))]
+        whole, of = powers[0], powers[-1]
+        terms = zip(table["terms"].items(), powers, strict=False)
+        changed: dict[str, Any] = {
+            "terms": {text: self.scaled(factor, (whole - n, 0, 0)) for (text, factor), n in terms}
+        }
+        changed["value"] = self.scaled(table["value"], (whole, 0, 0))
+        if "of" in table:
+            powers_of = enumerate(table["polynomial"])
+            changed["polynomial"] = [self.scaled(c, (whole - k * of, 0, 0)) for k, c in powers_of]
         return changed
 
     def _force(self, table: Mapping[str, Any]) -> dict[str, Any]:

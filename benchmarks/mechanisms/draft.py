@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 
 from benchmarks.plain.moving import Array
+from benchmarks.plain.start import choose_turns
+from benchmarks.plain.system import read
 from benchmarks.plain.turning import euler_parameters, turned
 
 GROUND = "ground"
@@ -265,6 +267,43 @@ class Draft:
         self.raw["joints"][name] = {"type": kind, **keys}
         self.features.add(kind)
         return name
+
+    def place(self, a: str, b: str) -> bool:
+        """Report where a point of the second body is."""
+        self.joint("place", between=[a, b], at=[self.some_point(a), self.some_point(b)])
+        return True
+
+    def rows(self, a: str, b: str) -> bool:
+        """Hold a formula of the bodies' coordinates at the value that it has."""
+        bodies = [body for body in (a, b) if body != GROUND]
+        one, other = bodies[0], bodies[-1]
+        k, c = self.number(0.3, 1.5), self.number(-0.8, 0.8)
+        (x, y), z = self.poses[one].centre_at[:2], self.poses[other].centre_at[-1]
+        last = "xyz"[self.dimension - 1]
+        value = float(k * x + y + c * x * z)
+        self.joint("rows", rows=[{"position": f"{k!r}*{one}.x + {one}.y + {c!r}*{one}.x*{other}.{last} - {value!r}"}])
+        return True
+
+    def coupling(self, a: str, b: str) -> bool:
+        """Tie coordinates of joints together as they stand."""
+        joints = {n: t for n, t in self.raw["joints"].items() if t["type"] not in ("driver", "place")}
+        system = read({**self.raw, "joints": joints, "forces": {}})
+        q = np.concatenate([body.start for body in system.bodies.values()])
+        choose_turns(system, 0.0, q)
+        state = system.at(0.0, q, np.zeros(system.nv))
+        known = {f"{j.name}.{n}": float(m(state).value) for j in system.joints for n, m in j.coordinates.items()}
+        if len(known) < 2:
+            return False
+        chosen = self.rng.sample(list(known), 2)
+        terms = {name: self.positive(0.3, 1.5) * self.rng.choice([1.0, -1.0]) for name in chosen}
+        value, more = sum(factor * known[name] for name, factor in terms.items()), dict[str, Any]()
+        slides = [name for name in known if "displacement" in name and name not in chosen]
+        if slides:
+            of, powers = self.rng.choice(slides), [0.0, self.number(-0.5, 0.5), self.number(-0.5, 0.5)]
+            more = {"of": of, "polynomial": powers}
+            value -= float(np.polynomial.Polynomial(powers)(known[of]))
+        self.joint("coupling", terms=terms, value=value, **more)
+        return True
 
     def force(self, kind: str, **keys: Any) -> str:
         """Add a force and return its name."""

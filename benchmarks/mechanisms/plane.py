@@ -66,7 +66,14 @@ def pin_in_slot(draft: Draft, a: str, b: str) -> bool:
     """Put a slot of the second body through a point of the first."""
     pin, along = draft.some_point(a), draft.direction()
     slot = draft.where(a, pin) + draft.number(-0.6, 0.6) * along
-    draft.joint("pin-in-slot", between=[a, b], at=[pin, draft.local(b, slot)], axis=draft.inward(b, along))
+    kind = draft.rng.choice(["pin-in-slot", "inline"])
+    draft.joint(kind, between=[a, b], at=[pin, draft.local(b, slot)], axis=draft.inward(b, along))
+    return True
+
+
+def orientation(draft: Draft, a: str, b: str) -> bool:
+    """Keep the angle between two bodies."""
+    draft.joint("orientation", between=[a, b], angle=angle(draft, b) - angle(draft, a))
     return True
 
 
@@ -126,6 +133,10 @@ KINDS: dict[str, tuple[Callable[[Draft, str, str], bool], tuple[bool, bool], flo
     "rigid": (rigid, (True, True), 0.5),
     "gear": (gear, (True, True), 1.0),
     "knife-edge": (knife_edge, (True, True), 0.5),
+    "orientation": (orientation, (True, True), 0.5),
+    "place": (Draft.place, (False, False), 0.3),
+    "rows": (Draft.rows, (False, False), 1.0),
+    "coupling": (Draft.coupling, (False, False), 1.0),
 }
 #: Kinds that alone hold a body on another one.
 TREE = ("revolute", "translational", "distance", "pin-in-slot", "rigid")

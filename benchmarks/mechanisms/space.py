@@ -130,8 +130,36 @@ def planar(draft: Draft, a: str, b: str) -> bool:
     return True
 
 
+def perpendicular(draft: Draft, a: str, b: str) -> bool:
+    """Keep two axes perpendicular."""
+    one = draft.direction()
+    other = np.cross(one, draft.across(one))
+    draft.joint("perpendicular", between=[a, b], axes=[draft.inward(a, one), draft.inward(b, other)])
+    return True
+
+
+def parallel_axes(draft: Draft, a: str, b: str) -> bool:
+    """Keep two axes parallel."""
+    along = draft.direction()
+    more = references(draft, a, b, along, equal=False)
+    draft.joint("parallel-axes", between=[a, b], axis=axes(draft, a, b, along), **more)
+    return True
+
+
+def orientation(draft: Draft, a: str, b: str) -> bool:
+    """Keep two bodies from turning against each other."""
+    draft.joint("orientation", between=[a, b], **_frames(draft, a, b))
+    return True
+
+
 def rigid(draft: Draft, a: str, b: str) -> bool:
     """Weld two bodies as they stand."""
+    draft.joint("rigid", between=[a, b], at=ends(draft, a, b), **_frames(draft, a, b))
+    return True
+
+
+def _frames(draft: Draft, a: str, b: str) -> dict[str, Any]:
+    """Return sometimes directions of both bodies that coincide as they stand."""
     more: dict[str, Any] = {}
     if draft.chance(0.5):
         along, first = draft.direction(), None
@@ -140,8 +168,7 @@ def rigid(draft: Draft, a: str, b: str) -> bool:
             "axis": [draft.inward(a, along), draft.inward(b, along)],
             "reference": [draft.inward(a, first), draft.inward(b, first)],
         }
-    draft.joint("rigid", between=[a, b], at=ends(draft, a, b), **more)
-    return True
+    return more
 
 
 def distance(draft: Draft, a: str, b: str) -> bool:
@@ -177,7 +204,7 @@ def pin_in_slot(draft: Draft, a: str, b: str) -> bool:
     """Put a line of the second body through a point of the first."""
     pin, along = draft.some_point(a), draft.direction()
     slot = draft.where(a, pin) + draft.number(-0.6, 0.6) * along
-    kind = draft.rng.choice(["pin-in-slot", "point-on-line"])
+    kind = draft.rng.choice(["pin-in-slot", "point-on-line", "inline"])
     draft.joint(kind, between=[a, b], at=[pin, draft.local(b, slot)], axis=draft.inward(b, along))
     return True
 
@@ -186,7 +213,8 @@ def point_on_plane(draft: Draft, a: str, b: str) -> bool:
     """Put a plane of the second body through a point of the first."""
     point, normal = draft.some_point(a), draft.direction()
     on = draft.where(a, point) + np.cross(normal, draft.direction()) * draft.number(0.2, 0.8)
-    draft.joint("point-on-plane", between=[a, b], at=[point, draft.local(b, on)], normal=draft.inward(b, normal))
+    kind = draft.rng.choice(["point-on-plane", "in-plane"])
+    draft.joint(kind, between=[a, b], at=[point, draft.local(b, on)], normal=draft.inward(b, normal))
     return True
 
 
@@ -294,6 +322,12 @@ KINDS: dict[str, tuple[Callable[[Draft, str, str], bool], tuple[bool, bool], flo
     "knife-edge": (contact("knife-edge"), (True, True), 0.5),
     "gear": (gear, (True, True), 1.0),
     "rack-and-pinion": (rack_and_pinion, (True, True), 1.0),
+    "orientation": (orientation, (True, True), 0.5),
+    "parallel-axes": (parallel_axes, (True, True), 0.7),
+    "perpendicular": (perpendicular, (True, True), 0.7),
+    "place": (Draft.place, (False, False), 0.3),
+    "rows": (Draft.rows, (False, False), 1.0),
+    "coupling": (Draft.coupling, (False, False), 1.0),
 }
 #: Kinds that alone hold a body on another one.
 TREE = (

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from math import perm
 from typing import Any
 
 import numpy as np
 
 from benchmarks.plain.bodies import GROUND, Marker, State
 from benchmarks.plain.elements import Joint, Measure, Parts, Row
-from benchmarks.plain.formulas import value
+from benchmarks.plain.formulas import Tree, value
 from benchmarks.plain.moving import Array, Moving, constant, dot
 from benchmarks.plain.series import Series, lift
 
@@ -169,6 +170,12 @@ def driver(parts: Parts, name: str, table: Table) -> Joint:
             origin = Marker(GROUND, np.zeros(parts.document.dimension))
             measure = part(origin, parts.marker(body, table.get("point", "centre")), "xyz".index(label))
 
+    return Joint(name, bodies, [Row(f"{name}.driver", less_of_time(parts, measure, tree))])
+
+
+def less_of_time(parts: Parts, measure: Measure, tree: Tree) -> Measure:
+    """Return a measure less a function of time."""
+
     def of(s: State) -> Moving:
         wanted = lift(value(tree, {**parts.document.parameters, "t": Series(s.t, 1.0)}))
         moved = measure(s) - constant(wanted.value, s.nv)
@@ -176,7 +183,80 @@ def driver(parts: Parts, name: str, table: Table) -> Joint:
         moved.curve = moved.curve - wanted.second
         return moved
 
-    return Joint(name, bodies, [Row(f"{name}.driver", of)])
+    return of
+
+
+def orientation(parts: Parts, name: str, table: Table) -> Joint:
+    """Hold the angle alone."""
+    a, b = table["between"]
+    return Joint(
+        name, (a, b), [Row(f"{name}.angle", less(angle(a, b), parts.document.number(table.get("angle", 0.0))))]
+    )
+
+
+def place(parts: Parts, name: str, table: Table) -> Joint:
+    """Report where a point of the second body is in the first one's frame."""
+    a, b = table["between"]
+    ends, axes = parts.ends(table), np.eye(parts.document.dimension)
+    return Joint(name, (a, b), [], {n: component(*ends, Marker(a, e)) for n, e in zip("xyz", axes, strict=False)})
+
+
+def coupling(parts: Parts, name: str, table: Table) -> Joint:
+    """Tie coordinates of joints to a function of time and a polynomial of another coordinate."""
+    number, bodies = parts.document.number, list[str]()
+
+    def coordinate(text: str) -> Measure:
+        joint = parts.joint(text.partition(".")[0])
+        bodies.extend(joint.bodies)
+        return joint.coordinates[text.partition(".")[2]]
+
+    terms = [(number(factor), coordinate(text)) for text, factor in table["terms"].items()]
+    powers = [number(c) for c in table.get("polynomial", [])]
+    argument = coordinate(table["of"]) if powers else None
+
+    def of(s: State) -> Moving:
+        total = constant(0.0, s.nv)
+        for factor, measure in terms:
+            total = total + measure(s).times(factor)
+        if argument is not None:
+            x, series = argument(s), list(enumerate(powers))
+            f, slope, bend = (
+                sum(c * perm(k, n) * float(x.value) ** (k - n) for k, c in series if k >= n) for n in range(3)
+            )
+            total = total - x.through(f, slope, bend)
+        return total
+
+    tree = parts.document.formula(table.get("value", 0.0))
+    row = Row(f"{name}.coupling", less_of_time(parts, of, tree))
+    return Joint(name, tuple(dict.fromkeys(bodies)), [row])
+
+
+def rows(parts: Parts, name: str, table: Table) -> Joint:
+    """Hold formulas of positions at 0: sums, differences and products of numbers and coordinates of bodies."""
+    bodies = list[str]()
+
+    def read(tree: Tree) -> Measure:
+        kind, *inner = tree
+        if kind == "number":
+            return lambda s: constant(inner[0], s.nv)
+        if kind == "name":
+            body, label = inner[0].split(".")
+            bodies.append(body)
+            centre = np.zeros(parts.document.dimension)
+            return part(Marker(GROUND, centre), Marker(body, centre), "xyz".index(label))
+        a, *others = (read(x) for x in inner)
+        if kind == "minus":
+            return lambda s: -a(s)
+        (b,) = others
+        joined: Callable[[Moving, Moving], Moving] = {"+": Moving.__add__, "-": Moving.__sub__, "*": Moving.scaled}[
+            kind
+        ]
+        return lambda s: joined(a(s), b(s))
+
+    held = [
+        Row(f"{name}.row{i}", read(parts.document.formula(row["position"]))) for i, row in enumerate(table["rows"], 1)
+    ]
+    return Joint(name, tuple(dict.fromkeys(bodies)), held)
 
 
 KINDS: dict[str, Callable[[Parts, str, Table], Joint]] = {
@@ -190,4 +270,9 @@ KINDS: dict[str, Callable[[Parts, str, Table], Joint]] = {
     "rolling": rolling,
     "knife-edge": knife_edge,
     "driver": driver,
+    "orientation": orientation,
+    "place": place,
+    "coupling": coupling,
+    "rows": rows,
+    "inline": pin_in_slot,
 }

@@ -9,7 +9,18 @@ import numpy as np
 
 from benchmarks.plain.bodies import GROUND, Marker, State
 from benchmarks.plain.elements import Joint, Measure, Parts, Row, Triad, Turn, across, made
-from benchmarks.plain.joints_plane import component, distance, driver, less, part, stretch, weights
+from benchmarks.plain.joints_plane import (
+    component,
+    coupling,
+    distance,
+    driver,
+    less,
+    part,
+    place,
+    rows,
+    stretch,
+    weights,
+)
 from benchmarks.plain.moving import Moving, angle, cross, crossed, direction, dot, root, skew
 
 Table = Mapping[str, Any]
@@ -329,6 +340,27 @@ def knife_edge(parts: Parts, name: str, table: Table) -> Joint:
     return Joint(name, (body,), rows, {}, [flat])
 
 
+def orientation(parts: Parts, name: str, table: Table) -> Joint:
+    """Hold the directions of two bodies together."""
+    a, b = table["between"]
+    of_a, of_b = parts.triads(a, b, table.get("axis", [0.0, 0.0, 1.0]), table.get("reference"))
+    return Joint(name, (a, b), [*parallel(name, of_a, of_b), Row(f"{name}.angle", product(of_a.second, of_b.first))])
+
+
+def parallel_axes(parts: Parts, name: str, table: Table) -> Joint:
+    """Hold two axes parallel."""
+    a, b = table["between"]
+    of_a, of_b = parts.triads(a, b, table["axis"], table.get("reference"))
+    return Joint(name, (a, b), parallel(name, of_a, of_b), {"angle": turned(of_a, of_b)})
+
+
+def perpendicular(parts: Parts, name: str, table: Table) -> Joint:
+    """Hold two axes perpendicular."""
+    a, b = table["between"]
+    u, v = (Marker(body, parts.unit(axis)) for body, axis in zip((a, b), table["axes"], strict=True))
+    return Joint(name, (a, b), [Row(f"{name}.cross", product(u, v))])
+
+
 KINDS: dict[str, Callable[[Parts, str, Table], Joint]] = {
     "spherical": spherical,
     "revolute": revolute,
@@ -351,4 +383,12 @@ KINDS: dict[str, Callable[[Parts, str, Table], Joint]] = {
     "rolling-disc": rolling_disc,
     "rolling-sphere": rolling_sphere,
     "knife-edge": knife_edge,
+    "orientation": orientation,
+    "parallel-axes": parallel_axes,
+    "perpendicular": perpendicular,
+    "place": place,
+    "coupling": coupling,
+    "rows": rows,
+    "inline": pin_in_slot,
+    "in-plane": point_on_plane,
 }

@@ -75,9 +75,7 @@ class StateTangent:
     @property
     def z(self) -> Array:
         """Changes of the states of the file's own."""
-        changes = np.zeros((self.subject.states, self.q.shape[1]))
-        changes[:, self.positions + self.velocities : self.size] = np.eye(self.subject.states)
-        return changes
+        return np.eye(self.subject.states, self.q.shape[1], self.positions + self.velocities)
 
     @property
     def matrix(self) -> Array:
@@ -126,10 +124,8 @@ class StateTangent:
 
     def function(self, place: int) -> tuple[float, Array]:
         """Return the value of a quantity of the state, and how it changes."""
-        changes = self.base.by("functions", "q")[place] @ self.q + self.base.by("functions", "v")[place] @ self.v
-        changes = changes + self.base.by("functions", "a")[place] @ self.rates
-        changes = changes + self.base.by("functions", "z")[place] @ self.z
-        changes = changes + self.base.by("functions", "lam")[place] @ self.multipliers
+        by = {"q": self.q, "v": self.v, "a": self.rates, "z": self.z, "lam": self.multipliers}
+        changes = np.sum([self.base.by("functions", space)[place] @ x for space, x in by.items()], axis=0)
         changes[self.size :] += self.base.by("functions", "p")[place][self.subject.places]
         return float(self.base.value("functions")[place]), changes
 
@@ -240,30 +236,29 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> StateTangent:
     positions, velocities = free.shape[1], basis.shape[1]
     first = positions + velocities + subject.states
     width = first + len(places)
-    own = np.zeros((subject.states, width))
-    own[:, positions + velocities : first] = np.eye(subject.states)
-    q, v = np.zeros((subject.nq, width)), np.zeros((subject.nv, width))
+    q, v, z = (
+        np.zeros((subject.nq, width)),
+        np.zeros((subject.nv, width)),
+        np.eye(subject.states, width, first - subject.states),
+    )
+
+    def changes(group: str) -> Array:
+        total = e.by(group, "q") @ q + e.by(group, "v") @ v + e.by(group, "z") @ z
+        total[:, first:] += e.by(group, "p")[:, places]
+        return total
+
     q[:, :positions] = motion @ free
     q[:, first:] = motion @ _shifted(subject, e, d)
-    opened = e.by("velocities", "q") @ q
-    opened[:, first:] += e.by("velocities", "p")[:, places]
-    v -= inverse @ opened
+    v -= inverse @ changes("velocities")
     v[:, positions : positions + velocities] += basis
-    force = e.by("balance", "q") @ q + e.by("balance", "v") @ v + e.by("balance", "z") @ own
-    gap = e.by("accelerations", "q") @ q + e.by("accelerations", "v") @ v
-    force[:, first:] += e.by("balance", "p")[:, places]
-    gap[:, first:] += e.by("accelerations", "p")[:, places]
-    rates = -inverse @ gap
+    force, rates = changes("balance"), -inverse @ changes("accelerations")
     if velocities:
         rates = rates - basis @ _solved(basis.T @ mass @ basis, basis.T @ (force + mass @ rates))
     multipliers = -inverse.T @ (force + mass @ rates)
-    q_rates = e.by("motion", "q") @ q + motion @ v
-    q_rates[:, first:] += e.by("motion", "p")[:, places]
+    q_rates = changes("motion")
     back = np.linalg.pinv((motion @ free) / subject.lengths[:, np.newaxis]) / subject.lengths
     along = (basis / subject.spans[:, np.newaxis] ** 2).T  # of orthonormal columns in spans
-    own_rates = e.by("states", "q") @ q + e.by("states", "v") @ v + e.by("states", "z") @ own
-    own_rates[:, first:] += e.by("states", "p")[:, places]
-    state_rates = np.vstack([back @ q_rates, along @ rates, own_rates])
+    state_rates = np.vstack([back @ q_rates, along @ rates, changes("states")])
     return StateTangent(
         *(subject, now, y, a, lam, e, positions, velocities, q, q_rates, v, rates, multipliers),
         *(state_rates, free, basis),

@@ -165,14 +165,11 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledMod
         If the method integrates something else than velocities, or numbers that meet in a formula overflow.
     """
     formulas, info, law = integrals(mechanism), compiled.info, compiled.law_module
-    if not formulas and not mechanism.states:
-        return compiled
-    if not can_integrate(compiled):
-        why = "an output is an integral" if formulas else "the file has states"
-        expected = f"a method that integrates velocities, as {why}"
-        raise InputError(f"method '{compiled.law.method}'", expected, "one that integrates momenta")
     if not formulas:
         return compiled
+    if not can_integrate(compiled):
+        expected = "a method that integrates velocities, as an output is an integral"
+        raise InputError(f"method '{compiled.law.method}'", expected, "one that integrates momenta")
     auxiliary = compiled.law.nw, 1 + len(formulas)
     around = beside(mechanism, compiled)
     around = replace(around, sections={**around.sections, "auxiliary": auxiliary})

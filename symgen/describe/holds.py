@@ -145,8 +145,8 @@ def holds_of(mechanism: Mechanism, where: str = "start", values: Mapping[str, fl
 
     for name in values or {}:
         if name not in coordinates:
-            expected = f"a coordinate or velocity of a body or joint, or a state, of {mechanism.name}"
-            expected = expected if mechanism.states else expected.replace(", or a state,", "")
+            state = ", or a state," if mechanism.states else ""
+            expected = f"a coordinate or velocity of a body or joint{state} of {mechanism.name}"
             raise InputError(f"{where} '{name}'", expected, "none of that name", nearest(name, coordinates))
         if name in bodies and name.rpartition(".")[2] in _EULER:
             raise InputError(

@@ -259,11 +259,15 @@ class Joint(msgspec.Struct, frozen=True):
 
 
 class Rotor(msgspec.Struct, frozen=True):
-    """A rotor that turns with the angle of a joint: its energy is half of `inertia` times the square of that rate."""
+    """A rotor that turns with the angle of a joint: its energy is half of `inertia` times the square of that rate.
+
+    In space `axes` are those of the two bodies that the joint holds parallel, if it does.
+    """
 
     joint: str
     angle: Measure
     inertia: Expr
+    axes: tuple[Direction, ...] = ()
 
 
 class Force(msgspec.Struct, frozen=True, omit_defaults=True, repr_omit_defaults=True):

@@ -91,16 +91,15 @@ def _of_joint(joint: Joint) -> Iterator[tuple[bool, tuple[tuple[Direction, Direc
         (_, one), (_, other) = row.measure.terms
         if isinstance(one, Dot) and isinstance(other, Dot):
             yield True, ((other.u, one.v), (one.u, other.v))
-    held_frames = getattr(JOINTS.get(joint.kind, joint.name), "frames", None)
-    if held_frames is not None and len(joint.rows) > 1:
-        of_a, of_b = held_frames(joint)
+    if articulation is not None and articulation.turn in ("axis", "fixed"):
+        of_a, of_b, fixed = articulation.of_a, articulation.of_b, articulation.turn == "fixed"
+    else:  # primitives hold nothing else
+        of = getattr(JOINTS.get(joint.kind, joint.name), "frames", None)
+        (of_a, of_b), fixed = of(joint) if of else ((), ()), len(joint.rows) == 3
+    if of_a:
         yield False, ((of_a[2], of_b[2]),)
-        if len(joint.rows) == 3:
-            yield True, ((of_a[0], of_b[0]),)
-    if articulation is not None and articulation.of_a and articulation.turn in ("axis", "fixed"):
-        yield False, ((articulation.of_a[2], articulation.of_b[2]),)
-        if articulation.turn == "fixed":
-            yield True, ((articulation.of_a[0], articulation.of_b[0]),)
+    if of_a and fixed:
+        yield True, ((of_a[0], of_b[0]),)
 
 
 def _in_ground(arm: Arm, q: Any) -> tuple[Any, ...]:

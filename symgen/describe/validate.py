@@ -360,14 +360,15 @@ class _Validator:
         if len(angles) != 1:
             got = f"a {joint.kind} joint with {len(angles) or 'none'}"
             raise scope.error("rotor_inertia", "a joint with one angle", got)
-        given = {
-            key: read_value(Scalar, raw.get(key, 1.0), scope.where(key)) for key in ("rotor_inertia", "gear_ratio")
-        }
-        inertia = scope.constant("rotor_inertia", given["rotor_inertia"], positive=True)
-        ratio = scope.constant("gear_ratio", given["gear_ratio"])
+        inertia, ratio = (
+            scope.constant(key, read_value(Scalar, raw.get(key, 1.0), scope.where(key)), positive=positive)
+            for key, positive in (("rotor_inertia", True), ("gear_ratio", False))
+        )
         if ratio != ONE:
             inertia = call("mul", inertia, call("mul", ratio, ratio))
-        self._rotors[joint.name] = Rotor(joint.name, angles[0], inertia)
+        way = articulation_of(joint)
+        axes = (way.of_a[2], way.of_b[2]) if way is not None and way.turn == "axis" and way.of_a else ()
+        self._rotors[joint.name] = Rotor(joint.name, angles[0], inertia, axes)
 
     def force(self, name: str, raw: object) -> Force:
         path = f"forces.{name}"

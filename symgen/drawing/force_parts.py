@@ -8,11 +8,22 @@ import numpy as np
 
 from symgen.describe.mechanism import Force
 from symgen.drawing.joint_parts import DRIVE, turned_about
-from symgen.drawing.pen import PLAIN, BodyPoint, Pen, across, parts
+from symgen.drawing.pen import PLAIN, BodyPoint, Pen, across
 from symgen.drawing.scene import GROUNDED, INK, Array, BodyFrame, Item, Line, Look, Mark, Poses
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import ZERO, Number, names
-from symgen.vocabulary.measures import Angle, Component, Distance, Effort, HalfSquare, PointSpeed, Spin, Sum, Turn
+from symgen.vocabulary.measures import (
+    Angle,
+    Component,
+    Distance,
+    Effort,
+    HalfSquare,
+    PointSpeed,
+    Spin,
+    Sum,
+    Turn,
+    parts,
+)
 
 PUSH = Look("#a0522d", "", 1.8)
 COIL = Look(INK, "", 1.2)

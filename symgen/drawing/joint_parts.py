@@ -8,9 +8,9 @@ import numpy as np
 
 from symgen.describe.mechanism import Joint
 from symgen.describe.topology import articulation_of
-from symgen.drawing.pen import EARTH, FILLED, PLAIN, BodyPoint, Pen, PlacedMechanism, across, parts
+from symgen.drawing.pen import EARTH, FILLED, PLAIN, BodyPoint, Pen, PlacedMechanism, across
 from symgen.drawing.scene import GREY, GROUNDED, Array, Look, Mark
-from symgen.vocabulary.measures import Component, Sum, Turning
+from symgen.vocabulary.measures import Component, Sum, Turning, parts
 
 DRIVE = Look("#a0522d", "", 1.6)
 PITCH = Look(GREY, "", 1.0, dashed=True)

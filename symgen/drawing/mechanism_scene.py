@@ -13,7 +13,7 @@ from symgen.describe.mechanism import AnyBody, Mechanism, Shape, SpatialBody, Ve
 from symgen.describe.start import described_start
 from symgen.drawing.force_parts import force_item
 from symgen.drawing.joint_parts import along_of
-from symgen.drawing.pen import RIGID, BodyPoint, Pen, PlacedMechanism, across, parts
+from symgen.drawing.pen import RIGID, BodyPoint, Pen, PlacedMechanism, across
 from symgen.drawing.scene import (
     GROUNDED,
     Array,
@@ -30,7 +30,7 @@ from symgen.drawing.scene import (
 )
 from symgen.drawing.symbols import gap_item, joint_item
 from symgen.errors import InputError
-from symgen.vocabulary.measures import Marker
+from symgen.vocabulary.measures import Marker, parts
 
 #: A symbol in parts of the picture's diagonal, and of the usual distance between points of a body.
 SHARE, OF_BODY = 0.017, 0.17

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 from typing import Any
 
-import msgspec
 import numpy as np
 
 from symgen.describe.evaluate import evaluate
@@ -31,18 +30,7 @@ from symgen.drawing.scene import (
     Stretch,
     Tube,
 )
-from symgen.vocabulary.measures import GROUND, Direction, Marker
-
-
-def parts(value: Any) -> Iterator[Any]:
-    """Yield a value and everything inside it."""
-    yield value
-    if isinstance(value, msgspec.Struct):
-        for field in value.__struct_fields__:
-            yield from parts(getattr(value, field))
-    elif isinstance(value, tuple):
-        for item in value:
-            yield from parts(item)
+from symgen.vocabulary.measures import GROUND, Direction, Marker, parts
 
 
 @dataclass(frozen=True)

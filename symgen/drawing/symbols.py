@@ -22,9 +22,19 @@ from symgen.drawing.joint_parts import (
     turned_about,
     wheel_marks,
 )
-from symgen.drawing.pen import RIGID, BodyPoint, Pen, PlacedMechanism, across, parts
+from symgen.drawing.pen import RIGID, BodyPoint, Pen, PlacedMechanism, across
 from symgen.drawing.scene import GREY, GROUNDED, PAPER, RED, Array, Item, Line, Look, Mark
-from symgen.vocabulary.measures import AnyAngle, Component, LinkStretch, PointSpeed, RimHeight, RollingSpeed, Sum, Turn
+from symgen.vocabulary.measures import (
+    AnyAngle,
+    Component,
+    LinkStretch,
+    PointSpeed,
+    RimHeight,
+    RollingSpeed,
+    Sum,
+    Turn,
+    parts,
+)
 
 
 def _pin(pen: Pen, joint: Joint) -> list[Mark]:

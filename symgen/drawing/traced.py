@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from symgen.describe.evaluate import evaluate
-from symgen.drawing.pen import parts
 from symgen.drawing.scene import Point
-from symgen.vocabulary.measures import Marker
+from symgen.vocabulary.measures import Marker, parts
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import AnyBody, Mechanism, Vec

@@ -247,9 +247,6 @@ def make_ensemble(
         got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with `step`, or rk4"
         raise InputError("target 'lanes'", "a constant step", got, hint)
     kept = choose_quantities(mechanism, compiled.info, kept_names)
-    if mechanism.states and target != "cpu":
-        names_of_states = ", ".join(x.name for x in mechanism.states)
-        raise InputError(f"target '{target}'", "cpu, where a file has states", names_of_states, "leave --target out")
     integral = integrated(mechanism, kept)
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"

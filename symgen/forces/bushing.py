@@ -138,12 +138,7 @@ def _matrix(
     if len(rows) != size or diagonal or any(len(row) != size for row in rows):
         count = _COUNTS[size]
         raise scope.error(key, f"{count} numbers or {count} rows of {count}", words_of(entries))
-    matrix = tuple(tuple(scope.constant(key, e) for e in row) for row in rows)
-    for i in range(size):
-        for j in range(i):
-            if matrix[i][j] != matrix[j][i]:
-                raise scope.error(key, "a symmetric matrix", f"different entries {i + 1}{j + 1} and {j + 1}{i + 1}")
-    return matrix
+    return scope.symmetric(key, rows)
 
 
 def _effort(label: str, measure: Measure, stiffness: Expr, damping: Expr) -> list[Effort]:

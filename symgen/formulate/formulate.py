@@ -8,18 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from symgen.describe.mechanism import Mechanism, SpatialBody
+from symgen.describe.mechanism import Mechanism, Rotor, SpatialBody
 from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import UNITS, quantities
 from symgen.errors import finite_numbers
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, mass_blocks
 from symgen.formulate.flexure import exertions
-from symgen.formulate.measures import ModelNodes
+from symgen.formulate.measures import DerivedMeasure, ModelNodes
 from symgen.formulate.of_time import time_function
 from symgen.formulate.tree import energies_on_tree
 from symgen.ir.program import of_table
 from symgen.vocabulary.expressions import ZERO
-from symgen.vocabulary.measures import Holonomic, Row, StiffHolonomic
+from symgen.vocabulary.measures import GROUND, Holonomic, Row, StiffHolonomic
 from symgen.vocabulary.quantities import Quantity
 
 
@@ -203,7 +203,7 @@ def with_rotors(model: ModelNodes, mass: tuple[MassBlock, ...], forces: list[int
     """Return M with the rotors of joints, and their energy; adds to `forces` what their angles' rows change by.
 
     A rotor of inertia J adds J r^T r to M and -J r^T b to f, where the angle has the rate r v and the second derivative
-    r v' + b.
+    r v' + b: constants where body axes are those of the state and the joint holds its axes parallel.
     """
     g, energy = model.graph, model.graph.zero
     if not model.mechanism.rotors:
@@ -218,6 +218,7 @@ def with_rotors(model: ModelNodes, mass: tuple[MassBlock, ...], forces: list[int
     for rotor in model.mechanism.rotors:
         with finite_numbers(f"joints.{rotor.joint}"):
             inertia, angle = model.expression(rotor.inertia), model.measure(rotor.angle)
+            angle = _about_axes(model, rotor) or angle
             rate = angle.rate(g, model.velocities)
             row, bias, _ = model.pulled(angle.row, angle.bias)
             energy = g.add(energy, g.mul(g.mul(g.constant(0.5), inertia), g.mul(rate, rate)))
@@ -227,6 +228,21 @@ def with_rotors(model: ModelNodes, mass: tuple[MassBlock, ...], forces: list[int
                 for j, of_j in row.items():
                     entries[i, j] = g.add(entries.get((i, j), g.zero), g.mul(momentum, of_j))
     return mass_blocks(entries, len(forces), g.zero), energy
+
+
+def _about_axes(model: ModelNodes, rotor: Rotor) -> DerivedMeasure | None:
+    """Return the difference of two bodies' angular velocities about axes that a joint in space holds parallel.
+
+    That is the rate of its angle where the rows of the joint hold, with constant factors in body axes.
+    """
+    if model.tree is not None or not rotor.axes:
+        return None
+    g, row = model.graph, dict[int, int]()
+    for axis, sign in zip(rotor.axes, (-1.0, 1.0), strict=True):
+        if axis.body != GROUND:
+            factors = (g.mul(g.constant(sign), node) for node in model.direction(axis))
+            row |= {model.first[axis.body] + 3 + k: node for k, node in enumerate(factors) if node != g.zero}
+    return DerivedMeasure(g.zero, row, g.zero)
 
 
 def _turning(model: ModelNodes, first: int, tensor: tuple[int, ...], blocks: list[MassBlock], forces: list[int]) -> int:

@@ -40,6 +40,7 @@ from symgen.vocabulary.measures import (
     Sum,
     Turn,
     Turning,
+    axes,
 )
 
 
@@ -295,15 +296,21 @@ class ModelNodes(Formulas):
         return DerivedMeasure(value, {j: n for j, n in sorted(row.items()) if n != g.zero}, bias, drift)
 
     def _leaf(self, leaf: Name | Reading) -> DerivedMeasure:
-        """Return what moves in a formula: a coordinate of a body, whose row is that of its velocity, or a measure."""
+        """Return what moves in a formula: a measure, or a coordinate or velocity of a body as one.
+
+        Velocities of bodies on a tree are those of a point that its joint chooses, not those of their centres.
+        """
         if isinstance(leaf, Reading):
             assert not isinstance(leaf.source, Exerted | Driven | Integral | Flexed), "rows read measures"
             return self.motion(leaf.source)
-        body, _, label = leaf.name.partition(".")
-        owner = self.mechanism.body(body)
-        labels = owner.speeds if is_speed(leaf.name) else owner.coordinates
-        value = self.names[leaf.name]
-        return DerivedMeasure(value, {self.first[body] + labels.index(label): self.graph.one}, self.graph.zero)
+        body, _, label = leaf.name.rpartition(".")
+        if label in ("theta", "omega"):
+            return self.measure(Angle(GROUND, body))
+        dimension, i = len(self.mechanism.gravity), "xyz".index(label[-1])
+        if label[0] == "w":
+            return self.measure(Spin(GROUND, body, axes(body, dimension)[i]))
+        origin, centre = Marker(GROUND, (ZERO,) * dimension), self.mechanism.body(body).centre_of_mass
+        return self.measure(Component(origin, Marker(body, centre), axes(GROUND, dimension)[i]))
 
     def _turn(self, m: Turning) -> DerivedMeasure:
         """Return an angle in space, on the branch nearest to the angle that the section ``winding`` remembers.

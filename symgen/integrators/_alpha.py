@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions, refuse_states
+from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
 from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
@@ -64,7 +64,6 @@ class AlphaFamily:
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
-        refuse_states(self, compiled)
         from symgen.runtime.newton import Pattern, alpha_plan
         from symgen.runtime.scheme_records import Alpha
         from symgen.runtime.schemes import alpha
@@ -76,5 +75,6 @@ class AlphaFamily:
         slopes[-1] = 1.0
         scheme = Alpha(*self.coefficients(values), slopes, numbers, plan)
         functions = law_functions(compiled, "turn", "residual", "tangent")
-        memory, room = alpha.memory(padded(compiled.info.ny), compiled.info.nv, compiled.law.unknowns)
+        info = compiled.info
+        memory, room = alpha.memory(padded(info.ny), info.nv + len(info.states), compiled.law.unknowns)
         return Setup(self.loop(spec.adaptive), functions, scheme, step, memory, room)

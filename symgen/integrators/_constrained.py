@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions, refuse_states
+from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
 from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
@@ -72,7 +72,6 @@ class ConstrainedTableau:
         from symgen.runtime.scheme_records import ConstrainedStages
         from symgen.runtime.schemes.constrained import memory
 
-        refuse_states(self, compiled)
         info, pattern = compiled.info, Pattern.of(compiled, w)
         assert spec.step is not None, "a constant step is given"
         plan, numbers, sources = acceleration_plan(pattern)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.integrators._implicit import ImplicitTableau
-from symgen.runtime.integrator import Array, Setup, law_functions, refuse_states
+from symgen.runtime.integrator import Array, Setup, law_functions
 from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
@@ -31,7 +31,6 @@ class Trapezoidal(ImplicitTableau):
         """Return the arguments of the loop."""
         if compiled.law.level != "projected":
             return super().setup(compiled, spec, w)
-        refuse_states(self, compiled)
         from symgen.runtime.newton import Pattern, constraint_forces, mass_diagonal, projection_plan
         from symgen.runtime.scheme_records import Projection
         from symgen.runtime.schemes import projected
@@ -45,7 +44,7 @@ class Trapezoidal(ImplicitTableau):
         rows = np.array([0.0 if row.holonomic else 1.0 for row in info.rows])
         scheme = Projection(place, np.zeros(sources), numbers, plan, forces, mass_diagonal(pattern), rows)
         functions = law_functions(compiled, "turn", "residual", "tangent")
-        memory, room = projected.memory(padded(info.ny), info.nv, info.m, law.unknowns)
+        memory, room = projected.memory(padded(info.ny), info.nv + len(info.states), info.m, law.unknowns)
         return Setup(projected.constant, functions, scheme, spec.step, memory, room)
 
 

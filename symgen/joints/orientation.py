@@ -11,7 +11,7 @@ from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
 from symgen.joints._space import frames, not_turned, parallel
-from symgen.vocabulary.measures import Angle, Direction, Holonomic
+from symgen.vocabulary.measures import Angle, Holonomic
 
 
 class FixedOrientation(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -33,6 +33,7 @@ class FixedOrientation(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     and ``.angle``, those of a rigid joint.
     """
 
+    frames = staticmethod(frames)
     SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
     between: BodyPair
@@ -50,11 +51,6 @@ class FixedOrientation(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         scope.only(axis=self.axis, reference=self.reference)
         held = Holonomic("angle", Angle(*bodies), scope.constant("angle", self.angle or 0.0), "rad")
         return Joint(scope.name, scope.kind, bodies, (held,))
-
-    @staticmethod
-    def frames(joint: Joint) -> tuple[tuple[Direction, ...], tuple[Direction, ...]]:
-        """Return the directions of both bodies that coincide; all of them are held."""
-        return frames(joint)
 
 
 KIND = FixedOrientation

@@ -11,7 +11,6 @@ from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
 from symgen.joints._space import angle, frames, parallel
-from symgen.vocabulary.measures import Direction
 
 
 class ParallelAxes(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -31,6 +30,7 @@ class ParallelAxes(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     Two rows, ``NAME.first`` and ``.second`` [N m]: torques on the first body across the axis. Reports ``NAME.angle``.
     """
 
+    frames = staticmethod(frames)
     SPACES: ClassVar[tuple[str, ...]] = ("spatial",)
 
     between: BodyPair
@@ -42,11 +42,6 @@ class ParallelAxes(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
         bodies = scope.pair("between", self.between, turns=(True, True))
         triads = make_triads(scope, bodies, self.axis, self.reference)
         return Joint(scope.name, scope.kind, bodies, parallel(*triads), (("angle", angle(*triads)),))
-
-    @staticmethod
-    def frames(joint: Joint) -> tuple[tuple[Direction, ...], tuple[Direction, ...]]:
-        """Return the directions of both bodies that coincide at angle 0; the third ones are held."""
-        return frames(joint)
 
 
 KIND = ParallelAxes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import msgspec
 
@@ -18,6 +18,7 @@ from symgen.errors import quoted
 from symgen.vocabulary.expressions import Call, Expr, Name, Reading, moving
 from symgen.vocabulary.measures import (
     GROUND,
+    Angle,
     Direction,
     FormulaMeasure,
     FormulaSpeed,
@@ -25,10 +26,14 @@ from symgen.vocabulary.measures import (
     Marker,
     Nonholonomic,
     Row,
+    Spin,
+    parts,
 )
 
 #: Units of a row's value, without those of time.
 UNITS = ("m", "rad")
+#: Functions -> the arguments in which they are linear, from one up to another.
+_LINEAR = {"add": (0, 2), "sub": (0, 2), "neg": (0, 1), "div": (0, 1), "where": (1, 3)}
 
 
 class RowKeys(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -121,14 +126,11 @@ def _degree(e: Expr) -> float:
     if not isinstance(e, Call):
         return 0.0
     degrees = [_degree(a) for a in e.arguments]
-    if e.function in ("add", "sub", "neg"):
-        return max(degrees)
     if e.function == "mul":
         return sum(degrees)
-    if e.function in ("div", "where"):
-        fixed, free = (degrees[1:], degrees[:1]) if e.function == "div" else (degrees[:1], degrees[1:])
-        return math.inf if any(fixed) else max(free)
-    return math.inf if any(degrees) else 0.0
+    first, last = _LINEAR.get(e.function, (0, 0))
+    free, fixed = degrees[first:last], degrees[:first] + degrees[last:]
+    return math.inf if any(fixed) else max(free, default=0.0)
 
 
 def _nonlinear(e: Expr) -> Expr | None:
@@ -138,24 +140,15 @@ def _nonlinear(e: Expr) -> Expr | None:
     return next((part for a in e.arguments if (part := _nonlinear(a)) is not None), e)
 
 
-def _bodies(value: Any) -> Iterator[str]:
-    """Yield the bodies that a part of the vocabulary names."""
-    if isinstance(value, Name):
-        if "." in value.name:
-            yield value.name.partition(".")[0]
-    elif isinstance(value, Marker | Direction):
-        yield value.body
-    elif isinstance(value, tuple):
-        for item in value:
-            yield from _bodies(item)
-    elif isinstance(value, msgspec.Struct):
-        for field in value.__struct_fields__:
-            part = getattr(value, field)
-            if isinstance(part, str):
-                if field in ("a", "b"):
-                    yield part
-            else:
-                yield from _bodies(part)
+def _bodies(row: Row) -> Iterator[str]:
+    """Yield the bodies that a row reads."""
+    for part in parts(row):
+        if isinstance(part, Name) and "." in part.name:
+            yield part.name.rpartition(".")[0]
+        elif isinstance(part, Marker | Direction):
+            yield part.body
+        elif isinstance(part, Angle | Spin):
+            yield from (part.a, part.b)
 
 
 KIND = FormulaRows

@@ -106,7 +106,10 @@ def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
     outputs = [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
     if any(place == "rates.work" for place, _ in part.outputs):
         space, work = scalars.places["rates.work"]
-        outputs += [(Target(space, work + i), node) for i, node in enumerate(scalars.equations.state_rates, 1)]
+        rates = scalars.equations.state_rates
+        if part.velocities is not None:
+            rates = scalars.at_velocity(rates, scalars.values[part.velocities])
+        outputs += [(Target(space, work + i), node) for i, node in enumerate(rates, 1)]
     if part.name in _KEEPS_MASS:
         outputs += [(Target("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
     return outputs

@@ -6,7 +6,7 @@ Code for one mechanism (`symgen.lower.law`) and loops for all (`symgen.lower.loo
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import assert_never
 
 from symgen.errors import InputError
@@ -42,6 +42,8 @@ class Part:
         The operation that says whether a pivot was suspicious.
     role : {"acceleration", "iteration", "metric", "form"}
         What the function is a part of.
+    velocities : int, optional
+        The operation that gives v where the state holds something else.
     """
 
     name: str
@@ -49,6 +51,7 @@ class Part:
     outputs: tuple[tuple[str, int], ...]
     flag: int | None = None
     role: str = "acceleration"
+    velocities: int | None = None
 
 
 @dataclass(frozen=True)
@@ -174,6 +177,8 @@ class _Law:
         self.role = "iteration"
         self.add("iterate", "one iteration", *following, ("status.increment", relative))
         self.add("finish", "rates of the state, and power", *finish)
+        if law.rates is not None:
+            self.parts[-1] = replace(self.parts[-1], velocities=law.rates.velocities.index)
 
     # -- laws on dense matrices ----------------------------------------------------------------------------------------
 

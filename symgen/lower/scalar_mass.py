@@ -174,7 +174,7 @@ class OfMass(NodeValues):
     def _on_mass_rate(self, operation: FormulaStep, x: Nodes, v: Nodes) -> Nodes:
         g, result = self.graph, [self.graph.zero] * self.equations.nv
         if self.mass_entries:
-            changes = dict(zip(self.mass_entries, self.along(operation, self.mass_entries, v), strict=True))
+            changes = dict(zip(self.mass_entries, self.along(self.mass_entries, v), strict=True))
             for (i, j), node in sorted(self.mass_matrix.items()):
                 if node in changes:
                     result[i] = g.add(result[i], g.mul(changes[node], x[j]))

@@ -98,9 +98,11 @@ class NodeValues(Replay):
         return self.graph.dot(a, b)
 
     def _on_at_velocity(self, operation: FormulaStep, x: Nodes | int, v: Nodes) -> Any:
-        vector = isinstance(x, tuple)
-        nodes = self.graph.replaced(x if isinstance(x, tuple) else (x,), {("v", i): n for i, n in enumerate(v)})
-        return tuple(nodes) if vector else nodes[0]
+        return self.at_velocity(x, v) if isinstance(x, tuple) else self.at_velocity((x,), v)[0]
+
+    def at_velocity(self, x: Nodes, v: Nodes) -> Nodes:
+        """Return nodes with other velocities in place of those of the state."""
+        return tuple(self.graph.replaced(x, {("v", i): n for i, n in enumerate(v)}))
 
     # -- D -------------------------------------------------------------------------------------------------------------
 
@@ -156,17 +158,17 @@ class NodeValues(Replay):
         return self.stored_constraints()
 
     def _on_constraint_rate_transposed(self, operation: FormulaStep, y: Nodes, v: Nodes) -> Nodes:
-        g, rates = self.graph, self.along(operation, [n for row in self.rows for _, n in row], v)
+        g, rates = self.graph, self.along([n for row in self.rows for _, n in row], v)
         result = [g.zero] * self.equations.nv
         for row, factor in zip(self.rows, y, strict=True):
             for j, _ in row:
                 result[j] = g.add(result[j], g.mul(next(rates), factor))
         return tuple(result)
 
-    def along(self, operation: FormulaStep, nodes: Sequence[int], v: Nodes) -> Iterator[int]:
+    def along(self, nodes: Sequence[int], v: Nodes) -> Iterator[int]:
         """Yield the derivatives of nodes that depend on the position along the motion with velocities `v`."""
         g, e = self.graph, self.equations
-        rates = self._on_at_velocity(operation, e.q_rates, v)
+        rates = self.at_velocity(e.q_rates, v)
         for slopes in jacobian(g, nodes, [("t", 0), *(("q", i) for i in range(e.nq))]):
             yield g.total(n if space == "t" else g.mul(n, rates[i]) for (space, i), n in sorted(slopes.items()))
 

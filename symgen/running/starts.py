@@ -82,12 +82,10 @@ def start_of(
 
 
 def states_at_start(mechanism: Mechanism, numbers: Scalars, holds: Sequence[Hold]) -> list[float]:
-    """Return the values of the states of a file where a run begins: those asked for, else those described."""
-    asked = {hold.name: hold.value for hold in holds}
-    return [
-        numbers.value(asked.get(x.name) or x.start, f"{mechanism.name}: states.{x.name}.start")
-        for x in mechanism.states
-    ]
+    """Return the values of the states of a file where a run begins: those of `holds`, else those described."""
+    held = {hold.name: hold.value for hold in holds}
+    starts = [(x.name, held.get(x.name) or x.start) for x in mechanism.states]
+    return [numbers.value(start, f"{mechanism.name}: states.{name}.start") for name, start in starts]
 
 
 def _sided(mechanism: Mechanism, info: ModelInfo, start: Start) -> Start:

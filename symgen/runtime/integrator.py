@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.errors import InputError
-
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.run import RunSpec
@@ -151,17 +149,3 @@ def law_functions(compiled: CompiledModel, *names: str) -> tuple[Any, ...]:
     common = law.rhs, getattr(law, "confirm", law.rhs), law.accept
     turn = getattr(compiled.model, "turn", stay) if "turn" in names else 0
     return *common, turn, *(getattr(law, name) if name in names else 0 for name in ("residual", "tangent"))
-
-
-def refuse_states(integrator: Integrator, compiled: CompiledModel) -> None:
-    """Refuse a mechanism with states of its own, for schemes that integrate accelerations.
-
-    Raises
-    ------
-    InputError
-        If there are some.
-    """
-    if compiled.info.states:
-        names = ", ".join(x.name for x in compiled.info.states)
-        expected = f"one of first order for the states {names}, such as dop853 or radau5"
-        raise InputError(f"integrator '{integrator.name}'", expected, "one that integrates accelerations")

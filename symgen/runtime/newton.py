@@ -152,7 +152,7 @@ def alpha_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
     value is the number of sources; the last one is 1.
     """
     nq = pattern.nq
-    parts, products = _along_motion(pattern, pattern.rows >= nq, pattern.unknowns)
+    parts, products = _along_motion(pattern, pattern.rows >= nq)
     one, left_out = pattern.size + products.count, pattern.nv + pattern.masked
     motion = (0, pattern.nv, pattern.m)
     return *make_plan(pattern.unknowns - nq, 1, Terms.joined(parts), left_out, one, products, motion), one + 1
@@ -161,9 +161,17 @@ def alpha_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
 def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
     """Return the plan of ``W = M + h/2 C + h^2/4 (K + a D^T D)``; the coefficients are those of these parts.
 
-    As in `alpha_plan`, minus the coefficient of K stands behind it; that of D^T D is the fifth.
+    As in `alpha_plan`, minus the coefficient of K stands behind it; that of D^T D is the fifth. Rates of states stand
+    behind those of velocities.
     """
-    parts, products = _along_motion(pattern, pattern.dynamic, pattern.width)
+    nv, m, tail = pattern.nv, pattern.m, pattern.unknowns - pattern.states
+    by_multiplier = (pattern.columns >= pattern.width) & (pattern.columns < tail)
+
+    def joined(place: Indices) -> Indices:
+        return np.where(place < nv, place, place - m)
+
+    parts, products = _along_motion(pattern, (pattern.dynamic | (pattern.rows >= tail)) & ~by_multiplier)
+    parts = [(joined(rows), joined(columns), factor, sources) for rows, columns, factor, sources in parts]
     row, velocity, source = constraint_forces(pattern)
     by_row: dict[int, list[tuple[int, int]]] = {}
     for c, j, e in zip(row.tolist(), velocity.tolist(), source.tolist(), strict=True):
@@ -177,7 +185,7 @@ def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
     pairs = np.array(list(place), dtype=np.int64).reshape(-1, 2)
     parts.append((pairs[:, 0], pairs[:, 1], 4, first + np.arange(len(place))))
     one, nothing = first + len(place), np.zeros(0, dtype=np.int64)
-    return *make_plan(pattern.nv, 1, Terms.joined(parts), nothing, one, products), one + 1
+    return *make_plan(nv + pattern.states, 1, Terms.joined(parts), nothing, one, products), one + 1
 
 
 def acceleration_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
@@ -211,9 +219,9 @@ def mass_diagonal(pattern: Pattern) -> Indices:
 
 
 def _along_motion(
-    pattern: Pattern, chosen: NDArray[np.bool_], end: int
+    pattern: Pattern, chosen: NDArray[np.bool_]
 ) -> tuple[list[tuple[Indices, Indices, int, Indices]], Products]:
-    """Return the terms of derivatives by v, by changes of position and by unknowns from v' up to `end`.
+    """Return the terms of derivatives by v and states, by changes of position and by unknowns from v' on.
 
     Rows are those of the `chosen` numbers; the first of them is that of the first velocity. The kinematic map is read
     from the Jacobian itself, whose first rows belong to ``q' - N v``.
@@ -221,7 +229,7 @@ def _along_motion(
     n, nq, nv = pattern.unknowns, pattern.nq, pattern.nv
     by_v = np.flatnonzero(chosen & (pattern.columns >= n + nq))
     by_q = np.flatnonzero(chosen & (pattern.columns >= n) & (pattern.columns < n + nq))
-    by_k = np.flatnonzero(chosen & (pattern.columns >= nq) & (pattern.columns < end))
+    by_k = np.flatnonzero(chosen & (pattern.columns >= nq) & (pattern.columns < n))
     by_rate = pattern.rows[by_v] - nq, pattern.columns[by_v] - n - nq, 1, by_v
     unknown = pattern.rows[by_k] - nq, pattern.columns[by_k] - nq, 0, by_k
     if nq == nv:

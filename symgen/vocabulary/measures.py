@@ -7,6 +7,9 @@ Nothing here computes: the derivation of value, row and quadratic velocity term 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import Any
+
 import msgspec
 
 from symgen.vocabulary.expressions import ONE, ZERO, Expr
@@ -27,6 +30,17 @@ class Direction(msgspec.Struct, frozen=True):
 
     body: str
     vector: tuple[Expr, ...]
+
+
+def parts(value: Any) -> Iterator[Any]:
+    """Yield a value of the vocabulary and everything inside it."""
+    yield value
+    if isinstance(value, msgspec.Struct):
+        for field in value.__struct_fields__:
+            yield from parts(getattr(value, field))
+    elif isinstance(value, tuple):
+        for item in value:
+            yield from parts(item)
 
 
 def axes(body: str, dimension: int) -> tuple[Direction, ...]:

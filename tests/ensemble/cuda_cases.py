@@ -24,7 +24,23 @@ EVERYTHING = (
 SHORT = {"until": 0.01, "step": 2e-3}
 MASSES = {"crank_mass": [2.0, 3.0, -1.0]}
 
-#: Name -> (model, what varies, settings).
+
+def motor():
+    """Return a wheel whose motor has a current of its own."""
+    from symgen import MechanismBuilder
+
+    return (
+        MechanismBuilder("motor")
+        .parameter("R", 1.2)
+        .body("wheel", mass=1.0, inertia=0.04)
+        .joint("pin", "revolute", between=["ground", "wheel"], at=[[0.0, 0.0], [0.0, 0.0]])
+        .force("drive", "torque", body="wheel", torque="0.7*i")
+        .state("i", "(3 - R*i - 0.7*pin.rate)/0.02", 0.1)
+        .build()
+    )
+
+
+#: Name -> (model or what makes one, what varies, settings).
 CASES = {
     "planar": ("four-bar", MASSES, {**SHORT, "quantities": EVERYTHING, "times": (0.0, 0.0011, 0.01)}),
     # three steps of 0.1 s add up to something else than 0.3 s
@@ -55,6 +71,7 @@ CASES = {
         {"top.wz": [20.0, 30.0]},
         {"method": "lagrange", "integrator": "dop853", "rtol": 1e-9, "until": 0.2, "times": (0.05, 0.11, 0.2)},
     ),
+    "states": (motor, {"R": [1.2, 2.0], "i": [0.1, 0.4]}, {**SHORT, "quantities": ("i", "wheel.omega")}),
     "table": (ROOT / "examples" / "gear-pair.toml", {"pinion.omega": [5.0, 30.0]}, SHORT),
 }
 
@@ -139,6 +156,7 @@ def main(out: str, *names: str) -> None:
     DeviceRuns._most = lambda self: 2  # little memory: three runs take two launches
     for name in names:
         model, vary, settings = CASES[name]
+        model = model() if callable(model) else model
         found = {}
         for target in ("cpu", "cuda"):
             sweep = symgen.sweep(model, vary, target=target, jobs=2, **{"integrator": "rk4", **settings})

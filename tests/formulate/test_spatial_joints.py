@@ -7,17 +7,16 @@ from hypothesis import strategies as st
 from support.checks import RANDOM, close
 from support.emitted import mechanism_of
 from support.graph_values import node_values, state_inputs
-from support.kinds import APART
 from support.random_space import described
 from support.space import STEP, Space
 
 from symgen.formulate.formulate import formulate
 from symgen.joints import JOINTS
 
-KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES and name not in APART)
+KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES)
 
-#: Kinds whose other side is a plane of the ground.
-ON_THE_GROUND = ("rolling-disc", "rolling-sphere", "knife-edge")
+#: Kinds whose other side is a plane of the ground, or whose formulas read coordinates in its frame.
+ON_THE_GROUND = ("rolling-disc", "rolling-sphere", "knife-edge", "rows")
 
 
 def with_windings(equations, inputs, angles=()):

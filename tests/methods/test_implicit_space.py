@@ -11,7 +11,6 @@ import msgspec
 import numpy as np
 import pytest
 from support.emitted import law_source, mechanism_of
-from support.kinds import APART
 from support.random_space import make
 from support.space import STEP, angle_of
 
@@ -21,7 +20,7 @@ from symgen.joints import JOINTS
 from symgen.runtime.compiled import ModelInfo
 from symgen.vocabulary.infos import LawInfo
 
-JOINT_KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES and name not in APART)
+JOINT_KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES)
 FORCE_KINDS = tuple(name for name, kind in FORCES.items() if "spatial" in kind.SPACES and name != "beam")
 #: Method -> level of its descriptor.
 LEVELS = {

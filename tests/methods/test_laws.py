@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from support import reference
 from support.checks import RANDOM, close
 from support.emitted import Emitted, mechanism_of
-from support.kinds import APART, METHODS
+from support.kinds import METHODS
 from support.models import EVERYTHING, ROUGH
 from support.plain import Plain
 from support.random_mechanisms import descriptions, states
@@ -17,7 +17,7 @@ from support.random_mechanisms import descriptions, states
 from symgen.joints import JOINTS
 from symgen.methods import METHODS as KNOWN
 
-PLANAR = tuple(name for name, kind in JOINTS.items() if "planar" in kind.SPACES and name not in APART)
+PLANAR = tuple(name for name, kind in JOINTS.items() if "planar" in kind.SPACES)
 
 ALPHA, BETA = 3.5, 7.0
 
@@ -43,7 +43,9 @@ class Expected:
         self.mass = reference.masses(plain)
 
     def sine(self) -> float:
-        """Smallest singular value of D with rows of length 1."""
+        """Smallest singular value of D with rows of length 1; 1 without rows."""
+        if not len(self.d):
+            return 1.0
         scaled = self.d / np.linalg.norm(self.d, axis=1, keepdims=True)
         return float(np.linalg.svd(scaled, compute_uv=False)[-1]) if len(scaled) <= self.d.shape[1] else 0.0
 

@@ -8,6 +8,3 @@ INTEGRATORS = ("rk4", "dopri5", "dop853")
 #: Those of the methods that correct positions and velocities after each accepted step.
 CORRECTING = ("direct-correction",)
 ADAPTIVE = ("dopri5", "dop853")
-
-#: Joints that random mechanisms do not draw: `tests/formulate` compares them with other joints and closed forms.
-APART = ("coupling", "orientation", "parallel-axes", "perpendicular", "place", "rows")

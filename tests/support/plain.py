@@ -23,6 +23,13 @@ PLAIN_FUNCTIONS = {
     "sign": lambda x: float(bool(x > 0) - bool(x < 0)),
 }
 STEP = 1e-30
+#: Joint kinds by their other names.
+ALIASES = {
+    "prismatic": "translational",
+    "point-on-line": "pin-in-slot",
+    "inline": "pin-in-slot",
+    "in-plane": "point-on-plane",
+}
 
 
 def piecewise(*arguments):
@@ -46,6 +53,11 @@ def minus(a, b):
 
 def left(a):
     return -a[1], a[0]
+
+
+def numbered(keys):
+    """(label, row) of each row of a joint of type ``rows``."""
+    return [(f"row{i}", row) for i, row in enumerate(keys["rows"], 1)]
 
 
 class Plain:
@@ -86,12 +98,15 @@ class Plain:
         return self.number(values[0]), self.number(values[1])
 
     def of_state(self, value, t, q, v, **names):
-        """Value of a formula of time and state."""
+        """Value of a formula of time and state; `q` and `v` may be longer than the state."""
         bodies = {}
         for name, i in self.first.items():
             parts = {"x": q[i], "y": q[i + 1], "vx": v[i], "vy": v[i + 1]}
             if self.turns(name):
                 parts |= {"theta": q[i + 2], "omega": v[i + 2]}
+                for point in self.bodies[name].get("points", {}):
+                    (x, y), (vx, vy) = self.point(name, point, q), self.velocity(name, point, q, v)
+                    parts[point] = SimpleNamespace(x=x, y=y, vx=vx, vy=vy)
             bodies[name] = SimpleNamespace(**parts)
         return self.number(value, t=t, **bodies, **names)
 
@@ -157,12 +172,19 @@ class Plain:
 
     def joint_rows(self, keys, t, q):
         """(label, residual) of one joint, signed so that the force on the first body is -D^T lambda."""
-        kind = {"prismatic": "translational"}.get(keys["type"], keys["type"])
+        kind = ALIASES.get(keys["type"], keys["type"])
         if kind == "driver":
             return [("driver", self.driven(keys, q) - self.number(keys["value"], t=t))]
-        if kind == "knife-edge":
+        if kind == "coupling":
+            return [("coupling", self.coupled(keys, q) - self.number(keys["value"], t=t))]
+        if kind == "rows":
+            rest = [0.0] * self.size
+            return [(n, self.of_state(row["position"], t, q, rest)) for n, row in numbered(keys) if "position" in row]
+        if kind in ("knife-edge", "place"):
             return []
         a, b = keys["between"]
+        if kind == "orientation":
+            return [("angle", self.angle(b, q) - self.angle(a, q) - self.number(keys["angle"]))]
         if kind == "gear":
             return [("mesh", self.mesh(keys, a, b, q))]
         if kind == "rolling":
@@ -204,16 +226,30 @@ class Plain:
         found = self.joint_coordinates(self.raw["joints"][keys["joint"]], q)
         return found[keys["coordinate"]] if "coordinate" in keys else next(iter(found.values()))
 
+    def coupled(self, keys, q):
+        """A weighted sum of joint coordinates, less a polynomial of another one."""
+
+        def coordinate(name):
+            joint, _, label = name.partition(".")
+            return self.joint_coordinates(self.raw["joints"][joint], q)[label]
+
+        total = sum(self.number(factor) * coordinate(name) for name, factor in keys["terms"].items())
+        if "of" in keys:
+            total -= sum(self.number(c) * coordinate(keys["of"]) ** k for k, c in enumerate(keys["polynomial"]))
+        return total
+
     def joint_coordinates(self, keys, q) -> dict:
         """What a joint reports."""
-        kind = {"prismatic": "translational"}.get(keys["type"], keys["type"])
+        kind = ALIASES.get(keys["type"], keys["type"])
         if kind == "rolling":
             return {"displacement": self.on_line(keys, q)[0]}
-        if kind not in ("revolute", "translational", "pin-in-slot"):
+        if kind not in ("revolute", "translational", "pin-in-slot", "place"):
             return {}
         a, b = keys["between"]
         found = {}
         gap = minus(self.point(b, keys["at"][1], q), self.point(a, keys["at"][0], q))
+        if kind == "place":
+            return {label: dot(self.axis(a, along, q), gap) for label, along in (("x", (1.0, 0.0)), ("y", (0.0, 1.0)))}
         if kind == "translational":
             found["displacement"] = dot(self.axis(a, keys["axis"], q), gap)
         if kind == "pin-in-slot":
@@ -223,12 +259,15 @@ class Plain:
         return found
 
     def slips(self, t, q, v) -> dict:
-        """Residuals of nonholonomic conditions by row name: the velocity to the right of the blade."""
+        """Residuals of nonholonomic conditions by row name: the velocity to the right of the blade, and formulas."""
         result = {}
         for name, keys in self.raw.get("joints", {}).items():
             if keys["type"] == "knife-edge":
                 across = left(self.axis(keys["body"], keys["axis"], q))
                 result[f"{name}.normal"] = -dot(across, self.velocity(keys["body"], keys.get("at", "centre"), q, v))
+            elif keys["type"] == "rows":
+                rows = {n: row["velocity"] for n, row in numbered(keys) if "velocity" in row}
+                result |= {f"{name}.{n}": self.of_state(row, t, q, v) for n, row in rows.items()}
         return result
 
     # -- forces and energies -------------------------------------------------------------------------------------------

@@ -24,6 +24,17 @@ OF_STATE = (
 )
 OF_LENGTH = ("0.7*length - rate**2", "k1*sin(length)*rate", "tab(length)")
 OF_ANGLE = ("k1*cos(angle)", "-0.2*rate*abs(rate)", "angle*rate + t")
+#: Rows of one's own: smooth formulas of positions, and formulas linear in velocities; R stands for a rigid body.
+OF_PLACE = (
+    "B.y - k1*B.x**2 - 0.3*sin(2*t)",
+    "sqrt(1 + B.x**2)*cos(R.theta) - R.P.x*B.y",
+    "R.Q.y*R.theta - exp(-0.3*t)",
+)
+OF_SPEED = (
+    "cos(R.theta)*R.P.vy - sin(R.theta)*R.P.vx",
+    "B.vx - k1*B.y*R.omega + 0.3*cos(t)",
+    "(R.Q.vx + t*B.vy)/(2 + sin(B.x)) - k2",
+)
 POTENTIALS = ("k1*{}**2/3 + cos({})", "exp(0.3*{})", "big*{}**3 - {}")
 
 numbers = st.floats(-2.0, 2.0).map(lambda x: round(x, 3))
@@ -31,6 +42,7 @@ positive = st.floats(0.2, 3.0).map(lambda x: round(x, 3))
 values = st.one_of(numbers, st.sampled_from(["k1", "k2/2", "0.0", "1.0"]))
 above_zero = st.one_of(positive, st.sampled_from(["k1", "big/4", 1.0]))
 pairs = st.tuples(values, values)
+coefficients = st.lists(values, min_size=2, max_size=4)
 axes = st.one_of(
     st.sampled_from([(1.0, 0.0), (0.0, -1.0), ("k1", "k2")]),
     st.floats(-math.pi, math.pi).map(lambda a: (round(math.cos(a), 3), round(math.sin(a), 3))),
@@ -58,8 +70,17 @@ class Bodies:
         return self.draw(pairs if body == "ground" else st.one_of(pairs, st.sampled_from(["centre", "P", "Q"])))
 
     def formula(self, choices: tuple[str, ...]) -> str:
-        text = self.draw(st.sampled_from(choices))
+        text = self.draw(st.sampled_from(choices)).replace("R.", f"{self.pick(turns=True, ground=False)}.")
         return text.replace("B", self.pick(ground=False))
+
+    def coordinate(self, joints: dict, kind: str, label: str) -> str:
+        """A reported coordinate of a joint of some kind, which is made."""
+        name = f"held{len(joints)}"
+        joints[name] = _joint(self, kind, joints)
+        if kind == "revolute":
+            joints[name]["between"] = self.two(True, True)
+            joints[name]["at"] = [self.at(body) for body in joints[name]["between"]]
+        return f"{name}.{label}"
 
 
 def _joint(b: Bodies, kind: str, joints: dict) -> dict:
@@ -77,6 +98,18 @@ def _joint(b: Bodies, kind: str, joints: dict) -> dict:
             keys["carrier"] = b.pick(turns=True, other_than=tuple(pair))
         ratio = {"ratio": draw(above_zero)} if draw(st.booleans()) else {"radii": [draw(above_zero), draw(above_zero)]}
         return keys | ratio
+    if kind == "rows":
+        rows = [{"position": b.formula(OF_PLACE)}, {"velocity": b.formula(OF_SPEED)}]
+        return keys | {"rows": draw(st.sampled_from([rows, rows[:1], rows[1:]]))}
+    if kind == "coupling":
+        pairs_ = ("revolute", "angle"), ("translational", "displacement")
+        keys |= {
+            "terms": {b.coordinate(joints, *pair): draw(above_zero) for pair in pairs_},
+            "value": b.formula(OF_TIME),
+        }
+        if draw(st.booleans()):
+            keys |= {"of": b.coordinate(joints, "pin-in-slot", "displacement"), "polynomial": draw(coefficients)}
+        return keys
     if kind == "driver":
         driven = [n for n, j in joints.items() if j["type"] in ("translational", "pin-in-slot", "rolling")]
         if driven and draw(st.booleans()):
@@ -85,16 +118,20 @@ def _joint(b: Bodies, kind: str, joints: dict) -> dict:
         coordinate = draw(st.sampled_from(["x", "y"] if body in b.points else ["x", "y", "theta"]))
         keys |= {"body": body, "coordinate": coordinate, "value": b.formula(OF_TIME)}
         return keys if coordinate == "theta" else keys | {"point": b.at(body)}
-    turning = {"rigid": (1, 1), "translational": (1, 1), "pin-in-slot": (0, 1), "rolling": (1, 1)}.get(kind, (0, 0))
+    both = dict.fromkeys(("rigid", "translational", "rolling", "orientation"), (1, 1))
+    turning = (both | {"pin-in-slot": (0, 1)}).get(kind, (0, 0))
     pair = b.two(*map(bool, turning))
     keys["between"] = pair
     if kind == "rolling":
         keys |= {"radius": draw(above_zero), "axis": draw(axes), "offset": draw(values)}
         return keys | {"centre": b.at(pair[0]) if pair[0] != "ground" else [0.5, 0.2], "on": b.at(pair[1])}
-    keys["at"] = [b.at(body) for body in pair]
+    if kind != "orientation":
+        keys["at"] = [b.at(body) for body in pair]
     if kind in ("translational", "pin-in-slot"):
         keys["axis"] = draw(axes)
-    if kind in ("rigid", "translational"):
+    if kind == "pin-in-slot":
+        keys["type"] = draw(st.sampled_from(["pin-in-slot", "inline"]))
+    if kind in ("rigid", "translational", "orientation"):
         keys["angle"] = draw(values)
     if kind == "distance":
         keys["length"] = draw(above_zero)

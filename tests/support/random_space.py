@@ -17,6 +17,17 @@ OF_STATE = (
     "tab(B.x) + abs(B.vx)*sign(B.vy)",
     "B.wz**2/(1 + B.e1**2) - tanh(B.y)",
 )
+#: Rows of one's own: smooth formulas of positions, and formulas linear in velocities; B stands for a rigid body.
+OF_PLACE = (
+    "B.y - k1*B.x**2 - 0.3*sin(2*t)",
+    "sqrt(1 + B.x**2)*B.ez.x - B.P.z*B.y",
+    "B.ex.y*B.ey.z - exp(-0.3*t)",
+)
+OF_SPEED = (
+    "B.ex.x*B.P.vy - B.ex.y*B.P.vx",
+    "B.wx - k1*B.z*B.vy + 0.3*cos(t)",
+    "(B.P.vz + t*B.ey.vx)/(2 + sin(B.x)) - k2",
+)
 #: Joint kinds with an angle or a displacement that others may use -> these.
 REPORTED = {
     "revolute": ("angle",),
@@ -25,6 +36,7 @@ REPORTED = {
     "planar": ("angle", "displacement1", "displacement2"),
     "screw": ("angle", "displacement"),
     "translational": ("displacement",),
+    "parallel-axes": ("angle",),
 }
 
 
@@ -101,6 +113,16 @@ class Maker:
             body = self.body(ground=False)
             keys |= {"body": body, "coordinate": self.pick("xyz"), "value": self.formula(OF_TIME)}
             return keys | {"point": self.at(body)}
+        if kind == "rows":
+            rows = [{"position": self.formula(OF_PLACE)}, {"velocity": self.formula(OF_SPEED)}]
+            return keys | {"rows": self.pick([rows, rows[:1], rows[1:]])}
+        if kind == "coupling":
+            terms = [".".join(self.coordinate(self.pick(["rad", "m"]))) for _ in range(2)]
+            keys |= {"terms": dict(zip(terms, ("k2", 1.3), strict=True)), "value": self.formula(OF_TIME)}
+            if self.rng.random() < 0.5:
+                powers = self.rng.uniform(-1.0, 1.0, int(self.rng.integers(2, 5))).round(3).tolist()
+                keys |= {"of": ".".join(self.coordinate(self.pick(["rad", "m"]))), "polynomial": powers}
+            return keys
         if kind == "gear":
             radii = self.rng.random() < 0.5
             pairs = [self.coordinate("rad"), self.coordinate("rad" if radii else self.pick(["rad", "m"]))]
@@ -119,19 +141,26 @@ class Maker:
             if kind == "knife-edge":
                 return keys | {"at": self.at(body)}
             return keys | {"radius": self.positive(), "centre": self.at(body), "reference": self.across(normal)}
-        turning = {"spherical": (0, 0), "distance": (0, 0), "pin-in-slot": (0, 1), "point-on-plane": (0, 1)}
+        turning = dict.fromkeys(("spherical", "distance", "place"), (0, 0))
+        turning |= dict.fromkeys(("pin-in-slot", "point-on-plane"), (0, 1))
         first, second = turning.get(kind, (1, 0 if kind == "revolute-spherical" else 1))
         a = self.body(turns=bool(first))
         b = self.body(turns=bool(second), other=a)
-        keys |= {"between": [a, b], "at": [self.at(a), self.at(b)]}
+        keys["between"] = [a, b]
+        if kind == "perpendicular":
+            return keys | {"axes": [self.axis(), self.axis()]}
+        if kind not in ("orientation", "parallel-axes"):
+            keys["at"] = [self.at(a), self.at(b)]
         if kind in ("distance", "revolute-spherical"):
             keys["length"] = self.positive()
         if kind == "screw":
             keys |= {"pitch": self.pick([0.3, "k2"]), "offset": "k2/3"}
-        if kind in ("spherical", "distance"):
+        if kind in ("spherical", "distance", "place"):
             return keys
-        if kind in ("pin-in-slot", "point-on-plane"):
-            return keys | {"axis" if kind == "pin-in-slot" else "normal": self.axis()}
+        if kind == "pin-in-slot":
+            return keys | {"type": self.pick([kind, "inline"]), "axis": self.axis()}
+        if kind == "point-on-plane":
+            return keys | {"type": self.pick([kind, "in-plane"]), "normal": self.axis()}
         if kind == "revolute-spherical":
             axis = self.axis()
             return keys | {"axis": axis, "reference": self.across(axis)}

@@ -37,8 +37,9 @@ def jacobian(plain: Plain, t, q, v) -> dict[str, np.ndarray]:
 
 
 def nu(plain: Plain, t, q) -> dict[str, float]:
-    """-Phi_t by a complex step; nonholonomic conditions of the vocabulary have none."""
-    return {n: -complex(x).imag / STEP for n, x in plain.using(cmath).phi(t + STEP * 1j, q).items()}
+    """-Phi_t by a complex step; of nonholonomic conditions what is left of them at rest."""
+    still = {n: -x for n, x in plain.slips(t, q, [0.0] * plain.size).items()}
+    return still | {n: -complex(x).imag / STEP for n, x in plain.using(cmath).phi(t + STEP * 1j, q).items()}
 
 
 def gamma(plain: Plain, t, q, v) -> dict[str, float]:

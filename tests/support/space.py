@@ -9,6 +9,7 @@ import math
 
 import numpy as np
 
+from support.plain import ALIASES, numbered
 from support.space_bodies import GROUND, STEP, Bodies, angle_of, rotation, skew, triad, unit
 
 __all__ = ["GROUND", "STEP", "Space", "angle_of", "rotation", "skew", "triad", "unit"]
@@ -35,13 +36,20 @@ class Space(Bodies):
 
     def joint(self, keys, t, q):
         """(rows, coordinates), each as (label, value), of one joint."""
-        kind = {"prismatic": "translational", "point-on-line": "pin-in-slot"}.get(keys["type"], keys["type"])
+        kind = ALIASES.get(keys["type"], keys["type"])
         rows = getattr(self, f"_{kind.replace('-', '_')}", None)
-        if kind in ("driver", "gear", "rack-and-pinion", "rolling-disc", "rolling-sphere", "knife-edge"):
+        if rows is not None:
             return rows(keys, t, q), []
         a, b = keys["between"]
+        if kind == "perpendicular":
+            one, other = (self.direction(*pair, q) for pair in zip((a, b), keys["axes"], strict=True))
+            return [("cross", one @ other)], []
+        if kind in ("orientation", "parallel-axes"):
+            keys = keys | {"at": [(0.0,) * 3 if body == GROUND else "centre" for body in (a, b)]}  # of no meaning
         ends = self.point(a, keys["at"][0], q), self.point(b, keys["at"][1], q)
         gap = ends[1] - ends[0]
+        if kind == "place":
+            return [], [*zip("xyz", self.matrix(a, q).T @ gap, strict=True)]
         axes = keys.get("axis", keys.get("normal", keys.get("axes")))
         if kind in ("spherical", "distance"):
             length = self.number(keys.get("length", 1.0))
@@ -76,11 +84,26 @@ class Space(Bodies):
             "cylindrical": ([*across, *tilt], [along, turn]),
             "translational": ([*across, *tilt, ("angle", r[1, 0])], [along]),
             "rigid": ([*together, *tilt, ("angle", r[1, 0])], []),
+            "orientation": ([*tilt, ("angle", r[1, 0])], []),
+            "parallel-axes": (tilt, [turn]),
             "constant-velocity": ([*together, ("twist", (r[1, 0] - r[0, 1]) / 2)], []),
         }[kind]
 
     def _reported(self, name, label, q):
         return dict(self.joint(self.raw["joints"][name], 0.0, q)[1])[label]
+
+    def _rows(self, keys, t, q):
+        rest = np.zeros(self.nv)
+        return [(n, self.of_state(row["position"], t, q, rest)) for n, row in numbered(keys) if "position" in row]
+
+    def _coupling(self, keys, t, q):
+        def coordinate(name):
+            return self._reported(*name.split("."), q)
+
+        total = sum(self.number(factor) * coordinate(name) for name, factor in keys["terms"].items())
+        powers = enumerate(keys.get("polynomial", ()))
+        total -= sum(self.number(c) * coordinate(keys["of"]) ** k for k, c in powers)
+        return [("coupling", total - self.number(keys["value"], t=t))]
 
     def _driver(self, keys, t, q):
         if "joint" in keys:
@@ -133,6 +156,9 @@ class Space(Bodies):
                 left = np.cross(unit(keys["normal"]), heading)
                 speed = self.velocity(keys["body"], keys.get("at", "centre"), q, v)
                 result[f"{name}.side"] = -(left @ speed) / np.sqrt(left @ left)
+            elif keys["type"] == "rows":
+                rows = {n: row["velocity"] for n, row in numbered(keys) if "velocity" in row}
+                result |= {f"{name}.{n}": self.of_state(row, t, q, v) for n, row in rows.items()}
         return result
 
     # -- derivatives ---------------------------------------------------------------------------------------------------

@@ -89,8 +89,16 @@ class Bodies:
             labels = ("x", "y", "z", "e0", "e1", "e2", "e3")[: 7 if turns else 3]
             rates = ("vx", "vy", "vz", "wx", "wy", "wz")[: 6 if turns else 3]
             parts = {n: q[i + k] for k, n in enumerate(labels)} | {n: v[j + k] for k, n in enumerate(rates)}
+            for point in self.bodies[name].get("points", {}):
+                parts[point] = self._components(self.point(name, point, q), self.velocity(name, point, q, v))
+            for axis, along in zip(("ex", "ey", "ez"), self.matrix(name, q).T if turns else (), strict=False):
+                parts[axis] = self._components(along, np.cross(self.spin(name, q, v), along))
             bodies[name] = SimpleNamespace(**parts)
         return self.number(value, t=t, **bodies, **names)
+
+    @staticmethod
+    def _components(place, speed):
+        return SimpleNamespace(**dict(zip(("x", "y", "z", "vx", "vy", "vz"), (*place, *speed), strict=True)))
 
     # -- motion --------------------------------------------------------------------------------------------------------
 

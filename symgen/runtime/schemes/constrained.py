@@ -37,6 +37,16 @@ def solved(system: Any, scheme: Any, run: Any, right: Any, x: Any) -> None:
     solve(scheme.plan, scheme.numbers, right, x)
 
 
+def auxiliary_rates(system: Any, run: Any, rest: Any, rates: Any) -> None:
+    """Write the rates of auxiliary states to `rates`; `rest` are the residuals, at which those of the file's are 0."""
+    sizes = system.sizes
+    for i in range(rates.shape[0]):
+        if 0 < i <= sizes.states:
+            rates[i] = -rest[sizes.unknowns - sizes.states + i - 1]
+        else:
+            rates[i] = run.w[sizes.auxiliary + (i - sizes.states if i > 0 else 0)]
+
+
 def memory(width: int, nv: int, m: int, unknowns: int, stages: int) -> tuple[int, int]:
     """Return the numbers that a run keeps, and the working memory of a step behind the state that is tried."""
     n = nv + m

@@ -16,7 +16,7 @@ from symgen.runtime.frame import TOO_LARGE, loop
 from symgen.runtime.loop_instances import called
 from symgen.runtime.manifold import advance
 from symgen.runtime.scheme_records import CONSTRAINED
-from symgen.runtime.schemes.constrained import carry_slopes, factorised, slopes_at, solved
+from symgen.runtime.schemes.constrained import auxiliary_rates, carry_slopes, factorised, slopes_at, solved
 from symgen.runtime.schemes.lie import exponential_rate
 from symgen.runtime.vectors import copied
 
@@ -75,8 +75,8 @@ def attempt(
         for c in range(m):
             k[first + c] = x[nv + c]
         system.residual(now, held, k, run.p, run.w, rest)
+        auxiliary_rates(system, run, rest, part(rates, s * width + first, sizes.ny - first))
         for i in range(first, sizes.ny):
-            rates[s * width + i] = run.w[sizes.auxiliary + i - first]
             run.trial[i] = run.y[i]
             for j in range(s + 1):
                 run.trial[i] += h * scheme.a[s * s_count + j] * rates[j * width + i]

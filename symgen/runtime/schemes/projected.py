@@ -5,7 +5,9 @@ vectors of the bodies over the step, the equations of motion at the end of the s
 matrix ``W = M + h/2 C + h^2/4 (a D^T D + K)``, the multipliers being raised by a Phi in every iteration, those of rows
 without Phi by ``h/2 a (D v - nu)``, whose part of W is the same as v1 changes by 2/h times the change of q1. Then
 velocities and accelerations are projected with the same matrix, ``W v = (W - h^2/4 a D^T D) v* + h^2/4 a D^T nu``,
-iterated, since one pass leaves a residual. Auxiliary states follow by the trapezoidal rule.
+iterated, since one pass leaves a residual. States of the file are unknowns beside the positions: the change of z is
+``2/h`` times that of its unknown, as that of v1 is, so that both stand in W alike. Other auxiliary states follow by the
+trapezoidal rule.
 
 The memory of a run holds the rates of the state, the multipliers, and the largest mass.
 """
@@ -68,12 +70,15 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 
 @called
 def follow(system: Any, run: Any, h: float, shift: Any, k: Any) -> None:
-    """Set velocities and accelerations from the change of positions."""
-    nq, nv = system.sizes.nq, system.sizes.nv
+    """Set velocities and accelerations, states and their rates, from the change of positions and that of states."""
+    nq, nv, states, first = system.sizes.nq, system.sizes.nv, system.sizes.states, system.sizes.unknowns
     for i in range(nv):
         run.trial[nq + i] = 2.0 / h * shift[i] - run.y[nq + i]
         k[i] = run.trial[nq + i]
         k[nq + i] = 4.0 / (h * h) * shift[i] - 4.0 / h * run.y[nq + i] - run.memory[nq + i]
+    for i in range(nv, nv + states):
+        run.trial[nq + 1 + i] = run.y[nq + 1 + i] + 2.0 / h * shift[i]
+        k[first - states - nv + i] = 4.0 / (h * h) * shift[i] - run.memory[nq + 1 + i]
 
 
 @called
@@ -82,15 +87,18 @@ def attempt(
 ) -> float:
     """Solve for positions and multipliers, then project velocities and accelerations."""
     sizes = system.sizes
-    nq, nv, m, width = sizes.nq, sizes.nv, sizes.m, sizes.width
-    n, first, quarter = nq + nv + m, nq + nv, 0.25 * h * h
+    nq, nv, m, width, count = sizes.nq, sizes.nv, sizes.m, sizes.width, sizes.nv + sizes.states
+    n, first, quarter = sizes.unknowns, nq + nv, 0.25 * h * h
     k, rest = part(run.room, 8, n), part(run.room, 8 + n, n + 2 * m)
     at = 8 + 2 * n + 2 * m
-    right, change, shift = part(run.room, at, nv), part(run.room, at + nv, nv), part(run.room, at + 2 * nv, nv)
-    held, rate = part(run.room, at + 3 * nv, m), part(run.room, at + 3 * nv + m, width)
+    right, change = part(run.room, at, count), part(run.room, at + count, count)
+    shift, held = part(run.room, at + 2 * count, count), part(run.room, at + 3 * count, m)
+    rate = part(run.room, at + 3 * count + m, width)
     penalty = max(run.p[scheme.penalty], _LEAST_PENALTY * run.memory[width + m] / quarter)
     for i in range(nv):
         shift[i] = h * run.y[nq + i] + 0.5 * h * h * run.memory[nq + i]
+    for i in range(nv, count):
+        shift[i] = 0.5 * h * h * run.memory[nq + 1 + i]
     advance(system, run, shift, run.trial)
     for c in range(m):
         held[c] = k[first + c] = run.memory[width + c]
@@ -112,12 +120,17 @@ def attempt(
             fresh = False
         for i in range(nv):
             right[i] = quarter * rest[nq + i]
+        for i in range(nv, count):
+            right[i] = quarter * rest[n - count + i]
         solve(scheme.plan, scheme.numbers, right, change)
         run.control[abi.NEWTON_ITERATIONS] += 1
         moved, total, violation = 0.0, 0.0, 0.0
         for i in range(nv):
             shift[i] -= change[i]
             moved += (run.metric[nq + i] * change[i]) ** 2
+        for i in range(nv, count):  # of any unit
+            shift[i] -= change[i]
+            moved += (run.w[abi.LENGTH] * 2.0 / h * change[i] / (1.0 + abs(run.trial[nq + 1 + i]))) ** 2
         advance(system, run, shift, run.trial)
         for i in range(nq):
             total += (run.scales[i] * run.trial[i]) ** 2
@@ -136,6 +149,8 @@ def attempt(
     follow(system, run, h, shift, k)
     if not lead(system, scheme, run, following, h, penalty, k, shift):
         return TOO_LARGE
+    for i in range(nv, count):
+        right[i] = 0.0
     for level in range(2):  # velocities, then accelerations
         last = math.inf
         for _ in range(_MOST_ITERATIONS):
@@ -162,7 +177,8 @@ def attempt(
     evaluate(system, run, following, run.trial, rate)
     run.control[abi.EVALUATIONS] += 1
     for i in range(first, sizes.ny):
-        run.trial[i] = run.y[i] + 0.5 * h * (run.memory[i] + rate[i])
+        if i == first or i > first + sizes.states:
+            run.trial[i] = run.y[i] + 0.5 * h * (run.memory[i] + rate[i])
     for i in range(nv):  # the accelerations are those of the projection
         rate[nq + i] = k[nq + i]
     return 0.0
@@ -171,17 +187,20 @@ def attempt(
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
     """Keep rates and multipliers at the end of the step."""
     sizes = system.sizes
-    nq, nv, m, width = sizes.nq, sizes.nv, sizes.m, sizes.width
-    at = 8 + 2 * (nq + nv + m) + 2 * m + 3 * nv
+    nq, m, width = sizes.nq, sizes.m, sizes.width
+    at = 8 + 2 * sizes.unknowns + 2 * m + 3 * (sizes.nv + sizes.states)
     for c in range(m):
         run.memory[width + c] = run.room[at + c]
     for i in range(nq, sizes.ny):
         run.memory[i] = run.room[at + m + i]
 
 
-def memory(width: int, nv: int, m: int, unknowns: int) -> tuple[int, int]:
-    """Return the numbers that a run keeps, and the working memory of a step behind the state that is tried."""
-    return width + m + 1, 8 + 2 * unknowns + 3 * m + 3 * nv + width
+def memory(width: int, count: int, m: int, unknowns: int) -> tuple[int, int]:
+    """Return the numbers that a run keeps, and the working memory of a step behind the state that is tried.
+
+    `count` are velocities and states of the file.
+    """
+    return width + m + 1, 8 + 2 * unknowns + 3 * m + 3 * count + width
 
 
 _FUNCTIONS = "turn", "residual", "tangent"

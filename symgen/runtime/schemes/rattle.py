@@ -6,7 +6,8 @@
 
 Forces of both halves are evaluated at the same V, so that the second half is the first one of the step back: the scheme
 is its own adjoint. Rows without Phi hold on the mean of both ends: ``D_0 V - nu_0 + D_1 V - nu_1 = 0``. Auxiliary
-states follow by the trapezoidal rule, from a step of Euler's.
+states, those of a file among them, follow by the trapezoidal rule, from a step of Euler's: where forces read them, the
+scheme is no longer its own adjoint.
 
 The memory of a run holds B and mu, with which the next iteration begins.
 """
@@ -22,7 +23,7 @@ from symgen.runtime.frame import DIVERGED, TOO_LARGE, loop
 from symgen.runtime.loop_instances import called
 from symgen.runtime.manifold import advance
 from symgen.runtime.scheme_records import CONSTRAINED
-from symgen.runtime.schemes.constrained import carry_slopes, factorised, slopes_at, solved
+from symgen.runtime.schemes.constrained import auxiliary_rates, carry_slopes, factorised, slopes_at, solved
 from symgen.runtime.vectors import copied
 
 _MOST_ITERATIONS = 50
@@ -49,7 +50,7 @@ def attempt(
     moved, factors, begun = part(run.room, at, nv), part(run.room, at + nv, 2), part(run.room, at + nv + 2, width)
     copied(width, run.y, held)
     copied(width, run.y, run.trial)
-    for i in range(nq):
+    for i in range(n):
         k[i] = 0.0
     for i in range(nv + m):
         x[i] = run.memory[i]
@@ -97,8 +98,8 @@ def attempt(
         fresh, last = size > 0.05 * last, size
     if not converged:
         return DIVERGED
+    auxiliary_rates(system, run, rest, part(begun, first, sizes.ny - first))
     for i in range(first, sizes.ny):
-        begun[i] = run.w[sizes.auxiliary + i - first]
         run.trial[i] = run.y[i] + h * begun[i]
     for i in range(nv):
         run.trial[nq + i] = run.y[nq + i] + 0.5 * h * x[i]
@@ -123,8 +124,10 @@ def attempt(
         k[first + c] = x[nv + c]
     system.residual(following, run.trial, k, run.p, run.w, rest)
     run.control[abi.EVALUATIONS] += 2
+    ended = part(held, first, sizes.ny - first)
+    auxiliary_rates(system, run, rest, ended)
     for i in range(first, sizes.ny):
-        run.trial[i] = run.y[i] + 0.5 * h * (begun[i] + run.w[sizes.auxiliary + i - first])
+        run.trial[i] = run.y[i] + 0.5 * h * (begun[i] + ended[i - first])
     for i in range(nv):
         run.trial[nq + i] += 0.5 * h * x[i]
     return 0.0
