@@ -12,7 +12,7 @@ from benchmarks.plain.system import System, read
 
 STEP = 1e-4
 #: Mechanisms of this seed; together they have every kind.
-SEED, COUNT = 11, 90
+SEED, COUNT = 11, 140
 
 
 def kinds(raw) -> set[str]:
