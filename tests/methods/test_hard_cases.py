@@ -25,7 +25,7 @@ COARSE = ("implicit-constraint",)
 
 def check_redundant(methods):
     for row in robustness.redundant(methods):
-        assert row.status == ("unverified" if row.method == "energy-projection" else "ok"), f"{row.method}: {row.said}"
+        assert row.status == ("unverified" if row.method == "energy-projection" else "ok"), f"{row.method}: {row.reason}"
         assert row.error <= (1e-6 if row.method in YIELDING else 1e-9), row.method
         assert (row.result.rank.rank, row.result.rank.rows) == (11, 12)
         assert row.result.rank_event_count == 0
@@ -79,9 +79,9 @@ def check_light(factor, methods):
             assert row.error <= LIGHT.get(row.method, 1e-6), f"{row.method} x {factor}: {row.error}"
             assert row.result.rank.rank == row.result.rank.rows and row.result.rank_event_count == 0
             if row.error > 1e-6 and row.method not in YIELDING:
-                assert "light bodies" in row.said
+                assert "light bodies" in row.reason
         else:
-            assert row.said
+            assert row.reason
 
 
 @pytest.mark.parametrize("factor", [1e-6, 1e-12])

@@ -98,7 +98,8 @@ def test_singular_positions_are_passed_by_runs_whose_steps_fall_differently(wind
     """Ten passages in 10 s, against the equation of the regular branch, which knows no singular position."""
     closed, general, points = both(f"n-four-bar:{windows}", np.linspace(0.0, 10.0, 41))
     assert "through singular positions" in general.how and general.note == ""
-    assert points.distance(closed.q, general.q) < closed.estimated_error + general.estimated_error
+    # estimates are no bounds: a second run differs from the motion by as much as the first
+    assert points.distance(closed.q, general.q) < 2.0 * (closed.estimated_error + general.estimated_error)
     assert general.estimated_error < 1e-6
 
 
