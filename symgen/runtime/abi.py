@@ -1,4 +1,4 @@
-"""The interface between emitted functions and the loops: types, and where things stand in the arrays.
+"""The interface between emitted functions and the loops: types, and positions in the arrays.
 
 Emitted functions are called through first-class function types, so one cached compilation of a loop serves every model.
 """
@@ -18,7 +18,7 @@ RHS = types.FunctionType(types.int64(_F8, _A, _A, _A, _I, _A))
 NODES = types.FunctionType(types.int64(_A, _A, _A, _A, _A))
 #: accept(t, y, p, w, iw) -> bits: 1 the correction failed, 2 the state was changed.
 ACCEPT = types.FunctionType(types.int64(_F8, _A, _A, _A, _I))
-#: residual(t, y, k, p, w, r) and tangent(t, y, k, p, w, j); j holds the structural nonzeros alone.
+#: residual(t, y, k, p, w, r) and tangent(t, y, k, p, w, j); j holds only the structural nonzeros.
 STAGE = types.FunctionType(types.int64(_F8, _A, _A, _A, _A, _A))
 #: geometry(t, y, p, w).
 MEASURE = types.FunctionType(types.int64(_F8, _A, _A, _A))
@@ -44,17 +44,17 @@ SHORTEST_ROW = STATUS.index("shortest_row")
 MEAN_MASS = STATUS.index("mean_mass")
 STEP_STATUS = STATUS.index("step")
 POWER = STATUS.index("power")
-N_STATUS = RANK + 1  # what an output keeps of the status
-WINDING = len(STATUS)  # where the section of angles begins that count turns
+N_STATUS = RANK + 1  # length of the status in an output
+WINDING = len(STATUS)  # first of the angles that count turns
 PROBING = COUNTERS.index("probing")
 BALANCED = COUNTERS.index("balanced")
 LIGHT = COUNTERS.index("light")
 ITERATIONS = COUNTERS.index("iterations")
 N_COUNTERS = len(COUNTERS)
 
-# -- control: integers that a run keeps, shared with the thread that watches it ----------------------------------------
+# -- control: integers of a run, shared with the thread that watches it ------------------------------------------------
 (
-    STOP,  # raised from outside: the run is to end
+    STOP,  # set from outside to end the run
     STEPS,
     REJECTED,
     EVALUATIONS,
@@ -64,36 +64,36 @@ N_COUNTERS = len(COUNTERS)
     LAST_RANK,
     JACOBIANS,
     NEWTON_ITERATIONS,
-    BEGUN,  # 1 once the first state is accepted, `AFRESH` where inputs or velocities were changed since
-    INDEX,  # steps of the grid that began at `ORIGIN`
-    REFUSED,  # 1 where the last attempt was
-    BARRED,  # 1 where a zone is not to be crossed in one step: an attempt to do so has failed
-    KNOWN,  # 1 where what the scheme keeps of the beginning of the step is that of the state
+    BEGUN,  # 1 once the first state is accepted, `AFRESH` if inputs or velocities have changed since
+    INDEX,  # steps since `ORIGIN` on the grid of constant steps
+    REFUSED,  # 1 if the last attempt was refused
+    BARRED,  # 1 if a zone must not be crossed in one step, because an attempt failed
+    KNOWN,  # 1 if the scheme's data for the beginning of the step belong to the present state
     POINTS,  # past points of a multistep scheme; slow steps of an iterated one
     ORDER,  # of the error estimate, plus one
     MARKED,  # attempts at `MARK`
-    MASKED,  # rows that are left out because they depend on others for ever
-    PASSED,  # stops that are behind
+    MASKED,  # rows left out because they always depend on others
+    PASSED,  # stops that have been passed
 ) = range(20)
 N_CONTROL = 20
-#: What ``control[BEGUN]`` says of a run whose rates were changed where it stands: the scheme begins anew.
+#: Value of ``control[BEGUN]`` if the rates have changed at the present state: the scheme begins anew.
 AFRESH = 2
 
-# -- clock: floating-point numbers that a run keeps of its time and steps ----------------------------------------------
+# -- clock: time and steps of a run ------------------------------------------------------------------------------------
 (
-    TIME,  # how far the run is
-    ORIGIN,  # where the grid of constant steps begins
-    NEXT,  # step to try next where steps vary; 0: not chosen yet
+    TIME,  # present time
+    ORIGIN,  # begin of the grid of constant steps
+    NEXT,  # next step to try if steps vary; 0: not chosen yet
     STEP,  # last accepted step
-    ALLOWED,  # by how much its error estimate would have let it grow; 0 where nothing is known of it
-    MARK,  # time from which on progress is judged
+    ALLOWED,  # growth that its error estimate allows; 0 if unknown
+    MARK,  # time from which progress is judged
 ) = range(6)
 N_CLOCK = 6
-#: Times are the same that are closer than this part of a constant step, or, where steps vary, of the time: steps below
-#: that are lost in its rounding.
+#: Times are equal if they differ by less than this part of a constant step or, if steps vary, of the time: shorter
+#: steps are lost in its rounding.
 SAME_TIME, RESOLVED_TIME = 1e-9, 4e-16
 
-# -- gauges: floating-point numbers that a run keeps of its states -----------------------------------------------------
+# -- gauges: measures of the states of a run ---------------------------------------------------------------------------
 (
     MAX_PHI,  # largest |Phi| over accepted steps and outputs
     MAX_DRIFT,  # largest |D v - nu|
@@ -101,21 +101,21 @@ SAME_TIME, RESOLVED_TIME = 1e-9, 4e-16
     ENERGY_START,  # E0
     ENERGY_SCALE,  # largest kinetic energy, change of potential energy or work so far
     LIMIT_PHI,  # max_violation, of the largest coordinate so far
-    LIMIT_DRIFT,  # the same, of the largest speed
+    LIMIT_DRIFT,  # max_violation, of the largest speed
     LIMIT_ENERGY,  # fraction of the energy scale
     WARN_PIVOT,
     SMALLEST_PIVOT,
     POTENTIAL_START,
     ENERGY_ENTRY,  # E - E0 - W at the last accepted state before a passage
-    MAX_ENERGY_JUMP,  # largest change of it over a passage
-    LAST_TIME,  # time, root of the smallest pivot, and how fast that root fell, at the accepted state before
+    MAX_ENERGY_JUMP,  # largest change of ENERGY_ENTRY over a passage
+    LAST_TIME,  # time, root of the smallest pivot, and its rate of fall, at the previous accepted state
     LAST_SINE,
     FALL,
-    LAST_SHORT,  # root of the shortest row at the accepted state before, and how fast it fell
+    LAST_SHORT,  # root of the shortest row at the previous accepted state, and its rate of fall
     SHORT_FALL,
-    CHOSEN,  # largest value of the smallest pivot since rows were chosen that stand for all
-    LAST_KINETIC,  # kinetic energy at the accepted state before
-    FORCE,  # largest change of kinetic energy or work over its way, where the balance of energy was in doubt
+    CHOSEN,  # largest value of the smallest pivot since independent rows were last chosen
+    LAST_KINETIC,  # kinetic energy at the previous accepted state
+    FORCE,  # largest change of kinetic energy or work over distance, where the balance of energy was in doubt
     LARGEST_SINE,  # largest root of the smallest pivot so far
 ) = range(22)
 N_GAUGES = 22
@@ -125,7 +125,7 @@ EVENT_IN, EVENT_OUT, EVENT_RANK, EVENT_PIVOT = range(4)
 N_EVENT = 4
 MAX_EVENTS = 1000
 
-# -- how a loop ended --------------------------------------------------------------------------------------------------
+# -- codes with which a loop ends --------------------------------------------------------------------------------------
 (
     DONE,
     STOPPED,
@@ -142,12 +142,12 @@ MAX_EVENTS = 1000
     UNDEFINED,
     UNPREPARED,
 ) = range(14)
-#: A loop that can go on when it is entered again: after so many steps, once there is more room for a matrix, and once
-#: other rows stand for all; and a run in a lane that is left to the loop over single runs.
+#: The loop can be entered again: after a number of steps, once a matrix has more room, or once other independent rows
+#: are chosen; `LEFT`: a run in a lane is left to the loop over single runs.
 PAUSED, NO_ROOM, LEFT, CHOOSE = -1, -2, -3, -4
-#: The same, at an event that ends a run or changes its state, and where the notes of events have to be taken.
+#: The loop can be entered again after an event that ends a run or changes its state, or once event notes are read.
 MET, NOTED = -5, -6
-#: The same, where the caller works out what depends on parameters that have changed.
+#: The loop can be entered again once the caller has evaluated the numbers that depend on changed parameters.
 CHANGED = -7
 
 REASONS = {

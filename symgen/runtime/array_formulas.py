@@ -1,6 +1,6 @@
-"""Formulas of many numbers at once, as arrays.
+"""Formulas evaluated for arrays of numbers.
 
-What is undefined for some values (a division by 0, the root of a negative number) is nan there.
+Undefined values (a division by 0, the root of a negative number) are nan.
 """
 
 from __future__ import annotations
@@ -16,30 +16,30 @@ import numpy as np
 from symgen.describe.tables import Table
 from symgen.vocabulary.expressions import FUNCTIONS, Expr, Name, Number, Reading, table_of
 
-#: Functions that operators of arrays work out for all runs at once; the others are called for each.
+#: Functions that array operators evaluate for all runs at once; the others are called for each run.
 _OPERATORS = ("add", "sub", "mul", "div", "neg")
 
 
 @dataclass(frozen=True)
 class Columns:
-    """The numbers of many runs (`symgen.describe.start.Numbers`), by the functions that one run's are worked out by.
+    """The numbers of many runs (`symgen.describe.start.Numbers`), by the functions of a single run.
 
-    What is undefined is nan, and stays so whatever is done with it, unless a choice leaves it aside. What is the same
-    for all runs is worked out once.
+    Undefined values are nan; nan propagates unless a condition discards it. Values common to all runs are evaluated
+    once.
 
     Attributes
     ----------
     values : mapping of str to float or Array
-        For every name a number, or an array of shape (k,).
+        A number or an array of shape (k,) for each name.
     tables : mapping of str to Table
-        That formulas may read.
+        Tables that formulas may read.
     """
 
     values: Mapping[str, Any]
     tables: Mapping[str, Table] = field(default_factory=dict)
 
     def value(self, expression: Expr, where: str = "") -> Any:
-        """Return a formula's values."""
+        """Return the values of a formula."""
         if isinstance(expression, Number):
             return expression.value
         if isinstance(expression, Name | Reading):
@@ -47,7 +47,7 @@ class Columns:
         return self.apply(expression.function, *(self.value(a) for a in expression.arguments))
 
     def apply(self, function: str, *arguments: Any) -> Any:
-        """Return a function of formulas."""
+        """Return the values of a function of its arguments."""
         if function == "where":
             condition, yes, no = arguments
             if not _varies(arguments):
@@ -66,12 +66,12 @@ class Columns:
         return np.where(np.isfinite(values), values, np.nan)
 
     def above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
-        """Return `x`, nan where it is not above a limit."""
+        """Return `x`, or nan where it is not above the limit."""
         return np.where(x > limit, x, np.nan) if _varies((limit, x)) else x if x > limit else np.nan
 
 
 def _joined(deciding: bool, a: Any, b: Any) -> Any:
-    """Return whether one of two conditions holds (`deciding`), or both; undefined ones yield to those that decide."""
+    """Return "or" (`deciding`) or "and" of two conditions; a deciding one overrides an undefined one."""
     values = np.asarray([*np.broadcast_arrays(a, b)], dtype=np.float64)
     undefined = np.isnan(values)
     decided = (~undefined & ((values != 0.0) == deciding)).any(axis=0)
@@ -84,7 +84,7 @@ def _varies(arguments: Iterable[Any]) -> bool:
 
 
 def _number(function: Callable[..., Any], *arguments: float) -> float:
-    """Return a function of numbers, nan where it is undefined."""
+    """Return the value of a function of numbers, or nan if it is undefined."""
     if any(a != a for a in arguments):
         return math.nan
     try:

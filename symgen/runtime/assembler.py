@@ -1,4 +1,4 @@
-"""What the one start (`symgen.runtime.starting`) has to know of a compiled model, and how it is called."""
+"""Data of a compiled model for the common start (`symgen.runtime.starting`), and calls of it."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
-#: Compiled, or plain Python: see `symgen.runtime.exact`.
+#: Compiled or plain Python, see `symgen.runtime.exact`.
 Form = Callable[[Any], Any]
-#: The only row of one start, which nobody stops.
+#: Row and control of a single start, which is never stopped.
 ALONE = np.zeros(1, dtype=np.int64), np.zeros(e.N_CONTROL, dtype=np.int64)
 
 
 def layout_of(compiled: CompiledModel) -> Layout:
-    """Return the layout of a model for starts at time 0 in which nothing is held and no branch is known."""
+    """Return the layout of a model for starts at time 0 with nothing held and no branch set."""
     info, joints = compiled.info, {name: k for k, name in enumerate(joints_of(compiled.info))}
     numbers = (
         *(0.0, info.nq, info.nv, info.ny, info.m, info.windings),
@@ -56,33 +56,33 @@ def layout_of(compiled: CompiledModel) -> Layout:
 
 
 def _marked(those: Sequence[int], count: int) -> Integers:
-    """Return 1 where a number up to `count` is one of those, else 0."""
+    """Return 1 for each number below `count` that is one of `those`, else 0."""
     return np.isin(np.arange(count), those).astype(np.int64)
 
 
 def one_row(y: Array, p: Array, w: Array) -> Instant:
-    """Return the arrays of one start as those of many that are one."""
+    """Return the arrays of one start as matrices of one row."""
     return Instant(y[np.newaxis], p[np.newaxis], w[np.newaxis])
 
 
 @dataclass(frozen=True)
 class Assembly:
-    """The one start of a compiled model.
+    """The start of a compiled model.
 
     Attributes
     ----------
     compiled : CompiledModel
         Model and method.
     held : Held
-        What starts keep; of many starts the values stand in the conditions of each.
+        Held quantities; with many starts, their values are in the conditions of each.
     strict : bool
-        Whether a start that has to be changed is refused.
+        Whether a start that would be changed is refused.
     ask_light : bool
-        Whether it shall be said if bodies are too light for the law's solver.
+        Whether to report bodies that are too light for the law's solver.
     t : float
         Time of the start [s].
     branches : sequence of float
-        The angles that count turns, empty where their turns are chosen.
+        Angles that count turns; empty if their turns are chosen.
     """
 
     compiled: CompiledModel
@@ -94,7 +94,7 @@ class Assembly:
 
     @cached_property
     def layout(self) -> Layout:
-        """The model's layout with all this."""
+        """The layout of the model with the settings of this start."""
         info, held, layout = self.compiled.info, self.held, self.compiled.layout
         return layout._replace(
             t=self.t,
@@ -106,21 +106,21 @@ class Assembly:
         )
 
     def memory(self) -> tuple[Joints, Work]:
-        """Return the joint coordinates that are held and working memory, of which each thread has its own."""
+        """Return the held joint coordinates and working memory; each thread has its own."""
         compiled, held, scratch = self.compiled, self.held, self.compiled.scratch()
         joints = joints_held(compiled.info, self.layout, list(held.joints), list(held.rates), scratch)
         largest = max(joints.values, joints.rates, key=lambda layout: layout.m)
         return joints, new_work(largest, len(scratch))
 
     def close(self, y: Array, v: Array, p: Array) -> tuple[Array, Array]:
-        """Make one state consistent, in place, with all that is held at its values; return scratch and summary.
+        """Make one state consistent in place, with held quantities at their values; return scratch and summary.
 
         Parameters
         ----------
         y : Array, shape (ny,)
             Described coordinates.
         v : Array, shape (nv,)
-            Given velocities, nan where there is none.
+            Specified velocities, nan for the others.
         p : Array
             Parameters.
         """
@@ -138,14 +138,14 @@ class Assembly:
         Parameters
         ----------
         now, conditions : Instant, StartConditions
-            Of all rows, one row of a matrix for each: described coordinates, and parameters not yet prepared.
+            Matrices with one row for each start: described coordinates, and parameters not yet prepared.
         selected, control : Array of int
-            Rows to work on; what the watching thread shares.
+            Rows to close; integers shared with the watching thread.
 
         Returns
         -------
         int
-            Rows that were worked on.
+            Number of rows done.
         """
         joints, work = self.memory()
         flat, (*functions, observe), form = self.prepare(now, selected, len(work.right))
@@ -160,16 +160,16 @@ class Assembly:
         return done
 
     def prepare(self, now: Instant, selected: Integers, m: int) -> tuple[Instant, tuple[Any, ...], Form]:
-        """Fill parameters, masses and the rest of the scratch of the selected rows; nan where they are not defined.
+        """Fill parameters, masses and the rest of the scratch of the selected rows; nan where undefined.
 
         Returns
         -------
         flat : Instant
-            The same arrays, one row behind the other.
+            The same arrays, their rows one after another.
         functions : tuple
-            Those in `own`.
+            The functions of `own`.
         form : callable
-            The form of functions: plain Python for one start of up to so many rows of D, `m`, else compiled.
+            Form of functions: plain Python for one small start (`m`: most rows of D), else compiled.
         """
         flat, model, law = Instant(*(array.ravel() for array in now)), self.compiled.model, self.compiled.law_module
         if len(now.y) == 1:
@@ -191,7 +191,7 @@ class Assembly:
         return flat, tuple(f if kind is None else Ready(f, kind) for f, kind in plain), plain_form
 
     def _judge(self, ws: Array, summaries: Array) -> None:
-        """Name the joint that stays open most; refuse changed starts in a strict run."""
+        """Record the joint with the largest gap; refuse changed starts if `strict`."""
         info = self.compiled.info
         for r in np.flatnonzero(summaries[:, e.START] == e.OPEN):
             joints, residual = joints_of(info), np.nan_to_num(self.compiled.section(ws[r], "residual"), nan=np.inf)
@@ -208,7 +208,7 @@ class Assembly:
 
     @property
     def own(self) -> tuple[Any, ...]:
-        """What `close_row` takes: geometry, measure, move, spread, solve, turns, rhs, observe."""
+        """Functions for `close_row`: geometry, measure, move, spread, solve, turns, rhs, observe."""
         model, law, layout = self.compiled.model, self.compiled.law_module, self.layout
         held = bool(self.held.joints or self.held.rates)
         return (

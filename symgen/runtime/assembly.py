@@ -1,6 +1,6 @@
 """The consistent start of a single run: positions closed by shortest changes, velocities completed by least squares.
 
-`symgen.runtime.assembler` calls the one start that sweeps have too; here stands what single runs make of it.
+`symgen.runtime.assembler` calls the start that sweeps share; this module adds the reports of single runs.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo
 
 Array = NDArray[np.float64]
-#: Coordinates as described and as closed that are reported: names, differences, and units.
+#: Reported coordinates, from described and closed ones: names, differences, and units.
 Moved = Callable[[Array, Array], Iterable[tuple[str, float, str]]]
 
 
@@ -45,19 +45,19 @@ class Start:
     redundant_rows : tuple of str
         Rows that depend on others at the start and near it.
     notes : tuple of str
-        What was changed to make the start consistent, one sentence each.
+        Changes that made the start consistent, one sentence each.
     changes : tuple of Change
         The same as data, positions before velocities.
     light : bool
         Whether a pivot of S is suspiciously small although D D^T finds no row dependent; False where unexamined.
     warnings : tuple of str
-        What was changed by so much that another motion may have been meant.
+        Changes so large that another motion may have been meant.
     t : float
         Time at which the run begins [s].
     work : float
-        Work done before [J], which is not in `y`.
+        Work done before the run [J], not included in `y`.
     saved : mapping of str to Array, optional
-        What another run kept that this one goes on with.
+        Saved arrays of another run that this run continues.
     """
 
     y: Array
@@ -79,12 +79,12 @@ class Start:
 
 
 def state_scales(compiled: CompiledModel, w: Array, until: float) -> Array:
-    """Return the scales of coordinates and velocities that a run settles at its beginning.
+    """Return the scales of coordinates and velocities that a run sets at its beginning.
 
     Parameters
     ----------
     compiled, w : CompiledModel, Array
-        Model and method, and the scratch that a start has left.
+        Model and method, and the scratch after a start.
     until : float
         End of the run [s].
 
@@ -113,8 +113,8 @@ def assemble(
     """Return the consistent start of a single run.
 
     Positions: ``dv = -D^+ Phi``, ``q <- q + N dv`` with the Moore-Penrose inverse until ``|Phi|`` is at rounding.
-    Velocities: the given ones are kept and the others are the smallest that satisfy ``D v = nu``; where the given ones
-    contradict the constraints, all are projected in the metric of the mass matrix.
+    Velocities: the specified ones are kept and the others are the smallest that satisfy ``D v = nu``; if the specified
+    ones contradict the constraints, all are projected in the metric of the mass matrix.
 
     Parameters
     ----------
@@ -123,24 +123,24 @@ def assemble(
     q : Array, shape (nq,)
         Approximate coordinates.
     v : sequence of float or None, length nv
-        Given velocities; None where they are to be completed.
+        Specified velocities; None for those to be completed.
     p : Array
         Parameters, not yet prepared.
     strict : bool
         Refuse a start that is not consistent instead of changing it.
     held : Held, optional
-        Coordinates and velocities that have values of their own.
+        Coordinates and velocities held at set values.
     ask_light : bool
-        Whether the start shall say if bodies are too light for the law's solver.
+        Whether to report bodies that are too light for the law's solver.
     moved : callable, optional
-        The coordinates as described and as closed that are reported: names, differences, and units.
+        Reported coordinates, from described and closed ones: names, differences, and units.
     instant : tuple of float and sequence of float, optional
-        Time of the start [s], and the angles that count turns where their branches are known.
+        Time of the start [s], and the angles that count turns if their branches are set.
 
     Raises
     ------
     AssemblyError
-        If the mechanism stays open, or a row has no derivative at the described start; says at which joint.
+        If the mechanism stays open, or a row has no derivative at the described start; names the joint.
     InputError
         If `strict` and the start had to be changed; if a mass is not positive, a formula is not finite, or nothing
         determines the accelerations of a massless body.
@@ -169,18 +169,18 @@ def assemble(
 def moved_far(
     start: Assembly, q: Array, y: Array, p: Array, w: Array, changes: Sequence[Change], moved: Moved | None = None
 ) -> tuple[str, ...]:
-    """Return a sentence where closing moved bodies far, unless something is held that is far from where it is.
+    """Return a warning if closing moved bodies far, unless a held quantity is far from its described value.
 
     Parameters
     ----------
     start : Assembly
-        How it was closed.
+        The start that closed them.
     q, y : Array
         Coordinates as described, and the consistent state.
     p, w : Array
-        Parameters, and the scratch that closing left.
+        Parameters, and the scratch after closing.
     changes : sequence of Change
-        What differs.
+        Changed coordinates and velocities.
     moved : callable, optional
         As for `assemble`.
     """
@@ -197,5 +197,5 @@ def moved_far(
 
 
 def _described(info: ModelInfo, q: Array) -> Array:
-    """Return a state at rest with some coordinates."""
+    """Return a state at rest with these coordinates."""
     return np.concatenate([q, np.zeros(info.ny - info.nq)])

@@ -1,7 +1,7 @@
 """Arrays without ownership, and parts of them.
 
-Where Numba compiles, an array has an owner whose references are counted; the compiled functions of `symgen.store.jit`
-know addresses and lengths alone. Their readers know these two functions by name.
+In Numba, an array has an owner whose references are counted; the compiled functions of `symgen.store.jit` have only
+addresses and lengths. Their readers recognise these two functions by name.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from symgen.native.pieces import Piece
 
 
 def _bare(value: Any) -> Any:
-    """Return the same array, or record of arrays and numbers, whose memory its caller keeps."""
+    """Return the same array, or record of arrays and numbers; the caller owns its memory."""
     return value
 
 
 def _part(array: Any, first: int, size: int) -> Any:
-    """Return `size` elements of a one-dimensional array from index `first` on; nothing is checked."""
+    """Return `size` elements of a one-dimensional array from index `first` on, unchecked."""
     return array[first : first + size]
 
 

@@ -1,7 +1,7 @@
-"""A run from outside: its first state accepted without a step, and parameters that change while it goes on.
+"""External control of a run: acceptance of its first state without a step, and changes of parameters during it.
 
-There are two kinds of parameters. Inputs stand in functions of state alone: other values of them need nothing but
-`prepare`, and a scheme that begins anew. Whatever else changes may move masses and joints: the state is accepted again.
+There are two kinds of parameters. Inputs appear only in functions of state: other values need only `prepare` and a new
+begin of the scheme. All others may change masses and joints: the state is accepted again.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: What `watch` finds out at every accepted state: it has been found out already where a run begins anew.
+#: Results of `watch` at accepted states: they are already present if a run begins anew.
 _WATCHED = [abi.EVENTS, abi.IN_ZONE, abi.LAST_RANK, abi.MASKED, abi.OUTPUTS]
 
 
 def begin(simulation: Simulation) -> int:
-    """Accept the first state and prepare the scheme, without a step; return `DONE` or why the state is refused."""
+    """Accept the first state and prepare the scheme, without a step; return `DONE` or the reason for a refusal."""
     control = simulation.state.control
     control[abi.STOP] = 1
     try:
@@ -43,27 +43,27 @@ def begin(simulation: Simulation) -> int:
 
 
 def begin_anew(simulation: Simulation) -> int:
-    """Have the scheme forget what it knows of rates: what they depend on has just changed.
+    """Discard the rates that the scheme keeps, because they have just changed.
 
-    The state is accepted once more. What a run has found out so far stays: its largest violations, passages, and the
-    step that an adaptive one would try next. What the change has added to the energy counts as work.
+    The state is accepted again. Results so far stay: the largest violations, passages, and the next step of an
+    adaptive run. The energy that the change adds counts as work.
     """
     state, place = simulation.state, simulation.compiled.info.work
     w, gauges, watched = state.w, state.gauges.copy(), state.control[_WATCHED]
     work = float(state.y[place])
     state.control[abi.BEGUN] = 0
-    state.y[place] = 0.0  # the balance begins with none
+    state.y[place] = 0.0  # the balance begins with no work
     state.iw[abi.BALANCED] = 0
     before = float(w[abi.KINETIC] + w[abi.POTENTIAL])
     code = begin_with_step(simulation)
     state.y[place] = work + float(w[abi.KINETIC] + w[abi.POTENTIAL]) - before
-    state.iw[abi.BALANCED] = 0  # the work is another one now
+    state.iw[abi.BALANCED] = 0  # the work has changed
     state.gauges[:], state.control[_WATCHED] = gauges, watched
     return code
 
 
 def begin_with_step(simulation: Simulation) -> int:
-    """Begin as `begin` does; an adaptive run that has taken steps keeps the one that it would try next."""
+    """Begin as `begin` does; an adaptive run that has taken steps keeps its next step."""
     state, span = simulation.state, simulation.span
     if state.control[abi.STEPS] > 0 and simulation.spec.adaptive:
         simulation.span = span._replace(step=float(state.clock[abi.NEXT]))
@@ -74,7 +74,7 @@ def begin_with_step(simulation: Simulation) -> int:
 
 
 class Changes:
-    """Other parameters for a run that goes on.
+    """Changes of parameters during a run.
 
     Parameters
     ----------
@@ -86,22 +86,22 @@ class Changes:
         self.simulation = simulation
 
     def give(self, values: Mapping[str, float]) -> bool:
-        """Give inputs other values from where the run stands; the scheme begins anew where it goes on.
+        """Set inputs to other values from the present state on; the scheme begins anew.
 
         Parameters
         ----------
         values : mapping of str to float
-            By the names of inputs; finite.
+            Finite values by names of inputs.
 
         Returns
         -------
         bool
-            Whether any of them is another than before; else nothing is done.
+            Whether any value has changed; otherwise nothing is done.
 
         Raises
         ------
         InputError
-            If some formula is not finite with these values. Nothing is changed then.
+            If a formula is not finite with these values; nothing is changed then.
         """
         state, places = self.simulation.state, self.inputs
         p, before = state.p, None
@@ -125,21 +125,21 @@ class Changes:
         return True
 
     def set(self, p: Array) -> None:
-        """Go on with other parameters from the present state.
+        """Continue with other parameters from the present state.
 
-        What the change adds to the energy counts as work done on the mechanism. Masses may change as well; positions
-        and velocities stay what they are, so whatever moves the constraints away from them is refused.
+        The energy that the change adds counts as work done on the mechanism. Masses may change as well; positions and
+        velocities stay, so changes of the constraints that they violate are refused.
 
         Parameters
         ----------
         p : Array
-            Parameters of the model and the method, not yet prepared; the rest is left as it is.
+            Parameters of the model and the method, not yet prepared; others stay unchanged.
 
         Raises
         ------
         InputError
             If a number is not finite, a mass is not positive, or the present state violates the constraints by more
-            than the run tolerates. Nothing is changed then.
+            than the run tolerates; nothing is changed then.
         """
         simulation, state = self.simulation, self.simulation.state
         front = simulation.snapshot.front
@@ -157,7 +157,7 @@ class Changes:
             raise
 
     def _check(self, p: Array) -> None:
-        """Put parameters, and masses, in their places, and see whether the present state allows it."""
+        """Store parameters and masses, and check that the present state allows them."""
         compiled, state = self.simulation.compiled, self.simulation.state
         w, info = state.w, compiled.info
         t, sections = float(state.clock[abi.TIME]), [compiled.section(w, name) for name in ("jacobian", "nu")]
@@ -169,7 +169,7 @@ class Changes:
         try:
             masses()
             geometry(t)
-        except (ArithmeticError, ValueError):  # where nothing is compiled
+        except (ArithmeticError, ValueError):  # plain Python raises
             w[abi.PHI] = math.nan
         mass = compiled.section(w, "mass")
         for j in np.flatnonzero(~(mass > 0.0)):
@@ -196,7 +196,7 @@ class Changes:
             )
 
     def _drift(self, jacobian: Array, nu: Array) -> float:
-        """Return how far the present velocities are from D v = nu, rows that are angles times the length."""
+        """Return the norm of D v - nu of the present velocities, angular rows multiplied by the length."""
         info, state = self.simulation.compiled.info, self.simulation.state
         rows, columns, values = triplets_of(info, jacobian)
         v = state.y[info.nq : info.nq + info.nv]
@@ -204,22 +204,22 @@ class Changes:
         return float(np.linalg.norm(lengths * (np.bincount(rows, values * v[columns], info.m) - nu)))
 
     def prepare(self) -> None:
-        """Work out what depends on parameters alone; numbers that are not defined become NaN."""
+        """Evaluate the numbers that depend on parameters alone; undefined ones become NaN."""
         try:
             for function in self._preparing:
                 function()
-        except (ArithmeticError, ValueError):  # where nothing is compiled
+        except (ArithmeticError, ValueError):  # plain Python raises
             self.simulation.state.p[-1] = math.nan
 
     @cached_property
     def inputs(self) -> dict[str, int]:
-        """Places of inputs among the parameters."""
+        """Indices of the inputs among the parameters."""
         info = self.simulation.compiled.info
         return {q.name: i for i, q in enumerate(info.parameters) if q.name in info.inputs}
 
     @cached_property
     def _preparing(self) -> tuple[Callable[..., Any], ...]:
-        """Both ``prepare`` on the parameters of the run."""
+        """``prepare`` of model and law, on the parameters of the run."""
         modules = self.simulation.compiled.model, self.simulation.compiled.law_module
         return tuple(direct(module.prepare, e.PREPARE, self.simulation.state.p) for module in modules)
 

@@ -1,7 +1,7 @@
-"""Pieces of a start, for one run: positions closed, velocities completed, what is redundant or undetermined found.
+"""Parts of the start of one run: close positions, complete velocities, find redundant rows and undetermined rates.
 
-What they take are records of `symgen.runtime.start_records`: `closing`, `layout`, `now` and `work`; and rows of joint
-coordinates behind those of the model, none where only the model's count (`symgen.runtime.joint_starts.Further`).
+Arguments are the records `closing`, `layout`, `now` and `work` of `symgen.runtime.start_records`, and further rows of
+joint coordinates after those of the model, if any (`symgen.runtime.joint_starts.Further`).
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ from symgen.runtime.start_solvers import multiply
 
 @exact()
 def close_positions(closing: Any, layout: Any, now: Any, work: Any, further: Any) -> bool:
-    """Close positions by the shortest changes, of coordinates with a scale of 0 none; return whether they are closed.
+    """Close positions by the shortest changes, none of coordinates with scale 0; return whether they are closed.
 
-    D, nu and the angles that count turns are then those of the closed positions; if not, Phi is that of the last ones.
+    If so, D, nu and the angles that count turns are those of the closed positions; else Phi is that of the last ones.
     """
     y, p, w, right, x = now.y, now.p, now.w, work.right, work.x
     best, stalled = math.inf, 0
@@ -51,7 +51,7 @@ def close_positions(closing: Any, layout: Any, now: Any, work: Any, further: Any
         best = size if size < best else best
         if not math.isfinite(size) or stalled >= decisions.POSITION_STALLS:
             return False
-        if layout.windings > 0:  # may leave something else in the section of Phi
+        if layout.windings > 0:  # may overwrite the section of Phi
             closing.measure(layout.t, y, p, w)
         rounding = decisions.ROUNDING * length * (layout.m if layout.m > 1 else 1)
         if size <= rounding or (stalled >= decisions.CLOSED_STALLS and size < decisions.CLOSED * length):
@@ -66,7 +66,7 @@ def close_positions(closing: Any, layout: Any, now: Any, work: Any, further: Any
 
 @exact()
 def place(closing: Any, layout: Any, now: Any, work: Any, further: Any) -> None:
-    """Fill Phi, D and nu at a position, those of held joint coordinates as well."""
+    """Fill Phi, D and nu at a position, including the rows of held joint coordinates."""
     closing.geometry(layout.t, now.y, now.p, now.w)
     if further.held.shape[0] > 0:
         fill_further(layout, now, work, further)
@@ -86,9 +86,9 @@ def _shift(closing: Any, layout: Any, y: Any, w: Any, change: Any, factor: float
 
 @exact()
 def complete_velocities(closing: Any, layout: Any, now: Any, work: Any, velocities: Any) -> int:
-    """Set the velocities: those that are given are kept, the others are the smallest that satisfy D v = nu.
+    """Set the velocities: specified ones are kept, the others are the smallest that satisfy D v = nu.
 
-    Where the given ones contradict the constraints, all but those to be kept are projected in the metric of the mass
+    If the specified ones contradict the constraints, all but the held ones are projected in the metric of the mass
     matrix. Returns `ASSEMBLED`, `PROJECTED` or `CONTRADICTION`.
     """
     n, w, v, mass, scale = layout.nv, now.w, part(now.y, layout.nq, layout.nv), layout.mass, work.scale
@@ -103,7 +103,7 @@ def complete_velocities(closing: Any, layout: Any, now: Any, work: Any, velociti
     _velocity_violation(layout, now, work)
     size = _correct_velocities(closing, layout, now, work)
     if size <= decisions.VELOCITIES_FIT * speed:
-        # what is left is rounding: take it out without touching the given values noticeably, and those kept not at all
+        # the rest is rounding: remove it with negligible changes of specified values and none of held ones
         for j in range(n):
             scale[j] = 0.0 if layout.unchanged[j] != 0 else free_scale(layout, w, j)
         _correct_velocities(closing, layout, now, work)
@@ -133,7 +133,7 @@ def _velocity_violation(layout: Any, now: Any, work: Any) -> float:
 
 @exact()
 def _correct_velocities(closing: Any, layout: Any, now: Any, work: Any) -> float:
-    """Add the shortest change for nu - D v in `work.right`; return the length of what is left, which stands there."""
+    """Add the shortest change for nu - D v in `work.right`; return the norm of the remainder, which replaces it."""
     closing.solve(closing.spread, layout, now, work)
     y, x = now.y, work.x
     for j in range(layout.nv):
@@ -143,11 +143,11 @@ def _correct_velocities(closing: Any, layout: Any, now: Any, work: Any) -> float
 
 @exact()
 def mask_redundant(closing: Any, layout: Any, now: Any, work: Any, nothing: Any) -> int:
-    """Weigh rows; mask as many as depend on others at the start and at closed positions near it, and return how many.
+    """Weigh rows; mask as many as depend on others at the start and at closed positions near it; return their number.
 
-    Rows that depend on others at the start alone do so at a singular position, and are kept. Which rows depend on
-    others may differ from position to position, and those that come last in the order of elimination may leave rows
-    that hardly differ: then those are kept that are farthest from each other.
+    Rows that depend on others only at the start do so at a singular position and are kept. The dependent rows may
+    differ between positions, and masking the last ones in the order of elimination may leave rows that hardly differ:
+    then the rows farthest from each other are kept.
     """
     m, other = layout.m, Instant(work.y, now.p, work.w)
     weigh_rows(layout, now)
@@ -182,9 +182,9 @@ def mask_redundant(closing: Any, layout: Any, now: Any, work: Any, nothing: Any)
 
 @exact()
 def _mark(closing: Any, layout: Any, now: Any, work: Any) -> int:
-    """Mask the rows that depend on others at a position, or have vanished there; return how many these are.
+    """Mask the rows that depend on others or have vanished at a position; return their number.
 
-    Rows that have vanished take no part in the elimination, where rounding divided by rounding would decide.
+    Vanished rows take no part in the elimination, where rounding divided by rounding would decide.
     """
     w, squares, count = now.w, work.right, 0
     square_rows(layout, w, squares)
@@ -206,13 +206,13 @@ def _mark(closing: Any, layout: Any, now: Any, work: Any) -> int:
 
 @exact()
 def _rank(layout: Any, w: Any, work: Any) -> int:
-    """Return how many rows do not depend on others, where small pivots have made large what is rounding."""
+    """Return the number of independent rows where small pivots have amplified rounding."""
     return int(farthest(layout, layout.nv, layout.m, SKIP, 1, w, work.numbers))
 
 
 @exact()
 def _masked(closing: Any, layout: Any, now: Any, other: Any, work: Any, count: int, alone: int, same: bool) -> int:
-    """Mask `count` rows: of those that depend on others at the start alone, or of all; return their number."""
+    """Mask `count` rows, chosen from those dependent at the start alone or from all; return their number."""
     m, mask = layout.m, layout.mask
     if count == 0:
         for i in range(m):
@@ -224,7 +224,7 @@ def _masked(closing: Any, layout: Any, now: Any, other: Any, work: Any, count: i
         for i in range(m):
             now.w[mask + i] = here[mask + i]
         closing.geometry(layout.t, now.y, now.p, now.w)
-        for i in range(m):  # what is left out may come first, where its pivot says nothing of the rows behind it
+        for i in range(m):  # a row left out may come first, where its pivot does not measure the rows after it
             if now.w[mask + i] != 0.0:
                 now.w[layout.pivot + i] = 0.0
         return count
@@ -250,9 +250,9 @@ def _active_pivot(layout: Any, w: Any) -> float:
 
 @exact()
 def _unseen(closing: Any, layout: Any, now: Any, work: Any, seed: float) -> int:
-    """Set `work.direction` to a change that D does not see, of the velocities whose scale is not 0.
+    """Set `work.direction` to a change of velocities with nonzero scale in the null space of D.
 
-    Returns the index of its component that is largest beside its scale.
+    Returns the index of its largest component relative to the scale.
     """
     largest, most, direction = 0, 0.0, work.direction
     for j in range(layout.nv):
@@ -270,9 +270,9 @@ def _unseen(closing: Any, layout: Any, now: Any, work: Any, seed: float) -> int:
 
 @exact()
 def find_undetermined(closing: Any, layout: Any, now: Any, work: Any) -> int:
-    """Return a velocity that has neither mass nor a row of D to determine its rate, -1 if there is none.
+    """Return a velocity that has neither mass nor a row of D to determine its rate, -1 if all rates are determined.
 
-    Accelerations are determined where M + D^T D is regular: D sees every change of the velocities without mass.
+    Accelerations are determined if M + D^T D is regular: no change of massless velocities is in the null space of D.
     """
     massless = 0
     for j in range(layout.nv):

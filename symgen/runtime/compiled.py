@@ -1,4 +1,4 @@
-"""A compiled model: the emitted functions with what the runtime has to know about them, readable without SymPy."""
+"""A compiled model: the emitted functions and their metadata for the runtime, readable without SymPy."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     """Metadata of an emitted ``model`` module.
 
     `sections` maps each section of the scratch array ``w`` to (offset, size); `jacobian` lists (row, column, constant
-    or None, slot or None) of D's structural entries; `windings` counts the angles whose turns are counted; `spins` says
-    for each body with Euler parameters where these begin in q and its angular velocity in v; `inputs` are those
-    parameters that may change during a run; `states` are those of the file's own, behind the work, and `integrals`
-    counts auxiliary states behind these; `alone` are rows that are eliminated before all that have to do with them:
-    they are never left out, so nothing reads their mask.
+    or None, slot or None) of D's structural entries; `windings` is the number of angles with counted turns; `spins`
+    holds, for each body with Euler parameters, the index of these in q and of its angular velocity in v; `inputs` are
+    parameters that may change during a run; `states` are states of the file's own, after the work, and `integrals` is
+    the number of auxiliary states after these; `alone` are rows eliminated before all rows coupled to them: they are
+    never left out, so nothing reads their mask.
     """
 
     name: str
@@ -74,7 +74,7 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
 
     @property
     def own_states(self) -> slice:
-        """Where the states of the file's own stand in the state."""
+        """Slice of the file's own states in the state."""
         return slice(self.work + 1, self.work + 1 + len(self.states))
 
     @property
@@ -84,11 +84,11 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
 
     @property
     def observed(self) -> int:
-        """How many numbers ``observe`` writes: the rows of D v' - gamma, value and rate of each joint coordinate."""
+        """Length of the output of ``observe``: the rows of D v' - gamma, value and rate of each joint coordinate."""
         return self.m + 2 * len(self.joint_coordinates)
 
     def parts(self, y: Array) -> tuple[Array, Array]:
-        """Return views of q and v of a state, or of one state a row."""
+        """Return views of q and v of a state, or of states in rows."""
         return y[..., : self.nq], y[..., self.nq : self.work]
 
 
@@ -96,12 +96,12 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
 class CompiledModel(ABC):
     """Emitted functions of one model and one method, ready for the loops, in one of the shapes of code.
 
-    Nothing is compiled by loading: each function is compiled, or read from the cache, when a loop first takes it.
+    Loading compiles nothing: each function is compiled, or read from the cache, at its first use by a loop.
 
     Class attributes
     ----------------
     shape : {"straight", "looped"}
-        Of the code.
+        Shape of the code.
     sparse : bool
         Whether starts of large mechanisms may rely on ``spread`` instead of dense algebra.
     """
@@ -115,7 +115,7 @@ class CompiledModel(ABC):
     law_module: ModuleType
     derive_seconds: float = 0.0
     emit_seconds: float = 0.0
-    #: What it is made again from in another process: a function and its arguments. Code itself does not travel.
+    #: Function and arguments that make the model again in another process: code itself is not pickled.
     origin: tuple[Callable[..., CompiledModel], tuple[Any, ...]] | None = field(default=None, repr=False, compare=False)
 
     def __reduce__(self) -> tuple[Callable[..., CompiledModel], tuple[Any, ...]]:
@@ -124,7 +124,7 @@ class CompiledModel(ABC):
         return self.origin
 
     def __deepcopy__(self, memo: dict[int, Any]) -> CompiledModel:
-        return self  # nothing of it ever changes
+        return self  # immutable
 
     def __repr__(self) -> str:
         info = self.info
@@ -133,7 +133,7 @@ class CompiledModel(ABC):
 
     @abstractmethod
     def scratch(self) -> Array:
-        """Return a new scratch array ``w``; scales are 1 until a start finds them."""
+        """Return a new scratch array ``w``; scales are 1 until a start sets them."""
 
     def parameter_array(self, parameters: Mapping[str, float], method_parameters: Mapping[str, float]) -> Array:
         """Return ``p``: model parameters, method parameters, and room for what ``prepare`` computes."""
@@ -146,8 +146,8 @@ class CompiledModel(ABC):
         return p
 
     def prepare(self, p: Array) -> None:
-        """Fill the numbers behind the parameters in ``p``."""
-        # Numba stands behind these, which emitting code does without
+        """Compute the numbers that follow the parameters in ``p``."""
+        # these import Numba, which is not needed to emit code
         from symgen.runtime import ensemble_abi as e
         from symgen.runtime.probe import Ready
 
@@ -155,7 +155,7 @@ class CompiledModel(ABC):
             Ready(module.prepare, e.PREPARE)(p)
 
     def with_scales(self, w: Array) -> Array:
-        """Return a scratch array whose scales, and pivots of rows that never change theirs, are set to 1."""
+        """Return the scratch array with its scales, and pivots of rows whose pivots never change, set to 1."""
         for name in ("pivot", "gauge", "row_weight"):
             self.section(w, name)[:] = 1.0
         w[[STATUS.index(name) for name in SCALES]] = 1.0
@@ -167,22 +167,22 @@ class CompiledModel(ABC):
         return w[offset : offset + size]
 
     def rank(self, w: Array) -> int:
-        """Return the rank of D at the position of `w`: its pivots that are no rounding."""
+        """Return the rank of D at the position of `w`: the number of pivots above rounding."""
         return int(np.sum(self.section(w, "pivot") >= SKIP))
 
     def redundant(self, w: Array) -> tuple[str, ...]:
-        """Return the names of the rows that are left out in `w`, as they depend on others."""
+        """Return the names of the dependent rows that are left out in `w`."""
         return tuple(self.info.rows[i].name for i in np.flatnonzero(self.section(w, "mask")))
 
     @cached_property
     def layout(self) -> Layout:
-        """What a start has to know of the model, as `symgen.runtime.assembler.layout_of` returns it."""
+        """Layout of the model for starts, from `symgen.runtime.assembler.layout_of`."""
         from symgen.runtime.assembler import layout_of
 
         return layout_of(self)
 
     def jacobian(self, w: Array) -> Array:
-        """Return D as a dense matrix from what ``geometry`` left in ``w``; shape (m, nv)."""
+        """Return D as a dense matrix, shape (m, nv), from the values that ``geometry`` wrote to ``w``."""
         values = self.section(w, "jacobian")
         d = np.zeros((self.info.m, self.info.nv))
         for row, column, constant, slot in self.info.jacobian:

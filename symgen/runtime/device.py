@@ -1,12 +1,12 @@
 """The loops of `symgen.runtime.frame` on CUDA devices: the same source, instantiated for a law.
 
 CUDA has no first-class functions, so a kernel is built for a law, with one thread for each run: `on_device` takes the
-plain Python of a function and of all that it calls, and hands it to Numba's CUDA compiler. Nothing is written twice, so
-a device takes the steps that a processor takes.
+plain Python of a function and of all its callees to Numba's CUDA compiler. The source is shared, so a device takes the
+steps that a processor takes.
 
-What a run works on (state, scratch, stages) is local memory of its thread: the hardware interleaves it so that
-neighbouring threads touch neighbouring words, its addresses are constants, and it stays in the first-level cache. What
-enters and leaves (starts, parameters, outputs) is global memory with the run as the fastest index.
+The state, scratch and stages of a run are local memory of its thread: the hardware interleaves it so that neighbouring
+threads touch neighbouring words, its addresses are constants, and it stays in the first-level cache. Starts,
+parameters and outputs are global memory with the run as the fastest index.
 
 Importing this module imports ``numba.cuda``; nothing else in symgen does.
 """
@@ -32,13 +32,13 @@ from symgen.runtime.schemes import explicit
 from symgen.runtime.vectors import PLAIN
 
 _A, _K, _M, _T = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
-#: Numbers of `events` on a device: the passage that is going on, and the narrowest one so far.
+#: Numbers of `events` on a device: the present passage, and the narrowest one so far.
 N_EVENTS = 2 * abi.N_EVENT
 _N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
 
 
 class Starts(NamedTuple):
-    """What runs begin with, shapes (ny, runs), (np, runs), (nw, runs); and the inputs of their observers."""
+    """Starts of runs, shapes (ny, runs), (np, runs), (nw, runs); and the inputs of their observers."""
 
     ys: Any
     ps: Any
@@ -51,7 +51,7 @@ class Starts(NamedTuple):
 
 
 class DeviceResults(NamedTuple):
-    """What runs leave: outputs and what is observed at them by output, column and run; other numbers by run."""
+    """Results of runs: outputs and observed quantities by output, column and run; other numbers by run."""
 
     states: Any
     status: Any
@@ -70,7 +70,7 @@ RESULTS = types.NamedTuple(
 
 
 def _numbas(kind: native.Kind) -> Any:
-    """Return a number, an array or a record of these as Numba's type."""
+    """Return Numba's type of a number, an array or a record of these."""
     if isinstance(kind, native.RecordType):
         return types.BaseTuple.from_types(tuple(map(_numbas, kind)), kind.constructor if kind.fields else None)
     if isinstance(kind, native.ArrayType):
@@ -83,27 +83,27 @@ SIGNATURE = types.void(_numbas(TABLEAU), _numbas(SIZES), _numbas(SPAN), STARTS, 
 
 
 def simulated() -> bool:
-    """Return whether Numba's simulator stands in for a device (``NUMBA_ENABLE_CUDASIM=1``)."""
+    """Return whether Numba's simulator replaces a device (``NUMBA_ENABLE_CUDASIM=1``)."""
     return bool(config.ENABLE_CUDASIM)
 
 
-# -- what is different on a device -------------------------------------------------------------------------------------
+# -- replacements on a device ------------------------------------------------------------------------------------------
 
 
 @viewing
 def same(value: Any) -> Any:
-    """Stand in for `symgen.runtime.bare.bare`: CUDA counts no references."""
+    """Replace `symgen.runtime.bare.bare`: CUDA counts no references."""
     return value
 
 
 @viewing
 def cut(array: Any, first: int, size: int) -> Any:
-    """Stand in for `symgen.runtime.bare.part`."""
+    """Replace `symgen.runtime.bare.part`."""
     return array[first : first + size]
 
 
 def watch_passages(sizes: Any, run: Any, y: Any, t: float) -> int:
-    """Watch as on a processor; of all passages only the one that is going on and the narrowest are kept."""
+    """Watch as on a processor; keep only the present passage and the narrowest one."""
     code, events = watch_states(sizes, run, y, t), run.events
     if 0 < run.control[abi.EVENTS] <= _MAX_EVENTS and not events[_N_EVENT + abi.EVENT_PIVOT] <= events[abi.EVENT_PIVOT]:
         for i in range(_N_EVENT):
@@ -117,12 +117,12 @@ def watch_states(sizes: Any, run: Any, y: Any, t: float) -> int:
 
 
 def confirm_nothing(t: float, y: Any, p: Any, w: Any, iw: Any, ydot: Any) -> int:
-    """Stand in for ``confirm`` in a law whose ``rhs`` never asks for it."""
+    """Replace ``confirm`` in a law whose ``rhs`` never requires it."""
     return 0
 
 
 class ForgivingMath:
-    """``math`` as compiled code has it, for the simulator: undefined results are nan or infinite, not exceptions."""
+    """``math`` with the results of compiled code, for the simulator: nan or infinity instead of exceptions."""
 
     def __getattr__(self, name: str) -> Any:
         value = getattr(math, name)
@@ -141,14 +141,14 @@ class ForgivingMath:
 
 
 def on_device(function: Any, **meanings: Any) -> Any:
-    """Return a function of the runtime, and what it calls, as device functions.
+    """Return a function of the runtime and its callees as device functions.
 
     Parameters
     ----------
     function : compiled or plain function
-        Its Python source is what counts.
+        Only its Python source is used.
     **meanings
-        What global names mean on the device beside those that differ for all: helpers, and sizes.
+        Further meanings of global names on the device: helpers, and sizes.
     """
     common: dict[str, Any] = {"bare": same, "part": cut, **PLAIN, **meanings}
     if simulated():
@@ -165,18 +165,18 @@ def _compiled(copy: python.FunctionType, original: Any) -> Any:
 
 @dataclass(frozen=True)
 class Need:
-    """What shapes a kernel beside its law: sizes in numbers, and its outputs.
+    """Properties of a kernel apart from its law: sizes in numbers, and its outputs.
 
     Attributes
     ----------
     width, n_p, nw : int
         Lengths of the state, of the parameters and of the scratch array.
     memory, room : int
-        What the scheme keeps, and its working memory.
+        The scheme's memory, and its working memory.
     rows : int
-        What ``observe`` writes at an output.
+        Count of numbers that ``observe`` writes at an output.
     adaptive, rates, joints : bool
-        Whether steps are adaptive, accelerations or multipliers are outputs, and joint coordinates.
+        Whether steps are adaptive, accelerations or multipliers are outputs, and joint coordinates are.
     """
 
     width: int
@@ -191,17 +191,17 @@ class Need:
 
     @property
     def working(self) -> int:
-        """Numbers of working memory: the scheme's, or what observing needs."""
+        """Numbers of working memory, for the scheme or for observing."""
         return max(self.width + self.room, 2 * self.width + self.rows)
 
     @property
     def stored(self) -> int:
-        """Length of the copy of the scratch array that observing begins with."""
+        """Length of the copy of the scratch array for observing."""
         return self.nw if self.rates else 1
 
     @property
     def local_bytes(self) -> int:
-        """Local memory of a thread for its run."""
+        """Local memory of a thread [bytes]."""
         own = 4 * self.width + self.n_p + self.nw + self.stored + self.memory + self.working
         return 8 * (own + abi.N_COUNTERS + abi.N_CLOCK + abi.N_GAUGES + e.N_CONTROL + N_EVENTS)
 
@@ -214,20 +214,20 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     law, model : module
         Emitted for CUDA.
     need : Need
-        What is asked of it.
+        Its sizes and outputs.
 
     Returns
     -------
     function
-        ``kernel(scheme, sizes, span, starts, results)``, of the types in `SIGNATURE`; every array of runs has the run
-        as its last index, and none is empty: an unused one has one element.
+        ``kernel(scheme, sizes, span, starts, results)``, of the types in `SIGNATURE`; the run is the last index of
+        every array of runs, and no array is empty: an unused one has one element.
     """
     parts: dict[str, Any] = explicit.ADAPTIVE_PARTS if need.adaptive else explicit.CONSTANT_PARTS
     one_event = on_device(watch.watch, _N_EVENT=0)
     watched = on_device(watch_passages, watch_states=one_event)
     integrate = on_device(frame.integrate, **parts, watch=watched, rows_fell=never)
     begin_run, pick = on_device(rows.begin_run), on_device(rows.pick)
-    summarise = on_device(rows.summarise, _MAX_EVENTS=1)  # the narrowest passage is kept alone
+    summarise = on_device(rows.summarise, _MAX_EVENTS=1)  # only the narrowest passage is kept
     observe_rates, observe_rows = on_device(observe.observe_rates), on_device(observe.observe_rows)
     nothing = on_device(confirm_nothing)
     rhs, accept, confirm = law.rhs, law.accept, getattr(law, "confirm", nothing)

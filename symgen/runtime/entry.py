@@ -1,4 +1,4 @@
-"""Compiled functions called by the shortest way: arguments taken apart once, and one call with their address."""
+"""Direct calls of compiled functions: arguments are unpacked once, and a call passes only their address."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from symgen.native.calls import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, nu
 from symgen.store.jit import MachineFunction, object_file
 
 Array = NDArray[np.float64]
-#: Two of a loop's arguments, of the model, scheme, span, state and outputs.
+#: Positions of scheme and span in a loop's arguments: model, scheme, span, state and outputs.
 _SCHEME, _SPAN = -4, -3
 
 
 class ArgumentBlock:
     """A compiled function with its arguments in one block of memory.
 
-    Arrays are referred to by their addresses, so they have to stay where they are; they are kept alive.
+    The block holds the addresses of arrays: they must not move, and are kept alive.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class ArgumentBlock:
 
     @classmethod
     def of(cls, function: Any, signature: types.Signature | None, arguments: tuple[Any, ...]) -> Self | None:
-        """Return the block of a function, None where it is not one that is compiled here, or takes other arguments."""
+        """Return the block of a function, or None if it is not compiled here or takes other arguments."""
         if not isinstance(function, MachineFunction) or signature is None:
             return None
         if len(signature.arguments) != len(arguments):
@@ -58,7 +58,7 @@ class ArgumentBlock:
             return None
 
     def enter(self) -> int:
-        """Call the function; return its result, a whole number."""
+        """Call the function; return its integer result."""
         self._call(self._address)
         return int(self._ints[RESULT])
 
@@ -74,7 +74,7 @@ class ArgumentBlock:
 
 
 class LoopEntry(ArgumentBlock):
-    """A compiled loop, an instance of `symgen.runtime.frame.integrate`, with all that it is entered with."""
+    """A compiled loop, an instance of `symgen.runtime.frame.integrate`, with its arguments."""
 
     def __init__(self, function: MachineFunction, signature: types.Signature, arguments: tuple[Any, ...]) -> None:
         super().__init__(function, signature, arguments)
@@ -84,7 +84,7 @@ class LoopEntry(ArgumentBlock):
         self._until, self._pause, self._most = (first + names.index(name) for name in ("until", "pause", "most"))
 
     def copy_before(self, target: Array, source: Array) -> None:
-        """Have one array copied into another of its size, at every entry."""
+        """Copy one array into another of its size at every entry."""
         self._block[[COPY, SOURCE, BYTES]] = target.ctypes.data, source.ctypes.data, source.nbytes
 
     def has(self, scheme: Any, span: Any) -> bool:
@@ -92,7 +92,7 @@ class LoopEntry(ArgumentBlock):
         return self._scheme is scheme and self._span is span
 
     def take(self, scheme: Any, span: Any) -> None:
-        """Put another scheme, whose arrays may stand elsewhere, and another span into the block."""
+        """Put another scheme, whose arrays may be at other addresses, and another span into the block."""
         if self._scheme is not scheme:
             self._scheme = self._arguments[self._which_scheme] = scheme
             self._fill(self._which_scheme)
@@ -100,7 +100,7 @@ class LoopEntry(ArgumentBlock):
         self._fill(self._which_span)
 
     def __call__(self, until: float, pause: float, most: float) -> int:
-        """Enter the loop; return how it ended."""
+        """Enter the loop; return the code of its end."""
         floats = self._floats
         floats[self._until], floats[self._pause], floats[self._most] = until, pause, most
         self._call(self._address)
@@ -108,7 +108,7 @@ class LoopEntry(ArgumentBlock):
 
 
 def entry_of(loop: Any, arguments: tuple[Any, ...]) -> LoopEntry | None:
-    """Return the entry of a loop, None where it has to be called as every function.
+    """Return the entry of a loop, or None if only an ordinary call is possible.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ def entry_of(loop: Any, arguments: tuple[Any, ...]) -> LoopEntry | None:
 
 
 def direct(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable[..., Any]:
-    """Return a function on given arguments; what it is called with takes the place of the first ones, if numbers.
+    """Return a function bound to arguments; the numbers it is called with replace the first ones.
 
     Parameters
     ----------
@@ -146,6 +146,6 @@ def direct(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable
 
 @functools.cache
 def _layout(signature: types.Signature) -> tuple[Callable[[int], Any], list[int]]:
-    """Return the trampoline of functions of a signature, and where the slots of their arguments begin."""
+    """Return the trampoline of functions of a signature, and the first slots of their arguments."""
     sizes = (sum(1 for _ in slots(kind)) for kind in signature.arguments)
     return trampoline(signature, object_file), list(itertools.accumulate(sizes, initial=FIRST))

@@ -1,4 +1,4 @@
-"""Events of a run: the data of loops for them, the actions where one happens, and events that accumulate."""
+"""Events of a run: their data for loops, their actions, and their accumulation."""
 
 from __future__ import annotations
 
@@ -21,26 +21,26 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: What is left of a run until its events accumulate counts as nothing below this part of its length.
+#: Times until events accumulate below this part of the length of a run count as zero.
 NOTHING_LEFT = 1e-9
-#: So many intervals between events must have shrunk, in ratios that differ by no more than this.
+#: Number of intervals between events that must have shrunk, and largest difference of their ratios.
 _SHRINKING, _STEADY = 4, 0.2
-#: So many resets in this part of a run are a heap as well.
+#: This many resets within this part of a run are an accumulation as well.
 _CROWDED, _HEAP = 50, 1e-7
 
 
 @dataclass(frozen=True)
 class Switch:
-    """What formulas compare over the state: a step ends where it is passed, and the scheme begins anew.
+    """A comparison in formulas of the state: a step ends where it changes, and the scheme begins anew.
 
     Attributes
     ----------
     missed : float
         Part of a step by which a passage may be missed.
     points : tuple of float
-        Points at which a table that is read has kinks; none for what formulas compare with zero.
+        Kinks of the table that is read; none for comparisons with zero.
     period : float
-        Of the table, 0 where it does not repeat itself.
+        Period of the table, 0 if it is not periodic.
     """
 
     missed: float = 0.0
@@ -50,28 +50,28 @@ class Switch:
 
 @dataclass(frozen=True)
 class Watched:
-    """The switching functions of a run: of its events, then of what its formulas compare.
+    """The switching functions of a run: of its events, then of the comparisons in its formulas.
 
     Attributes
     ----------
     names : tuple of str
-        Of the events.
+        Names of the events.
     directions : tuple of int
-        1, -1 or 0 for both.
+        1, -1, or 0 for both.
     actions : tuple of str
         ``record``, ``stop`` or ``reset``.
     function : emitted function
-        Values of all functions, then their rates, then what the rounding of each value is a part of.
+        Values of all functions, then their rates, then the scale of the rounding of each value.
     needs_rates : bool
-        Whether these depend on accelerations.
+        Whether the rates depend on accelerations.
     resets : mapping of int to Reset
-        By number of the event.
+        Resets by number of the event.
     masses : callable or None
-        What resets are the shortest in, see `symgen.runtime.resets.Masses`.
+        Metric in which resets are shortest, see `symgen.runtime.resets.Masses`.
     switches : tuple of Switch
-        What formulas compare.
+        Comparisons in formulas.
     jumps : bool
-        Whether something may jump where a switch is passed, and not only have a kink.
+        Whether rates may jump at a switch, and not only have a kink.
     """
 
     names: tuple[str, ...]
@@ -92,9 +92,9 @@ class Watched:
         compiled : CompiledModel
             Model and method.
         numbers : sequence of int
-            Which events.
+            Numbers of the events.
         t, y, p, w
-            Time, state, parameters and scratch, whose geometry is written.
+            Time, state, parameters and scratch; the geometry in it is overwritten.
         """
         assert self.masses is not None, "where there are resets, it is known what they are the shortest in"
         names = " and ".join(f"'{self.names[n]}'" for n in numbers)
@@ -102,7 +102,7 @@ class Watched:
         return impact_of(compiled, [self.resets[n] for n in numbers], self.masses, where, t, y, p, w)
 
     def hunting_state(self, sizes: Sizes, state: State) -> hunting.HuntingState:
-        """Return the state of a run with that of its events, before it has begun."""
+        """Return the initial state of a run with that of its events."""
         events, n = len(self.names), len(self.names) + len(self.switches)
         points = [x for switch in self.switches for x in switch.points]
         first = hunting.notes_at(n, sizes.width, len(state.w))
@@ -129,15 +129,15 @@ class Happening:
     Attributes
     ----------
     t : float
-        When [s].
+        Time [s].
     name, action : str
-        Of the event.
+        Name and action of the event.
     state : Array, shape (nq + nv,)
-        Coordinates and velocities, before they change.
+        Coordinates and velocities before a reset.
     impact : Impact or None
-        What a reset has done; resets at the same time share it.
+        Effect of a reset; resets at the same time share it.
     energy : float
-        What the reset adds to the energy [J]; resets at the same time are one, whose energy the first of them has.
+        Energy added by the reset [J]; for resets at the same time, the first has the total.
     """
 
     t: float
@@ -149,23 +149,23 @@ class Happening:
 
 
 class Events:
-    """What happens in a run.
+    """The events of a run.
 
     Parameters
     ----------
     compiled : CompiledModel
         Model and method.
     watched : Watched
-        Its events.
+        Switching functions of its events.
     until : float
         End of the run [s].
 
     Attributes
     ----------
     happened : list of Happening
-        In order of time.
+        Past events in order of time.
     accumulation : float or None
-        Where events accumulate [s].
+        Time at which events accumulate [s].
     """
 
     def __init__(self, compiled: CompiledModel, watched: Watched, until: float) -> None:
@@ -174,12 +174,12 @@ class Events:
         self.accumulation: float | None = None
 
     def forget_after(self, t: float) -> None:
-        """Forget what happened later: a run goes on from an earlier state."""
+        """Remove later events, as a run continues from an earlier state."""
         self.happened = [event for event in self.happened if event.t <= t]
         self.accumulation = None
 
     def take(self, state: hunting.HuntingState) -> list[tuple[int, Happening]]:
-        """Return the passages that a loop has noted since the last call, with numbers of events, and store them."""
+        """Store and return the passages noted by a loop since the last call, with numbers of events."""
         names, actions, size = self.watched.names, self.watched.actions, self.compiled.info.work
         events = [
             (number, Happening(t, names[number], actions[number], y[:size]))
@@ -189,19 +189,19 @@ class Events:
         return events
 
     def meet(self, state: hunting.HuntingState, events: Sequence[tuple[int, Happening]]) -> int:
-        """Do what the events ask for that a loop was left at; return `DONE` where it may be entered again.
+        """Execute the actions of the events at which a loop ended; return `DONE` if it may be entered again.
 
         Parameters
         ----------
         state : State
-            At the events; changed by resets.
+            State at the events; changed by resets.
         events : sequence of (int, Happening)
             From `take`.
 
         Raises
         ------
         InputError
-            If a reset asks for velocities that the constraints, or other resets at the same time, do not allow.
+            If the constraints, or other resets at the same time, do not allow the velocities of a reset.
         """
         now = float(state.clock[abi.TIME])
         here = [(number, event) for number, event in events if event.t == now]
@@ -221,7 +221,7 @@ class Events:
         y, w = state.y[: info.ny].copy(), state.w.copy()
         impact = watched.impact(self.compiled, numbers, now, y, state.p, w)
         state.y[info.nq : info.nq + info.nv] = impact.v
-        state.y[info.work] += impact.energy  # done by the impulses: the balance goes on behind it
+        state.y[info.work] += impact.energy  # work of the impulses: the energy balance continues
         state.w[abi.KINETIC] += impact.energy
         state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
         state.clock[abi.ALLOWED] = 0.0
@@ -237,7 +237,7 @@ class Events:
     # -- events that accumulate ----------------------------------------------------------------------------------------
 
     def _accumulates(self, numbers: Sequence[int]) -> bool:
-        """Return whether resets follow each other so fast that time does not get on; note where to."""
+        """Return whether resets accumulate; store the time at which they do."""
         least = NOTHING_LEFT * self.until
         for number in numbers:
             name = self.watched.names[number]
@@ -258,7 +258,7 @@ class Events:
         return False
 
     def _latest_resets(self, count: int, name: str | None = None) -> Array:
-        """Return the last times of resets, of all or of one event, each once: any number of them may stand at one."""
+        """Return the last distinct times of resets, of all events or of one; several resets may share a time."""
         times = list[float]()
         for event in reversed(self.happened):
             if event.action == RESET and name in (None, event.name) and (not times or event.t != times[-1]):
@@ -268,7 +268,7 @@ class Events:
         return np.array(times[::-1])
 
     def _is_back(self, numbers: Sequence[int], state: hunting.HuntingState) -> bool:
-        """Return whether the rebound from a reset is lost in rounding; note that time does not get on from here."""
+        """Return whether the rebound from a reset is lost in rounding; store the time of accumulation."""
         directions = [(number, self.watched.directions[number]) for number in numbers]
         if not are_lost(self.compiled, self.watched.function, directions, state, self.until):
             return False
@@ -282,35 +282,35 @@ class Events:
 
     @property
     def recent(self) -> tuple[str, ...]:
-        """Events whose resets came last."""
+        """Names of the events with the latest resets."""
         names = {e.name for e in self.happened[-_SHRINKING:] if e.action == RESET}
         return tuple(name for name in self.watched.names if name in names)
 
     def reason(self, code: int, state: Any, t: float) -> str:
-        """Return why a run ended at a time [s] at which events accumulate, or a condition is undefined."""
+        """Return the reason for the end of a run at a time [s]: events accumulate, or a condition is undefined."""
         if code == abi.GATHERED:
             return gathered(self.recent, self.accumulation or t)
         return undefined(self.watched.names[hunting.undefined_event(state)], t)
 
 
 def _rest(before: float, last: float) -> float:
-    """Return the rest of a geometric series behind two of its terms (Aitken)."""
+    """Return the remainder of a geometric series after two of its terms (Aitken)."""
     ratio = last / before
     return last * ratio / (1.0 - ratio)
 
 
 def gathered(names: Sequence[str], t: float) -> str:
-    """Return why a run ended whose events of some names accumulate at a time [s]."""
+    """Return the reason for the end of a run whose events `names` accumulate at a time [s]."""
     events = " and ".join(f"'{name}'" for name in names)
     return f"events of {events} accumulate at t = {t:.13g} s: the model does not determine the motion after that"
 
 
 def undefined(name: str, t: float) -> str:
-    """Return why a run ended that met an event whose condition is undefined, at a time [s]."""
+    """Return the reason for the end of a run at an event with an undefined condition, at a time [s]."""
     return f"the condition of the event '{name}' is undefined at t = {t:.6g} s"
 
 
-# -- events that happened, labelled as people and programs read them ---------------------------------------------------
+# -- events with names -------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -320,18 +320,17 @@ class EventRecord:
     Attributes
     ----------
     t : float
-        When [s].
+        Time [s].
     name, action : str
-        Which one, and what was done: ``record``, ``stop`` or ``reset``.
+        Name of the event, and its action: ``record``, ``stop`` or ``reset``.
     q, v : mapping
-        Coordinates and velocities there, before a reset.
+        Coordinates and velocities at the event, before a reset.
     v_after : mapping or None
         Velocities after a reset.
     impulses : mapping
-        Of a reset: those of constraint rows, signed as the multipliers, and those along the velocities that have
-        new values.
+        Impulses of a reset: of constraint rows, signed as the multipliers, and along the velocities with new values.
     work : float
-        What a reset adds to the energy [J]; resets at the same time are one, whose work the first of them has.
+        Energy added by a reset [J]; for resets at the same time, the first has the total.
     """
 
     t: float
@@ -344,7 +343,7 @@ class EventRecord:
     work: float = 0.0
 
     def to_json(self) -> dict[str, Any]:
-        """Return it as JSON has it."""
+        """Return the record as JSON data."""
         after = None if self.v_after is None else dict(self.v_after)
         state = {"q": dict(self.q), "v": dict(self.v), "v_after": after}
         numbers = {"impulses": dict(self.impulses), "work": self.work}
@@ -352,7 +351,7 @@ class EventRecord:
 
 
 def stopped(outcome: Outcome) -> list[str]:
-    """Return at which event a run ended, where it did."""
+    """Return a note on the event at which a run ended, if any."""
     names = [f"'{e.name}'" for e in outcome.happened if e.action == STOP and e.t == outcome.end]
     if not names or outcome.code != abi.DONE:
         return []
@@ -360,7 +359,7 @@ def stopped(outcome: Outcome) -> list[str]:
 
 
 def record_of(info: ModelInfo, event: Happening) -> EventRecord:
-    """Label an event of a run."""
+    """Return an event of a run with names."""
     q = {c.name: float(x) for c, x in zip(info.coordinates, event.state[: info.nq], strict=True)}
     v = {c.name: float(x) for c, x in zip(info.velocities, event.state[info.nq :], strict=True)}
     impact = event.impact

@@ -1,8 +1,8 @@
-"""Motions that are prescribed: positions, velocities and accelerations of mechanisms whose freedom is all driven.
+"""Prescribed motions: positions, velocities and accelerations of mechanisms whose degrees of freedom are all driven.
 
-Nothing is integrated: at every time Newton's iteration closes the positions, and two linear solutions give what follows
-from them, from the emitted functions that starts and corrections use. The iteration begins where the state before
-leads, and a step that would need a far correction is taken in shorter ones, so that the branch is kept.
+Nothing is integrated: at every time Newton's iteration closes the positions, and two linear solutions give velocities
+and accelerations, with the emitted functions of starts and corrections. The iteration begins at the extrapolated state,
+and a step that would need a far correction is divided, so that the branch is kept.
 """
 
 from __future__ import annotations
@@ -17,46 +17,46 @@ from symgen.runtime.redundancy import FALLEN
 from symgen.runtime.start_records import record_type
 from symgen.store.jit import jit
 
-#: Newton's iteration at one time ends after so many steps; the state that it corrects may be at most this far off, in
-#: all and beside the sine by which the rows are apart: two branches are nearer to each other where that is small.
+#: Newton's iteration at one time ends after this many steps; it may move the state by at most this much, in all and
+#: relative to the sine between the rows: two branches are nearer to each other where that is small.
 STEPS, FARTHEST, BESIDE_SINE = 8, 0.1, 0.1
-#: A linear solution is refined while the last change was above this, times the smallest pivot: what rounding left of it
-#: is the change times the rounding over the pivot.
+#: A linear solution is refined while the last change is above this, times the smallest pivot: its remaining error is
+#: the change times the rounding over the pivot.
 REFINED = 1e-2
-#: Energies are measured again where velocities have changed by more than this part.
+#: Energies are measured again if velocities have changed by more than this part.
 MEASURED = 1e-13
-#: Rounds of refinement.
+#: Most rounds of refinement.
 ROUNDS = 4
 #: A step moves nothing by more than this [rad, or the length of the mechanism].
 LONGEST = 0.5
-#: Behind steps that move something by more than this, and below this sine, the sign of the determinant is looked at;
-#: else where 0 may have been passed.
+#: The sign of the determinant is checked after steps with a motion above this, below this sine, and where 0 may have
+#: been passed.
 LONG, LOOKED_AT = 0.1, 0.05
 
-#: How a step, and the loop, ended.
+#: Codes with which a step, and the loop, end.
 DONE, REFUSED, UNDEFINED, SINGULAR, PASSING, CHOOSE = range(6)
 
-#: What a clock holds: the time, the longest step to try, the sine, how fast it changes, the sign of the determinant,
-#: time, sine and predicted motion of the last attempt, and the largest sine since rows were chosen that stand for all.
+#: Entries of a clock: time, longest step to try, sine, its rate of change, sign of the determinant; time, sine and
+#: predicted motion of the last attempt; largest sine since independent rows were last chosen.
 TIME, REACH, SINE, SLOPE, SIGN, TRIED, TRIED_SINE, FAR, BEST = range(9)
 N_CLOCK = 9
-#: What is counted: times that are done, steps, and whether a state was settled.
+#: Entries of the counts: times done, steps, and whether a state was settled.
 AT, TAKEN, SETTLED = range(3)
 N_COUNTS = 3
 
 _A, _K, _M, _I8, _F = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.int64, types.float64
 
 
-#: What the loop has to know of a model.
+#: Data of a model for the loop.
 #: - nq, nv, m, ny, windings: Coordinates, velocities, constraint rows, length of the state, angles whose turns are
 #:   counted.
-#: - residual, change, mask, jacobian: Where these sections of ``w`` begin.
-#: - masked, rank: Rows that depend on others for ever, and the rank of D where the position is not singular: as many
-#:   as there are velocities.
-#: - tolerance, least: Of the violation of positions [m], and the shortest step [s].
+#: - residual, change, mask, jacobian: First indices of these sections of ``w``.
+#: - masked, rank: Rows that always depend on others, and the rank of D at a regular position: the number of
+#:   velocities.
+#: - tolerance, least: Tolerance of the violation of positions [m], and shortest step [s].
 #: - entries, constants: D's structural entries, see `symgen.runtime.model_arrays.entries_of`.
-#: - scale (shape (nv,)): What makes numbers of changes: 1 for angles, one over the length of the mechanism for
-#:   lengths.
+#: - scale (shape (nv,)): Factors that make changes dimensionless: 1 for angles, one over the length of the mechanism
+#:   for lengths.
 COURSE = record_type(
     "Course",
     __name__,
@@ -69,19 +69,19 @@ COURSE = record_type(
 Course: Any = COURSE.constructor
 
 
-#: Where the loop stands, and room for what it tries.
-#: - y, a, jerk (shapes (ny,), (nv,), (nv,)): State, accelerations, and how these changed in the last step over its
+#: Present state of the loop, and room for trial states.
+#: - y, a, jerk (shapes (ny,), (nv,), (nv,)): State, accelerations, and their change in the last step over its
 #:   length.
-#: - clock, counts: See `TIME` and `AT`, and what stands beside them.
-#: - trial, rates (shape (ny,)): The state that is tried, and its rates.
-#: - rows: What ``observe`` writes.
-#: - turned (shape (windings,)): Angles whose turns are counted, as they are in the accepted state.
+#: - clock, counts: See `TIME` and `AT`.
+#: - trial, rates (shape (ny,)): Trial state, and its rates.
+#: - rows: Output of ``observe``.
+#: - turned (shape (windings,)): Angles whose turns are counted, in the accepted state.
 #: - dense: A square D.
 STAND = record_type("Stand", __name__, ("y a jerk clock", _A), ("counts", _K), ("trial rates rows turned dense", _A))
 Stand: Any = STAND.constructor
 
 
-#: What the loop writes: states, accelerations and status, one row a time. The status is that of
+#: Output of the loop: states, accelerations and status, one row for each time. The status is that of
 #: `symgen.runtime.outcome.Motion`.
 FOLLOWED = record_type("Followed", __name__, ("states accelerations status", _M))
 Followed: Any = FOLLOWED.constructor
@@ -92,7 +92,7 @@ _MODEL = types.RecordType((COURSE, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE,
 
 @jit()
 def size_of(course: Any, values: Any, first: int) -> float:
-    """Return the largest component of velocities, or of a change of them, as a number."""
+    """Return the largest dimensionless component of velocities, or of their change."""
     largest = 0.0
     for j in range(course.nv):
         size = abs(values[first + j]) * course.scale[j]
@@ -102,9 +102,9 @@ def size_of(course: Any, values: Any, first: int) -> float:
 
 @jit()
 def close(geometry: Any, move: Any, spread: Any, course: Any, t: float, p: Any, w: Any, z: Any) -> float:
-    """Close the positions of a state near them; return how far they moved, or -1 if there are none in reach.
+    """Close the positions of a state; return the distance moved, or -1 if no closed ones are in reach.
 
-    D and its factorisation are those of the closed positions then. A violation that is not finite leaves nan.
+    D and its factorisation are then those of the closed positions. If the violation is not finite, nan is returned.
     """
     moved, before = 0.0, math.inf
     for k in range(STEPS):
@@ -116,7 +116,7 @@ def close(geometry: Any, move: Any, spread: Any, course: Any, t: float, p: Any, 
         if not closed and size > 0.5 * before and k > 1:
             if size > 1e3 * course.tolerance:
                 return -1.0
-            closed = True  # all that rounding allows
+            closed = True  # to rounding
         if closed and size <= 0.02 * course.tolerance:
             return moved
         spread(p, w)
@@ -137,7 +137,7 @@ def close(geometry: Any, move: Any, spread: Any, course: Any, t: float, p: Any, 
 
 @jit()
 def refine(course: Any, spread: Any, p: Any, w: Any, values: Any, first: int) -> float:
-    """Take D^+ times the section of the residual out of some velocities; return how much that was beside them."""
+    """Correct velocities by D^+ times the section of the residual; return the relative change."""
     spread(p, w)
     step = size_of(course, w, course.change)
     for j in range(course.nv):
@@ -148,7 +148,7 @@ def refine(course: Any, spread: Any, p: Any, w: Any, values: Any, first: int) ->
 
 @jit()
 def attempt(model: Any, h: float, p: Any, w: Any, stand: Any) -> int:
-    """Try the state that lies `h` behind the present one; it is accepted where `DONE` is returned."""
+    """Compute a trial state at `h` after the present one; return `DONE` if it is acceptable."""
     course, geometry, measure, move, spread, observe = model
     nq, nv, y, a, z, rates, jerk = course.nq, course.nv, stand.y, stand.a, stand.trial, stand.rates, stand.jerk
     t = stand.clock[TIME] + h
@@ -203,7 +203,7 @@ def attempt(model: Any, h: float, p: Any, w: Any, stand: Any) -> int:
 
 @jit()
 def take(course: Any, h: float, w: Any, stand: Any) -> bool:
-    """Make the state that was tried the present one, unless a singular position lies between; return whether it is."""
+    """Accept the trial state unless a singular position lies between; return whether it is accepted."""
     clock, nq = stand.clock, course.nq
     sine, before, slope, sign = math.sqrt(w[abi.PIVOT]), clock[SINE], clock[SLOPE], clock[SIGN]
     fresh = abs(sine - before) / abs(h) if h != 0.0 else math.inf
@@ -228,7 +228,7 @@ def take(course: Any, h: float, w: Any, stand: Any) -> bool:
 
 @jit()
 def sign_of(course: Any, w: Any, dense: Any) -> float:
-    """Return the sign of the determinant of D, rows that depend on others left out; 0 where it is not square."""
+    """Return the sign of the determinant of D without dependent rows; 0 if it is not square."""
     n, m, row = course.nv, course.m, 0
     for i in range(n * n):
         dense[i] = 0.0
@@ -269,29 +269,29 @@ def sign_of(course: Any, w: Any, dense: Any) -> float:
 
 @jit(_I8(_MODEL, _A, _A, _A, STAND, FOLLOWED, _K))
 def follow(model: Any, times: Any, p: Any, w: Any, stand: Any, followed: Any, control: Any) -> int:
-    """Follow a motion through times that all lie behind, or all before, the time at which the loop stands.
+    """Follow a motion through times that are all after, or all before, the present time of the loop.
 
     Parameters
     ----------
     model : tuple
         A `Course`, then ``geometry``, ``measure``, ``move``, ``spread`` and ``observe`` (`symgen.runtime.abi`).
     times : Array, shape (k,)
-        In the order in which they are met [s].
+        Times in the order of the motion [s].
     p, w : Array
-        As emitted functions take them.
+        Parameters and scratch of emitted functions.
     stand : Stand
-        Where the loop stands; it is left where it got to.
+        Present state of the loop, updated.
     followed : Followed
-        Written, from the time ``stand.counts[AT]`` on.
+        Output, written from the time ``stand.counts[AT]`` on.
     control : Array of int
-        What the watching thread shares.
+        Integers shared with the watching thread.
 
     Returns
     -------
     int
         `DONE`, or why the next step failed: `REFUSED` (no closed position in reach), `UNDEFINED` (a number that is
         not finite) however short it is, `SINGULAR` (at a singular position) or `PASSING` (one lies between);
-        `CHOOSE` where other rows may have to stand for all.
+        `CHOOSE` if other independent rows may have to be chosen.
     """
     course, geometry, measure, move, spread, observe = model
     course, p, w, stand, seen = bare(course), bare(p), bare(w), bare(stand), bare(followed)

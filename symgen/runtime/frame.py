@@ -1,22 +1,22 @@
-"""The frame of all loops: outputs, accepted states, error control, where to stop; around the step of a scheme.
+"""The frame of all loops around the step of a scheme: outputs, accepted states, error control and termination.
 
-Plain Python of which loops are instances (`symgen.runtime.loop_instances`). A scheme gives a meaning to the names
-below, and so does what runs it: a processor, vector lanes, a CUDA device.
+Loops are instances of this plain Python (`symgen.runtime.loop_instances`). A scheme gives a meaning to the names below,
+and so does the target: a processor, vector lanes, a CUDA device.
 
 | name | takes | does |
 | --- | --- | --- |
-| `prepare` | system, scheme, span, run | what the scheme needs once, at the start |
+| `prepare` | system, scheme, span, run | initial data of the scheme |
 | `attempt` | system, scheme, span, run, t, following, h, between | sets ``run.trial``, at `following`, from ``run.y`` |
-| `renew` | system, scheme, span, run, t, changed | what the scheme keeps, after the state at `t` was accepted |
-| `shrunk`, `grown` | span, run, [h,] error | the next step over a refused or an accepted one |
+| `renew` | system, scheme, span, run, t, changed | updates the scheme's memory after the state at `t` was accepted |
+| `shrunk`, `grown` | span, run, [h,] error | ratio of the next step to a refused or accepted one |
 | `interpolate` | system, scheme, span, run, outputs, t, following, h | outputs inside a step, from its ends |
-| `happened` | system, run, t, following, h, hunting | whether an event lies inside a step that is good enough |
-| `attend` | system, run, doing | what events need beside (`symgen.runtime.hunting`): `LOOK`, `REMEMBER`, `RECALL` |
+| `happened` | system, run, t, following, h, hunting | tests whether an event lies inside an acceptable step |
+| `attend` | system, run, doing | other work for events (`symgen.runtime.hunting`): `LOOK`, `REMEMBER`, `RECALL` |
 | `aimed` | system, run, h | a step that ends where the state passes a point of a table, in place of one of `h` |
 
-`attempt` returns its error estimate over the tolerance, 0 where there is none, and changes nothing that a run keeps:
-the same attempt may be made again, shorter. Whatever has to be known at the next step stands in the arrays of
-`symgen.runtime.records.State`, so a loop that was left can be entered again, in another process too.
+`attempt` returns its error estimate over the tolerance, 0 without an estimate, and changes no data of the run: it may
+be repeated with a shorter step. All data for the next step are in the arrays of `symgen.runtime.records.State`, so a
+loop can be left and entered again, in another process too.
 """
 
 from __future__ import annotations
@@ -37,42 +37,41 @@ from symgen.runtime.step_control import grown, shrunk, with_step
 from symgen.runtime.vectors import copied, received
 from symgen.runtime.watch import approach, begin, keep_maxima, meets, remember_rank, stuck, watch
 
-#: Where the step to try, and the longest one that ends before what is sought, are in what is kept of events
+#: Positions of the step to try, and of the longest one that ends before the event sought, in the data of events
 #: (`symgen.runtime.search_records`).
 TRY, LOW = range(2)
 
-# -- what a loop decides by itself; schemes may give other numbers -----------------------------------------------------
-#: Whether steps follow the error estimate; whether that is rough, so that the first steps are off by a large part of an
-#: energy that is only building up.
+# -- defaults of a loop; schemes may set others ------------------------------------------------------------------------
+#: Whether steps follow the error estimate; whether it is rough, so that the error of the first steps is a large part of
+#: an energy that is only building up.
 ADAPTIVE, ROUGH = False, False
-#: Whether outputs inside a step are interpolated; else they are reached by a shortened step of their own.
+#: Whether outputs inside a step are interpolated; otherwise each is reached by a shortened step.
 DENSE = False
-#: Whether events are looked for; without, nothing of that is compiled.
+#: Whether events are sought; if not, the search is not compiled.
 EVENTS = False
 
-#: Constant steps at the beginning of a run in which its energy is not judged: from rest, n steps of a scheme of first
-#: order are off by an n-th of an energy that is only building up.
+#: Constant steps at the beginning of a run in which its energy is not judged: from rest, the error of n steps of a
+#: first-order scheme is an n-th of an energy that is only building up.
 SETTING_OUT = 100
-#: A step across a singular position is refused only above this multiple of the tolerance, or, where that is tighter, an
-#: error of this part of the state: it leads nowhere. What rounding leaves of such a step follows no tolerance.
+#: A step across a singular position is refused only above this multiple of the tolerance, or, if that is tighter, an
+#: error of this part of the state: it leads nowhere. The rounding error of such a step does not follow the tolerance.
 _HOPELESS, _ASTRAY = 1e6, 1e-2
-#: A zone is crossed in so many times the distance to its middle: not 2, so that no stage at half the step meets it.
+#: Step across a zone over the distance to its middle: not 2, so that no stage at half the step meets the middle.
 _ACROSS = 2.3
-#: What stands for the step before an adaptive run has chosen one, as a part of the run.
+#: Assumed step until an adaptive run has chosen one, as a part of the run.
 _BEFORE = 1e-3
-#: The part of the way to a switch of a step whose stages do not pass it.
+#: Part of the distance to a switch taken by a step whose stages do not pass it.
 _SHORT_OF = 0.9
-#: What an attempt returns where an iteration did not converge, and where a matrix does not fit into its room.
+#: Results of an attempt: an iteration did not converge; a matrix does not fit into its room.
 DIVERGED, TOO_LARGE = -1.0, -2.0
-#: What `happened` finds: nothing; something, so that the step is tried again, shorter, to find out where; the same, the
-#: next attempt being one to take; that the state ends in an event; that there is little room for more notes; that what
-#: formulas compare changes there, so that the scheme begins anew; that this holds the motion back, as it goes to and
-#: fro across it; and a condition that is undefined there.
+#: Results of `happened`: no event; an event, so that shorter steps locate it; the same, and the next attempt is taken;
+#: the state ends in an event; little room for more notes; a comparison in formulas changes, so that the scheme begins
+#: anew; the motion is held at such a switch, which it crosses to and fro; a condition is undefined.
 NOTHING, SEEK, TAKE, MEET, CROWD, RESTART, HOLD, FAIL = range(8)
-#: What is asked of a step that is not good enough: whether its error is that of a switch inside, which is sought then.
+#: Test of a step that is not good enough: whether its error is that of a switch inside, which is then sought.
 DOUBT = FAIL + 1
-#: What else is done for events: look on which side of each of them a run begins; keep what emitted functions remember
-#: at the beginning of a step; have that again.
+#: Other work for events: find the side of each on which a run begins; save the memory of emitted functions at the
+#: beginning of a step; restore it.
 LOOK, REMEMBER, RECALL = range(DOUBT + 1, DOUBT + 4)
 
 
@@ -92,36 +91,36 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
 
 
 def refuse(run: Any) -> None:
-    """Do nothing: what a scheme keeps stands for another attempt as well."""
+    """Do nothing: the memory of a scheme is valid for another attempt as well."""
 
 
 def interpolate(
     system: Any, scheme: Any, span: Any, run: Any, outputs: Any, t: float, following: float, h: float
 ) -> None:
-    """Stand for the dense output of schemes that have one."""
+    """Stand for the dense output of a scheme."""
 
 
 def happened(system: Any, run: Any, t: float, following: float, h: float, hunting: int) -> int:
-    """Look for nothing: the place of events, between a good attempt and its acceptance."""
+    """Return `NOTHING`: placeholder for events, between a good attempt and its acceptance."""
     return NOTHING
 
 
 def attend(system: Any, run: Any, doing: int) -> int:
-    """Do nothing: where events are looked for, see on which side of each a run begins, or what `REMEMBER` is for."""
+    """Do nothing: placeholder for the initial sides of events (`LOOK`), `REMEMBER` and `RECALL`."""
     return NOTHING
 
 
 def aimed(system: Any, run: Any, h: float) -> float:
-    """Return the step to try in place of one of `h` seconds, which the error estimate proposes."""
+    """Return the step to try in place of one of `h` seconds, proposed by the error estimate."""
     return h
 
 
-# -- what depends on where a loop runs ---------------------------------------------------------------------------------
+# -- parts that depend on the target -----------------------------------------------------------------------------------
 
 
 @viewing
 def opened(sizes: Any, state: Any) -> Any:
-    """Return the state of a run, its working memory in parts."""
+    """Return the state of a run, its working memory divided into parts."""
     s, width = bare(state), sizes.width
     trial, room = part(s.room, 0, width), part(s.room, width, s.room.shape[0] - width)
     kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.events, s.memory
@@ -135,7 +134,7 @@ def evaluate(system: Any, run: Any, t: float, y: Any, rate: Any) -> None:
 
 
 def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
-    """Correct and measure a state, one between steps without keeping anything of it; return the bits of ``accept``."""
+    """Correct and measure a state, without a trace if it is between steps; return the bits of ``accept``."""
     run.iw[abi.PROBING] = 1 if between else 0
     bits = system.accept(t, y, run.p, run.w, run.iw)
     run.iw[abi.PROBING] = 0
@@ -143,12 +142,12 @@ def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
 
 
 def note_step(run: Any, h: float) -> None:
-    """Tell emitted functions the step being taken."""
+    """Store the present step for emitted functions."""
     run.w[abi.STEP_STATUS] = h
 
 
 def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
-    """Write output `k`: the state, what ``accept`` measured, and angles with their turns counted."""
+    """Write output `k`: the state, the measures of ``accept``, and angles with counted turns."""
     for i in range(sizes.ny):
         outputs.states[k, i] = y[i]
     for i in range(abi.N_STATUS):
@@ -158,9 +157,9 @@ def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
 
 
 def taken_back(run: Any, times: Any, out: int, t: float) -> int:
-    """Return how many outputs up to number `out` are left where those behind the time `t` [s] are taken back.
+    """Remove those of the first `out` outputs that are after the time `t` [s]; return the number left.
 
-    Outputs inside a step are written before its end is known: a step that is refused, or shortened to an event, has
+    Outputs inside a step are written before its end is fixed: a step that is refused, or shortened to an event, has
     others.
     """
     while out > 0 and times[out - 1] > t:
@@ -170,9 +169,9 @@ def taken_back(run: Any, times: Any, out: int, t: float) -> int:
 
 
 def refused(run: Any, times: Any, out: int, t: float, phi: float, drift: float, energy: float) -> int:
-    """Have the step from the time `t` [s] refused, with the largest violations and energy error from before it.
+    """Refuse the step from the time `t` [s]; restore the largest violations and energy error from before it.
 
-    Returns how many outputs up to number `out` are left.
+    Returns the number of the first `out` outputs that are left.
     """
     run.control[abi.REJECTED] += 1
     run.control[abi.REFUSED] = 1
@@ -184,26 +183,26 @@ def refused(run: Any, times: Any, out: int, t: float, phi: float, drift: float, 
 
 
 def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> int:
-    """Integrate from where a run stands to the end of `span`.
+    """Integrate from the present state of a run to the end of `span`.
 
     Parameters
     ----------
     model : tuple
-        Parts of a `ModelSystem`: the sizes of the model, then its functions (`symgen.runtime.abi`), 0 in place of
+        Parts of a `ModelSystem`: the sizes of the model, then its functions (`symgen.runtime.abi`), 0 for
         those that the scheme does not call.
     scheme : record
         The scheme.
     span : Span
-        How far, and by which steps.
+        End of the integration, and its steps.
     state : State
-        What the run keeps, a `HuntingState` where events are looked for; changed.
+        State of the run, a `HuntingState` if events are sought; changed.
     outputs : Outputs
-        Written, from output ``control[OUTPUTS]`` on.
+        Outputs, written from ``control[OUTPUTS]`` on.
 
     Returns
     -------
     int
-        How it ended, see `symgen.runtime.abi`.
+        Code of its end, see `symgen.runtime.abi`.
     """
     system = ModelSystem(*model)
     sizes, scheme, outputs = system.sizes, bare(scheme), bare(outputs)
@@ -225,12 +224,12 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             store(sizes, run.w, outputs, out, run.y)
             out += 1
         control[abi.OUTPUTS] = out
-    if control[abi.BEGUN] != 1:  # a scheme begins, or forgets the steps before
+    if control[abi.BEGUN] != 1:  # a scheme begins, or discards past steps
         clock[abi.ALLOWED] = 0.0
         control[abi.REFUSED] = control[abi.BARRED] = control[abi.KNOWN] = 0
         if ADAPTIVE:
             clock[abi.NEXT] = span.step
-        # laws whose gains follow the step are evaluated before there is one
+        # laws whose gains follow the step are evaluated before the first step
         note_step(run, span.step if span.step > 0.0 else _BEFORE * span.duration)
         prepare(system, scheme, span, run)
         if attend(system, run, LOOK) == FAIL:
@@ -293,7 +292,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             continue
         good = error <= 1.0 or (crossing and error <= max(_HOPELESS, _ASTRAY / span.rtol))
         if EVENTS and ADAPTIVE and not good and not between and (hunting == NOTHING or doubtful):
-            if hunting != TAKE and math.isfinite(error):  # the error may be that of a switch inside
+            if hunting != TAKE and math.isfinite(error):  # a switch inside may cause the error
                 hunting = happened(system, run, t, following, h, DOUBT if hunting == NOTHING else hunting)
                 doubtful = hunting != NOTHING
                 if doubtful and run.hunt[LOW] != h:  # an attempt that ends before the switch has its own error
@@ -304,7 +303,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             if crossing:
                 control[abi.BARRED] = 1
             change = shrunk(span, run, error)
-            if EVENTS and doubtful:  # its end is near a switch, and some of its stages are behind it
+            if EVENTS and doubtful:  # its end is near a switch, and some stages are beyond it
                 change = _SHORT_OF
             clock[abi.NEXT] = h * change
             refuse(run)
@@ -316,7 +315,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             store(sizes, run.w, outputs, out, run.trial)
             out += 1
             control[abi.OUTPUTS] = out
-            # the work's error is judged by the energies of the state that the step began with, whatever outputs it has
+            # the work's error is judged by the energies at the beginning of the step, whatever outputs it has
             run.w[abi.KINETIC], run.w[abi.POTENTIAL] = kinetic, potential
             continue
         if bits & 1 != 0 or (ADAPTIVE and hunting == NOTHING and meets(run)):
@@ -360,13 +359,13 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             control[abi.INDEX] += 1
             early = following == until and following < clock[abi.ORIGIN] + control[abi.INDEX] * span.step - tiny
             if early or (EVENTS and code == abi.MET):
-                clock[abi.ORIGIN], control[abi.INDEX] = following, 0  # the grid of whoever goes on begins here
+                clock[abi.ORIGIN], control[abi.INDEX] = following, 0  # a continued run has its grid from here
         elif crossing:
             clock[abi.ALLOWED] = 0.0
         else:
             grow = grown(span, run, h, error)
             clock[abi.NEXT] = h * (min(1.0, grow) if control[abi.REFUSED] == 1 else grow)
-            if EVENTS and h < wanted and control[abi.REFUSED] == 0:  # something else ended it than its error
+            if EVENTS and h < wanted and control[abi.REFUSED] == 0:  # it was not shortened by its error
                 clock[abi.NEXT] = max(clock[abi.NEXT], wanted)
         control[abi.REFUSED] = control[abi.BARRED] = 0
         t = following
@@ -376,7 +375,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             store(sizes, run.w, outputs, out, run.y)
             out += 1
             control[abi.OUTPUTS] = out
-        if restart:  # behind a switch rates are others, and what is known of steps before says nothing
+        if restart:  # rates jump at a switch, so that data of past steps are useless
             clock[abi.NEXT], clock[abi.ALLOWED] = max(clock[abi.NEXT], whole), 0.0
             prepare(system, scheme, with_step(span, clock[abi.NEXT]), run)
         else:
@@ -393,12 +392,12 @@ FUNCTIONS = {
     **{"rhs": abi.RHS, "confirm": abi.RHS, "accept": abi.ACCEPT},
     **{"turn": abi.MOVE, "residual": abi.STAGE, "tangent": abi.STAGE},
 }
-#: What each loop was made of, so that one that looks for events can be made of the same.
+#: Arguments with which each loop was made, for its variant with events.
 RECIPES: dict[Any, tuple[tuple[Any, ...], dict[str, Any]]] = {}
 
 
 def kinds_of(functions: Iterable[str]) -> tuple[types.Kind, ...]:
-    """Return the types of the parts of a `ModelSystem`, functions beside ``rhs``, ``confirm``, ``accept`` by name."""
+    """Return the types of the parts of a `ModelSystem`; functions besides ``rhs``, ``confirm``, ``accept`` by name."""
     called = {"rhs", "confirm", "accept", *functions}
     return SIZES, *(kind if name in called else types.int64 for name, kind in FUNCTIONS.items())
 
@@ -409,13 +408,13 @@ def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) 
     Parameters
     ----------
     module, name : str
-        The module variable that holds it.
+        Module variable of the loop.
     scheme : Record
-        Of the scheme's record.
+        Type of the scheme's record.
     *functions : str
-        Those that it calls beside ``rhs``, ``confirm`` and ``accept``.
+        Functions that it calls besides ``rhs``, ``confirm`` and ``accept``.
     **meanings
-        What the names of the frame mean.
+        Meanings of the names of the frame.
     """
     signature = types.int64(types.RecordType(kinds_of(functions)), scheme, SPAN, STATE, OUTPUTS)
     made = compiled_loop(module, name, integrate, signature, **meanings)

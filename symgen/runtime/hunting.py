@@ -1,10 +1,10 @@
-"""Loops that look for events: by shorter steps from the same state, so with every scheme alike.
+"""Loops with events, located by shorter steps from the same state, for every scheme.
 
-After each good attempt the loop (`symgen.runtime.frame`) evaluates switching functions at the end of the step. Where
-`symgen.runtime.searching.decide` finds that an event may lie inside, shorter steps from the same state close in on it,
-until time resolves no more; the state at an event is that of such a step. Before each of them emitted functions have
-what they remembered at the beginning of the step, so where an event is only noted, the whole step is taken afterwards
-as if nothing had been.
+After each good attempt the loop (`symgen.runtime.frame`) evaluates switching functions at the end of the step. If
+`symgen.runtime.searching.decide` finds that an event may lie inside, shorter steps from the same state enclose it to
+the resolution of time; the state at an event is that of such a step. Before each of them the memory of emitted
+functions is restored from the beginning of the step, so if an event is only noted, the whole step is then taken
+unaffected.
 """
 
 from __future__ import annotations
@@ -28,25 +28,25 @@ from symgen.runtime.vectors import copied
 Array = NDArray[np.float64]
 
 
-#: A `State` with `hunt`, what a run keeps of its events (`symgen.runtime.searching`).
+#: A `State` with `hunt`, the data of events (`symgen.runtime.searching`).
 HuntingState = record("HuntingState", *State._fields, "hunt", module=__name__)
-#: A `Run` with what is kept of events.
+#: A `Run` with the data of events.
 HuntingRun = record("HuntingRun", *Run._fields, "hunt", module=__name__)
 #: A `ModelSystem` with the functions of events: switching functions with their rates, the function
-#: `symgen.runtime.searching.decide`, and the rates q' and v': ``rhs``, or a function beside it of a law that integrates
-#: something else than v.
+#: `symgen.runtime.searching.decide`, and the rates q' and v': ``rhs``, or a separate function of a law that does not
+#: integrate v.
 HuntingSystem = record("HuntingSystem", *ModelSystem._fields, "happens", "decide", "rates", module=__name__)
 
 
-#: How compiled loops see what a run keeps.
+#: Type of the state of a run for compiled loops.
 HUNTING_STATE = types.RecordType((*STATE, STATE.parts[0]), HuntingState)
 
 
-# -- what the frame calls ----------------------------------------------------------------------------------------------
+# -- functions for the frame -------------------------------------------------------------------------------------------
 
 
 def opened(sizes: Any, state: Any) -> Any:
-    """Return the state of a run, its working memory in parts, and that of its events."""
+    """Return the state of a run, its working memory divided into parts, with its events."""
     return HuntingRun(*plain_opened(sizes, state), bare(state).hunt)
 
 
@@ -59,14 +59,14 @@ def decided(system: Any, run: Any, t: float, h: float, doing: int, y: Any) -> in
 
 @called
 def evaluate_events(system: Any, run: Any, t: float, y: Any) -> None:
-    """Evaluate switching functions and their rates at a state; emitted functions remember nothing of it."""
+    """Evaluate switching functions and their rates at a state; the memory of emitted functions stays as it is."""
     width, hunt, n = system.sizes.width, run.hunt, int(run.hunt[searching.COUNT])
     at, m = searching.N_HEAD + searching.N_COLUMNS * n, searching.N_VALUES * n
     out, state, rate = part(hunt, at, m), part(hunt, at + m, width), part(hunt, at + m + width, width)
     if hunt[searching.NEEDS_RATES] != 0.0:
         decided(system, run, t, 0.0, searching.KEEP, y)
         copied(width, y, state)
-        # which may close coordinates that depend on others
+        # this may close dependent coordinates of the copy
         if system.rates(t, state, run.p, run.w, run.iw, rate) != 0:
             system.confirm(t, state, run.p, run.w, run.iw, rate)
         run.control[abi.EVALUATIONS] += 1
@@ -76,15 +76,15 @@ def evaluate_events(system: Any, run: Any, t: float, y: Any) -> None:
 
 
 def happened(system: Any, run: Any, t: float, following: float, h: float, hunting: int) -> int:
-    """Look for events in a step whose end is good enough; return what to do next, see `decide`."""
+    """Search an acceptable step for events; return the decision of `decide`."""
     evaluate_events(system, run, following, run.trial)
     return decided(system, run, following, h, hunting, run.trial)
 
 
 def attend(system: Any, run: Any, doing: int) -> int:
-    """Look on which side of each event a run begins, or goes on after its velocities or parameters were changed.
+    """Find the side of each event on which a run begins, or continues after a change of velocities or parameters.
 
-    Or keep what emitted functions remember at the beginning of a step (`REMEMBER`), or have that again (`RECALL`).
+    Or save the memory of emitted functions at the beginning of a step (`REMEMBER`), or restore it (`RECALL`).
     """
     if doing == LOOK:
         evaluate_events(system, run, run.clock[abi.TIME], run.y)
@@ -98,7 +98,7 @@ def aimed(system: Any, run: Any, h: float) -> float:
 
 
 def notes_at(n: int, width: int, nw: int) -> int:
-    """Return where notes begin."""
+    """Return the index of the first note."""
     return searching.N_HEAD + (searching.N_COLUMNS + searching.N_VALUES) * n + 2 * width + 2 * (nw + abi.N_COUNTERS)
 
 
@@ -110,7 +110,7 @@ _loops: dict[Any, Any] = {}
 
 
 def with_events(loop: Any) -> Any:
-    """Return the loop that looks for events and is otherwise the same; built at the first use.
+    """Return the same loop with events, built at the first use.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ def with_events(loop: Any) -> Any:
 
 
 def __getattr__(name: str) -> Any:
-    """Return the loop that `with_events` makes of one of the built-in schemes: another process asks for it by name."""
+    """Return the loop with events of a built-in scheme: another process loads it by name."""
     from importlib import import_module
     from importlib.util import find_spec
 
@@ -145,13 +145,13 @@ def __getattr__(name: str) -> Any:
 
 
 def undefined_event(state: Any) -> int:
-    """Return the number of the first event whose condition is undefined at what a run looked at last."""
+    """Return the number of the first event whose condition is undefined at the last evaluation."""
     n = int(state.hunt[searching.COUNT])
     return int(np.argmax(np.isnan(state.hunt[searching.N_HEAD + searching.N_COLUMNS * n :][:n])))
 
 
 def taken_notes(hunt: Array, width: int, nw: int) -> list[tuple[float, int, Array]]:
-    """Return time, number and state of the events noted so far, and make room for more."""
+    """Return time, number and state of the events noted so far; clear the notes."""
     first = notes_at(int(hunt[searching.COUNT]), width, nw)
     count, size = int(hunt[searching.NOTED]), 2 + width
     rows = hunt[first : first + count * size].reshape(count, size).copy()

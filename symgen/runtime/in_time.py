@@ -1,4 +1,4 @@
-"""Formulas of the time: their values, and when they pass a level."""
+"""Formulas of time: their values, and the times at which they pass a level."""
 
 from __future__ import annotations
 
@@ -21,24 +21,24 @@ Integers = NDArray[np.intp]
 #: Values of a function at many times.
 Over = Callable[[Array], Array]
 
-#: Pieces of a run at most.
+#: Most pieces of a run.
 MOST_PIECES = 100_000
-#: Instants at which a formula is looked at first, and at most, until it changes sides as often as the time before.
+#: Number of samples of a formula, first and at most, until two samplings count the same passages.
 _FIRST, _MOST = 2048, 2**19
-#: Looks at each passage, or near one, at least: with fewer it cannot be separated from the next.
+#: Fewest samples for each passage, or near one: with fewer it cannot be separated from the next.
 _LOOKS = 4
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
 class InTime:
-    """What formulas of parameters and t are at times.
+    """Values of formulas of parameters and t at given times.
 
     Parameters
     ----------
     mechanism : Mechanism
-        Whose tables they may read, and whose largest step says what may be short.
+        Source of the tables that they may read, and of the largest step, which bounds the distance of samples.
     values : mapping of str to float
-        Of the parameters.
+        Values of the parameters.
     """
 
     def __init__(self, mechanism: Mechanism, values: Mapping[str, float]) -> None:
@@ -46,7 +46,7 @@ class InTime:
         self._values, self._shortest = dict(values), mechanism.defaults.max_step or math.inf
 
     def at(self, e: Expr, t: float) -> float:
-        """Return a formula's value at a time [s]; not a number where it is undefined."""
+        """Return the value of a formula at a time [s], or nan if it is undefined."""
         self._values["t"] = t
         try:
             return evaluate(e, self._values, tables=self._tables)
@@ -54,16 +54,16 @@ class InTime:
             return math.nan
 
     def over(self, e: Expr, times: Array) -> Array:
-        """Return a formula's values at many times, each that of `at`."""
+        """Return the values of a formula at many times, equal to those of `at`."""
         return np.broadcast_to(Columns({**self._values, "t": times}, self._tables).value(e), len(times))
 
     def crossings(self, jump: Jump, until: float, first: float = 0.0) -> list[float]:
-        """Return the times from `first` to `until` at which what `jump` reads passes its levels; see `crossings`."""
+        """Return the times from `first` to `until` at which a jump's argument passes its levels; see `crossings`."""
         over, line = partial(self.over, jump.argument), line_of(jump, self._values)
         return crossings(over, line, jump.levels, until, first, self._shortest)
 
     def range(self, jump: Jump, until: float, first: float = 0.0) -> tuple[float, float]:
-        """Return the least and the largest value of what `jump` reads, as far as looks tell; nan where undefined."""
+        """Return the least and the largest sampled value of the argument of `jump`; nan if undefined."""
         line = line_of(jump, self._values)
         times = np.linspace(first, until, 2 if line is not None else _FIRST)
         values = self.over(jump.argument, times)
@@ -84,20 +84,20 @@ def crossings(
     Parameters
     ----------
     over : callable
-        Its values at many times [s].
+        Values of the function at many times [s].
     line : tuple of float or None
-        Its value at 0 and its slope where it is a straight line.
+        Value at 0 and slope if the function is a straight line.
     levels : sequence of float
-        What it passes.
+        Levels to pass.
     until, first : float
         End and begin [s].
     shortest : float
-        It is looked at so often at least [s], as far as that is possible.
+        Largest distance of samples [s], as far as their number allows.
 
     Raises
     ------
     InputError
-        If it passes them more often, or too often to tell one time from the next.
+        If it passes them too often, or too often to separate the times.
     """
     if line is not None or not levels:
         value, slope = line or (0.0, 0.0)
@@ -106,7 +106,7 @@ def crossings(
     count = max(_FIRST, math.ceil(min(span / shortest, 0.5 * _MOST)))
     often = "a formula that changes sides more often"
     while count <= _MOST:
-        # anywhere in equal parts, so that what is faster than the looks is seen to be, whatever its frequency
+        # at random in equal parts, to detect changes faster than the sampling at any frequency
         anywhere = np.random.default_rng(count).random(count)
         times = np.concatenate([[first], first + span * (np.arange(count) + anywhere) / count, [until]])
         samples = over(times)
@@ -133,14 +133,14 @@ def crossings(
 
 
 def _below(levels: Array, samples: Array) -> Integers:
-    """Return how many levels are below each value; what is undefined is above none."""
+    """Return the number of levels below each value, 0 for undefined values."""
     return np.searchsorted(levels, np.where(np.isnan(samples), -math.inf, samples))
 
 
 def _turns(samples: Array, below: Integers, levels: int) -> tuple[Integers, Array]:
     """Return samples beyond which a level may be passed for a moment, and the sign that makes them smallest.
 
-    They are largest or smallest among their neighbours, but not all along a plateau.
+    They are local extrema; of a plateau, only its ends.
     """
     padded = np.concatenate([[np.nan], samples, [np.nan]])
     before, after = padded[:-2], padded[2:]
@@ -152,14 +152,14 @@ def _turns(samples: Array, below: Integers, levels: int) -> tuple[Integers, Arra
 
 
 def _counted(a: Integers, b: Integers) -> tuple[Integers, Integers]:
-    """Return all numbers from the smaller to the larger of two (exclusive), with the place of the pair each is of."""
+    """Return all numbers from the smaller to the larger of two (exclusive), with the index of the pair of each."""
     least, count = np.minimum(a, b), np.abs(a - b)
     pairs = np.repeat(np.arange(len(a)), count)
     return pairs, np.arange(len(pairs)) - np.repeat(np.cumsum(count) - count - least, count)
 
 
 def _bisected(over: Over, low: Array, high: Array, levels: Array) -> Array:
-    """Return the first times at which a function is on the side of a level that it is on at `high`, to rounding."""
+    """Return the first times, to rounding, at which a function is on the same side of a level as at `high`."""
     side, rounding = over(high) > levels, np.finfo(np.float64).eps * np.max(np.abs(high), initial=0.0)
     while True:
         middle = 0.5 * (low + high)
@@ -171,7 +171,7 @@ def _bisected(over: Over, low: Array, high: Array, levels: Array) -> Array:
 
 
 def _lowest(over: Over, sign: Array, low: Array, high: Array) -> Array:
-    """Return where a function, times a sign, is smallest, by golden sections."""
+    """Return the minimiser of a function times a sign, by golden sections."""
     for _ in range(60 if len(low) else 0):
         a, b = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
         left = sign * over(a) < sign * over(b)
@@ -180,7 +180,7 @@ def _lowest(over: Over, sign: Array, low: Array, high: Array) -> Array:
 
 
 def line_of(jump: Jump, values: Mapping[str, float]) -> tuple[float, float] | None:
-    """Return value at 0 and slope of a jump's argument where that is a straight line in t."""
+    """Return value at 0 and slope of a jump's argument if it is linear in t, else None."""
 
     def line(e: Expr) -> tuple[float, float] | None:
         if isinstance(e, Name) and e.name == "t":

@@ -1,4 +1,4 @@
-"""What an integrator is to a run: a loop, and what the loop is entered with."""
+"""The interface of integrators: a loop and its arguments."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class IntegratorParameter:
-    """A number that an integrator takes.
+    """A numerical parameter of an integrator.
 
     Parameters
     ----------
     name, note : str
-        Note says what it does.
+        Name, and description of its effect.
     default, minimum, maximum : float
         Values outside [minimum, maximum] are refused.
     """
@@ -37,22 +37,22 @@ class IntegratorParameter:
 
 @dataclass(frozen=True)
 class Setup:
-    """What a loop is entered with beside the model, the state and the outputs.
+    """Arguments of a loop besides the model, the state and the outputs.
 
     Attributes
     ----------
     loop : compiled function
         An instance of `symgen.runtime.frame.integrate`.
     functions : tuple
-        What it takes first, from `law_functions`.
+        Its first arguments, from `law_functions`.
     scheme : record
         The scheme, one of those of `symgen.runtime.records`.
     step : float
         Constant step, or first step of an adaptive run [s]; 0: chosen by the loop.
     memory, room : int
-        Numbers that the scheme keeps from step to step, and that it needs for one behind the state that is tried.
+        Count of numbers that the scheme keeps between steps, and of its working memory after the trial state.
     safety : float
-        Part of the step that its error estimate would allow that is taken.
+        Part taken of the step that the error estimate allows.
     """
 
     loop: Any
@@ -69,7 +69,7 @@ class Integrator(Protocol):
 
     @property
     def name(self) -> str:
-        """Name as typed."""
+        """Name for users."""
 
     @property
     def order(self) -> int:
@@ -81,7 +81,7 @@ class Integrator(Protocol):
 
     @property
     def forms(self) -> tuple[str, ...]:
-        """Problem forms it solves."""
+        """Problem forms that it solves."""
 
     @property
     def adaptive(self) -> bool:
@@ -93,18 +93,18 @@ class Integrator(Protocol):
 
     @property
     def real_boundary(self) -> float:
-        """Where the region of stability ends on the negative real axis."""
+        """End of the region of stability on the negative real axis."""
 
     @property
     def stages(self) -> int:
-        """Evaluations that a step takes, for estimates of how long a run lasts."""
+        """Evaluations in a step, for estimates of the duration of a run."""
 
     def loop(self, adaptive: bool) -> Any:
-        """Return the compiled loop that runs with constant or adaptive steps enter; None: it depends on the model."""
+        """Return the compiled loop for constant or adaptive steps, or None if it depends on the model."""
 
     @property
     def row_targets(self) -> tuple[str, ...]:
-        """Targets of sweeps with a loop over many runs: ``cpu``, ``lanes``, ``cuda``; none where there is no loop."""
+        """Targets of sweeps with a loop over many runs: ``cpu``, ``lanes``, ``cuda``; empty without such a loop."""
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop.
@@ -114,38 +114,38 @@ class Integrator(Protocol):
         compiled : CompiledModel
             Model and method.
         spec : RunSpec
-            What the run is to do.
+            Specification of the run.
         w : Array
             Scratch of a consistent start, with the mask of redundant rows.
         """
 
 
 def adapts(integrator: Integrator, options: Mapping[str, str | float]) -> bool:
-    """Whether an integrator chooses its steps: as it does by itself, or as the option ``adaptive`` sets."""
+    """Whether an integrator chooses its steps, by default or by the option ``adaptive``."""
     keys = (f"{owner}.adaptive" for owner in ("integrator", integrator.name))
     chosen = next((str(options[key]).lower() for key in keys if key in options), "")
     return chosen != "false" if integrator.adaptive else estimates(integrator) and chosen == "true"
 
 
 def estimates(integrator: Integrator) -> bool:
-    """Whether an integrator can choose its steps, by itself or by its option ``adaptive``."""
+    """Whether an integrator can choose its steps, by default or by its option ``adaptive``."""
     return bool(getattr(integrator, "estimates", integrator.adaptive))
 
 
 def law_functions(compiled: CompiledModel, *names: str) -> tuple[Any, ...]:
-    """Return the emitted functions that a loop takes first, 0 in place of those that it does not call.
+    """Return the emitted functions for the first arguments of a loop, 0 for those that it does not call.
 
     Parameters
     ----------
     compiled : CompiledModel
         Model and method.
     *names : str
-        What is called beside ``rhs``, ``confirm`` and ``accept``: ``turn``, ``residual``, ``tangent``.
+        Functions called besides ``rhs``, ``confirm`` and ``accept``: ``turn``, ``residual``, ``tangent``.
     """
     from symgen.runtime.manifold import stay
 
     law = compiled.law_module
-    # a law without pivots of S has nothing to confirm; coordinates that change as velocities do are not turned
+    # a law without pivots of S has nothing to confirm; coordinates whose rates are velocities are not turned
     common = law.rhs, getattr(law, "confirm", law.rhs), law.accept
     turn = getattr(compiled.model, "turn", stay) if "turn" in names else 0
     return *common, turn, *(getattr(law, name) if name in names else 0 for name in ("residual", "tangent"))

@@ -1,6 +1,6 @@
-"""Joint coordinates that starts hold: rows of Phi and D behind those of the model.
+"""Joint coordinates held by starts: rows of Phi and D after those of the model.
 
-A joint coordinate is no coordinate of the state: holding it is a constraint more at the start. The emitted ``observe``
+A joint coordinate is no coordinate of the state: holding it is another constraint at the start. The emitted ``observe``
 gives its value and its rate, and as rates are linear in the velocities, also its row of D.
 """
 
@@ -26,14 +26,14 @@ _I, _A = types.int64[::1], types.float64[::1]
 
 
 def joint_values(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array) -> Array:
-    """Return value and rate of every joint coordinate in turns, shape (2 n,).
+    """Return value and rate of every joint coordinate, alternating, shape (2 n,).
 
     Parameters
     ----------
     compiled : CompiledModel
         The model.
     t, y, p, w
-        As emitted functions take them; the section of angles that count turns says on which turn these are.
+        Arguments of emitted functions; the section of angles that count turns fixes their turns.
     """
     info = compiled.info
     out = np.zeros(info.observed)
@@ -41,18 +41,17 @@ def joint_values(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array
     return out[info.m :]
 
 
-#: The joint coordinates that starts of a model hold.
-#: - values, rates: The layout of the model with further rows: of joint coordinates that are held, and of rates that
-#:   are.
+#: The joint coordinates held by starts of a model.
+#: - values, rates: Layouts of the model with further rows of held joint coordinates, and of held rates.
 #: - held: These joint coordinates, those of `values` before those of `rates`.
-#: - goals, origins: Values of the rows on the way from those of the described positions; the latter.
-#: - w, out: Scratch with room for the further rows; what ``observe`` writes.
+#: - goals, origins: Intermediate goals of the rows; their values at the described positions.
+#: - w, out: Scratch with room for the further rows; output of ``observe``.
 JOINTS = record_type("Joints", __name__, ("values rates", LAYOUT), ("held", _I), ("goals origins w out", _A))
 Joints: Any = JOINTS.constructor
 
 
 class Further(NamedTuple):
-    """Rows behind those of a model: ``observe``, joint coordinates and their goals, and where the model has its own."""
+    """Rows after those of a model: ``observe``, joint coordinates, their goals, and sections of the model's rows."""
 
     observe: Any
     held: Any
@@ -63,16 +62,16 @@ class Further(NamedTuple):
 
 
 def joints_held(info: ModelInfo, base: Layout, values: Sequence[int], rates: Sequence[int], scratch: Array) -> Joints:
-    """Return the joint coordinates that starts of a model hold.
+    """Return the joint coordinates held by starts of a model.
 
     Parameters
     ----------
     info, base : ModelInfo, Layout
         The model, and its layout.
     values, rates : sequence of int
-        Joint coordinates with a value, and those with a rate.
+        Joint coordinates with held value, and with held rate.
     scratch : Array, shape (nw,)
-        Scratch of the model, at whose end looped code finds its tables.
+        Scratch of the model; looped code reads its tables at the end.
     """
     count, most = len(values) + len(rates), max(len(values), len(rates))
     held, room = np.array([*values, *rates], dtype=np.int64), 2 * (base.m + most) + most * base.nv
@@ -84,7 +83,7 @@ def joints_held(info: ModelInfo, base: Layout, values: Sequence[int], rates: Seq
 
 
 def _with_rows(info: ModelInfo, base: Layout, chosen: Sequence[int], nw: int) -> Layout:
-    """Return a layout with rows of joint coordinates; Phi, nu and these rows of D stand behind the model's scratch."""
+    """Return a layout with rows of joint coordinates; Phi, nu and these rows of D are after the model's scratch."""
     if not chosen:
         return base
     m, n, k = base.m, base.nv, len(chosen)
@@ -111,7 +110,7 @@ def copied_scratch(w: Any, out: Any, count: int) -> None:
 
 @exact()
 def fill_further(layout: Any, now: Any, work: Any, further: Any) -> None:
-    """Fill Phi, D and nu of all rows, the model's own being filled in its part of the scratch.
+    """Fill Phi, D and nu of all rows; those of the model are already in its part of the scratch.
 
     `work.y`, `work.w` and `work.direction` are overwritten.
     """

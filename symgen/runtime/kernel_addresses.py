@@ -1,4 +1,4 @@
-"""Addresses of compiled kernels: generic code of the looped shape calls them through tables."""
+"""Addresses of compiled kernels, which generic code of the looped shape calls through tables."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ GENERIC = types.int64(_T, _A, _A, _I, _I, _I, types.float64)
 
 
 def address(function: Any, machine: ModuleType, signature: types.Signature = KERNEL) -> int:
-    """Return the address of a function, compiled or taken from the cache if it was not.
+    """Return the address of a function, first compiled or read from the cache if needed.
 
     Parameters
     ----------
     function : EmittedFunction
         A function of an emitted kernel, or generic code.
     machine : module
-        The generic code that will call it.
+        Generic code that calls it.
     signature : Signature
         `KERNEL` or `GENERIC`.
     """

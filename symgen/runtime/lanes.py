@@ -1,12 +1,12 @@
 """Many runs of one compiled model with a constant step, several at once in the lanes of vector instructions.
 
-Lanes take the same steps side by side: the frame of single runs, with other meanings of what it does to a state. What a
-run in a lane cannot do alone is not done here: where one comes near a singular position, meets a suspicious pivot, has
-to choose the rows that stand for all anew, exceeds a limit or fails, it is left to the loop over single runs, from its
-start. So every run that ends here has gone well, and every other one has exactly the result of a single run.
+Lanes take the same steps side by side, in the frame of single runs with other operations on a state. A run that comes
+near a singular position, meets a suspicious pivot, needs a new choice of independent rows, exceeds a limit or fails is
+left to the loop over single runs, from its start. So every run that ends here has succeeded, and every other one has
+exactly the result of a single run.
 
-Element i of every array of the lanes stands at ``LANES*i + lane``; those of emitted code are parts of one array z
-(`symgen.ir.program.lane_bases`), which stands in the place of ``p``.
+Element i of every array of the lanes is at ``LANES*i + lane``; those of emitted code are parts of one array z
+(`symgen.ir.program.lane_bases`), which replaces ``p``.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ _LAST_TIME, _WARN, _CHOSEN = abi.LAST_TIME * _L, abi.WARN_PIVOT * _L, abi.CHOSEN
 _LARGEST_SINE, _PASSAGE = abi.LARGEST_SINE * _L, watching.PASSAGE
 _SUSPECTS, _FAILURES = LANE_COUNTERS.index("suspects") * _L, LANE_COUNTERS.index("failures") * _L
 _ITERATIONS = LANE_COUNTERS.index("iterations") * _L
-#: Behind the gauges of all lanes: the largest coordinate, the rank at the start, 1 for lanes left to single runs, and
-#: the part of the best pivot below which those are that leave rows out, 0 for others.
+#: After the gauges of all lanes: the largest coordinate, the rank at the start, 1 for lanes left to single runs, and
+#: the part of the best pivot below which lanes with rows left out are left to single runs, 0 for others.
 _LARGEST, _FIRST_RANK, _ODD = abi.N_GAUGES * _L, (abi.N_GAUGES + 1) * _L, (abi.N_GAUGES + 2) * _L
 _LEAST_PART, _N_LANE_GAUGES = (abi.N_GAUGES + 3) * _L, abi.N_GAUGES + 4
 #: Angles beyond this lose digits in the reduction of emitted sines.
@@ -60,11 +60,11 @@ _NEGLIGIBLE = watching.NEGLIGIBLE
 _SHORT = 0.25
 
 
-# -- what the frame does, for all lanes --------------------------------------------------------------------------------
+# -- operations of the frame, for all lanes ----------------------------------------------------------------------------
 
 
 def opened(sizes: Any, state: Any) -> Any:
-    """Return the states of runs: emitted code works on the state that is tried where it stands in z."""
+    """Return the states of runs; the trial state is a part of z, for emitted code."""
     s = bare(state)
     trial = part(s.p, 0, sizes.width)
     kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.events, s.memory
@@ -72,7 +72,7 @@ def opened(sizes: Any, state: Any) -> Any:
 
 
 def settle(sizes: Any, span: Any, run: Any) -> None:
-    """Raise the scales of speeds to those of motions that cross the mechanism in the time of the run."""
+    """Raise the scales of speeds to those of motions that cross the mechanism during the run."""
     for lane in range(_L):
         speed = run.w[_LENGTH + lane] / span.duration
         speed = speed if speed > run.w[_SPEED + lane] else run.w[_SPEED + lane]
@@ -82,20 +82,20 @@ def settle(sizes: Any, span: Any, run: Any) -> None:
 
 
 def evaluate(system: Any, run: Any, t: float, y: Any, rate: Any) -> None:
-    """Set `rate` to the rates of the states that are tried."""
+    """Set `rate` to the rates of the trial states."""
     width = system.sizes.width
     system.rhs(t, run.p)
     copied(width, part(run.p, width, width), rate)
 
 
 def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
-    """Correct and measure the states that are tried; what fails is noted in the counters."""
+    """Correct and measure the trial states; failures are counted."""
     system.accept(t, run.p)
     return 0
 
 
 def note_step(run: Any, h: float) -> None:
-    """Tell emitted functions the step being taken."""
+    """Store the present step for emitted functions."""
     for lane in range(_L):
         run.w[_STEP_STATUS + lane] = h
 
@@ -105,7 +105,7 @@ def remember_rank(sizes: Any, run: Any) -> None:
 
 
 def begin(run: Any) -> None:
-    """Take the energies of the first accepted states as those the balances start from."""
+    """Set the initial energies of the balances to those of the first accepted states."""
     for lane in range(_L):
         run.gauges[_START + lane] = run.w[_KINETIC + lane] + run.w[_POTENTIAL + lane]
         run.gauges[_POTENTIAL_START + lane] = run.w[_POTENTIAL + lane]
@@ -124,7 +124,7 @@ def keep_maxima(sizes: Any, run: Any, y: Any) -> float:
 
 
 def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
-    """Judge accepted states as `symgen.runtime.watch.watch` does; mark lanes that cannot go on."""
+    """Judge accepted states as `symgen.runtime.watch.watch` does; mark lanes that cannot continue."""
     w, counters, gauges, behind = run.w, run.iw, run.gauges, sizes.nq + sizes.nv
     run.clock[abi.TIME] = t
     keep_maxima(sizes, run, y)
@@ -179,7 +179,7 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
 
 
 def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
-    """Keep output `k` of all lanes: states, then what ``accept`` measured, then angles with their turns counted."""
+    """Write output `k` of all lanes: states, measures of ``accept``, and angles with counted turns."""
     n, width = sizes.ny * _L, outputs.status.shape[0] // outputs.times.shape[0]
     for i in range(n):
         outputs.states[k * n + i] = y[i]
@@ -201,7 +201,7 @@ _MEANINGS: dict[str, Any] = {
 
 
 def load(chunk: Any, sizes: Any, state: Any, g: int, z: Any, gauges: Any) -> None:
-    """Bring a group of rows into the lanes; the last group repeats its last row."""
+    """Load a group of rows into the lanes; the last group repeats its last row."""
     n, n_p, nw, total = sizes.ny, state.p.shape[0], state.w.shape[0], chunk.selected.shape[0]
     p_at = 2 * sizes.width
     w_at = p_at + n_p * _L
@@ -226,7 +226,7 @@ def load(chunk: Any, sizes: Any, state: Any, g: int, z: Any, gauges: Any) -> Non
 
 
 def unload(lane: int, sizes: Any, lanes: Any, state: Any, outputs: Any, kept: Any) -> None:
-    """Take the run of a lane out of them, as if it had been done alone."""
+    """Copy the run of a lane to the arrays of a single run."""
     n, nw, columns = sizes.ny, state.w.shape[0], kept.outputs.status.shape[1]
     for i in range(nw):
         state.w[i] = lanes.w[i * _L + lane]
@@ -248,8 +248,8 @@ def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: 
     Parameters
     ----------
     model : tuple
-        As for `symgen.runtime.rows.run_rows`; in place of the first three functions, ``rhs`` and ``accept`` for lanes.
-        The width is that of all lanes.
+        As for `symgen.runtime.rows.run_rows`; with ``rhs`` and ``accept`` for lanes instead of the
+        first three functions. The width is that of all lanes.
     scheme, span, chunk, kept
         As for `symgen.runtime.rows.run_rows`.
     state : State
@@ -258,7 +258,7 @@ def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: 
     Returns
     -------
     int
-        How many of the selected rows were worked on: all of them, unless the run was stopped.
+        Number of selected rows done: all, unless the run was stopped.
     """
     chunk, state, kept = bare(chunk), bare(state), bare(kept)
     sizes, rhs, lanes_accept, rates, confirm, accept, observe = model

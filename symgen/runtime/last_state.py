@@ -1,4 +1,4 @@
-"""Where a run ended, with all that it kept: what another run goes on from."""
+"""The last state of a run with its saved arrays, from which another run continues."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-#: What runs were made of that do not say it yet.
+#: Settings of runs saved before these were recorded.
 _BEFORE = {"coordinates": "absolute"}
 
 
@@ -24,7 +24,7 @@ class LastState:
     Attributes
     ----------
     mechanism, digest : str
-        What was run; the digest of its equations is empty where it is not known.
+        Name of the mechanism; digest of its equations, empty if unknown.
     t : float
         Time [s].
     q, v : mapping of str to float
@@ -32,19 +32,19 @@ class LastState:
     work : float
         Work since the motion began [J].
     work_before : float
-        The part of it that is not in the arrays: from before the run that they belong to.
+        Part of the work from before the run of the arrays, not included in them.
     windings : tuple of float
-        Angles that count turns; empty where they are not known.
+        Angles that count turns; empty if unknown.
     rank : int
-        Of D at the start of the run.
+        Rank of D at the start of the run.
     made : mapping
-        What shaped the run, as JSON has it: only a run of the same making takes up the arrays.
+        Settings of the run as JSON data: only a run with the same settings continues the arrays.
     failed : str
-        Why the run failed, if it did: nothing but t, q, v and the work is taken up then.
+        Reason of a failure, if any: then only t, q, v and the work are continued.
     arrays : mapping of str to Array
-        What `symgen.runtime.simulation.Simulation` saves; empty where nothing was kept.
+        Arrays saved by `symgen.runtime.simulation.Simulation`; empty if none were saved.
     states : mapping of str to float
-        States of the file's own by name; None where it has none.
+        States of the file's own by name; None without such states.
     """
 
     mechanism: str
@@ -66,11 +66,11 @@ class LastState:
 
     @property
     def last_state(self) -> LastState:
-        """Itself: a result has one, and either may be gone on from."""
+        """The state itself: results have the same property, so a run can continue from either."""
         return self
 
     def other_than(self, made: Mapping[str, Any]) -> list[str]:
-        """Return in words what a run of the making `made` does otherwise; empty where it can take up the arrays."""
+        """Return the differences of a run with settings `made`, in words; empty if it can continue the arrays."""
         if self.failed:
             return [f"that run failed ({self.failed})"]
         if self.made is None or not self.arrays:
@@ -88,7 +88,7 @@ class LastState:
         return differences
 
     def header(self) -> dict[str, Any]:
-        """Return everything but the arrays as what JSON can express, with a digest of all of it."""
+        """Return all data but the arrays as JSON data, with a digest that includes the arrays."""
         names = ("mechanism", "digest", "t", "work", "work_before", "rank", "failed")
         header: dict[str, Any] = {name: getattr(self, name) for name in names}
         header |= {"q": dict(self.q), "v": dict(self.v), "windings": list(self.windings), "made": self.made}
@@ -98,14 +98,14 @@ class LastState:
 
     @classmethod
     def of_header(cls, header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> LastState | None:
-        """Return the last state of `header` and the arrays that have elements, None where their digest does not fit.
+        """Return the last state of `header` and its nonempty arrays, or None if the digest differs.
 
         Parameters
         ----------
         header : mapping
             From `header`.
         arrays : mapping of str to Array
-            By name.
+            Arrays by name.
         """
         entries = {key: value for key, value in header.items() if key != "sha256"}
         whole = {

@@ -1,10 +1,10 @@
-"""Loops as instances of a source: plain Python whose global names are given a meaning, and compiled as one function.
+"""Loops as instances of a source: plain Python whose global names are replaced, compiled as one function.
 
-The frame of all loops (`symgen.runtime.frame`) calls its scheme's step, and everything that depends on where it runs,
-by global names. `Instances` copies a function with other meanings of such names, and with it every function that it
-calls and that would see the difference. Plain functions are parts: the compiler copies their code into their callers,
-so that nothing is paid for a call or for records as arguments, but those that are marked `called`. Functions made by
-`symgen.store.jit` are compiled by themselves, as elsewhere.
+The frame of all loops (`symgen.runtime.frame`) calls the step of its scheme and all functions that depend on the target
+by global names. `Instances` copies a function with other meanings of such names, and every callee that these meanings
+affect. Plain functions are parts: the compiler copies their code into their callers, so that calls and records as
+arguments cost nothing; parts marked `called` are excepted. Functions made by `symgen.store.jit` are compiled
+separately, as elsewhere.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ from symgen.native.pieces import Piece
 from symgen.store.jit import RuntimeFunction, jit
 
 Function = TypeVar("Function", bound=Callable[..., Any])
-#: Makes a compiled function of a copy; the original, a plain or a compiled function, says what kind it was.
+#: Makes a compiled function of a copy; the original, a plain or a compiled function, determines the kind.
 Compile = Callable[[python.FunctionType, Any], Any]
 
 
 def called(function: Function) -> Function:
-    """Mark a part that is called: a long one that stands in several places, or that is seldom reached."""
-    function.called = True  # type: ignore[attr-defined]  # a mark of our own, read by `part`
+    """Mark a part that is called: a long one with several callers, or one seldom reached."""
+    function.called = True  # type: ignore[attr-defined]  # an own mark, read by `part`
     return function
 
 
 def viewing(function: Function) -> Function:
-    """Mark a part that returns arrays: devices have it copied into its callers before types are inferred."""
+    """Mark a part that returns arrays: on devices it is copied into its callers before type inference."""
     function.viewing = True  # type: ignore[attr-defined]  # a mark of our own
     return function
 
@@ -46,7 +46,7 @@ def loop(module: str, name: str, function: Any, signature: Any, once: bool = Fal
     Parameters
     ----------
     module, name : str
-        The module variable that holds it: a second process finds it there, and the cache tells loops apart by it.
+        Module variable of the loop: another process loads it from there, and it identifies the loop in the cache.
     function : plain function
         The source.
     signature : Signature
@@ -62,21 +62,21 @@ def loop(module: str, name: str, function: Any, signature: Any, once: bool = Fal
 
 
 def signature_of(loop: Any) -> Any:
-    """Return the types of a compiled loop; none where nothing is compiled."""
+    """Return the types of a compiled loop; empty without compilation."""
     return getattr(loop, "signature", types.int64())
 
 
 class Instances:
-    """Copies of functions of the runtime, and of what they call, with other meanings of global names.
+    """Copies of runtime functions and their callees with other meanings of global names.
 
     Parameters
     ----------
     meanings : mapping
-        What names mean: plain functions, which are copied as well, compiled functions, or constants.
+        Meanings of names: plain functions, which are copied as well, compiled functions, or constants.
     compiled : callable
-        What is made of a copy.
+        Makes a function of a copy.
     everything : bool
-        Whether compiled functions are copied too where they would see no difference.
+        Whether compiled functions that no meaning affects are copied too.
     """
 
     def __init__(self, meanings: Mapping[str, Any], compiled: Compile = part, everything: bool = False) -> None:
@@ -84,19 +84,19 @@ class Instances:
         self.instances: dict[Any, Any] = {}
 
     def of(self, function: Any) -> Any:
-        """Return the instance of a plain or compiled function, of which the Python source counts; each is made once."""
+        """Return the instance of a plain or compiled function, made once from its Python source."""
         plain = getattr(function, "py_func", function)
         if plain not in self.instances:
             self.instances[plain] = self.compiled(self.copy(plain), function)
         return self.instances[plain]
 
     def copy(self, function: Any) -> python.FunctionType:
-        """Return a copy of a plain function in which names mean what they shall.
+        """Return a copy of a plain function with the new meanings of names.
 
         Raises
         ------
         ValueError
-            If it calls what is made for processors only.
+            If it calls a function for processors only.
         """
         names = {name: self.meaning(name, function) for name in function.__code__.co_names}
         meanings = {**function.__globals__, **{name: value for name, value in names.items() if value is not None}}
@@ -105,7 +105,7 @@ class Instances:
         return result
 
     def meaning(self, name: str, function: Any) -> Any:
-        """Return the value of a global name of a function in its copy, None where it does not matter."""
+        """Return the value of a global name in the copy of a function, or None if undefined."""
         replaced = name in self.meanings
         value = self.meanings[name] if replaced else function.__globals__.get(name)
         plain = getattr(value, "py_func", None)
@@ -118,7 +118,7 @@ class Instances:
         return value
 
     def changes(self, value: Any, visited: set[Any]) -> bool:
-        """Whether a compiled function, or one that it calls, would see a difference."""
+        """Whether the meanings affect a compiled function or one of its callees."""
         plain = getattr(value, "py_func", None)
         if plain is None or plain in visited:
             return False

@@ -1,4 +1,4 @@
-"""Positions that are moved by a change of v: added where q has as many entries as v, through emitted code in space."""
+"""Changes of positions in the coordinates of v: added if q has as many entries as v, by emitted code in space."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _A = types.float64[::1]
 
 @jit(types.int64(_A, _A))
 def stay(y: Any, w: Any) -> int:
-    """Stand in for the emitted ``turn`` of models whose coordinates change as velocities do; it is never called."""
+    """Stand for the emitted ``turn`` of models whose coordinates have velocities as rates; it is never called."""
     return 0
 
 
@@ -22,7 +22,7 @@ def advance(system: Any, run: Any, delta: Any, trial: Any) -> None:
     Parameters
     ----------
     system : System
-        Its ``turn`` is used only where nq differs from nv.
+        Its ``turn`` is used only if nq differs from nv.
     run : Run
         The run.
     delta : Array, shape (nv,)

@@ -1,4 +1,4 @@
-"""What compiled functions take of a model's description, as arrays."""
+"""Metadata of a model as arrays for compiled functions."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ Integers = NDArray[np.int64]
 
 
 def entries_of(info: ModelInfo) -> tuple[Integers, Array]:
-    """Return (row, column, slot or -1) of D's structural entries, flat, and their values where they have no slot."""
+    """Return (row, column, slot or -1) of D's structural entries, flat, and the values of those without slot."""
     places = [(row, column, -1 if slot is None else slot) for row, column, _, slot in info.jacobian]
     constants = [constant or 0.0 for _, _, constant, _ in info.jacobian]
     return np.array(places, dtype=np.int64).ravel(), np.array(constants, dtype=np.float64)
 
 
 def triplets_of(info: ModelInfo, jacobian: Array) -> tuple[Integers, Integers, Array]:
-    """Return rows, columns and values of D's structural entries, by what stands in the section ``jacobian`` of w."""
+    """Return rows, columns and values of D's structural entries, from the section ``jacobian`` of w."""
     entries, constants = entries_of(info)
     rows, columns, slots = entries.reshape(-1, 3).T
     return rows, columns, np.where(slots < 0, constants, jacobian[slots] if len(jacobian) else constants)
@@ -42,10 +42,10 @@ def spins_of(info: ModelInfo) -> list[int]:
 
 
 def joints_of(info: ModelInfo) -> list[str]:
-    """Return the joints that have rows, in their order."""
+    """Return the joints with rows, in order of rows."""
     return list(dict.fromkeys(row.joint for row in info.rows))
 
 
 def velocity_of(coordinate: int, info: ModelInfo) -> int:
-    """Return the velocity that changes a coordinate which is none of the Euler parameters."""
+    """Return the index of the velocity of a coordinate other than an Euler parameter."""
     return coordinate - sum(1 for first, _ in info.spins if first < coordinate)

@@ -1,7 +1,7 @@
-"""Motions of drivers that jump, in value or rate: what is set in motion at once takes an impulse that no method gives.
+"""Motions of drivers with jumps in value or rate, which would take an impulse that no method computes.
 
-Conditions, signs, minima, maxima and absolute values are where a formula of the time may jump, and need not: a ramp
-that ends smoothly is one. So the formula is looked at from both sides of the times at which they change.
+A formula of time may jump where conditions, signs, minima, maxima and absolute values change, but need not: a ramp may
+end smoothly. So the formula is evaluated on both sides of these times.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ from symgen.runtime.in_time import InTime
 from symgen.vocabulary.expressions import Expr, names
 from symgen.vocabulary.measures import Holonomic
 
-#: How near a formula is looked at, as a part of the run, and of the time to the next change at most; and once more,
-#: nearer by a factor: differences that stay are jumps, those that shrink are curvature.
+#: Distance of evaluations, as a part of the run, and at most of the time to the next change; and the factor by which a
+#: second one is nearer: differences that stay are jumps, those that shrink are curvature.
 _NEAR, _APART, _NEARER = 1e-5, 0.125, 16.0
-#: Jumps of a value, as a part of its range, and of a rate, as a part of the speeds on both sides, that are none; and
-#: what rounding of the values makes of differences, in units of the last digit.
+#: Largest negligible jump of a value, as a part of its range, and of a rate, as a part of the speeds on both sides; and
+#: relative rounding error of differences, in units of the last digit.
 _SMALL, _ROUNDING = 1e-6, 64.0 * sys.float_info.epsilon
-#: Part of a jump by which it may differ from the one seen from farther.
+#: Part of a jump by which it may differ from that at the larger distance.
 _STAYS = 0.2
 
 
@@ -47,7 +47,7 @@ def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: f
     Raises
     ------
     InputError
-        With the driver, and when and by how much its value or rate jumps.
+        With the driver, and time and size of the jump of its value or rate.
     """
     if (
         _moved(mechanism)
@@ -57,19 +57,19 @@ def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: f
 
 
 def names_of_motions(mechanism: Mechanism) -> frozenset[str]:
-    """Return the functions in the motions of drivers that may jump; none where none may."""
+    """Return the names in the formulas of drivers that may jump."""
     return frozenset(name for *_, formula, _ in _moved(mechanism) for name in names(formula))
 
 
 def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> InputError | None:
-    """Return which motion of a driver jumps within a run, when and by how much, None where none does.
+    """Return the error for the first jump of a driver within a run, with its time and size, or None.
 
     Parameters
     ----------
     mechanism : Mechanism
         The description.
     values : mapping of str to float
-        Of all parameters that these motions read.
+        Values of all parameters that these motions read.
     until : float
         End of the run [s].
     """
@@ -96,7 +96,7 @@ def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> 
 
 
 def _jump(f: Callable[[float], float], t: float, h: float, until: float) -> tuple[str, float]:
-    """Return the jumps of a function's value and slope at a time; nothing where there are none."""
+    """Return kind and size of the jump of a function's value or slope at a time; an empty kind without a jump."""
     h /= _NEARER
     (value, slope, speed), (far_value, far_slope, _) = _sides(f, t, h), _sides(f, t, _NEARER * h)
     for kind, near, far in (("value", value, far_value), ("rate", slope, far_slope)):
@@ -111,7 +111,7 @@ def _jump(f: Callable[[float], float], t: float, h: float, until: float) -> tupl
 
 
 def _sides(f: Callable[[float], float], t: float, h: float) -> tuple[float, float, float]:
-    """Return by how much value and slope differ on both sides of a time, by parabolas, and the larger slope."""
+    """Return the differences of value and slope between both sides of a time, by parabolas, and the larger slope."""
     ends = list[tuple[float, float]]()
     for way in (-h, h):
         a, b, c = (f(t + k * way) for k in (1, 2, 3))
@@ -122,7 +122,7 @@ def _sides(f: Callable[[float], float], t: float, h: float) -> tuple[float, floa
 
 @remembered
 def _moved(mechanism: Mechanism) -> tuple[tuple[str, str, Expr, tuple[Jump, ...]], ...]:
-    """Return drivers whose formulas may jump: name, unit, formula, and where it changes."""
+    """Return drivers whose formulas may jump: name, unit, formula, and its changes."""
     drivers = list[tuple[str, str, Expr, tuple[Jump, ...]]]()
     for joint in mechanism.joints:
         row = joint.rows[0] if joint.kind in ("driver", "coupling") and joint.rows else None

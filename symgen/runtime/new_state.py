@@ -1,4 +1,4 @@
-"""What a run keeps: new arrays, the sizes that loops need, how far it goes, and a copy that it can return to."""
+"""State of a run: new arrays, sizes and span for loops, and a copy to return to."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Arrays of a state that stand behind those which are always copied: passages are few, and working memory is not kept.
+#: Arrays of a state after those always copied: passages are few, and working memory is not kept.
 _BEHIND = ("events", "room")
 
 
 def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: float = np.inf) -> Span:
-    """Return how far a loop goes, to the end of the run by default, and by which steps."""
+    """Return the span of a loop, by default to the end of the run, with its steps."""
     end = spec.until if until is None else until
     duration = spec.until if spec.duration is None else spec.duration
     numbers = setup.step, spec.largest_step, end, spec.until, duration, spec.rtol, spec.atol, spec.relative
@@ -34,7 +34,7 @@ def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: floa
 
 
 def sizes_of(compiled: CompiledModel) -> Sizes:
-    """Return the sizes of a model, as loops take them."""
+    """Return the sizes of a model for loops."""
     info, sections = compiled.info, compiled.info.sections
     names = "pivot", "multipliers", "mask", "change", "gauge", "row_weight", "jacobian"
     places = (sections.get(name, (0, 0))[0] for name in names)
@@ -44,7 +44,7 @@ def sizes_of(compiled: CompiledModel) -> Sizes:
 
 
 def share_of(sizes: Sizes) -> Array:
-    """Return 1 for elements of a state that take part in error control, else 0: the work, which is controlled apart."""
+    """Return 1 for elements of a state under error control, else 0: the work is controlled separately."""
     share = np.zeros(sizes.width)
     share[: sizes.ny] = 1.0
     share[sizes.nq + sizes.nv] = 0.0
@@ -65,7 +65,7 @@ def new_outputs(info: ModelInfo, times: Array) -> Outputs:
 
 
 def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> State:
-    """Return the state of a run, before it has a start.
+    """Return the state of a run before its start.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> 
 
 
 def lengths_match(compiled: CompiledModel, memory: int, arrays: Mapping[str, NDArray[Any]]) -> bool:
-    """Return whether what another run kept has the lengths that a run has here; another version may have had others.
+    """Return whether the saved arrays of another run have the lengths of this version.
 
     Parameters
     ----------
@@ -98,14 +98,14 @@ def lengths_match(compiled: CompiledModel, memory: int, arrays: Mapping[str, NDA
     memory : int
         As in `symgen.runtime.integrator.Setup`.
     arrays : mapping of str to array
-        What it kept, by name. What is kept of events, and room for factors, may have any length.
+        Saved arrays by name. Data of events, and room for factors, may have any length.
     """
     own = new_state(compiled, sizes_of(compiled), memory, 0)._asdict()
     return all(name in arrays and arrays[name].shape == a.shape for name, a in own.items() if name != "room")
 
 
 class Snapshot:
-    """A state whose arrays stand one behind the other, and a copy of what they held at some time.
+    """A state with contiguous arrays, and a copy of it at some time.
 
     Parameters
     ----------
@@ -117,9 +117,9 @@ class Snapshot:
     state : State
         The same numbers in one piece of memory.
     front, copy : Array
-        The part of it that is always copied, and its copy.
+        The part of this memory that is always copied, and its copy.
     rows : int
-        Numbers of the table of passages that belong to the copy.
+        Count of numbers of the table of passages in the copy.
     """
 
     def __init__(self, state: State) -> None:
@@ -138,7 +138,7 @@ class Snapshot:
         self._names: tuple[str, ...] | None = None
 
     def take(self, scheme: Any) -> None:
-        """Copy what the state holds, and what a scheme's record keeps."""
+        """Copy the state, and the memory in a scheme's record."""
         self.copy[:] = self.front
         self.rows = min(int(self.state.control[abi.EVENTS]), abi.MAX_EVENTS) * abi.N_EVENT
         self._events[: self.rows] = self.state.events[: self.rows]
@@ -152,7 +152,7 @@ class Snapshot:
                 there[:] = array
 
     def put_back(self, scheme: Any) -> Any:
-        """Give the state what was copied, and return the scheme's record with what it kept then."""
+        """Restore the state from the copy, and return the scheme's record with its copied memory."""
         self.front[:] = self.copy
         self.state.events[: self.rows] = self._events[: self.rows]
         self.state.events[self.rows :] = 0.0
@@ -162,12 +162,12 @@ class Snapshot:
 
 
 def memory_fields(scheme: Any) -> tuple[str, ...]:
-    """Return the fields of a scheme's record that belong to what a run keeps."""
+    """Return the fields of a scheme's record that belong to the memory of a run."""
     return tuple(name for name in KEPT if hasattr(scheme, name))
 
 
 def with_memory(scheme: Any, name: str, array: NDArray[Any]) -> Any:
-    """Return a scheme's record with numbers that it kept, in the same memory where there is room for just these."""
+    """Return a scheme's record with a saved array, copied into its memory if the shapes are equal."""
     there = getattr(scheme, name)
     if there.shape != array.shape:
         return scheme._replace(**{name: array.copy()})

@@ -1,6 +1,6 @@
-"""Plans of Newton matrices: their pattern, an order of low fill, and how entries are made of what ``tangent`` writes.
+"""Plans of Newton matrices: their pattern, an order of low fill, and their entries from the output of ``tangent``.
 
-A plan is made once a run from the pattern that the law's metadata give; `symgen.runtime.sparse` works on it.
+A plan is made once a run from the pattern in the law's metadata; `symgen.runtime.sparse` uses it.
 """
 
 from __future__ import annotations
@@ -24,21 +24,21 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Pattern:
-    """Where the numbers that ``tangent`` writes belong.
+    """Places in the matrix of the numbers that ``tangent`` writes.
 
     Parameters
     ----------
     nq, nv, m, unknowns : int
         Sizes.
     rows, columns : Array of int64
-        Equation and unknown of each number; from `unknowns` on, columns are those of q and v. A place may occur more
-        than once: its numbers are summed.
+        Equation and unknown of each number; columns from `unknowns` on are those of q and v. Numbers of the
+        same place are summed.
     spins : Array of int64
-        Where the angular velocities of bodies in space begin in v.
+        First indices in v of the angular velocities of bodies in space.
     masked : Array of int64
         Constraint rows that are left out as redundant.
     states : int
-        States of the file's own: their rates are the last unknowns, and stand last among the columns of the state.
+        Count of the file's own states: their rates are the last unknowns, and they are the last columns of the state.
     """
 
     nq: int
@@ -63,7 +63,7 @@ class Pattern:
 
     @property
     def size(self) -> int:
-        """Numbers that ``tangent`` writes."""
+        """Length of the output of ``tangent``."""
         return len(self.rows)
 
     @property
@@ -73,12 +73,12 @@ class Pattern:
 
     @property
     def dynamic(self) -> NDArray[np.bool_]:
-        """Which numbers belong to equations of motion."""
+        """Mask of the numbers in equations of motion."""
         return (self.rows >= self.nq) & (self.rows < self.width)
 
     @property
     def left_out(self) -> Indices:
-        """Equations of a stage that belong to redundant rows."""
+        """Equations of redundant rows in a stage."""
         groups = (self.unknowns - self.states - self.width) // self.m if self.m else 0
         firsts = self.width + self.m * np.arange(groups, dtype=np.int64)
         return np.asarray((firsts[:, None] + self.masked).ravel(), dtype=np.int64)
@@ -103,7 +103,7 @@ class Terms:
 
 @dataclass
 class Products:
-    """Sources that are sums of products of others, and triples of them that belong to rotation vectors."""
+    """Sources that are sums of products of others, and triples of sources of rotation vectors."""
 
     targets: list[int] = field(default_factory=list)
     left: list[int] = field(default_factory=list)
@@ -126,11 +126,11 @@ def stage_plan(pattern: Pattern, a: Array, one: int) -> tuple[Indices, Array]:
     Parameters
     ----------
     pattern : Pattern
-        Of one stage.
+        Pattern of one stage.
     a : Array, shape (s, s)
         The tableau.
     one : int
-        The source that is 1.
+        Index of the source that is 1.
     """
     n, s = pattern.unknowns, len(a)
     by_k, by_y = np.flatnonzero(pattern.columns < n), np.flatnonzero(pattern.columns >= n)
@@ -159,10 +159,10 @@ def alpha_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
 
 
 def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
-    """Return the plan of ``W = M + h/2 C + h^2/4 (K + a D^T D)``; the coefficients are those of these parts.
+    """Return the plan of ``W = M + h/2 C + h^2/4 (K + a D^T D)``; the coefficients are those of the parts.
 
-    As in `alpha_plan`, minus the coefficient of K stands behind it; that of D^T D is the fifth. Rates of states stand
-    behind those of velocities.
+    As in `alpha_plan`, minus the coefficient of K follows it; that of D^T D is the fifth. Rates of states follow those
+    of velocities.
     """
     nv, m, tail = pattern.nv, pattern.m, pattern.unknowns - pattern.states
     by_multiplier = (pattern.columns >= pattern.width) & (pattern.columns < tail)
@@ -191,7 +191,7 @@ def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
 def acceleration_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
     """Return the plan of ``[M D^T; E 0]`` for the unknowns v' and lambda, E being D at another state.
 
-    Sources are the numbers of one state, then those of the other one, then 1; the third value is how many there are.
+    Sources are the numbers of one state, then those of the other, then 1; the third value is their number.
     """
     masses = np.flatnonzero(pattern.dynamic & (pattern.columns < pattern.width))
     row, velocity, source = constraint_forces(pattern)
@@ -267,20 +267,20 @@ def make_plan(
     n, stages : int
         Unknowns of a stage, and stages in the matrix, one after the other.
     terms : Terms
-        What the matrix is made of.
+        Terms of the matrix.
     left_out : Array of int64
-        Equations that are replaced by *unknown = 0*.
+        Equations replaced by *unknown = 0*.
     one : int
-        The source that is 1.
+        Index of the source that is 1.
     products : Products, optional
-        Sources that are computed first.
+        Sources computed first.
     motion : (int, int, int)
-        Where the equations of motion and their accelerations begin and end in a stage, and how many multipliers follow.
+        Begin and end of the equations of motion and their accelerations in a stage, and number of multipliers behind.
 
     Notes
     -----
-    Redundant rows depend on the others where the constraints hold only: near them such a row is independent by as much
-    as they are violated, so a threshold on pivots would take it for a regular one, with multipliers of any size.
+    Redundant rows depend on the others only where the constraints hold: elsewhere such a row is independent by the size
+    of the violation, so a threshold on pivots would accept it as regular, with multipliers of any size.
     """
     size, sums = n * stages, products or Products()
     independent = ~np.isin(terms.rows, left_out)
@@ -322,12 +322,12 @@ def make_plan(
 
 
 def elimination_order(n: int, rows: Indices, columns: Indices) -> tuple[list[int], int]:
-    """Return an order of low fill, and the entries of L and U beside the diagonal if all pivots stand on it.
+    """Return an order of low fill, and the off-diagonal entries of L and U if all pivots are on the diagonal.
 
     Markowitz's rule (Management Science 3, 1957) on the diagonal: next is the unknown whose elimination can touch the
-    fewest entries, ties by index. An unknown whose own equation has no entry for it, as that of a multiplier, has to
-    wait for all unknowns that have one and share two entries with it: D M^-1 D^T is then in its place, and not a part
-    of it that may be 0 in some positions.
+    fewest entries, ties by index. An unknown without diagonal entry, such as a multiplier, has to wait for all unknowns
+    with diagonal entries that share two entries with it: its pivot is then from D M^-1 D^T, and not from a part of it
+    that may be 0 in some positions.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The functions of `symgen.runtime.nodes` in vectors of eight numbers, written with llvmlite's builder.
+"""The functions of `symgen.runtime.nodes` in vectors of eight numbers, written with the builder of llvmlite.
 
 Each takes a builder and the arguments, arrays as addresses, and returns the result.
 """
@@ -15,7 +15,7 @@ from symgen.runtime.vector_code import I64, VECTOR, ZERO, added, each_of, folded
 
 
 def _at(builder: Any, data: Any, index: Any) -> Any:
-    """Return a number of an array."""
+    """Return an element of an array."""
     return builder.load(builder.gep(data, [index]))
 
 
@@ -24,12 +24,12 @@ def _eight(builder: Any, index: Any) -> Any:
 
 
 def _vectors(builder: Any, data: Any, begin: int) -> list[Any]:
-    """Return rows of a table, which stay in registers."""
+    """Return rows of a table, kept in registers."""
     return [load(builder, data, I64(begin + NODES * p)) for p in range(POINTS)]
 
 
 def _sum(builder: Any, factors: list[Any], vectors: list[Any]) -> Any:
-    """Return the sum of products."""
+    """Return the sum of products of factors and vectors."""
     total: Any = None
     for factor, vector in zip(factors, vectors, strict=True):
         total = builder.fmul(vector, factor) if total is None else added(builder, vector, factor, total)
@@ -44,7 +44,7 @@ def _rates(builder: Any, i: Any, first: Any, rates: Any) -> list[Any]:
 
 
 def _coordinate(builder: Any, rows: Any, c: Any) -> Any:
-    """Return the coordinate whose rate is an unknown element, and whether there is one."""
+    """Return the coordinate whose rate is an unknown element, and whether it exists."""
     q = _at(builder, rows, builder.add(c, _at(builder, rows, I64(0))))
     return q, builder.icmp_signed(">=", q, I64(0))
 
@@ -67,7 +67,7 @@ def place(builder: Any, h: Any, rows: Any, y: Any, first: Any, rates: Any, table
 
 
 def _each_row(builder: Any, rows: Any) -> Any:
-    """Return a loop over the unknown rates, whose variable counts them."""
+    """Return a loop over the unknown rates; its variable counts them."""
     return each_of(builder, I64(1), builder.add(_at(builder, rows, I64(0)), I64(1)), 1)
 
 

@@ -1,10 +1,10 @@
-"""Arithmetic on rates at the eight nodes of a step: element i of a state stands at ``8 i + node``.
+"""Arithmetic on rates at the eight nodes of a step: element i of a state is at ``8 i + node``.
 
-`rows` has the number of elements of the state whose rates are unknown, then these, and behind them as many indices of
-coordinates whose rate is that element, a velocity; -1 where there is none. `first` holds rates at the start of the
-step, `table` coefficients of `symgen.integrators.picard`, in rows of eight.
+`rows` has the number of state elements with unknown rates, then these, then for each of them the index of the
+coordinate whose rate is that element, a velocity, or -1. `first` holds rates at the start of the step, `table`
+coefficients of `symgen.integrators.picard`, in rows of eight.
 
-Here are the plain loops; `symgen.runtime.node_code` writes the vectors.
+These are the plain loops; `symgen.runtime.node_code` has the vector code.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ from symgen.native.compiler import interpreted
 from symgen.native.pieces import Piece
 from symgen.native.types import NODES
 
-#: Rates of a step: at its start and at its nodes.
+#: Number of rates in a step: at its start and at its nodes.
 POINTS = NODES + 1
-#: Where the parts of `table` begin: the integrals of a polynomial through the rates up to each node, the second
+#: First indices of the parts of `table`: the integrals of a polynomial through the rates up to each node, the second
 #: integrals, and the nodes themselves.
 INTEGRALS, DOUBLED, PLACES = 0, POINTS * NODES, 2 * POINTS * NODES
 
 
 def _place(h: float, rows: Any, y: Any, first: Any, rates: Any, table: Any, out: Any) -> None:
-    """Set `out` to the states at the nodes that follow from rates: the integral of a polynomial through them."""
+    """Set `out` to the states at the nodes: the integral of a polynomial through the rates."""
     count = rows[0]
     for c in range(1, count + 1):
         i, q = rows[c], rows[c + count]
@@ -53,7 +53,7 @@ def _extrapolate(rows: Any, degree: int, ratio: float, places: Any, coefficients
 
 
 def _distance(rows: Any, weights: Any, share: Any, rates: Any, before: Any) -> float:
-    """Return the sum of weighted squares of differences between rates, `share` being the weights of the nodes."""
+    """Return the sum of weighted squares of differences between rates; `share` has the weights of the nodes."""
     total = 0.0
     for c in range(1, rows[0] + 1):
         i = rows[c]
@@ -80,7 +80,7 @@ def _expand(rows: Any, weights: Any, first: Any, rates: Any, table: Any, out: An
 def _sum_up(
     h: float, x: float, rows: Any, y: Any, first: Any, rates: Any, more: Any, once: Any, twice: Any, out: Any
 ) -> None:
-    """Set `out` to a state inside a step, at the part `x` of it.
+    """Set `out` to the state at the part `x` of a step.
 
     `once` and `twice` are weights of the rates for integrals and second integrals: those at the nodes, those of `more`,
     then that at the start.
@@ -104,7 +104,7 @@ PLAIN: dict[str, Callable[..., Any]] = {
 
 
 def _function(name: str) -> Any:
-    """Return one of these functions, in the form that the compiler in use takes."""
+    """Return one of these functions in the form for the present compiler."""
     result = types.float64 if name == "distance" else types.void
     return PLAIN[name] if interpreted() else Piece(name, PLAIN[name], result, "symgen.runtime.node_code")
 
