@@ -19,7 +19,7 @@ _M, _C = types.float64[:, ::1], types.float64[:, :, ::1]
 
 @jit()
 def output(sizes: Any, outputs: Any, k: int, y: Any, w: Any) -> None:
-    """Set `y` to the state of an output, and the angles in `w` to what they were there."""
+    """Set `y` and the angles in `w` to their values at an output."""
     for i in range(sizes.ny):
         y[i] = outputs.states[k, i]
     for i in range(outputs.status.shape[1] - abi.N_STATUS):
@@ -37,9 +37,9 @@ def observe_rates(model: Any, outputs: Any, count: int, p: Any, w: Any, iw: Any,
     outputs : Outputs
         In the order of time.
     count : int
-        How many there are.
+        Number of outputs.
     p, w, iw : Array
-        As emitted functions take them, scratch and counters as they were at the start of the run.
+        Arguments of emitted functions, scratch and counters as at the start of the run.
     observed : Observed
         Receives accelerations and multipliers.
     room : Array
@@ -49,7 +49,7 @@ def observe_rates(model: Any, outputs: Any, count: int, p: Any, w: Any, iw: Any,
     y, rate = part(room, 0, sizes.ny), part(room, sizes.ny, sizes.ny)
     for k in range(count):
         output(sizes, outputs, k, y, w)
-        accept(outputs.times[k], y, p, w, iw)  # brings along what a method remembers: a partition, a basis
+        accept(outputs.times[k], y, p, w, iw)  # updates the memory of a method: a partition, a basis
         if rates(outputs.times[k], y, p, w, iw, rate) != 0:
             confirm(outputs.times[k], y, p, w, iw, rate)
         for i in range(sizes.nv):
@@ -82,7 +82,7 @@ def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: 
         output(sizes, outputs, k, y, w)
         for i in range(sizes.nv):
             rate[sizes.nq + i] = observed.accelerations[k, i]
-        if k < observed.multipliers.shape[0]:  # a device has room for them only where they are asked for
+        if k < observed.multipliers.shape[0]:  # a device has room for them only where they are requested
             for i in range(sizes.m):
                 w[sizes.multipliers + i] = observed.multipliers[k, i]
         observe(outputs.times[k], y, p, w, rate, row)
@@ -102,7 +102,7 @@ def observe_status(geometry: Any, measure: Any, sizes: Any, outputs: Any, p: Any
     sizes, p, w
         As for `observe_rows`; the scratch holds the angles before the first state.
     outputs : Outputs
-        Holds states, and of angles that count turns those that are known, nan for others; receives the status.
+        Holds states, and angles that count turns, nan for unknown ones; receives the status.
     y : Array, shape (ny,)
         Working memory.
     """
@@ -124,12 +124,12 @@ def observe_status(geometry: Any, measure: Any, sizes: Any, outputs: Any, p: Any
 # -- runs of an ensemble -----------------------------------------------------------------------------------------------
 
 
-#: What runs of an ensemble left, and working memory.
+#: Results of the runs of an ensemble, and working memory.
 #: - times: Output times [s].
 #: - selected: Runs.
-#: - seen (shape (runs, columns, times)): What they left; nan where they did not get there.
-#: - first: The first column that is brought.
-#: - places: Where each column from there on goes: (array, index), flat.
+#: - seen (shape (runs, columns, times)): Results; nan at times that a run did not reach.
+#: - first: The first column that is copied.
+#: - places: Destination of each column from there on: (array, index), flat.
 #: - ps, ws (shapes (runs, np), (runs, nw)): Parameters and scratch, which is overwritten.
 #: - y, rates (shape (ny,)): Working memory.
 LEFT = record_type(
@@ -148,7 +148,7 @@ Left: Any = LEFT.constructor
 
 @jit()
 def bring(columns: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any, w: Any) -> bool:
-    """Put what a run left at an output where functions of the motion read it; return whether it got there."""
+    """Copy results of a run at an output to the arguments of functions; return whether the run reached it."""
     for c in range(places.shape[0] // 2):
         value, at = columns[r, first + c, k], places[2 * c + 1]
         if places[2 * c] == e.OF_Y:
@@ -172,11 +172,11 @@ def measure_rows(model: Any, values: Any, at: int, entries: Any) -> int:
     model : tuple
         A `Left`, then a function of the formulas and ``geometry`` (`symgen.runtime.abi`).
     values : Array, shape (runs, times, numbers)
-        Written; nan where a run did not get there.
+        Written; nan at times that a run did not reach.
     at : int
         Where the entries begin in ``w``.
     entries : Array, shape (runs, times, entries)
-        Written likewise; where it has no runs, nobody asks for them.
+        Written likewise; without runs where they are not requested.
     """
     (times, selected, columns, first, places, ps, ws, y, rates), observe, geometry = model
     for s in range(selected.shape[0]):

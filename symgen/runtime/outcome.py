@@ -1,4 +1,4 @@
-"""What a run gave: what its loop left behind, and what is evaluated at its outputs at the first use."""
+"""Outcome of a run: the results of its loop, and functions of the motion evaluated at the first use."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ class RankEvent:
     Attributes
     ----------
     t_in, t_out : float
-        From when to when [s].
+        Beginning and end [s].
     rank : int
-        The least of D on the way.
+        Least rank of D between them.
     smallest_pivot : float
-        Of D D^T with scaled rows, on the way.
+        Of D D^T with scaled rows, between them.
     """
 
     t_in: float
@@ -46,11 +46,11 @@ class RankEvent:
 
 @dataclass(frozen=True, kw_only=True)
 class Motion:
-    """A motion at some times, integrated or prescribed, and what is evaluated there at the first use.
+    """A motion at some times, integrated or prescribed, and its functions, evaluated at the first use.
 
     Arrays have one row a time. `status_columns` holds |Phi|, |D v - nu|, kinetic and potential energy, smallest pivot
     and rank, then the angles that count turns. `held` are the parameters of earlier pieces, each with the last time
-    that it holds at; where an input jumps, what held before is shown.
+    at which it holds; where an input jumps, outputs have the values before it.
     """
 
     times: Array
@@ -84,7 +84,7 @@ class Motion:
 
     @cached_property
     def _seen(self) -> tuple[Sizes, Outputs, Observed]:
-        """The outputs as compiled functions take them, and room for what is observed at them."""
+        """The outputs as compiled functions take them, and room for observed values."""
         from symgen.runtime.records import Observed, Outputs
 
         info, k = self.compiled.info, len(self.times)
@@ -93,7 +93,7 @@ class Motion:
 
     @property
     def last_step(self) -> float:
-        """The step that laws take whose gains follow it [s]; 1 where the motion was not integrated."""
+        """The step for laws whose gains depend on it [s]; 1 where the motion was not integrated."""
         return 1.0
 
     @cached_property
@@ -106,7 +106,7 @@ class Motion:
         w[abi.STEP_STATUS] = self.last_step
         choose = row_chooser(self.compiled) if self.start.redundant_rows else None
         for first, last, p in self.parameters:
-            # the rows that stand for all follow the position
+            # the independent rows depend on the position
             for k, count in [(first, last - first)] if choose is None else [(k, 1) for k in range(first, last)]:
                 here, there = _rows_of(outputs, k, k + count), _rows_of(observed, k, k + count)
                 observe_rates(model, here, count, p, w, iw, there, room)
@@ -137,9 +137,9 @@ class Motion:
         function : compiled function
             Of type `symgen.runtime.abi.OBSERVE`.
         length : int
-            How many numbers it writes.
+            Number of values that it writes.
         multipliers : Array, shape (k, m), optional
-            What it shall see in place of those that the law left.
+            Multipliers in place of those of the law.
         """
         from symgen.runtime.observe import observe_rows
 
@@ -177,13 +177,13 @@ class PrescribedMotion(Motion):
 
     @cached_property
     def responses(self) -> Observed:
-        """Accelerations and multipliers that the law gives in these states, whatever is known of the motion."""
+        """Accelerations and multipliers of the law in these states, even where they are prescribed."""
         return super()._rates
 
     def measured(self) -> Array:
         """Return the status of all states, shape of `status_columns`.
 
-        Angles that count turns are those that stand there, and followed from state to state where nan does.
+        Angles that count turns keep their values; where these are nan, they are followed from state to state.
         """
         from symgen.runtime.observe import observe_status
 
@@ -198,16 +198,16 @@ class PrescribedMotion(Motion):
 
 @dataclass(frozen=True, kw_only=True)
 class Ended:
-    """How the loop of a run ended and what it saw: an `Outcome`, or a row of an ensemble.
+    """End and statistics of the loop of a run: an `Outcome`, or a row of an ensemble.
 
     Attributes
     ----------
     code, reason : int, str
-        How it ended, see `symgen.runtime.abi`, and why in words; empty at its end.
+        End code, see `symgen.runtime.abi`, and the reason in words; empty where the run reached its end.
     smallest_pivot : float
         Of D D^T with scaled rows, over the run.
     rank_events, rank_event_count : tuple of RankEvent, int
-        Passages near singular positions that were noted, and how many there were.
+        Recorded passages near singular positions, and the number of all passages.
     energy_jump, energy_scale : float
         Largest change of the energy error over a passage, and the energy in motion [J].
     counters : dict of str to int
@@ -226,9 +226,9 @@ class Ended:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Outcome(Motion, Ended):
-    """What a run gave: its motion at the outputs, and how the loop went.
+    """Outcome of a run: its motion at the outputs, and the statistics of its loop.
 
-    A run that an event has ended has its last output there.
+    The last output of a run that an event has ended is at the event.
     """
 
     end: float

@@ -1,4 +1,4 @@
-"""How long arrays of states are: loops work on vectors of `BLOCK` numbers (`symgen.runtime.vectors`)."""
+"""Lengths of arrays of states: loops work on vectors of `BLOCK` numbers (`symgen.runtime.vectors`)."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ BLOCK = 8
 
 
 def padded(size: int) -> int:
-    """Return the numbers that an array of `size` takes with those that fill its last block."""
+    """Return the length of an array of `size` numbers whose last block is filled up."""
     return -(-size // BLOCK) * BLOCK
 
 
 def aligned(size: int) -> NDArray[np.float64]:
-    """Return zeros that begin where a line of the cache does: vectors that cross lines take twice the time."""
+    """Return zeros aligned to a cache line: vectors that cross lines take twice the time."""
     room = np.zeros(size + BLOCK)
     first = -(room.ctypes.data // 8) % BLOCK
     return room[first : first + size]

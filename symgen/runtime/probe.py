@@ -1,4 +1,4 @@
-"""Emitted functions for calls from Python, with the machine code that loops of all models take."""
+"""Emitted functions for calls from Python, with the machine code that loops of all models use."""
 
 from __future__ import annotations
 
@@ -38,15 +38,15 @@ class Ready:
 
 
 class Few:
-    """An emitted function for a few calls from Python, which are not worth compiling it: plain Python evaluates it.
+    """An emitted function that plain Python evaluates, as a few calls are not worth compiling it.
 
-    What plain Python refuses, such as the root of a negative number or a division by zero, is nan or infinite in
-    compiled code; where it refuses, the compiled function is called, so that both give the same.
+    Operations that raise in plain Python, such as the root of a negative number or a division by zero, are nan or
+    infinite in compiled code; where one raises, the compiled function is called, so that results are the same.
 
     Parameters
     ----------
     function : EmittedFunction or function
-        What is called; it may only write what it has not read.
+        The function; it must not write a number that it has read.
     kind : FunctionType
         As for `Ready`.
     """
@@ -64,16 +64,15 @@ class Few:
 
 
 def rates_of(law: Any) -> tuple[Any, Any]:
-    """Return the functions of an emitted law that give rates of v and multipliers for results, and confirm them."""
-    rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
+    """Return the functions of an emitted law that compute rates of v and multipliers, and confirm them."""
+    rates = getattr(law, "rates", law.rhs)  # a law that does not integrate v has an extra function for its rates
     return rates, getattr(law, "confirm", rates)
 
 
 def rate_function(compiled: CompiledModel) -> Callable[..., None]:
     """Return the function (t, y, p, w, iw, rate) that sets `rate` to q' and v' at a state, and the multipliers in w.
 
-    A law that integrates something else than v has a function of its own for that; where a pivot is suspicious, rates
-    are those behind a closer look.
+    A law that does not integrate v has an extra function for v'; where a pivot is suspicious, rates are confirmed.
 
     Parameters
     ----------

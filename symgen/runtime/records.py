@@ -1,7 +1,7 @@
-"""Arrays and numbers as they travel: named tuples, which compiled code takes like single arguments.
+"""Records of arrays and numbers: named tuples, which compiled code takes like single arguments.
 
-Loops take them apart once, where they are entered, and make their arrays bare (`symgen.runtime.bare`): a field of a
-record that owns its arrays costs a count of references wherever it is read.
+Loops unpack them once, at their entry, and make their arrays bare (`symgen.runtime.bare`): each access to a field of a
+record that owns its arrays costs a reference count.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ _A, _K, _M = types.float64[::1], types.int64[::1], types.float64[:, ::1]
 
 
 def record(name: str, *fields: str, module: str = __name__) -> Any:
-    """Return a named tuple whose fields come from another one; records are flat, so that loops read them alike."""
+    """Return a named tuple with fields of another one; records are flat, so that loops read them alike."""
     return namedtuple(name, fields, module=module)
 
 
 class Sizes(NamedTuple):
-    """What a loop has to know of a model beside its functions.
+    """Sizes of a model, and positions in its scratch array.
 
     Attributes
     ----------
@@ -31,16 +31,16 @@ class Sizes(NamedTuple):
     width : int
         Length of arrays that hold a state, see `symgen.runtime.vectors`.
     controlled : int
-        Elements of the state that take part in error control, which errors are averaged over: at least 1, as a
-        mechanism that is welded together has none in the coordinates of its joints.
+        Elements of the state under error control, over which errors are averaged: at least 1, as a mechanism that is
+        welded together has none in joint coordinates.
     unknowns : int
-        Of a stage in the descriptor form; 0 where there is none.
+        Of a stage in the descriptor form; 0 for other forms.
     pivots, multipliers, mask, change, gauge, row_weight, jacobian, auxiliary : int
-        Where these begin in ``w``: the pivots of D D^T, the multipliers, the mask of redundant rows, changes of
-        velocities, what makes rank independent of units, and rows of one length, the entries of D that vary, and what
-        ``residual`` leaves of the rates of auxiliary states.
+        First index in ``w`` of: the pivots of D D^T, the multipliers, the mask of redundant rows, changes of
+        velocities, the factors that make rank independent of units and rows equally long, the entries of D that vary,
+        and the residuals of the rates of auxiliary states.
     states : int
-        States of the file's own, behind the work; their rates are the last unknowns.
+        States defined by the file, behind the work; their rates are the last unknowns.
     """
 
     nq: int
@@ -62,7 +62,7 @@ class Sizes(NamedTuple):
 
 
 class Span(NamedTuple):
-    """How far a run goes, and by which steps.
+    """End, steps and tolerances of a run.
 
     Attributes
     ----------
@@ -71,17 +71,17 @@ class Span(NamedTuple):
     largest : float
         Bound of adaptive steps [s].
     until, end, duration : float
-        End of what is to be done now and that of the whole run, and the time by which a motion at rest is judged [s].
+        End of the present part and of the whole run, and the time by which a motion at rest is judged [s].
     rtol, atol : float
         Tolerances of an adaptive run.
     relative : float
-        1 where `atol` is meant for numbers of order 1 (see `State.scales`), 0 where it has the units of the state.
+        1 where `atol` applies to numbers of order 1 (see `State.scales`), 0 where it has the units of the state.
     safety : float
-        Part of the step that the error estimate would allow.
+        Fraction of the step that the error estimate would allow.
     most : float
-        Attempts at an adaptive step that a run may take.
+        Largest number of attempts at an adaptive step.
     pause : float
-        The loop is left when so many steps have been accepted.
+        Number of accepted steps at which the loop is left.
     """
 
     step: float
@@ -98,25 +98,25 @@ class Span(NamedTuple):
 
 
 class State(NamedTuple):
-    """All that a run keeps; what a scheme keeps beyond `memory` stands in its own record.
+    """State of a run; a scheme's own record holds its data beyond `memory`.
 
     Attributes
     ----------
     y : Array, shape (width,)
         The accepted state.
     p, w, iw : Array
-        Parameters, scratch and counters, as emitted functions have them.
+        Parameters, scratch and counters of emitted functions.
     clock, gauges, control, events : Array
         See `symgen.runtime.abi`.
     memory : Array
-        What the scheme keeps from step to step.
+        Data that the scheme keeps from step to step.
     share : Array, shape (width,)
-        1 for elements of the state that take part in error control, else 0.
+        1 for elements of the state under error control, else 0.
     metric, scales : Array, shape (width,)
-        What makes lengths and speeds of coordinates and velocities, and what makes numbers of order 1 of them; see
+        Factors that convert coordinates and velocities to lengths and speeds, and to numbers of order 1; see
         `symgen.runtime.scales.settle`.
     room : Array
-        Working memory: nothing in it outlives a step. A state that is tried stands first.
+        Working memory: nothing in it outlives a step. It begins with the trial state.
     """
 
     y: Any
@@ -134,12 +134,12 @@ class State(NamedTuple):
     room: Any
 
 
-#: A `State` opened by a loop: bare arrays, `trial` being the state that is tried and `room` what stands behind it.
+#: A `State` opened by a loop: bare arrays, `trial` being the trial state and `room` the memory behind it.
 Run = record("Run", "y", "trial", *State._fields[1:])
 
 
 class Outputs(NamedTuple):
-    """Output times, and what is kept there: states, and what ``accept`` measured followed by angles that count turns.
+    """Output times, states, and the status that ``accept`` measured, followed by angles that count turns.
 
     Attributes
     ----------
@@ -155,7 +155,7 @@ class Outputs(NamedTuple):
 
 
 class Observed(NamedTuple):
-    """What is evaluated at outputs after a run.
+    """Quantities evaluated at outputs after a run.
 
     Attributes
     ----------
@@ -171,7 +171,7 @@ class Observed(NamedTuple):
 
 
 class RowChunk(NamedTuple):
-    """Rows of an ensemble, and what is kept of them.
+    """Rows of an ensemble, and their results.
 
     Attributes
     ----------
@@ -183,7 +183,7 @@ class RowChunk(NamedTuple):
         Largest violations of position and velocity, largest energy error, and the pivot below which a position is near
         a singular one.
     picks : Array of int64
-        (source, column) of each quantity asked for.
+        (source, column) of each requested quantity.
     values : Array, shape (k, quantities, times), flat
         Result.
     summary : Array, shape (k, N_SUMMARY), flat
@@ -191,11 +191,11 @@ class RowChunk(NamedTuple):
     events : Array, shape (k, numbers of events), flat
         Result, see `symgen.runtime.ensemble_abi`; empty where no events are looked for.
     ends : int
-        1 where the only output is the end of a run, wherever an event puts it.
+        1 where the only output is the end of a run, also at an event.
     rates, joints : int
-        1 where accelerations or multipliers, and joint coordinates, are asked for.
+        1 where accelerations or multipliers, and joint coordinates, are requested.
     layout, dense : Layout, Array
-        For `symgen.runtime.redundancy.choose_rows`; `dense`, its working memory, is empty where nothing is chosen anew.
+        For `symgen.runtime.redundancy.choose_rows`; `dense`, its working memory, is empty where rows stay the same.
     """
 
     selected: Any
@@ -215,14 +215,14 @@ class RowChunk(NamedTuple):
 
 
 class Kept(NamedTuple):
-    """What is kept of the run that is being worked on."""
+    """Results of the present run."""
 
     outputs: Any
     observed: Any
 
 
 class ModelSystem(NamedTuple):
-    """A model as schemes see it: its sizes and its functions, 0 in place of those that the scheme does not call."""
+    """A model as schemes see it: its sizes and functions, 0 for those that the scheme does not call."""
 
     sizes: Any
     rhs: Any
@@ -233,7 +233,7 @@ class ModelSystem(NamedTuple):
     tangent: Any
 
 
-#: How compiled loops see the records.
+#: Types of the records in compiled loops.
 SIZES = types.RecordType((_I,) * len(Sizes._fields), Sizes)
 SPAN = types.RecordType((_F,) * len(Span._fields), Span)
 STATE = types.RecordType((_A, _A, _A, _K, _A, _A, _K, *(_A,) * 6), State)

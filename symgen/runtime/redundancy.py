@@ -1,8 +1,7 @@
-"""Which rows stand for all of them where rows depend on others for ever: the choice follows the position.
+"""Choice of independent rows where rows are permanently redundant: it depends on the position.
 
-Rows that are left out have an infinite mask. Any rows that span the others will do, but those that do so at one
-position need not at another: of two pins on one turning body, the row along the line through them is the one that
-repeats.
+Rows that are left out have an infinite mask. Any rows that span the others are valid, but rows that span them at one
+position may not at another: of two pins on one turning body, the row along the line through them is redundant.
 """
 
 from __future__ import annotations
@@ -28,38 +27,37 @@ Array = NDArray[np.float64]
 
 _A, _N = types.float64[::1], types.int64
 
-#: The rows are chosen anew where the smallest pivot has fallen to this part of what it was at best since they were.
+#: The rows are chosen again where the smallest pivot has fallen to this fraction of its largest value since the choice.
 FALLEN = 0.25
-#: What differs by less than this part is equal: of equal rows the first are kept, as where a joint is there twice, and
-#: not those that rounding makes a bit longer.
+#: Relative difference below which lengths are equal: of equal rows the first are kept, as where a joint occurs twice,
+#: and not those that rounding makes a bit longer.
 EQUAL = 1e-9
-#: Up to this many entries of a dense D rows are chosen anew; above, those of the start stay.
+#: Largest number of entries of a dense D whose rows are chosen again; above, those of the start stay.
 LARGEST = 250_000
 
 
 @exact(_N(LAYOUT, _N, _N, types.float64, _N, _A, _A))
 def farthest(layout: Any, width: int, count: int, least: float, weighed: int, w: Any, room: Any) -> int:
-    """Choose up to `count` rows, each the one that is farthest from those chosen before it; return how many.
+    """Choose up to `count` rows, each the one farthest from those chosen before it; return their number.
 
-    Unlike an elimination in a given order this passes no small pivot before it has to, so rounding stays rounding: the
-    number of rows that are farther than `least` is the rank.
+    Unlike an elimination in a fixed order this takes small pivots last, so that rounding is not amplified: the number
+    of rows that are farther than `least` is the rank.
 
     Parameters
     ----------
     layout : Layout
         Of the model.
     width, count : int
-        Numbers kept of a row, and how many rows are chosen at most. With `width` nv + m there stand, behind what is
-        left of a row, the lengths of all rows in the sum that it is.
+        Numbers kept of a row, and the largest number of chosen rows. With `width` nv + m, the remainder of a row is
+        followed by the lengths of all rows in the sum that it is.
     least : float
-        Square of the sine of the angle between a row and those chosen below which it is not chosen.
+        Square of the sine of the angle between a row and those chosen, below which it is not chosen.
     weighed : int
-        1 where the section ``row_weight`` tells which rows have vanished: of these nothing is left. 0 where it is not
-        filled yet.
+        1 where rows that have vanished by the section ``row_weight`` are set to zero; 0 where it is not filled yet.
     w : Array
         Scratch; D is that of the present position.
     room : Array, shape (m * width + m,)
-        Working memory; of its last m numbers, those of the rows that were chosen are negative.
+        Working memory; of its last m numbers, those of chosen rows are negative.
     """
     m, n, entries = layout.m, layout.nv, layout.entries
     for i in range(m * width + m):
@@ -82,7 +80,7 @@ def farthest(layout: Any, width: int, count: int, least: float, weighed: int, w:
     for chosen in range(count):
         best, most = -1, -1.0
         for i in range(m):
-            if room[lengths + i] >= 0.0:  # of the rows that wait
+            if room[lengths + i] >= 0.0:  # of the remaining rows
                 square = 0.0
                 for j in range(n):
                     square += room[i * width + j] * room[i * width + j]
@@ -105,20 +103,19 @@ def farthest(layout: Any, width: int, count: int, least: float, weighed: int, w:
 
 @exact(_N(LAYOUT, _N, _N, _A, _A))
 def choose_rows(layout: Any, count: int, weighed: int, w: Any, room: Any) -> int:
-    """Mask all rows but `count` ones, of which the others are sums with small factors.
+    """Mask all rows but `count`, of which the others are linear combinations with small factors.
 
-    An error in a row that is kept is one in the others times these factors. The rows that are left over where each is
-    chosen that is farthest from those before it (`farthest`) are sums of all rows that vanish. Of these sums the
-    largest part is left out, each in turn: so no factor is much above 1, however the first ones were chosen. Rows that
-    are eliminated alone stay, whatever their part: they have nothing to do with each other. The position alone decides,
-    not what was left out before.
+    An error in a kept row causes one in the others, times these factors. The rows left over by `farthest` are linear
+    combinations of all rows that vanish. The row with the largest factor in each, in turn, is left out: so no factor is
+    much above 1, whatever rows `farthest` chose. Rows that are eliminated alone always stay: they are independent of
+    each other. The choice depends on the position only, not on earlier choices.
 
     Parameters
     ----------
     layout, weighed, w
         As for `farthest`.
     count : int
-        How many rows are kept.
+        Number of kept rows.
     room : Array, shape (m * (nv + m) + 2 * m,)
         Working memory.
 
@@ -130,7 +127,7 @@ def choose_rows(layout: Any, count: int, weighed: int, w: Any, room: Any) -> int
     m, n, alone, mask = layout.m, layout.nv, layout.alone, layout.mask
     width = n + m
     if farthest(layout, width, count, 0.0, weighed, w, room) < count:
-        return 0  # where D is not finite nothing can be said
+        return 0  # D is not finite
     lengths, masked, changed = m * width, m * width + m, 0
     for i in range(m):
         room[masked + i] = 0.0
@@ -142,7 +139,7 @@ def choose_rows(layout: Any, count: int, weighed: int, w: Any, room: Any) -> int
                 more = size > most * (1.0 + EQUAL) or (k > row and size > most * (1.0 - EQUAL))
                 if room[masked + k] == 0.0 and alone[k] == 0 and more:
                     sum_, row, most = i, k, size
-        if row < 0:  # all sums that are left are those of rows that are not finite
+        if row < 0:  # all remaining sums are of rows that are not finite
             return 0
         room[masked + row], room[lengths + sum_] = math.inf, -1.0
         for i in range(m):
@@ -157,14 +154,14 @@ def choose_rows(layout: Any, count: int, weighed: int, w: Any, room: Any) -> int
 
 
 def room_of_choice(m: int, n: int) -> int:
-    """Return the length of the working memory of `choose_rows`, 0 for a D so large that rows are not chosen anew."""
+    """Return the length of the working memory of `choose_rows`, 0 for a D so large that rows stay the same."""
     return m * (n + m) + 2 * m if m * n <= LARGEST else 0
 
 
 def row_chooser(compiled: CompiledModel) -> Callable[[Array], bool]:
-    """Return the function that chooses independent rows at the position of w; it returns whether they changed.
+    """Return the function that chooses independent rows at the position of w and returns whether they changed.
 
-    Rows of mechanisms that are too large for it stay what they are.
+    Rows of too large mechanisms stay the same.
     """
     info, layout = compiled.info, compiled.layout
     room, choose = np.zeros(room_of_choice(info.m, info.nv)), compiled_form(choose_rows)
@@ -179,7 +176,7 @@ def row_chooser(compiled: CompiledModel) -> Callable[[Array], bool]:
 
 @jit()
 def leave_out_rest(sizes: Any, w: Any, k: Any, right: Any) -> None:
-    """Set the residuals of redundant rows in the constraints of a stage to their multipliers: they shall be 0.
+    """Set the residuals of redundant rows in the constraints of a stage to their multipliers, which have to be 0.
 
     Parameters
     ----------
@@ -195,7 +192,7 @@ def leave_out_rest(sizes: Any, w: Any, k: Any, right: Any) -> None:
 
 
 def rows_fell(run: Any) -> bool:
-    """Whether rows are left out and those kept have become much poorer since they were chosen."""
+    """Whether rows are left out and the smallest pivot has fallen much since the choice."""
     control, gauges, pivot = run.control, run.gauges, run.w[abi.PIVOT]
     if control[abi.MASKED] == 0:
         return False
@@ -208,5 +205,5 @@ def rows_fell(run: Any) -> bool:
 
 
 def never(run: Any) -> bool:
-    """Stand in for `rows_fell` where rows cannot be chosen anew."""
+    """Return False: the replacement of `rows_fell` where rows stay the same."""
     return False

@@ -1,4 +1,4 @@
-"""Resets: the smallest impulse that gives velocities their new values, and rebounds that are lost in rounding."""
+"""Resets: the smallest impulse that sets velocities to new values, and rebounds below rounding."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Singular values below this part of the largest one are rounding; so is this part of conditions that are met.
+#: Singular values below this fraction of the largest one are rounding; relative residual of conditions that are met.
 _ROUNDING, _MET = 1e-11, 1e-9
-#: Rounding of velocities of joints, as a part of the velocities that these are differences of.
+#: Rounding of velocities of joints, relative to the velocities of which these are differences.
 _NOISE = 1e-14
 _EPSILON = 2.0**-52
-#: A rebound of fewer roundings than this, of the switching function or of the time, is lost: where it ends is known to
-#: a thousandth of it.
+#: A rebound of fewer roundings than this, of the switching function or of the time, is lost: its end is accurate to a
+#: thousandth of it.
 _FEWEST = 1e3
-#: Changes of a state by which derivatives are found: of each coordinate, and of the time as a part of the run.
+#: Changes of a state for finite differences: of each coordinate, and of the time as a fraction of the run.
 _RELATIVE, _AHEAD = 1e-6, 1e-9
 
 
@@ -41,7 +41,7 @@ class Reset:
     labels : tuple of str
         Velocities that get new values.
     evaluate : callable
-        (t, y, p, w, ydot) -> the velocities that are named, then their new values.
+        (t, y, p, w, ydot) -> the labelled velocities, then their new values.
     """
 
     labels: tuple[str, ...]
@@ -54,18 +54,18 @@ Masses = Callable[["CompiledModel", float, Array, Array, Array], tuple[Array, Ar
 
 @dataclass(frozen=True)
 class Impact:
-    """What resets at one time do to a state.
+    """Effect of resets at one time on a state.
 
     Attributes
     ----------
     v : Array, shape (nv,)
         Velocities afterwards.
     impulses : Array
-        Of each row of D, then of each velocity that was given a value.
+        Of each row of D, then of each velocity that was set.
     imposed : tuple of str
         These velocities.
     energy : float
-        What is added to the energy [J].
+        Change of the energy [J].
     """
 
     v: Array
@@ -84,11 +84,11 @@ def impact_of(
     compiled : CompiledModel
         Model and method.
     resets : sequence of Reset
-        At the same time: they are one.
+        Resets at the same time, which are one.
     masses : callable
         See `Masses`.
     names : str
-        What errors say of whose resets they are.
+        Owners of the resets, for errors.
     t : float
         Time [s].
     y, p, w : Array
@@ -97,7 +97,7 @@ def impact_of(
     Raises
     ------
     InputError
-        If the constraints, or other resets, do not allow it.
+        If the constraints, or other resets, do not allow a reset.
     """
     info = compiled.info
     Ready(compiled.model.geometry, abi.MEASURE)(t, y, p, w)
@@ -120,7 +120,7 @@ def impact_of(
 
 
 def _rows(compiled: CompiledModel, reset: Reset, t: float, y: Array, p: Array, w: Array) -> tuple[Array, Array]:
-    """Return the rows of the velocities that a reset names, and what these rows times v+ have to be."""
+    """Return the rows of the velocities of a reset, and the values of these rows times v+."""
     info, count, ydot = compiled.info, len(reset.labels), np.zeros(compiled.info.ny)
     rows, rest = linear_in_v(info, y, lambda still: reset.evaluate(t, still, p, w, ydot)[:count])
     return rows, reset.evaluate(t, y, p, w, ydot)[count:] - rest
@@ -148,7 +148,7 @@ def _refusal(names: str, labels: Sequence[str], near: Array, values: Array, t: f
 
 
 def _nearest(mass: Array, rows: Array, values: Array, v: Array, count: int) -> Array:
-    """Return the values of the rows behind the first ones that are nearest to the wanted, where these hold exactly.
+    """Return the values of the last rows nearest to the wanted ones, while the first rows hold exactly.
 
     Parameters
     ----------
@@ -162,17 +162,17 @@ def _nearest(mass: Array, rows: Array, values: Array, v: Array, count: int) -> A
     free = unit[:, np.newaxis] * vectors[np.count_nonzero(sizes > _ROUNDING * sizes.max(initial=0.0)) :].T
     own, start = rows[count:], strike(mass, rows[:count], values[:count], v)[0]
     along = own @ free
-    along[np.linalg.norm(scale[count:, np.newaxis] * along, axis=1) < _ROUNDING] = 0.0  # of what joints determine
+    along[np.linalg.norm(scale[count:, np.newaxis] * along, axis=1) < _ROUNDING] = 0.0  # determined by joints
     return np.asarray(own @ start + along @ np.linalg.lstsq(along, values[count:] - own @ start, rcond=_ROUNDING)[0])
 
 
 def _alike(mass: Array, rows: Array) -> tuple[Array, Array]:
-    """Return units of velocities that have equal kinetic energy, and what makes rows in these units equally long."""
+    """Return units of velocities with equal kinetic energy, and factors that make rows in these units equally long."""
     diagonal = np.diag(mass)
     usual = float(diagonal.mean()) or 1.0
     unit = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, usual))
     long = np.linalg.norm(rows * unit, axis=1)
-    # a row that repeats what the joints of a tree hold by construction is rounding: made long, it would hold something
+    # a row that the joints of a tree satisfy by construction is rounding: scaled, it would become a constraint
     counts = long > _ROUNDING * long.max(initial=0.0)
     return unit, np.where(counts, 1.0 / np.where(counts, long, 1.0), 0.0)
 
@@ -183,8 +183,8 @@ def strike(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Ar
     An impulse i changes velocities by ``M (v+ - v-) = C^T i``. With ``C v+ = c`` this is the v+ for which the kinetic
     energy of the change, ``(v+ - v-)^T M (v+ - v-) / 2``, is smallest.
 
-    Changes are found in two parts: the shortest one that satisfies the rows, and one that the rows do not see. So M may
-    be singular where velocities without mass are determined by the rows.
+    Changes have two parts: the shortest one that satisfies the rows, and one in their null space. So M may be singular
+    where the rows determine velocities without mass.
 
     Parameters
     ----------
@@ -202,7 +202,7 @@ def strike(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Ar
     impulses : Array, shape (k,)
         Of each row, in the directions of the rows; of least norm where rows depend on each other.
     contradictory : bool
-        Whether more than rounding is left of ``C v+ - c``.
+        Whether ``C v+ - c`` is larger than rounding.
     """
     unit, scale = _alike(mass, rows)
     scaled, target = scale[:, np.newaxis] * rows * unit, scale * (values - rows @ v)
@@ -212,13 +212,13 @@ def strike(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Ar
     span, free = vectors[:rank], vectors[rank:].T
     back = left_vectors[:, :rank] / sizes[:rank]
     change = np.zeros(len(v))
-    for _ in range(2):  # once more for what rounding has left
+    for _ in range(2):  # the second time corrects rounding
         change += span.T @ (back.T @ (target - scaled @ change))
         change += free @ np.linalg.lstsq(free.T @ metric @ free, -free.T @ (metric @ change), rcond=None)[0]
     after = v + unit * change
     left = rows @ after - values
     largest = float(np.max(np.abs(scale * values), initial=0.0) + np.max(np.abs(scale * (rows @ v)), initial=0.0))
-    # the change of a slow body may be less than the rounding of fast ones beside it
+    # the change of a slow body may be less than the rounding of fast ones
     noise = _NOISE * float(np.max(scale * (np.abs(rows) @ (np.abs(v) + np.abs(after))), initial=0.0))
     contradictory = bool(np.any(np.abs(scale * left) > _MET * largest + noise))
     return after, scale * (back @ (span @ (metric @ change))), contradictory
@@ -227,11 +227,11 @@ def strike(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Ar
 def are_lost(
     compiled: CompiledModel, function: Any, events: Sequence[tuple[int, int]], state: HuntingState, duration: float
 ) -> bool:
-    """Return whether a switching function comes back so soon after a reset that rounding decides when.
+    """Return whether a switching function returns so soon after a reset that rounding decides the time.
 
-    Right after the reset g is 0 up to rounding and leaves with the rate g'; with g'' against it, it gets as far as
-    g'^2 / (2 g'') and is back after 2 g' / g''. What rounding is of g is worked out from how it changes with each
-    coordinate, and with the time.
+    Right after the reset g is 0 up to rounding and leaves with the rate g'; with g'' against it, it reaches
+    g'^2 / (2 g'') and returns after 2 g' / g''. The rounding of g is estimated from its change with each coordinate,
+    and with the time.
 
     Parameters
     ----------
@@ -240,9 +240,9 @@ def are_lost(
     function : emitted function
         Switching functions, then their rates.
     events : sequence of (int, int)
-        Numbers of the events whose resets have just been made, and the directions in which these happen, 0 for both.
+        Numbers of the events that have just been reset, and their directions, 0 for both.
     state : HuntingState
-        Of the run, behind the resets; as it was on return.
+        Of the run, after the resets; not changed.
     duration : float
         Of the run [s].
     """
@@ -261,7 +261,7 @@ def are_lost(
     g, slope = at(t, y, rate)
     rounding = np.abs(at(t + _RELATIVE * abs(t), y, rate)[0] - g)
     index, other = np.arange(info.nq), y.copy()
-    # with signs by the digits of their numbers, so that no two coordinates hide each other, in few evaluations
+    # signs are the digits of the coordinates' numbers, so that few evaluations suffice and no two coordinates cancel
     for digit in range(info.nq.bit_length() + 1):
         signs = 1.0 - 2.0 * (index >> digit & 1)
         other[: info.nq] = y[: info.nq] * (1.0 + _RELATIVE * signs)

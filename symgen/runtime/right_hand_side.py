@@ -11,7 +11,7 @@ from symgen.store.jit import jit
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
 
-#: Modules of right-hand sides that are straight code begin so.
+#: Prefix of modules of right-hand sides in straight code.
 STRAIGHT = "rhs_direct"
 _A = types.float64[::1]
 _functions: dict[Any, Any] = {}
@@ -19,7 +19,7 @@ _functions: dict[Any, Any] = {}
 
 @jit(types.int64(_A, _A, _A, _A, _A))
 def absent(t: Any, y: Any, p: Any, w: Any, rate: Any) -> int:
-    """Stand in for a right-hand side at all nodes; it is never called."""
+    """Replace a right-hand side at all nodes; it is never called."""
     return 0
 
 

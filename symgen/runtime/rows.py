@@ -1,7 +1,7 @@
-"""Loops over many runs of one compiled model: no Python between runs, no lock held, memory of one run beside results.
+"""Loops over many runs of one compiled model: no Python between runs, no lock held, memory of one run and the results.
 
 Each run is an instance of the frame of single runs, so it takes the same steps. Several threads call these functions at
-once, each with rows and working memory of its own.
+once, each with its own rows and working memory.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def take(array: Any, first: int, size: int, out: Any) -> None:
 
 
 def begin_run(state: Any, limits: Any) -> None:
-    """Reset what a run keeps; only the flag that stops is left."""
+    """Reset the state of a run, except for the stop flag."""
     gauges = state.gauges
     for i in range(gauges.shape[0]):
         gauges[i] = 0.0
@@ -53,16 +53,16 @@ def begin_run(state: Any, limits: Any) -> None:
 
 
 def forget(state: Any) -> None:
-    """Do nothing: a run without switching functions keeps nothing of them."""
+    """Do nothing: a run without switching functions has no data of them."""
 
 
 def take_notes(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
-    """Return how a run ended in which no events are looked for."""
+    """Return the end code of a run without events."""
     return code
 
 
 def pick(sizes: Any, picks: Any, series: Any, count: int, start: float, values: Any) -> None:
-    """Write what is asked for at the outputs of a run, one quantity after the other; nan where there is no output.
+    """Write the requested quantities at the outputs of a run, one after the other; nan at outputs not reached.
 
     Parameters
     ----------
@@ -73,9 +73,9 @@ def pick(sizes: Any, picks: Any, series: Any, count: int, start: float, values: 
     series : Kept
         Of the run.
     count : int
-        Outputs that it has reached.
+        Number of outputs reached.
     start : float
-        Its energy at the start [J].
+        Energy at the start [J].
     values : Array
         Written.
     """
@@ -104,7 +104,7 @@ def pick(sizes: Any, picks: Any, series: Any, count: int, start: float, values: 
 
 
 def summarise(code: int, state: Any, row: Any) -> None:
-    """Write the numbers by which a run is judged, in the order of `symgen.runtime.ensemble_abi.SUMMARY`."""
+    """Write the summary of a run, in the order of `symgen.runtime.ensemble_abi.SUMMARY`."""
     w, clock, gauges, control, events = state.w, state.clock, state.gauges, state.control, state.events
     narrowest, where = math.nan, math.nan
     for k in range(min(control[abi.EVENTS], _MAX_EVENTS)):
@@ -142,14 +142,14 @@ def summarise(code: int, state: Any, row: Any) -> None:
 
 @called
 def follow_rows(chunk: Any, state: Any, w: Any) -> int:
-    """Choose the rows that stand for all at the position of `w`; return 1 where they are others than before."""
+    """Choose independent rows at the position of `w`; return 1 where they have changed."""
     if chunk.dense.shape[0] == 0:
         return 0
     return int(choose_rows(chunk.layout, chunk.layout.m - state.control[abi.MASKED], 1, w, chunk.dense))
 
 
 def take_row(system: Any, r: int) -> None:
-    """Do nothing: without stops no row has any."""
+    """Do nothing: no row has stops."""
 
 
 def hold(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
@@ -157,16 +157,16 @@ def hold(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: 
 
 
 def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, series: Any) -> None:
-    """Keep what a run gave.
+    """Write the results of a run.
 
     Parameters
     ----------
     code, r : int
-        How the loop ended, and the row.
+        End code of the loop, and the row.
     system, span : tuple, Span
-        What the loop took.
+        Arguments of the loop.
     model : tuple
-        Its sizes, and the functions that are called at outputs.
+        Its sizes, and the functions called at outputs.
     chunk, state, series
         As for `run_rows`; `state` is that of the run at its end.
     """
@@ -189,7 +189,7 @@ def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, s
         seen = Observed(observed.accelerations[k : k + 1], observed.multipliers[k : k + 1], observed.rows[k : k + 1])
         if chunk.rates == 1:
             observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
-            if follows and follow_rows(chunk, state, begun) != 0:  # the rows that stand for all follow the position
+            if follows and follow_rows(chunk, state, begun) != 0:  # the independent rows depend on the position
                 observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
         if chunk.joints == 1:
             observe_rows(observe, sizes, here, 1, state.p, state.w, seen, state.room)
@@ -197,7 +197,7 @@ def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, s
     values = part(chunk.values, r * length, length)
     pick(sizes, chunk.picks, series, count, state.gauges[abi.ENERGY_START], values)
     if chunk.rates == 1 or chunk.joints == 1:
-        # loops take what fills up arrays behind a state for zeros; what was observed need not even be a number
+        # loops take the padding behind a state for zeros; observed values may even be nan
         for i in range(2 * sizes.ny + series.observed.rows.shape[1]):
             state.room[i] = 0.0
     series.outputs.times[series.outputs.times.shape[0] - 1] = until
@@ -205,26 +205,26 @@ def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, s
 
 
 def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series: Any) -> int:
-    """Run the selected rows from starts that `symgen.runtime.starting.close_runs` left.
+    """Run the selected rows from the starts of `symgen.runtime.starting.close_runs`.
 
     Parameters
     ----------
     model : tuple
-        What the loop over one run takes first; and for what is observed at outputs its sizes and functions
+        First argument of the loop over one run; then, for observed values at outputs, sizes and functions
         (`symgen.runtime.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``.
     scheme, span
         As for a single run.
     chunk : Chunk
         The rows.
     state : State
-        Memory of one run; `control` has one element more, which counts finished runs.
+        Memory of one run; an additional element of `control` counts finished runs.
     series : Kept
         Outputs of one run, at the same times for every run.
 
     Returns
     -------
     int
-        How many of the selected rows are done: all of them, unless the run was stopped.
+        Number of selected rows that are done: all, unless the run was stopped.
     """
     chunk, state, series = bare(chunk), bare(state), bare(series)
     system, observers = model
@@ -262,7 +262,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
 
 
 def forget_functions(state: Any) -> None:
-    """Forget on which side of its switching functions the run before was, and what was noted of it."""
+    """Clear the sides of switching functions and the notes of the run before."""
     hunt = bare(state).hunt
     n = int(hunt[records.COUNT])
     for i in range(records.N_HEAD + records.SIDE * n, records.N_HEAD + records.N_COLUMNS * n):
@@ -272,12 +272,12 @@ def forget_functions(state: Any) -> None:
 
 @called
 def take_notes_of_events(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
-    """Take what a run has noted of its events into the numbers of its row; return how the run ended.
+    """Write the events noted by a run to its row; return the end code of the run.
 
     Parameters
     ----------
     code, r : int
-        How its loop was left, and the row.
+        End code of its loop, and the row.
     width : int
         Of a state.
     chunk, state
@@ -309,13 +309,13 @@ def take_notes_of_events(code: int, r: int, width: int, chunk: Any, state: Any) 
 
 
 def take_stops(system: Any, r: int) -> None:
-    """Have the stops of a row."""
+    """Select the stops of a row."""
     stops = system[1]
     stops.head[ROW] = r if stops.rows.shape[0] > 2 else 0  # or one table for all
 
 
 def hold_between_stops(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
-    """Have the parameters that held at output `k`, from those of the one before; at a stop, those from before it."""
+    """Set the parameters to those at output `k`, from those of the one before; at a stop, to those before it."""
     _, stops, _, prepare, prepare_law = system
     control, n_p, changed = state.control, state.p.shape[0], False
     if k == 0:
@@ -333,13 +333,13 @@ def hold_between_stops(system: Any, span: Any, chunk: Any, r: int, state: Any, t
 
 
 def integrate(*arguments: Any) -> int:
-    """Stand for the loop over one run, which `instances` and `on_device` put in its place."""
+    """Mark the place of the loop over one run, which `instances` and `on_device` insert."""
     raise NotImplementedError
 
 
 @jit(types.int64(_F8, _A, _A, _A, _A, _A))
 def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
-    """Stand in for the emitted ``observe`` where no joint coordinate is asked for, so that it is not compiled."""
+    """Replace the emitted ``observe`` where no joint coordinate is requested, so that it is not compiled."""
     return 0
 
 
@@ -349,7 +349,7 @@ _loops: dict[Any, Any] = {}
 
 
 def over_rows(loop: Any, events: bool = False, stops: bool = False) -> Any:
-    """Return the loop over many runs around one over a single run; made when it is first needed.
+    """Return the loop over many runs around that over a single run, made at the first use.
 
     Parameters
     ----------

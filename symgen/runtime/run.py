@@ -1,4 +1,4 @@
-"""One run: a start, a loop in a thread that can be stopped, and what is observed at its outputs."""
+"""One run: a start, a loop in a thread that can be stopped, and its outcome."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Progress = Callable[[float], None]
 
-#: Attempts at an adaptive step that a run may take, unless it is asked for otherwise.
+#: Default limit of attempts at an adaptive step in a run.
 MAX_ATTEMPTS = 1e8
-#: What is said of runs that make no progress, and of those whose forces or joints compare the state.
+#: Messages for runs without progress, and for runs whose forces or joints compare the state.
 _STIFF = "where the motion is stiff, an implicit integrator (radau5) takes longer steps"
 _JUMPING = (
     "formulas compare the state: where one jumps to and fro, as friction by sign(v) does that sticks, no step gets "
@@ -41,7 +41,7 @@ _JUMPING = (
 
 @dataclass(frozen=True)
 class RunSpec:
-    """What a run is to do.
+    """Specification of a run.
 
     Parameters
     ----------
@@ -54,29 +54,29 @@ class RunSpec:
     rtol, atol : float
         Tolerances of an adaptive run.
     relative : bool
-        Whether `atol` is meant for coordinates and speeds over those of the mechanism; else it has their units.
+        Whether `atol` applies to coordinates and speeds over those of the mechanism; else it has their units.
     times : Array
         Output times, increasing.
     largest_step : float
         Bound of adaptive steps [s].
     max_violation : float
-        Largest |Phi| (times the scale of lengths) and |D v - nu| (times the largest speed) that is tolerated.
+        Largest tolerated |Phi| (times the scale of lengths) and |D v - nu| (times the largest speed).
     max_velocity_violation : float or None
-        The limit of |D v - nu| where it is another one.
+        The limit of |D v - nu| where it differs.
     max_energy_error : float
-        Largest energy error that is tolerated, as a fraction of the energy in motion.
+        Largest tolerated energy error, as a fraction of the energy in motion.
     integrator_parameters : mapping
         Values of the integrator's parameters that differ from the defaults.
     max_evaluations : int or None
-        The run is stopped some time after it took more right-hand sides than this.
+        Evaluations of the right-hand side, some time after which the run is stopped.
     max_attempts : float
         An adaptive run is stopped when it has taken, or at its present rate would take, more attempts at a step.
     duration : float or None
-        In which a motion that begins at rest counts as one that crosses the mechanism [s]; until `until` by default.
+        Time in which a motion that begins at rest is taken to cross the mechanism [s]; until `until` by default.
     stops : tuple of Stop
-        Where inputs jump, and what they are from there on; the first one is what the start has.
+        Times at which inputs jump, and their values from then on; the first one has those of the start.
     events : Watched or None
-        Switching functions: events, and what adaptive steps end at.
+        Switching functions: events, and ends of adaptive steps.
     compares : bool
         Whether constant implicit steps solve equations in which formulas compare the state.
     """
@@ -102,7 +102,7 @@ class RunSpec:
 
     @property
     def velocity_limit(self) -> float:
-        """Largest |D v - nu| that is tolerated, as a fraction of the largest speed."""
+        """Largest tolerated |D v - nu|, as a fraction of the largest speed."""
         return self.max_violation if self.max_velocity_violation is None else self.max_velocity_violation
 
 
@@ -125,7 +125,7 @@ def integrate(
     Returns
     -------
     Outcome
-        Also after an interruption (KeyboardInterrupt): with everything up to there and code `STOPPED`.
+        After an interruption (KeyboardInterrupt) as well: with all results up to there and code `STOPPED`.
     """
     simulation = Simulation(compiled, integrator, start, spec)
     outputs = simulation.outputs(spec.times)
@@ -144,9 +144,9 @@ def outcome_of(
     Parameters
     ----------
     simulation, outputs : Simulation, Outputs
-        The run, and what it wrote.
+        The run, and its outputs.
     code : int
-        How its loop ended, see `symgen.runtime.abi`.
+        End code of its loop, see `symgen.runtime.abi`.
     seconds : float
         Time that the loop took [s].
     interrupted : bool
@@ -205,7 +205,7 @@ def outcome_of(
 
 
 def reason_of(simulation: Simulation, code: int, end: float) -> str:
-    """Return why a run ended at a time, empty where it reached its end; see `end_reason`."""
+    """Return the reason why a run ended at a time, empty where it reached its end; see `end_reason`."""
     state = simulation.state
     measures = (abi.PHI_MEASURE, abi.DRIFT_MEASURE, abi.LENGTH, abi.SPEED)
     attempts = int(state.control[abi.STEPS] + state.control[abi.REJECTED])
@@ -217,7 +217,7 @@ def reason_of(simulation: Simulation, code: int, end: float) -> str:
 
 
 def _shortest_row(compiled: CompiledModel, w: Array) -> str:
-    """Return the name of the row that is an angle and has lost most of its gradient."""
+    """Return the name of the row on an angle that has lost most of its gradient."""
     info = compiled.info
     rows, columns, values = triplets_of(info, compiled.section(w, "jacobian"))
     squares = np.bincount(rows, values**2 * compiled.section(w, "gauge")[columns], info.m)
@@ -230,8 +230,8 @@ def _in_thread(
 ) -> tuple[int, float, bool]:
     """Run the loop, which holds no lock, in a thread; an interrupt raises the flag that it polls.
 
-    Returns how the loop ended, its seconds, and whether it was interrupted, be it too late to stop it. A loop beyond
-    its budget of evaluations is stopped as well; it does not count as interrupted.
+    Returns the end code of the loop, its seconds, and whether it was interrupted, even if too late to stop it. A loop
+    beyond its budget of evaluations is stopped as well, but does not count as interrupted.
     """
     result: list[Any] = []
     interrupted = False
@@ -270,7 +270,7 @@ def _in_thread(
 def end_reason(
     code: int, time: float, violations: tuple[float, ...], scale: float, attempts: int, spec: RunSpec
 ) -> str:
-    """Return why a loop ended, empty where it reached the end.
+    """Return the reason why a loop ended, empty where it reached the end.
 
     Parameters
     ----------
@@ -279,11 +279,11 @@ def end_reason(
     time : float
         Time reached [s].
     violations : tuple of float
-        |Phi|, |D v - nu| and the largest coordinate and speed that they are judged by, at that time.
+        |Phi|, |D v - nu|, and the largest coordinate and speed that scale them, at that time.
     scale : float
         Energy in motion [J].
     attempts : int
-        At steps, accepted and rejected.
+        Number of accepted and rejected steps.
     spec : RunSpec
         The limits.
     """

@@ -1,8 +1,8 @@
-"""Scales of a mechanism, by which everything a run decides is independent of the units of length, mass and time.
+"""Scales of a mechanism, which make all decisions of a run independent of the units of length, mass and time.
 
-Angles are compared with lengths by the lengths of bodies: twice the distance from a body's centre of mass at which its
-joints hold it, as the ends of a bar are so far apart. The section ``gauge`` of w holds 1 for translations and 1 / l^2
-for rotations, so that D diag(gauge) D^T, which decides rank, has one unit in every row.
+Angles are compared with lengths by the lengths of bodies: twice the distance of a body's joints from its centre of
+mass, the length of a bar with joints at its ends. The section ``gauge`` of w holds 1 for translations and 1 / l^2 for
+rotations, so that D diag(gauge) D^T, which decides rank, has one unit in every row.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ from symgen.runtime.bare import part
 from symgen.runtime.exact import exact
 from symgen.runtime.loop_instances import viewing
 
-#: Bodies count as at least this part of the longest one: their rounding shall not decide.
+#: Least length of a body over that of the longest one, so that rounding does not decide.
 LEAST_LENGTH = 1e-2
-#: Rows count as at least this part of a usual one, squared.
+#: Least length of a row over a usual one, squared.
 LEAST_ROW = 1e-2
-#: Rows below this part of a usual one, squared, have vanished: what is left of their numbers is rounding. A row of D in
-#: joint coordinates is a sum of products of size 1 along a chain, of which rounding leaves some 1e-16.
+#: Rows below this part of a usual one, squared, have vanished: their entries are rounding. A row of D in joint
+#: coordinates is a sum of products of size 1 along a chain, of which rounding leaves some 1e-16.
 VANISHED = 1e-18
-#: Speeds below this part of the scale of speeds are no motion, whatever the tolerances are.
+#: Speeds below this fraction of the scale of speeds are rest, whatever the tolerances are.
 LEAST_SPEED = 1e-9
-#: Speeds are known to so many times their tolerance: the errors of many steps add up.
+#: Error of speeds over their tolerance: the errors of many steps add up.
 _ADDED_UP = 1e3
 
 
@@ -36,7 +36,7 @@ def larger(a: float, b: float) -> float:
 
 @exact()
 def entry_of(layout: Any, w: Any, k: int) -> float:
-    """Return structural entry `k` of D, as ``geometry`` left it in the scratch array or constant."""
+    """Return structural entry `k` of D: a constant, or computed by ``geometry`` in the scratch array."""
     slot = layout.entries[3 * k + 2]
     return layout.constants[k] if slot < 0 else w[layout.jacobian + slot]  # type: ignore[no-any-return]  # arrays
 
@@ -45,8 +45,8 @@ def entry_of(layout: Any, w: Any, k: int) -> float:
 def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
     """Set the section ``gauge``, and the scales of lengths and masses, from D at the described positions.
 
-    A body's length is twice that of the derivative of a joint's rows in metres by the body's angles, of the joint for
-    which it is largest; that of a body whose joints are all at its centre of mass is the mechanism's.
+    A body's length is twice the norm of the derivative of a joint's rows in metres by the body's angles, the largest
+    over its joints; a body whose joints are all at its centre of mass has the length of the mechanism.
     """
     w, spin, lengths, sums = now.w, layout.spin, work.x, work.scale
     entries, constants, rows = layout.entries, layout.constants, layout.rows
@@ -84,7 +84,7 @@ def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
 def mean_mass(layout: Any, w: Any) -> float:
     """Return the average mass of a velocity, that of an angle over the square of a length.
 
-    Where nothing has a mass, any will do: it weighs rows beside M, which is 0.
+    Without masses it is arbitrary: it weighs rows against M, which is 0.
     """
     total = 0.0
     for j in range(layout.nv):
@@ -104,9 +104,9 @@ def square_rows(layout: Any, w: Any, squares: Any) -> None:
 
 @exact()
 def weigh_rows(layout: Any, now: Any) -> None:
-    """Set the section ``row_weight`` to what makes 1 of the square of each row of D G^1/2 at the start.
+    """Set the section ``row_weight`` to the inverse of the square of each row of D G^1/2 at the start.
 
-    Rows that are short there already count as a tenth of a usual one.
+    Rows that are short already there count as a tenth of a usual one.
     """
     w, weights = now.w, layout.row_weight
     square_rows(layout, w, part(w, weights, layout.m))
@@ -117,7 +117,7 @@ def weigh_rows(layout: Any, now: Any) -> None:
 
 @exact()
 def extent_of(layout: Any, y: Any) -> float:
-    """Return the largest coordinate that is a length, 0 where there is none or none is finite."""
+    """Return the largest finite coordinate that is a length, 0 where no such coordinate exists."""
     largest = 0.0
     for i in range(layout.nq):
         if layout.lengths[i] != 0.0 and abs(y[i]) > largest and math.isfinite(y[i]):
@@ -127,7 +127,7 @@ def extent_of(layout: Any, y: Any) -> float:
 
 @exact()
 def free_scale(layout: Any, w: Any, j: int) -> float:
-    """Return the scale of a velocity in the metric in which changes are shortest: a length, or an angle."""
+    """Return the scale of a velocity in the metric of shortest changes: a length, or an angle."""
     return float(w[abi.LENGTH] * math.sqrt(w[layout.gauge + j]))
 
 
@@ -143,7 +143,7 @@ def size_of_change(layout: Any, w: Any, change: Any) -> float:
 
 @exact()
 def speed_of(layout: Any, w: Any, v: Any) -> float:
-    """Return the largest speed: angular velocities count as those of points at the body's length."""
+    """Return the largest speed: angular velocities count as speeds of points at the body's length."""
     largest = 0.0
     for j in range(layout.nv):
         size = abs(v[j]) / math.sqrt(w[layout.gauge + j])
@@ -158,12 +158,12 @@ def row_weight(layout: Any, w: Any, i: int) -> float:
 
 
 def settle(sizes: Any, span: Any, run: Any) -> None:
-    """Set the scales of a run's states at its beginning, from the lengths that its start has found.
+    """Set the scales of a run's states at its beginning, from the lengths computed at its start.
 
-    `run.metric` makes lengths and speeds of coordinates and velocities (0 for angles, and for all behind the
-    velocities); `run.scales` makes numbers of order 1 of them. A motion that begins at rest counts as one that crosses
-    the mechanism in the time `span.duration`. The energy in motion is at least that of speeds that the tolerances leave
-    open: what begins at rest, without a force, has no other energy that errors could be a part of.
+    `run.metric` converts coordinates and velocities to lengths and speeds (0 for angles, and for all behind the
+    velocities); `run.scales` converts them to numbers of order 1. A motion that begins at rest is taken to cross the
+    mechanism in the time `span.duration`. The energy in motion is at least that of speeds within the tolerances: a
+    motion that begins at rest, without a force, has no other energy to which errors could be compared.
     """
     w, nq = run.w, sizes.nq
     for j in range(sizes.nv):
@@ -180,7 +180,7 @@ def settle(sizes: Any, span: Any, run: Any) -> None:
 
 
 def still(span: Any, speed: float) -> Any:
-    """Return the speed that tolerances leave open [m/s], at a scale of speeds [m/s]."""
+    """Return the speed within the tolerances [m/s], at a scale of speeds [m/s]."""
     tolerance = span.atol * speed if span.relative != 0.0 else span.atol
     return _ADDED_UP * max(tolerance, LEAST_SPEED * speed)
 
@@ -194,8 +194,8 @@ def weights_of(span: Any, run: Any) -> Any:
 def with_work(span: Any, run: Any, at: int, error: float, others: float) -> float:
     """Return the larger of two errors over their tolerances: of the work, element `at` of a state, and of the others.
 
-    The work's is relative to the energy in motion. It enters no rate, but the balance of energy, and where drivers
-    prescribe all that moves nothing else is integrated.
+    The error of the work is relative to the energy in motion. The work enters no rate, but the balance of energy, and
+    where drivers prescribe the whole motion nothing else is integrated.
     """
     least = span.atol
     if span.relative != 0.0:

@@ -1,4 +1,4 @@
-"""Records of schemes: their coefficients and the Newton matrices that they factorise, as loops take them."""
+"""Records of schemes for loops: their coefficients and the Newton matrices that they factorise."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class TableauRecord(NamedTuple):
     nodes : Array
         c of all stages, 1 for the end of the step behind those of the scheme.
     dense : Array, shape (degree, padded stages), flat
-        y(t + x h) = y + h sum_k K_k sum_j dense[j, k] x^(j + 1); empty where there is no dense output.
+        y(t + x h) = y + h sum_k K_k sum_j dense[j, k] x^(j + 1); empty without dense output.
     count : Array of int64
         0, 1, 2, ... for all stages.
     stages, estimates, order, degree : int
@@ -52,7 +52,7 @@ class Rotations(NamedTuple):
     tableau : TableauRecord
         The scheme.
     spins : Array of int64
-        Where the angular velocities of bodies begin in v.
+        First index of the angular velocity of each body in v.
     width : int
         Length of a stage.
     """
@@ -63,7 +63,7 @@ class Rotations(NamedTuple):
 
 
 class Screws(NamedTuple):
-    """A tableau applied to screws: as `Rotations`, and where Euler parameters and omega of each free body begin."""
+    """A tableau applied to screws: as `Rotations`, and first indices of Euler parameters and omega of free bodies."""
 
     tableau: Any
     spins: Any
@@ -90,13 +90,13 @@ class Stages(NamedTuple):
     errors : Array, shape (s + 1,)
         Weights of the error estimate on the derivative at the beginning of the step and on those of the stages.
     filtered : float
-        The estimate is filtered by ``(dF/dk + h filtered dF/dy)^-1 dF/dk``; 0: it is not.
+        The estimate is filtered by ``(dF/dk + h filtered dF/dy)^-1 dF/dk``; 0: it is not filtered.
     stages, together, order : int
         Stages, 1 where they are solved together, and the order of the estimate.
     entries : Array of int64
         Equation of each number that ``tangent`` writes, then its unknown.
     slopes : Array
-        For what ``tangent`` writes in each stage; the last element is 1.
+        Output of ``tangent`` in each stage; the last element is 1.
     numbers, plan, filter_numbers, filter_plan : Array
         Of the Newton matrix, and of that of one stage (`symgen.runtime.newton.stage_plan`).
     """
@@ -135,7 +135,7 @@ class Projection(NamedTuple):
     Attributes
     ----------
     penalty : int
-        Where the penalty asked for stands in ``p``.
+        Index of the requested penalty in ``p``.
     slopes, numbers, plan : Array
         Of W, see `symgen.runtime.newton.projection_plan`.
     pulls : Array of int64
@@ -163,9 +163,9 @@ class ConstrainedStages(NamedTuple):
     a, c : Array
         The tableau, row by row, its last row being b, and the nodes, the last one 1.
     stages : int
-        How many.
+        Number of stages.
     spins : Array of int64
-        Where the angular velocities of bodies begin in v.
+        First index of the angular velocity of each body in v.
     nonholonomic : Array
         1 for rows without Phi, else 0.
     slopes, numbers, plan : Array
@@ -190,7 +190,7 @@ class Nodes(NamedTuple):
     derive : function
         ``derive(t, y, p, w, ydot)``, the right-hand side at all nodes (`symgen.native.nodes`).
     vector : int
-        1 where there is such a function, 0 where the right-hand side is evaluated at one node after another.
+        1 where this function exists, 0 where the right-hand side is evaluated at one node after another.
     rows : Array of int64
         As for `symgen.runtime.nodes`.
     table, middle : Array
@@ -200,8 +200,8 @@ class Nodes(NamedTuple):
     legendre : Array, shape (9, 16), flat
         Coefficients of Legendre polynomials from rates.
     dense : Array, shape (26, 24), flat
-        Legendre coefficients of the polynomial through the rates at the nodes, and of that through those between them
-        as well.
+        Legendre coefficients of the polynomial through the rates at the nodes, and of that through rates at the nodes
+        and between them.
     recurrence : Array, shape (3, 24), flat
         See `symgen.runtime.schemes.picard.integrate_legendre`.
     count : Array of int64
@@ -226,10 +226,10 @@ class Nodes(NamedTuple):
     tableau: Any
 
 
-#: Fields of schemes' records that belong to what a run keeps.
+#: Fields of schemes' records that belong to the state of a run.
 KEPT = ("numbers", "plan", "filter_numbers", "filter_plan")
 
-#: How compiled loops see the records.
+#: Types of the records in compiled loops.
 TABLEAU = types.RecordType((_K, _K, _A, _A, _A, _K, _I, _I, _I, _I, _I), TableauRecord)
 ROTATIONS = types.RecordType((TABLEAU, _K, _I), Rotations)
 SCREWS = types.RecordType((TABLEAU, _K, _K, _I), Screws)

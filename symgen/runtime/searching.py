@@ -1,14 +1,14 @@
-"""The search for events inside a step: which shorter step to try next, by values and rates of switching functions.
+"""The search for events inside a step: the next shorter step to try, by values and rates of switching functions.
 
-An event is a switching function g(t, q, v) that changes its sign in its direction. `decide` takes g and its
-rate g' at the end of a step, whole or shorter, and says what to do next; it is called by address, so that no loop is
-compiled with a copy of it.
+An event is a switching function g(t, q, v) that changes its sign in its direction. `decide` takes g and its rate g' at
+the end of a step, whole or shorter, and returns what to do next; it is called by address, so that no loop is compiled
+with a copy of it.
 
-Which side of an event a run is on is kept as such, not taken from g: a state that lies on the event itself, up to
-rounding, is on the side that it came from, and after a change of velocities on the side that it goes to.
+The side of an event that a run is on is stored, not taken from g: a state on the event itself, up to rounding, is on
+the side that it came from, and after a change of velocities on the side that it moves to.
 
-What is kept is one array, see `symgen.runtime.search_records`. What formulas compare over the state is sought as events
-are; a step ends where it is passed, and the scheme begins anew.
+All data are one array, see `symgen.runtime.search_records`. Comparisons of the state in formulas are sought like
+events; a step ends where one is passed, and the scheme restarts.
 """
 
 from __future__ import annotations
@@ -61,21 +61,21 @@ from symgen.runtime.table_points import SHORT_OF, aim, arrive, bend, ends_near, 
 from symgen.store.emitted import plain
 
 A = Any
-#: What is being done: looking for events, taking the whole step, taking a step that ends in an event, or one that ends
-#: before a jump, so that its stages are on one side of it.
+#: Tasks: look for events, take the whole step, take a step that ends in an event, or one that ends before a jump, so
+#: that its stages are on one side of it.
 _LOOKING, _WHOLE_STEP, _TO_EVENT, _BEFORE = range(4)
 _COUNTERS, _RESOLVED = abi.N_COUNTERS, abi.RESOLVED_TIME
-#: A reset changes g by rounding alone below this part of its size in the step before.
+#: Changes of g by a reset below this fraction of its size in the step before are rounding.
 _SAME = 1e-6
-#: So many switches within this part of the time hold a motion back.
+#: Number of switches within this fraction of the time that stall a motion.
 _CROWDED, _HEAP = 50.0, 1e-7
-#: Rounds in a bracket, at most.
+#: Largest number of rounds in a bracket.
 _MOST_ROUNDS = 200
 
 
 @plain
 def move_on(hunt: A, n: int) -> int:
-    """Look at the rest of the step, behind the bracket."""
+    """Move the bracket to the rest of the step."""
     at = N_HEAD
     for k in range(n):
         hunt[at + LOCAL * n + k] = side_of(hunt[at + G_HIGH * n + k], hunt[at + LOCAL * n + k])
@@ -103,7 +103,7 @@ def note(hunt: A, n: int, notes: int, t: float, width: int, y: A) -> int:
 
 @plain
 def settle(hunt: A, n: int, ends: int) -> int:
-    """Have the end of the step, or of the bracket where `ends` is 0, as the beginning of the next step."""
+    """Make the end of the step, or of the bracket where `ends` is 0, the beginning of the next step."""
     at = N_HEAD
     g, d = G_END if ends == 1 else G_HIGH, D_END if ends == 1 else D_HIGH
     for k in range(n):
@@ -124,7 +124,7 @@ def settle(hunt: A, n: int, ends: int) -> int:
 
 @plain
 def crossed(hunt: A, n: int, column: int, least: int) -> int:
-    """Return the action, at least `least`, of what is passed between the bracket's beginning and a column; -1: none."""
+    """Return the highest action, at least `least`, of passages from the bracket's beginning to a column; -1: none."""
     at, highest = N_HEAD, -1
     for k in range(n):
         if passes(hunt, n, k, column) == 1:
@@ -137,7 +137,7 @@ def crossed(hunt: A, n: int, column: int, least: int) -> int:
 
 @plain
 def taken_for(hunt: A, n: int, k: int, h: float) -> float:
-    """Return what g counts as at the state that was tried: as on the side of the run until it has come to be there."""
+    """Return g at the trial state, counted as on the side of the run until g has reached that side."""
     at, g = N_HEAD, hunt[N_HEAD + N_COLUMNS * n + k]
     before = abs(hunt[at + G_START * n + k])
     near = h * abs(hunt[at + D_START * n + k]) < 4.0 * before and abs(g) < 8.0 * before
@@ -146,7 +146,7 @@ def taken_for(hunt: A, n: int, k: int, h: float) -> float:
 
 @plain
 def take_in(hunt: A, n: int, h: float, following: float, hunting: int) -> int:
-    """Take the values at the state that was tried, which stand behind the columns, into the bracket."""
+    """Copy the values at the trial state, which stand behind the columns, into the bracket."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     if hunting == NOTHING or hunting == DOUBT:
         hunt[DOING], hunt[LOW], hunt[HIGH], hunt[WHOLE] = _LOOKING, 0.0, h, h
@@ -185,7 +185,7 @@ def away(hunt: A, n: int, k: int, g: float) -> int:
 
 @plain
 def look(hunt: A, n: int) -> int:
-    """See on which side of each event a run begins, or goes on after its velocities or parameters were changed."""
+    """Set the side of each event on which a run begins, or continues after a change of velocities or parameters."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     for k in range(n):
         g, rate, side = hunt[out + k], hunt[out + n + k], hunt[at + SIDE * n + k]
@@ -195,12 +195,12 @@ def look(hunt: A, n: int) -> int:
         if side == 0.0:  # not known yet: the run begins
             hunt[at + SIDE * n + k] = side_of(g, side_of(rate, -1.0))
         elif hunt[at + FIRED * n + k] != 0.0 and away(hunt, n, k, g) == 0:
-            # the state lies on the event up to rounding, so the rate says where it goes to; at rest it may happen again
+            # the state lies on the event up to rounding, so the rate decides the side; at rest it may happen again
             side = side_of(rate, -side)
             hunt[at + SIDE * n + k] = side
             hunt[at + GRAZING * n + k] = 1.0 if side * g < 0.0 and rate != 0.0 else 0.0
         elif hunt[at + FIRED * n + k] != 0.0 or is_sought(hunt[at + DIRECTION * n + k], side, side_of(g, side)) == 0:
-            hunt[at + SIDE * n + k] = side_of(g, side)  # what velocities jump to is no event
+            hunt[at + SIDE * n + k] = side_of(g, side)  # a jump of velocities is no event
             hunt[at + GRAZING * n + k] = 0.0
         hunt[at + G_START * n + k], hunt[at + D_START * n + k] = g, rate
     return 0
@@ -208,7 +208,7 @@ def look(hunt: A, n: int) -> int:
 
 @plain
 def is_undefined(hunt: A, n: int) -> int:
-    """Return 1 where a switching function is no number at the state that was tried, else 0."""
+    """Return 1 where a switching function is nan at the trial state, else 0."""
     for k in range(n):
         g = hunt[N_HEAD + N_COLUMNS * n + k]
         if not g == g and hunt[N_HEAD + ACTION * n + k] != float(ANEW):
@@ -218,7 +218,7 @@ def is_undefined(hunt: A, n: int) -> int:
 
 @plain
 def keep(hunt: A, first: int, nw: int, w: A, iw: A) -> int:
-    """Keep what emitted functions remember."""
+    """Save the memory of emitted functions."""
     for i in range(nw):
         hunt[first + i] = w[i]
     for i in range(_COUNTERS):
@@ -228,7 +228,7 @@ def keep(hunt: A, first: int, nw: int, w: A, iw: A) -> int:
 
 @plain
 def give_back(hunt: A, first: int, nw: int, w: A, iw: A) -> int:
-    """Give back what was kept."""
+    """Restore the memory of emitted functions."""
     for i in range(nw):
         w[i] = hunt[first + i]
     for i in range(_COUNTERS):
@@ -253,7 +253,7 @@ def ended(hunt: A, n: int, notes: int, following: float, width: int, y: A) -> in
 
 @plain
 def end_before(hunt: A, n: int, h: float) -> int:
-    """Have a step of h, which ends before a switch, as the whole step."""
+    """Make a step of h, which ends before a switch, the whole step."""
     out = N_HEAD + N_COLUMNS * n
     for k in range(n):
         hunt[N_HEAD + G_END * n + k], hunt[N_HEAD + D_END * n + k] = hunt[out + k], hunt[out + n + k]
@@ -263,25 +263,25 @@ def end_before(hunt: A, n: int, h: float) -> int:
 
 @plain
 def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int, width: int, y: A, w: A, iw: A) -> int:
-    """Take in what was found at a state and return what to do next, one of `NOTHING` to `FAIL`.
+    """Take the values at a state and return what to do next, one of `NOTHING` to `FAIL`.
 
-    All that loops do with what is kept is done here, so that it is compiled once and by itself.
+    All work on the data of events is done here, so that it is compiled once and separately.
 
     Parameters
     ----------
     hunt : Array
-        What is kept of events.
+        Data of events.
     n, notes : int
-        How many functions there are, and where notes begin.
+        Number of functions, and first index of notes.
     following, h : float
-        End and length of the step that was tried [s].
+        End and length of the trial step [s].
     hunting : int
-        What the step was tried for; or what else is to be done with what is kept: `LOOK`, `REMEMBER` at the beginning
-        of a step and `RECALL`, `KEEP` at a state that is looked at and `GIVE_BACK`, `AIM` before a step of `h`.
+        Purpose of the trial step; or another task: `LOOK`, `REMEMBER` at the beginning of a step and `RECALL`, `KEEP`
+        at an examined state and `GIVE_BACK`, `AIM` before a step of `h`.
     width, y : int, Array
         The state at its end.
     w, iw : Array
-        What emitted functions remember.
+        Memory of emitted functions.
     """
     if hunting <= LOOK:
         if is_undefined(hunt, n) == 1:
@@ -293,7 +293,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
         if hunting == AIM:
             return int(aim(hunt, n, h))
         if hunting == REMEMBER:
-            hunt[NOTED] = hunt[ACCEPTED]  # those of an attempt that was refused are none
+            hunt[NOTED] = hunt[ACCEPTED]  # notes of a refused attempt are dropped
         first = N_HEAD + (N_COLUMNS + N_VALUES) * n + 2 * width
         size = (notes - first) // 2
         first += size if hunting == KEEP or hunting == GIVE_BACK else 0
@@ -325,7 +325,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
                     hunt[TRY] = there
                 hunt[ROUNDS] += 1.0
                 return SEEK
-            # where notes have to be taken before others find room, the step ends here as well
+            # where notes have to be taken to make room for others, the step ends here as well
             if crossed(hunt, n, G_HIGH, LEAVE) >= LEAVE or hunt[NOTED] > NOTES:
                 if hunting == NOTHING and near == 1:
                     return int(ended(hunt, n, notes, following, width, y))

@@ -1,4 +1,4 @@
-"""A run as its arrays: what it keeps, how it is entered, left, saved and restored, and when other rows are chosen."""
+"""A run as its arrays: its state, how it is entered, left, saved and restored, and when other rows are chosen."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: What stands beside the arrays that a run keeps in those that another goes on from: the output at its end, which may
-#: differ in the last bit from the state that a multistep scheme goes on with.
+#: Saved arrays in addition to the state of a run: the output at its end, which may differ in the last bit from the
+#: state that a multistep scheme continues with.
 SHOWN = ("shown_state", "shown_status")
 
 
 class Simulation:
-    """A run that can be left after any accepted step, saved, restored, and gone on with.
+    """A run that can be left after any accepted step, saved, restored, and continued.
 
     Parameters
     ----------
@@ -54,24 +54,24 @@ class Simulation:
     compiled, integrator, start, spec
         As above.
     state : State
-        All that the run keeps, as arrays. They stay where they are: views of them are up to date for ever.
+        The state of the run, as arrays. They are never moved: views of them stay valid.
     span : Span
-        How far the run goes, and by which steps.
+        End, steps and tolerances of the run.
     direct : bool
-        Whether `go` may take the shortest way; it gives the same bits.
+        Whether `go` may take the shortest way, with the same results to the bit.
     snapshot : Snapshot
-        The memory of `state`, and a copy of what it held when `go` was called last.
+        The memory of `state`, and a copy of it from the last call of `go`.
     before : Array of int
-        What it had counted where it was taken up: zeros for one that begins.
+        Counts at the point where the run was continued: zeros for a new run.
     events : Events or None
-        What happens in it, where events are looked for.
+        Events of the run, where they are looked for.
     changes : Changes
-        What gives parameters other values while it goes on.
+        Changes of parameters during the run.
 
     Notes
     -----
-    Constant steps stand on a grid that begins at the start: pieces that end on it are one run, bit for bit. An end
-    between two steps is reached by a shortened step, from which a new grid begins.
+    Constant steps lie on a grid that begins at the start: pieces that end on it equal one run, bit for bit. An end
+    between two steps is reached by a shortened step, at which a new grid begins.
     """
 
     def __init__(self, compiled: CompiledModel, integrator: Integrator, start: Start, spec: RunSpec) -> None:
@@ -106,7 +106,7 @@ class Simulation:
         self._first_p, self._first_stop = self.state.p.copy(), int(self.state.control[abi.PASSED])
 
     def set_limits(self) -> None:
-        """Have the limits of this run, as after the state of another one was taken up."""
+        """Set the limits of this run, also after the state of another one was restored."""
         gauges, spec = self.state.gauges, self.spec
         gauges[[abi.LIMIT_PHI, abi.LIMIT_DRIFT]] = spec.max_violation, spec.velocity_limit
         gauges[[abi.LIMIT_ENERGY, abi.WARN_PIVOT]] = spec.max_energy_error, WARN
@@ -127,12 +127,12 @@ class Simulation:
         return new_outputs(self.compiled.info, times)
 
     def _take_up(self, saved: Mapping[str, NDArray[Any]], p: Array) -> None:
-        """Go on from what another run has kept, with the limits, outputs and inputs of this one."""
+        """Continue from the state of another run, with the limits, outputs and inputs of this one."""
         info = self.compiled.info
         state: Any = self.state  # a `HuntingState` where there are events
-        names = {*state._fields, *memory_fields(self.scheme)}  # files of before hold empty arrays beside these
+        names = {*state._fields, *memory_fields(self.scheme)}  # older files hold further, empty arrays
         taken = {name: array for name, array in saved.items() if name in names}
-        # other events, or these as another version kept them: on which side they are is to be seen
+        # other events, or data of another version: their sides are determined again
         anew = self.events is not None and len(taken.get("hunt", ())) != len(state.hunt)
         if anew:
             taken.pop("hunt", None)
@@ -148,7 +148,7 @@ class Simulation:
         self.before, self.iterations_before = state.control.copy(), int(state.iw[abi.ITERATIONS])
 
     def store_first(self, outputs: Outputs) -> None:
-        """Write the outputs up to where a run stands that was taken up: the loop writes those behind it."""
+        """Write the outputs up to the time of a continued run: the loop writes those behind it."""
         tiny = 0.0 if self.spec.adaptive else abi.SAME_TIME * self.setup.step
         control, out = self.state.control, 0
         while out < len(outputs.times) and outputs.times[out] <= self.state.clock[abi.TIME] + tiny:
@@ -159,23 +159,23 @@ class Simulation:
     def enter(
         self, outputs: Outputs, until: float | None = None, pause: float = np.inf, most: float | None = None
     ) -> int:
-        """Go on; return how the loop ended, see `symgen.runtime.abi`.
+        """Continue; return the end code of the loop, see `symgen.runtime.abi`.
 
         Parameters
         ----------
         outputs : Outputs
-            From `outputs`; what is written already is left as it is.
+            From `outputs`; values already written are left unchanged.
         until : float, optional
             End [s]; that of the run by default.
         pause : float
-            The loop is left (`PAUSED`) when so many steps of the run have been accepted.
+            Number of accepted steps of the run at which the loop is left (`PAUSED`).
         most : float, optional
-            Attempts at an adaptive step that the run may have taken then; as many as it has been told by default.
+            Limit of attempts at an adaptive step until then; that of the run by default.
 
         Raises
         ------
         InputError
-            If an event asks for velocities that the constraints do not allow.
+            If an event sets velocities that the constraints do not allow.
         """
         until, most = self.spec.until if until is None else until, self.span.most if most is None else most
         entry = self._prepared[1] if self._prepared is not None and self._prepared[0] is outputs else None
@@ -192,14 +192,14 @@ class Simulation:
                 return ended
 
     def run(self, outputs: Outputs, stop: Callable[[], bool], steps: float) -> int:
-        """Go to the end as `enter` does; whether to stop (`STOPPED`) is looked at after so many further steps each."""
+        """Run to the end as `enter` does; call `stop` after every `steps` steps, to end as `STOPPED`."""
         while (code := self.enter(outputs, pause=self.state.control[abi.STEPS] + steps)) == abi.PAUSED:
             if stop():
                 return abi.STOPPED
         return code
 
     def held(self, times: Array) -> tuple[tuple[float, Array], ...]:
-        """Return the parameters of earlier parts of the run, each with the last time that it holds at.
+        """Return the parameters of earlier parts of the run, each with the last time at which it holds.
 
         Parameters
         ----------
@@ -222,29 +222,29 @@ class Simulation:
         return tuple(pieces)
 
     def is_ahead(self, moment: float) -> bool:
-        """Whether a time is far enough from the present one for a step between the two."""
+        """Whether a time is far enough from the present one for a step between them."""
         return moment - self._clock[abi.TIME] > self.same(moment)
 
     def same(self, moment: float) -> float:
-        """Return how far times may be apart that count as the same near a time [s]."""
+        """Return the difference up to which times near a time count as the same [s]."""
         if self.spec.adaptive:
             return abi.RESOLVED_TIME * max(abs(moment), abs(self._clock[abi.TIME]))
         return abi.SAME_TIME * self.span.step
 
     def divide(self, spec: RunSpec) -> None:
-        """Have the run stop where `spec` says, with the values of all stops that are behind."""
+        """Set the stops of the run to those of `spec`, with the values of all stops passed."""
         if spec.stops is not self._stops:
             self._stop_at(spec.stops)
         self.spec, now, control = spec, self._clock[abi.TIME], self.state.control
         behind = [stop for stop in spec.stops if not self.is_ahead(stop.t)]
         control[abi.PASSED] = len(behind)
         self.changes.give({name: value for stop in behind for name, value in stop.values.items()})
-        # a kink changes no number, but what multistep schemes know of the past ends there as well
+        # a kink changes no number, but the history of multistep schemes ends there as well
         if behind and now - behind[-1].t <= self.same(now) and control[abi.BEGUN] == 1:
             control[abi.BEGUN] = abi.AFRESH
 
     def _stop_at(self, stops: tuple[Stop, ...]) -> None:
-        """Enter the loop that goes from stop to stop where there are any."""
+        """Select the loop from stop to stop if any stops exist."""
         self._stops, (self._model, loop) = stops, self._whole
         if stops:
             from symgen.runtime.stopping import with_stops, with_table
@@ -255,9 +255,9 @@ class Simulation:
         self.__dict__.pop("_entry", None)
 
     def go(self, until: float, pause: float, most: float | None = None) -> int:
-        """Go on as `enter` does, without outputs and by the shortest way: what makes a step from Python cheap.
+        """Continue as `enter` does, without outputs and by the shortest way, so that a step from Python is cheap.
 
-        What the run keeps before is remembered, see `go_back`.
+        The state before is saved, see `go_back`.
         """
         entry, snapshot = self._entry, self.snapshot
         if entry is None or not self.direct:
@@ -277,13 +277,13 @@ class Simulation:
                 return ended
 
     def go_back(self) -> None:
-        """Take up what was remembered when `go` was called last, or entered its loop after an event."""
+        """Restore the state saved when `go` was last called, or entered its loop after an event."""
         self.scheme = self.snapshot.put_back(self.scheme)
         if self.events is not None:
             self.events.forget_after(self._clock[abi.TIME])
 
     def _ended(self, code: int, until: float) -> int | None:
-        """Do what a loop asks for; return how it ended, None where it is to be entered again."""
+        """Serve the request of a loop; return its end code, None where it has to be entered again."""
         if self.events is not None:
             state: Any = self.state  # a `HuntingState` where there are events
             events = self.events.take(state)
@@ -293,7 +293,7 @@ class Simulation:
         if code == abi.NO_ROOM:
             self.scheme = _with_room(self.scheme)
         elif code == abi.CHOOSE:
-            self._choose_anew(self.state.w)  # what a scheme knows of its matrices depends on the rows
+            self._choose_anew(self.state.w)  # the matrices of a scheme depend on the rows
             self.scheme = self.integrator.setup(self.compiled, self.spec, self.state.w).scheme
         elif code == abi.CHANGED:
             try:
@@ -322,13 +322,13 @@ class Simulation:
 
     @cached_property
     def _copied(self) -> bool:
-        """Whether all that is remembered stands in one stop of memory, but for passages."""
+        """Whether all saved data but passages are in one block of memory."""
         return not memory_fields(self.scheme)
 
     def warm(self, outputs: Outputs) -> None:
-        """Compile everything, so that clocks see loops alone.
+        """Compile everything, so that only loops are timed.
 
-        Where the loop cannot be entered by its address, by a run that is told to stop before its first step.
+        A loop that cannot be entered by its address is run with the stop flag set before its first step.
         """
         from symgen.runtime.entry import entry_of
 
@@ -342,13 +342,13 @@ class Simulation:
         self.restore(saved)
 
     def save(self) -> dict[str, NDArray[Any]]:
-        """Return copies of all arrays that the run keeps, by name."""
+        """Return copies of all arrays of the run's state, by name."""
         arrays = {name: array for name, array in self.state._asdict().items() if name != "room"}
         arrays |= {name: getattr(self.scheme, name) for name in memory_fields(self.scheme)}
         return {name: array.copy() for name, array in arrays.items()}
 
     def restore(self, saved: Mapping[str, NDArray[Any]], spec: RunSpec | None = None) -> None:
-        """Take up what `save` returned, for the same model, method, integrator, limits and events, with other stops."""
+        """Restore the result of `save`, for the same model, method, integrator, limits and events, with other stops."""
         for name, array in saved.items():
             if hasattr(self.state, name):
                 getattr(self.state, name)[:] = array

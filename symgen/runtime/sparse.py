@@ -1,9 +1,9 @@
 """Sparse elimination of Newton matrices: one pattern a run, columns in a fixed order, pivots kept while they are good.
 
-A *plan* (`symgen.runtime.newton`) holds the pattern, and how its entries are put together from what ``tangent`` wrote.
+A *plan* (`symgen.runtime.newton`) holds the pattern, and how its entries are assembled from the output of ``tangent``.
 The first factorisation is left-looking (Gilbert, Peierls, SIAM J. Sci. Stat. Comput. 9, 1988): each column is solved
 with those before it, and its pivot is the diagonal entry unless that is much smaller than the largest one. Later
-matrices go through the same pattern and the same pivots without any search, until one of these has become small.
+matrices reuse the pattern and the pivots without a search, until a pivot has become small.
 """
 
 from __future__ import annotations
@@ -17,32 +17,32 @@ from numpy.typing import NDArray
 from symgen.runtime.bare import part
 from symgen.store.jit import jit
 
-#: Head of a plan: sizes, then where its parts begin.
+#: Head of a plan: sizes, then first indices of its parts.
 (
     SIZE,  # unknowns
     ENTRIES,  # structural entries of the matrix
-    TERMS,  # terms that entries are made of
+    TERMS,  # terms of entries
     PRODUCTS,
     TURNS,
     ROOM,  # room for entries of L and U
     FACTORISED,  # 1 if pivots of an earlier matrix can be tried
-    COLUMNS,  # where each column's entries begin, columns in the order of elimination
+    COLUMNS,  # first entry of each column, columns in the order of elimination
     ROWS,  # row of each entry
     PLACES,  # position of that row's pivot
     ORDER,  # column at each position
     SLOTS,  # entry of each term
     FACTORS,  # coefficient of each term
     SOURCES,  # source of each term
-    TARGETS,  # source that a product is added to
+    TARGETS,  # source to which a product is added
     LEFT,
     RIGHT,
-    TRIPLES,  # sources of a rotation vector's entries of one row, and where its body's velocities begin
+    TRIPLES,  # sources of a rotation vector's entries of one row, and first index of its body's velocities
     OWN,  # at each position the entry of an acceleration in its own equation, or else `OTHER` or `MULTIPLIER`
     WORK,  # working memory: nine times `SIZE`
     POOL,  # positions of the entries of L and U
 ) = range(21)
 N_HEAD = 21
-#: Parts of the working memory, each as long as there are unknowns.
+#: Parts of the working memory, each as long as the number of unknowns.
 _PLACE, _UPPER, _LOWER, _END, _REACHED, _MARK, _STACK, _NEXT, _PIVOT_ROW = range(9)
 
 #: In place of the entry of an acceleration: an unknown of another kind.
@@ -50,17 +50,17 @@ OTHER, MULTIPLIER = -1, -2
 #: In place of `FACTORISED`: there was no room for the factors.
 _TOO_SMALL = -1
 #: A pivot below this belongs to a dependent equation (rows and columns are scaled to 1): its unknown is set to 0. For
-#: accelerations the limit is this part of the mass.
+#: accelerations the limit is this fraction of the mass.
 SKIPPED = 1e-13
-#: The diagonal entry is the pivot if it is at least this part of the largest candidate: it keeps the fill low.
+#: The diagonal entry is the pivot if it is at least this fraction of the largest candidate, to keep the fill low.
 PREFERRED = 1e-3
-#: A pivot of an earlier matrix is good while it is at least this part of the largest candidate.
+#: A pivot of an earlier matrix is good while it is at least this fraction of the largest candidate.
 THRESHOLD = 1e-4
 
 
 @jit()
 def multiply(plan: Any, sources: Any) -> None:
-    """Fill the sources that are sums of products of others: derivatives along bodies' motions, and D^T D."""
+    """Set the sources that are sums of products of others: derivatives along bodies' motions, and D^T D."""
     targets, left = part(plan, plan[TARGETS], plan[PRODUCTS]), part(plan, plan[LEFT], plan[PRODUCTS])
     right = part(plan, plan[RIGHT], plan[PRODUCTS])
     for i in range(plan[PRODUCTS]):
@@ -71,7 +71,7 @@ def multiply(plan: Any, sources: Any) -> None:
 
 @jit()
 def turn_rows(plan: Any, sources: Any, delta: Any) -> None:
-    """Turn derivatives by a rotation into derivatives by the rotation vector d that leads there.
+    """Convert derivatives by a rotation to derivatives by its rotation vector d.
 
     Where d grows by e, the body turns by T e more, ``T = 1 - d x / 2 + d x d x / 6`` up to terms of third order.
 
@@ -103,7 +103,7 @@ def assemble(plan: Any, sources: Any, coefficients: Any, numbers: Any) -> None:
     plan : Array of int64
         See `symgen.runtime.newton`.
     sources : Array
-        What ``tangent`` wrote for each stage, then products, then 1.
+        Output of ``tangent`` for each stage, then products, then 1.
     coefficients : Array
         Factors of the loop: 1, multiples of the step.
     numbers : Array
@@ -119,7 +119,7 @@ def assemble(plan: Any, sources: Any, coefficients: Any, numbers: Any) -> None:
 
 @jit()
 def prepare(plan: Any, sources: Any, coefficients: Any, numbers: Any) -> int:
-    """Put a matrix together and factorise it; return the pivots that were skipped, -1 where `enlarged` has to help."""
+    """Assemble and factorise a matrix; return the number of skipped pivots, -1 where `enlarged` has to be called."""
     assemble(plan, sources, coefficients, numbers)
     skipped = factorise(plan, numbers)
     if skipped < 0:
@@ -128,7 +128,7 @@ def prepare(plan: Any, sources: Any, coefficients: Any, numbers: Any) -> int:
 
 
 def enlarged(plan: NDArray[np.int64], numbers: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Return a plan and its numbers with room for twice the factors, where `prepare` found too little."""
+    """Return a plan and its numbers with twice the room for factors, where `prepare` had too little."""
     if plan[FACTORISED] != _TOO_SMALL:
         return plan, numbers
     more = int(plan[ROOM])  # factors stand at the end of both
@@ -139,7 +139,7 @@ def enlarged(plan: NDArray[np.int64], numbers: NDArray[np.float64]) -> tuple[NDA
 
 @jit()
 def factorise(plan: Any, numbers: Any) -> int:
-    """Factorise what `assemble` left.
+    """Factorise the matrix of `assemble`.
 
     Parameters
     ----------
@@ -149,15 +149,15 @@ def factorise(plan: Any, numbers: Any) -> int:
     Returns
     -------
     int
-        Pivots that were skipped; -1 if there is no room.
+        Number of skipped pivots; -1 without room.
 
     Notes
     -----
     The largest mass is the unit of multipliers, so that results do not depend on the unit of mass. Rows, then columns
     are scaled so that the largest entry of each is 1. A pivot below `SKIPPED` then belongs to a dependent equation: its
     unknown is set to 0 by `solve`, and its row waits for another column. Without scales of columns, unknowns that stiff
-    springs dwarf, multipliers first of all, would be taken for undetermined ones. The pivot of an acceleration is
-    compared with its own mass, as a light body beside a heavy one is not dependent.
+    springs dwarf, above all multipliers, would be taken for undetermined ones. The pivot of an acceleration is compared
+    with its own mass, as a light body next to a heavy one is not dependent.
     """
     n, size = plan[SIZE], plan[ENTRIES]
     columns, rows, work = part(plan, plan[COLUMNS], n + 1), part(plan, plan[ROWS], size), plan[WORK]
@@ -176,7 +176,7 @@ def factorise(plan: Any, numbers: Any) -> int:
             entry = abs(values[i])
             row_scale[rows[i]] = max(row_scale[rows[i]], entry)
             total += entry
-    if not math.isfinite(total):  # nothing is known of the solution, and nothing shall be made up
+    if not math.isfinite(total):  # the solution is unknown: return no made-up one
         inverse = part(numbers, size + 2 * n, n)
         for k in range(n):
             inverse[k] = math.nan
@@ -204,7 +204,7 @@ def factorise(plan: Any, numbers: Any) -> int:
 
 @jit()
 def factorise_again(plan: Any, numbers: Any) -> bool:
-    """Factorise with the pivots and the pattern that `factorise_anew` found; return whether they are good enough."""
+    """Factorise with the pivots and the pattern of `factorise_anew`; return whether they are good enough."""
     n, size, work, room = plan[SIZE], plan[ENTRIES], plan[WORK], plan[ROOM]
     columns, places = part(plan, plan[COLUMNS], n + 1), part(plan, plan[PLACES], size)
     upper, lower = part(plan, work + _UPPER * n, n), part(plan, work + _LOWER * n, n)
@@ -238,7 +238,7 @@ def factorise_again(plan: Any, numbers: Any) -> bool:
 
 @jit()
 def factorise_anew(plan: Any, numbers: Any) -> int:
-    """Factorise with a search for pivots; return the skipped ones, or -1 if there is no room."""
+    """Factorise with a search for pivots; return the number of skipped ones, -1 without room."""
     n, size, work, room = plan[SIZE], plan[ENTRIES], plan[WORK], plan[ROOM]
     columns, rows = part(plan, plan[COLUMNS], n + 1), part(plan, plan[ROWS], size)
     order, places = part(plan, plan[ORDER], n), part(plan, plan[PLACES], size)
@@ -316,12 +316,12 @@ def factorise_anew(plan: Any, numbers: Any) -> int:
 
 @jit()
 def reach(plan: Any, k: int) -> int:
-    """Find the rows in which column `k` has entries once earlier columns are taken off, in an order to do that in.
+    """Find the rows in which column `k` has entries after the elimination of earlier columns, in its order.
 
     Returns
     -------
     int
-        Where the rows begin in the section ``found``: the row of an earlier pivot stands before all rows it acts on.
+        First index of the rows in the section ``found``: the row of an earlier pivot precedes all rows it acts on.
     """
     n, work = plan[SIZE], plan[WORK]
     columns, rows, positions = plan[COLUMNS], plan[ROWS], plan[POOL]
@@ -361,7 +361,7 @@ def reach(plan: Any, k: int) -> int:
 
 @jit()
 def solve(plan: Any, numbers: Any, right: Any, x: Any) -> None:
-    """Solve with the factors that `factorise` left; `right` and `x` are different arrays."""
+    """Solve with the factors of `factorise`; `right` and `x` are different arrays."""
     n, size, work, room = plan[SIZE], plan[ENTRIES], plan[WORK], plan[ROOM]
     upper, lower = part(plan, work + _UPPER * n, n), part(plan, work + _LOWER * n, n)
     end, pivot_row = part(plan, work + _END * n, n), part(plan, work + _PIVOT_ROW * n, n)

@@ -1,4 +1,4 @@
-"""What the compiled functions of a start work on: the model's layout, an instant of a run, working memory."""
+"""Records of the compiled functions of a start: the model's layout, an instant of a run, working memory."""
 
 from __future__ import annotations
 
@@ -14,37 +14,37 @@ _F, _N, _A, _I = types.float64, types.int64, types.float64[::1], types.int64[::1
 
 
 def record_type(name: str, module: str, *kinds: tuple[str, types.Kind]) -> types.RecordType:
-    """Return the type that compiled code has for a named tuple; the class of the tuple is its `made`.
+    """Return the type of a named tuple in compiled code; the class of the tuple is its `made`.
 
     Parameters
     ----------
     name, module : str
         Of the class.
     *kinds : (str, Kind)
-        Names of fields, and their type.
+        Names and type of fields.
     """
     fields = [(field, kind) for names, kind in kinds for field in names.split()]
     names = [field for field, _ in fields]
     return types.RecordType(tuple(kind for _, kind in fields), namedtuple(name, names, module=module))
 
 
-#: What the functions of a start have to know about a model.
+#: Layout of a model for the functions of a start.
 #: - t: Time of the start [s].
 #: - nq, nv, ny, m, windings: Coordinates, velocities, length of the state, constraint rows, angles whose turns are
 #:   counted.
-#: - sparse, ask_light: 1 where ``spread`` gives the changes that are shortest in the metric of the gauge; where it
-#:   shall be said whether bodies are too light.
-#: - mass, residual, nu, jacobian, pivot, mask, change, gauge, row_weight: Where these sections of w begin.
+#: - sparse, ask_light: 1 where ``spread`` computes the shortest changes in the metric of the gauge; where too light
+#:   bodies are reported.
+#: - mass, residual, nu, jacobian, pivot, mask, change, gauge, row_weight: First indices of these sections of w.
 #: - entries (shape (3 k,)): (row, column, slot or -1) of D's structural entries.
 #: - constants (shape (k,)): Their values where they have no slot.
-#: - massless, unchanged, fixed (shape (nv,)): 1 where a mass of 0 is described; where a velocity may not change;
+#: - massless, unchanged, fixed (shape (nv,)): 1 where a mass of 0 is described; where a velocity must not change;
 #:   where the coordinate that it changes stays as described.
-#: - held (shape (2 h,)): (coordinate, velocity) of each coordinate that is held.
+#: - held (shape (2 h,)): (coordinate, velocity) of each held coordinate.
 #: - rows (shape (2 m,)): (joint, 0 for a row that is an angle or a number) of each row.
 #: - alone (shape (m,)): 1 for rows that are never left out, see `symgen.runtime.compiled.ModelInfo`.
 #: - spin (shape (nv,)): The body's first angular velocity for an angular velocity, -1 for others.
 #: - lengths (shape (nq,)): 1 for coordinates that are lengths, else 0.
-#: - branches (shape (windings,)): Angles whose turns are counted as they are known to be; nan where turns are chosen.
+#: - branches (shape (windings,)): Known values of angles whose turns are counted; nan where turns are chosen.
 LAYOUT = record_type(
     "Layout",
     __name__,
@@ -59,7 +59,7 @@ LAYOUT = record_type(
 Layout: Any = LAYOUT.constructor
 
 
-#: A state y, prepared parameters p and scratch w: what emitted functions take.
+#: Arguments of emitted functions: a state y, prepared parameters p and scratch w.
 INSTANT = record_type("Instant", __name__, ("y p w", _A))
 Instant: Any = INSTANT.constructor
 
@@ -73,7 +73,7 @@ StartConditions: Any = START_CONDITIONS.constructor
 
 
 class Closing(NamedTuple):
-    """What the pieces of a start call: emitted functions, and a solver of `symgen.runtime.start_solvers`.
+    """Functions called at a start: emitted ones, and a solver of `symgen.runtime.start_solvers`.
 
     ``geometry`` comes before ``measure`` and ``spread`` at the same state.
     """
@@ -88,7 +88,7 @@ class Closing(NamedTuple):
 #: Working memory, the same for all rows.
 #: - right, x, scale (shapes (m,), (nv,), (nv,)): A least-norm problem: D x = right with x / scale shortest; `right`
 #:   is overwritten.
-#: - first, direction (shapes (nq,), (ny,)): Coordinates from which others are reached; a direction, or rates.
+#: - first, direction (shapes (nq,), (ny,)): Coordinates at the beginning of a path; a direction, or rates.
 #: - y, w (shapes (ny,), (nw,)): Another state with its scratch.
 #: - numbers: Of the least-norm solver, or of the choice of turns.
 #: - order, counters: Order of rows; counters for calls of ``rhs``.
@@ -110,6 +110,5 @@ def new_work(layout: Layout, nw: int) -> Work:
 SOLVE = types.FunctionType(types.int64(abi.MOVE, LAYOUT, INSTANT, WORK))
 #: turns(geometry, measure, layout, now, work): see `symgen.runtime.start_solvers`.
 TURNS = types.FunctionType(types.int64(abi.MEASURE, abi.MEASURE, LAYOUT, INSTANT, WORK))
-#: A model as `symgen.runtime.starting.close_row` takes it: its layout, what a `Closing` is made of, the choice of turns
-#: and ``rhs``.
+#: A model for `symgen.runtime.starting.close_row`: its layout, functions of a `Closing`, choice of turns and ``rhs``.
 MODEL = types.RecordType((LAYOUT, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS))

@@ -1,14 +1,14 @@
-"""What starts solve: shortest changes, and whole turns of angles.
+"""Solvers of starts: shortest changes, and whole turns of angles.
 
 A shortest change is the x with D x = right whose x / scale is shortest, for D of any rank, dense or sparse. Its solvers
-take what ``geometry`` left in the scratch array, and weigh rows so that all have the unit of length.
+use the results of ``geometry`` in the scratch array, and weigh rows so that all have the unit of length.
 
-An angle between directions is known up to whole turns only, and positions do not say how many there were. The section
-``winding`` remembers the angle; ``measure``, called after ``geometry`` at the same state, follows it from state to
-now. At a start it begins on the branch of (-pi, pi] and is shifted here by whole turns.
+Directions determine the angle between them up to whole turns only. The section ``winding`` stores the angle;
+``measure``, called after ``geometry`` at the same state, follows it from state to now. At a start it begins on the
+branch of (-pi, pi] and is shifted here by whole turns.
 
-All are handed to the functions of a start as first-class functions: copied to every place they are called from, they
-would take seconds to compile.
+All are passed to the functions of a start as first-class functions: copied to every call, they would take seconds to
+compile.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def sparse_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
 def iterated_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
     """Set `work.x` by conjugate gradients on the normal equations (CGLS). `spread` is not used.
 
-    They begin at 0 and so never leave the row space.
+    The iteration begins at 0 and so never leaves the row space.
     """
     m, n, w, right, scale, x = layout.m, layout.nv, now.w, work.right, work.scale, work.x
     for j in range(n):
@@ -108,7 +108,7 @@ def multiply(layout: Any, w: Any, x: Any, result: Any) -> None:
 
 @exact()
 def _multiply_transposed(layout: Any, w: Any, y: Any, result: Any) -> None:
-    """Set `result` to D^T y, where y is of rows that are weighed."""
+    """Set `result` to D^T y, where y belongs to weighed rows."""
     for j in range(layout.nv):
         result[j] = 0.0
     for k in range(layout.constants.shape[0]):
@@ -131,7 +131,7 @@ def least_norm(a: Any, m: int, n: int, right: Any, x: Any, room: Any, order: Any
     room : Array
         Working memory for ``m * min(m, n) + m + n`` numbers.
     order : Array of int, shape (m,)
-        Order of the rows on return: those that count come first.
+        Order of the rows on return: independent ones first.
 
     Notes
     -----
@@ -173,7 +173,7 @@ def least_norm(a: Any, m: int, n: int, right: Any, x: Any, room: Any, order: Any
             total *= room[beta + k]
             for j in range(k, n):
                 a[other + j] -= total * a[row + j]
-        x[k] = diagonal  # kept here until the trapezoid is written out
+        x[k] = diagonal  # kept here until the trapezoid is written
         rank += 1
     for i in range(m):
         for k in range(min(i, rank)):
@@ -260,7 +260,7 @@ def choose_turns(geometry: Any, measure: Any, layout: Any, now: Any, work: Any) 
     for r in range(m):
         rest[r] = w[residual + r]
         finite = finite and math.isfinite(rest[r])
-    measure(layout.t, now.y, now.p, w)  # from here on the section of the residual may hold something else
+    measure(layout.t, now.y, now.p, w)  # from here on the section of the residual may hold other values
     for i in range(count):
         angle = w[abi.WINDING + i]
         w[abi.WINDING + i] = angle + math.tau
@@ -281,23 +281,23 @@ def choose_turns(geometry: Any, measure: Any, layout: Any, now: Any, work: Any) 
 
 @exact()
 def whole_turns(m: int, count: int, effects: Any, rest: Any, turns: int) -> None:
-    """Set how many turns to add to each angle.
+    """Set the number of turns to add to each angle.
 
     Parameters
     ----------
     m, count : int
         Rows and angles.
     effects : Array, shape (m * count + 2 * count + m,)
-        What one turn of each angle adds to the residual of each row, row by row; then room for the result.
+        Change of the residual of each row by one turn of each angle, row by row; then room for the result.
     rest : Array, shape (m,)
-        The residual without any; on return with them.
+        The residual without turns; on return with turns.
     turns : int
-        Where the result begins in `effects`.
+        First index of the result in `effects`.
 
     Notes
     -----
-    Rows are taken in turn, those first that leave a single angle to be shifted (drivers, then what gears tie to
-    them), among these the ones on which a turn has the largest effect. A row that leaves several is closed by the angle
+    Rows are taken in turn, first those with a single angle to shift (drivers, then angles that gears couple to them),
+    among these the ones on which a turn has the largest effect. A row with several such angles is closed by the one
     that closes it best, and the others stay free for further rows.
     """
     free, waiting = turns + count, turns + 2 * count
@@ -338,5 +338,5 @@ def whole_turns(m: int, count: int, effects: Any, rest: Any, turns: int) -> None
 
 @exact(TURNS.signature)
 def choose_no_turns(geometry: Any, measure: Any, layout: Any, now: Any, work: Any) -> int:
-    """Stand in for `choose_turns` where no angle counts turns, so that it is not compiled."""
+    """Replace `choose_turns` where no angle counts turns, so that it is not compiled."""
     return 0

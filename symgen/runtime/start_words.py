@@ -1,4 +1,4 @@
-"""What is said of a start: what was changed, what may have been meant otherwise, and why there is none."""
+"""Messages on a start: changed coordinates, probable mistakes, and reasons for a failure."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-#: Changed coordinates that a note tells one by one.
+#: Largest number of changed coordinates listed one by one.
 _LISTED = 6
-#: What helps where nothing is free.
+#: Advice where nothing is free.
 OTHER_WAYS = (
     "where drivers leave nothing free, the analysis kinematics finds other ways to close it from another `start`, and "
     "all coordinates of one of them can be held"
@@ -33,7 +33,7 @@ OTHER_WAYS = (
 
 @dataclass(frozen=True)
 class Change:
-    """A coordinate or given velocity that was changed to make a start consistent: as described, and at the start."""
+    """A coordinate or set velocity changed to make a start consistent: as described, and at the start."""
 
     name: str
     unit: str
@@ -53,7 +53,7 @@ def changes_of(info: ModelInfo, described: Array, y: Array, scales: Array) -> tu
 def warnings_of(
     changes: Sequence[Change], info: ModelInfo, length: float, moved: Iterable[tuple[str, float, str]] = ()
 ) -> tuple[str, ...]:
-    """Return a sentence where closing moved a body by a large part of the mechanism, or turned it far.
+    """Return a sentence if closing moved bodies by a large part of the mechanism, or turned them far.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def warnings_of(
     length : float
         The mechanism's [m].
     moved : iterable of (str, float, str)
-        Further points and angles of bodies: name, by how much, and its unit.
+        Further points and angles of bodies: name, change, and its unit.
     """
     names = {quantity.name for quantity in info.coordinates}
     limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED, "1": 0.5 * decisions.FAR_TURNED}
@@ -80,7 +80,7 @@ def warnings_of(
 
 
 def notes_of(held: Held, summary: Array, changes: Sequence[Change], info: ModelInfo) -> tuple[str, ...]:
-    """Return the changes, one sentence each; coordinates held at values of their own have another sentence."""
+    """Return the changes, one sentence each; held coordinates have another sentence."""
     notes = list[str]()
     names = {quantity.name for quantity in info.coordinates}
     positions = [change for change in changes if change.name in names]
@@ -106,14 +106,14 @@ def opposite(joint: str) -> str:
 
 
 def _listed(changes: Sequence[Change]) -> str:
-    """Return the first changes one by one, and how many more there are."""
+    """Return the first changes one by one, and the number of others."""
     first = fitting(len(changes), _LISTED)
     words = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:first])
     return words + (f"; and {len(changes) - first} more" if len(changes) > first else "")
 
 
 def _from_to(change: Change) -> str:
-    """Return both values with as many digits as tell them apart."""
+    """Return both values with enough digits to distinguish them."""
     for digits in range(6, 18):
         before, after = f"{change.before:.{digits}g}", f"{change.after:.{digits}g}"
         if before != after:
@@ -122,16 +122,16 @@ def _from_to(change: Change) -> str:
 
 
 def refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> AssemblyError | InputError:
-    """Return why a run has no start.
+    """Return the error of a run without a start.
 
     Parameters
     ----------
     summary : Array, shape (N_SUMMARY,)
-        What the start left; see `symgen.runtime.ensemble_abi`.
+        Summary of the start; see `symgen.runtime.ensemble_abi`.
     info : ModelInfo
         The model.
     held : Held, optional
-        What the start holds.
+        Held coordinates.
     """
     code, where, size = int(summary[e.START]), int(summary[e.START_WHERE]), float(summary[e.START_SIZE])
     if code == e.UNDEFINED:
@@ -165,7 +165,7 @@ def refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> Assemb
 
 
 def _stays_open(info: ModelInfo, held: Held, joint: str, size: float) -> AssemblyError:
-    """Return why there is no start where a joint stays open by a size, in the units of its rows."""
+    """Return the error where a joint stays open by a size, in the units of its rows."""
     units = " or ".join(dict.fromkeys(row.unit for row in info.rows if row.joint == joint))
     described = held.described(info)
     holds = [words for words in (held.positions(info), f"{described} as described" if described else "") if words]
@@ -181,7 +181,7 @@ def _stays_open(info: ModelInfo, held: Held, joint: str, size: float) -> Assembl
 
 
 def half_turn(info: ModelInfo, joint: str) -> AssemblyError:
-    """Return why there is no start where a joint holds a body the wrong way round."""
+    """Return the error where a joint holds a body the wrong way round."""
     return AssemblyError(
         f"{info.name}: joint '{joint}' closes half a turn from where its directions coincide, as that is "
         "nearer to the described start; describe how the bodies that it joins are turned",
@@ -190,7 +190,7 @@ def half_turn(info: ModelInfo, joint: str) -> AssemblyError:
 
 
 def turned_over(info: ModelInfo, spin: int) -> AssemblyError:
-    """Return why there is no start in joint coordinates where these turn a body over, one of those in `info.spins`."""
+    """Return the error where joint coordinates turn over a body, one of those in `info.spins`."""
     body = info.coordinates[info.spins[spin][0]].name.rpartition(".")[0]
     return AssemblyError(
         f"{info.name}: in joint coordinates '{body}' would start turned over, as directions of a joint that "
@@ -200,7 +200,7 @@ def turned_over(info: ModelInfo, spin: int) -> AssemblyError:
 
 
 def without_derivative(compiled: CompiledModel, q: Array, p: Array) -> AssemblyError | None:
-    """Return which joint has no derivative at the described start, where that is why there is none; p is prepared."""
+    """Return the error on a joint without derivative at the described start, None for others; p is prepared."""
     info = compiled.info
     y, w = np.zeros(info.ny), compiled.scratch()
     y[: info.nq] = q

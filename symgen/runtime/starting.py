@@ -1,7 +1,7 @@
-"""The one start: the state and the scratch of a run made consistent; of one run, or of many in a loop.
+"""The start of runs: a consistent state and scratch, of one run or of many in a loop.
 
 Single runs of large mechanisms and sweeps call the compiled functions, single runs of small mechanisms the same source
-as plain Python (`symgen.runtime.exact`). What cannot be closed is a code, not an error.
+as plain Python (`symgen.runtime.exact`). A start that cannot be closed is a code, not an error.
 """
 
 from __future__ import annotations
@@ -35,10 +35,10 @@ _HOLDING = types.RecordType((MODEL, abi.OBSERVE, JOINTS))
 def close_row(model: Any, now: Any, conditions: Any, work: Any) -> int:
     """Make the start of a run consistent.
 
-    Positions are closed by shortest changes from those described, those that are fixed staying where they are; then the
-    coordinates that are held go to their values in small steps, each closed by moving the others, so that the mechanism
-    keeps the branch it was described in. Where it does not get there, values with which everything is closed as it is
-    given are taken at once: all coordinates of a place that no way leads to, which may be that of another branch.
+    Positions are closed by shortest changes from those described, fixed ones staying the same; then the held
+    coordinates go to their values in small steps, each closed by moving the others, so that the mechanism keeps the
+    branch in which it was described. Where this fails, values with which all joints are closed already are taken at
+    once: all coordinates of a position that no path reaches, possibly one of another branch.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def close_row(model: Any, now: Any, conditions: Any, work: Any) -> int:
     Returns
     -------
     int
-        `ASSEMBLED`, or why there is no start; see `symgen.runtime.ensemble_abi`.
+        `ASSEMBLED`, or the code of a failure; see `symgen.runtime.ensemble_abi`.
     """
     (layout, geometry, measure, move, spread, solve, turns, rhs), observe, joints = model
     closing, y, w, summary = Closing(geometry, measure, move, spread, solve), now.y, now.w, conditions.summary
@@ -99,7 +99,7 @@ def close_row(model: Any, now: Any, conditions: Any, work: Any) -> int:
 
 @exact()
 def check_numbers(layout: Any, now: Any, summary: Any) -> int:
-    """Return whether numbers are finite and masses positive, those excepted that are described as 0."""
+    """Return whether numbers are finite and masses positive, except for those described as 0."""
     y, p, w, massless, finite = now.y, now.p, now.w, layout.massless, True
     for i in range(layout.nq):
         finite = finite and math.isfinite(y[i])
@@ -114,7 +114,7 @@ def check_numbers(layout: Any, now: Any, summary: Any) -> int:
 
 @exact()
 def _reach(closing: Any, layout: Any, now: Any, conditions: Any, work: Any, joints: Any, nothing: Any) -> int:
-    """Close the described positions, then positions with what is held on the way to its values."""
+    """Close the described positions, then positions on the path of held coordinates to their values."""
     y, first, scale, held, targets = now.y, work.first, work.scale, layout.held, conditions.targets
     h, values, strides, nw = layout.held.shape[0] // 2, joints.values.m - layout.m, 0, now.w.shape[0]
     of = part(joints.held, 0, values)
@@ -188,9 +188,9 @@ def _complete_with_rates(closing: Any, layout: Any, now: Any, goal: Any, work: A
 
 @exact()
 def _close_at_once(closing: Any, layout: Any, now: Any, conditions: Any, work: Any, nothing: Any) -> bool:
-    """Put held coordinates to their values at once; whether all is closed then, the others as they were described.
+    """Set held coordinates to their values at once; return whether all is closed then, with the others as described.
 
-    If not, the state is what it was.
+    If not, the state is not changed.
     """
     y, w, first, before = now.y, now.w, work.first, work.y
     for i in range(layout.nq):
@@ -219,16 +219,16 @@ def close_rows(model: Any, all_of_now: Any, all_conditions: Any, work: Any, sele
     model, work
         As for `close_row`.
     all_of_now, all_conditions : Instant, StartConditions
-        Of all rows, one behind the other.
+        Of all rows, one after the other.
     selected : Array of int
         Rows to work on.
     control : Array of int
-        What the watching thread shares.
+        Memory shared with the watching thread.
 
     Returns
     -------
     int
-        Rows that were worked on: all of them, unless the run was stopped.
+        Number of processed rows: all, unless the run was stopped.
     """
     (layout, geometry, measure, move, spread, solve, turns, rhs), observe, joints = model
     layout, joints, work = bare(layout), bare(joints), bare(work)
@@ -257,11 +257,11 @@ def prepare_rows(model: Any, law: Any, masses: Any, scratch: Any, ps: Any, ws: A
     model, law, masses : emitted functions
         ``prepare`` of both, and ``masses``.
     scratch : Array, shape (nw,)
-        What every row's scratch begins as.
+        Initial scratch of every row.
     ps, ws : Array
-        Parameters and scratch of all rows, one behind the other.
+        Parameters and scratch of all rows, one after the other.
     runs, selected : int, Array of int
-        How many rows there are, and which are filled.
+        Number of rows, and the rows to fill.
     """
     scratch, nw, n_p = bare(scratch), scratch.shape[0], ps.shape[0] // runs
     for s in range(selected.shape[0]):
@@ -276,11 +276,11 @@ def prepare_rows(model: Any, law: Any, masses: Any, scratch: Any, ps: Any, ws: A
 
 @exact(types.int64(types.float64, _A, _A, _A, _A, _A))
 def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
-    """Stand in for the emitted ``observe`` where no joint coordinate is held, so that it is not compiled."""
+    """Replace the emitted ``observe`` where no joint coordinate is held, so that it is not compiled."""
     return 0
 
 
 @exact(types.int64(types.float64, _A, _A, _A))
 def follow_nothing(t: float, y: Any, p: Any, w: Any) -> int:
-    """Stand in for the emitted ``measure`` where no angle counts turns, so that it is not compiled."""
+    """Replace the emitted ``measure`` where no angle counts turns, so that it is not compiled."""
     return 0

@@ -1,4 +1,4 @@
-"""The next step after an accepted or a refused one, by its error estimate; to some schemes these names mean others."""
+"""The next step after an accepted or a refused one, by its error estimate; some schemes replace these functions."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import Any
 from symgen.runtime import abi
 from symgen.runtime.records import Span
 
-#: Smallest change of a step after a refused attempt; smallest and largest one after an accepted one; error estimate
-#: that counts as none.
+#: Smallest factor of a step after a refused attempt; smallest and largest one after an accepted one; error estimate
+#: that counts as 0.
 SHRINK, SHRINK_ACCEPTED, GROW, FLOOR = 0.2, 0.2, 10.0, 1e-10
 
 
 def shrunk(span: Any, run: Any, error: float) -> float:
-    """Return the part of a refused step that is tried next, by its error over the tolerance."""
+    """Return the next step over a refused one, by its error over the tolerance."""
     return float(max(SHRINK, span.safety * error ** (-1.0 / run.control[abi.ORDER]))) if math.isfinite(error) else 0.1
 
 
@@ -23,14 +23,14 @@ def grown(span: Any, run: Any, h: float, error: float) -> float:
     clock = run.clock
     allowed = max(error, FLOOR) ** (-1.0 / run.control[abi.ORDER])
     grow = span.safety * allowed
-    if clock[abi.ALLOWED] > 0.0:  # errors change from step to step as they just did (Gustafsson 1994)
+    if clock[abi.ALLOWED] > 0.0:  # errors are expected to change as in the last step (Gustafsson 1994)
         grow *= min(1.0, h / clock[abi.STEP] * allowed / clock[abi.ALLOWED])
     clock[abi.ALLOWED] = allowed
     return float(min(GROW, max(SHRINK_ACCEPTED, grow)))
 
 
 def with_step(span: Any, step: float) -> Any:
-    """Return a span whose first step is given."""
+    """Return a span with this first step."""
     return Span(
         *(step, span.largest, span.until, span.end, span.duration, span.rtol, span.atol, span.relative),
         *(span.safety, span.most, span.pause),

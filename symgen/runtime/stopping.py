@@ -1,6 +1,6 @@
-"""The loop from stop to stop: parameters change there, and the scheme begins anew, without a return to Python.
+"""The loop from stop to stop, where parameters change and the scheme restarts without a return to Python.
 
-A loop around another one, which it enters for each part of a run by its address: one for each kind of loop, compiled
+It encloses another loop, which it enters for each part of a run by its address: one for each kind of loop, compiled
 when a run first has stops. Single runs, runs step by step and rows of sweeps enter it in place of the other.
 """
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.stops import Stop
 
-#: Numbers of `Stops.head`: the row that runs, and 1 where steps are adaptive.
+#: Numbers of `Stops.head`: the present row, and 1 where steps are adaptive.
 ROW, ADAPTIVE = range(2)
 _A, _K = types.float64[::1], types.int64[::1]
 
@@ -36,19 +36,19 @@ _A, _K = types.float64[::1], types.int64[::1]
 #: - rows (shape (rows + 1,)): First stop of each row.
 #: - times: Of stops, in order in each row [s].
 #: - changes (shape (stops + 1,)): First change of each stop.
-#: - places, values: Changes: an index in ``p``, and the number that stands there from then on.
+#: - places, values: Changes: an index in ``p``, and the value there from then on.
 STOPS = record_type("Stops", __name__, ("head rows", _K), ("times", _A), ("changes places", _K), ("values", _A))
 Stops: Any = STOPS.constructor
 
 
 def due(stops: Any, count: int) -> float:
-    """Return the time of stop number `count` of the row that runs [s]; infinity where there is none."""
+    """Return the time of stop number `count` of the present row [s]; infinity behind the last one."""
     at = stops.rows[stops.head[ROW]] + count
     return float(stops.times[at]) if at < stops.rows[stops.head[ROW] + 1] else math.inf
 
 
 def change(stops: Any, count: int, p: Any) -> bool:
-    """Put the values of stop number `count` into `p`; return whether any is another than before."""
+    """Write the values of stop number `count` to `p`; return whether any has changed."""
     at, other = stops.rows[stops.head[ROW]] + count, False
     for i in range(stops.changes[at], stops.changes[at + 1]):
         other = other or p[stops.places[i]] != stops.values[i]
@@ -65,7 +65,7 @@ def is_defined(p: Any) -> bool:
 
 
 def same(stops: Any, span: Any, t: float) -> float:
-    """Return how far times may be apart that count as the same near a time [s]."""
+    """Return the difference up to which times near a time count as the same [s]."""
     if stops.head[ADAPTIVE] != 0:
         return abi.RESOLVED_TIME * abs(t)
     return abi.SAME_TIME * float(span.step)
@@ -81,17 +81,17 @@ def until_stop(span: Any, until: float) -> Any:
 
 @jit(types.int64(_A))
 def by_caller(p: Any) -> int:
-    """Stand for ``prepare`` where that is plain Python, as of looped code: whoever enters the loop calls it."""
+    """Replace a ``prepare`` in plain Python, as of looped code: the caller of the loop calls that."""
     return 1
 
 
 def between_stops(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> int:
-    """Enter a loop for each part of a run, as it is entered for all.
+    """Enter a loop for each part of a run, as for a whole run.
 
     Parameters
     ----------
     model : tuple
-        What the loop takes first, `Stops`, the loop, and ``prepare`` of model and law.
+        First argument of the loop, `Stops`, the loop, and ``prepare`` of model and law.
     scheme, span, state, outputs
         As for the loop.
     """
@@ -107,7 +107,7 @@ def between_stops(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) 
             if code != abi.DONE or (begin > to and begin - now > same(stops, span, now)):
                 return int(code)
         control[abi.PASSED] += 1
-        # a kink changes no number, but what multistep schemes know of the past ends there as well
+        # a kink changes no number, but the history of multistep schemes ends there as well
         if control[abi.BEGUN] == 1:
             control[abi.BEGUN] = abi.AFRESH
         if change(stops, control[abi.PASSED] - 1, state.p):
@@ -124,7 +124,7 @@ _loops: dict[Any, Any] = {}
 
 
 def with_stops(loop: Any) -> Any:
-    """Return the loop that enters another one for each part of a run; made when it is first needed.
+    """Return the loop that enters another one for each part of a run, made at the first use.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ def with_table(
     compiled : CompiledModel
         Model and method.
     system, loop : tuple, compiled loop
-        The loop that is entered, and what it takes first.
+        First argument of the enclosed loop, and this loop.
     adaptive : bool
         Whether steps vary.
     rows : sequence of sequence of Stop

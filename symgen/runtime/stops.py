@@ -1,8 +1,8 @@
-"""Stops of a run: times known beforehand at which inputs and formulas jump or have kinks, and what inputs are then on.
+"""Stops of a run: foreseen times at which inputs and formulas jump or have kinks, and the values of inputs behind them.
 
-A run ends a step at each of these times and takes the values that hold behind it before it goes on, so that no step and
-no stage of one sees two sides of a jump. An error estimate sees a jump where stages of a step lie on both sides of it,
-and one between two stages, as a push that is shorter than a step, not at all.
+A run ends a step at each of these times and takes the values behind it before the next step, so that no step or stage
+sees both sides of a jump. An error estimate notices a jump only where stages of a step lie on both sides of it: a push
+shorter than a step may lie between two stages.
 """
 
 from __future__ import annotations
@@ -23,22 +23,22 @@ from symgen.errors import InputError
 from symgen.runtime.in_time import MOST_PIECES, InTime, line_of
 from symgen.vocabulary.expressions import names
 
-#: Jumps closer than this part of the run are one.
+#: Jumps closer than this fraction of the run are one.
 SAME = 1e-14
-#: So far beside a jump, as a part of the run, a step ends and another begins.
+#: Distance from a jump at which a step ends and another begins, as a fraction of the run.
 _BESIDE = 1e-12
 
 
 @dataclass(frozen=True)
 class Stop:
-    """A time at which a step of a run ends, and what holds from then on.
+    """A time at which a step of a run ends, and the values of inputs from then on.
 
     Attributes
     ----------
     t : float
         The time [s]; that of the first one is the start.
     values : mapping of str to float
-        Inputs that are others than before; at the first one all that vary.
+        Inputs that change; at the first one all that vary.
     """
 
     t: float
@@ -48,18 +48,18 @@ class Stop:
 def stops_of(
     driven: DrivenMechanism, values: Mapping[str, float], until: float, first: float = 0.0, behind: float = 0.0
 ) -> tuple[Stop, ...]:
-    """Return the stops of a motion from `first` to `until`, none where nothing jumps.
+    """Return the stops of a motion from `first` to `until`, empty without jumps.
 
     Parameters
     ----------
     driven : DrivenMechanism
-        What inputs are.
+        Mechanism and its inputs.
     values : mapping of str to float
         Of all parameters.
     until, first : float
-        End of the run, and its begin [s].
+        End of the run, and its beginning [s].
     behind : float
-        So far behind the end, as a part of it, jumps are looked for as well: data need not reach there.
+        Range behind the end, as a fraction of it, that is searched for jumps as well: data need not reach there.
 
     Raises
     ------
@@ -96,7 +96,7 @@ def stops_of(
 
 
 def merged(stops: tuple[Stop, ...], kinks: tuple[Stop, ...]) -> tuple[Stop, ...]:
-    """Return stops where numbers change together with those at which none does, one of each two at the same time."""
+    """Return stops with changes of numbers and stops without in one sequence, one of each two at the same time."""
     if not (stops and kinks):
         return stops or kinks
     result, apart = list[Stop](), SAME * kinks[-1].t
@@ -110,18 +110,18 @@ def merged(stops: tuple[Stop, ...], kinks: tuple[Stop, ...]) -> tuple[Stop, ...]
 
 @dataclass(frozen=True)
 class Foreseen:
-    """What formulas of a mechanism pass at times that are known beforehand; false where that is nothing.
+    """Foreseen discontinuities of the formulas of a mechanism; false without any.
 
-    The times depend on parameters: what was worked out last for some of them is remembered.
+    Their times depend on parameters: the latest result is remembered.
 
     Attributes
     ----------
     mechanism : Mechanism
-        Whose tables they may read.
+        Owner of the tables that formulas may read.
     kinks, sides : tuple of Jump
         From `symgen.describe.kinks.jumps_in_time`.
     latest : dict
-        The latest result, by what it depends on.
+        The latest result, by the values on which it depends.
     """
 
     mechanism: Mechanism
@@ -132,16 +132,16 @@ class Foreseen:
     )
 
     def __bool__(self) -> bool:
-        """Whether there is anything."""
+        """Whether formulas have such discontinuities."""
         return bool(self.kinks or self.sides)
 
     @cached_property
     def reads(self) -> frozenset[str]:
-        """What the times depend on: names of parameters, and t."""
+        """Names on which the times depend: parameters, and t."""
         return frozenset(name for jump in (*self.kinks, *self.sides) for name in names(jump.argument))
 
     def stops(self, values: Mapping[str, float], until: float) -> tuple[Stop, ...]:
-        """Return the stops of a run to `until` [s], at which no number changes; none where it is whole.
+        """Return the stops of a run to `until` [s], at which no number changes; empty for a run in one piece.
 
         Parameters
         ----------
@@ -153,15 +153,15 @@ class Foreseen:
         return self._stops(values, until)[0]
 
     def _stops(self, values: Mapping[str, float], until: float) -> tuple[tuple[Stop, ...], bool]:
-        """Return the stops, and whether these are all that formulas pass: of too many there are none."""
+        """Return the stops, and whether they are complete: too many are left out."""
         if not self:
             return (), True
         key = until, *(values[name] for name in sorted(self.reads & values.keys()))
         result = self.latest.get(key)
-        if result is None:  # runs that are compared, or of a sweep, often differ in nothing of that
+        if result is None:  # compared runs, or runs of a sweep, often agree in these values
             kinks, all_kinks = times_between(self.kinks, self.mechanism, values, until)
             sides, all_sides = times_between(self.sides, self.mechanism, values, until)
-            # a short part around each: no stage of those beside it is at the very time, which belongs to one side
+            # a short part around each: no stage of its neighbours is at the very time, which belongs to one side
             beside = (t + way * _BESIDE * until for t in sides for way in (-1.0, 1.0))
             times = sorted({*kinks, *(t for t in beside if 0.0 < t < until)})
             result = tuple(Stop(t, {}) for t in (0.0, *times)) if times else (), all_kinks and all_sides
@@ -170,14 +170,14 @@ class Foreseen:
         return result
 
     def missed(self, values: Mapping[str, float], until: float, step: float | None) -> list[str]:
-        """Return the sentence about what steps of a run may miss: constant ones what is shorter than one.
+        """Return the sentence about discontinuities that steps of a run may miss: constant ones miss shorter pieces.
 
         Parameters
         ----------
         values, until
             As for `stops`.
         step : float or None
-            The constant step [s]; none where steps are adaptive.
+            The constant step [s]; None where steps are adaptive.
         """
         if not self._stops(values, until)[1]:
             often = "formulas change, or pass points of tables, more often than can be distinguished"
@@ -196,7 +196,7 @@ class Foreseen:
 def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
     """Return the foreseen discontinuities of formulas of joints, forces and integrals of a mechanism, and of events.
 
-    An event that is a straight line in t is found wherever steps end; another one may come and go within a step.
+    Steps find an event that is a straight line in t wherever they end; another one may come and go within a step.
     """
     if not events:
         return Foreseen(mechanism, *_passed(mechanism))
@@ -224,9 +224,9 @@ def times_between(
     Parameters
     ----------
     jumps : sequence of Jump
-        From `symgen.describe.kinks`. What passes levels more often than can be separated is left out.
+        From `symgen.describe.kinks`. Formulas that pass levels too often to be separated are left out.
     mechanism : Mechanism
-        Whose tables they may read.
+        Owner of the tables that they may read.
     values : mapping of str to float
         Of all parameters.
     until : float
@@ -235,7 +235,7 @@ def times_between(
     Returns
     -------
     tuple of float
-        In order [s]; empty where they are more than `MOST_PIECES`.
+        In order [s]; empty if more than `MOST_PIECES`.
     bool
         Whether nothing was left out.
     """
@@ -253,12 +253,12 @@ def times_between(
 
 
 def _unrolled(jump: Jump, formulas: InTime, until: float) -> Jump:
-    """Return a jump with all the levels that repeat themselves where its argument is in a run.
+    """Return a jump with all periodic levels in the range of its argument in a run.
 
     Raises
     ------
     InputError
-        If they are too many.
+        If the levels are too many.
     """
     if jump.period == 0.0:
         return jump

@@ -1,4 +1,4 @@
-"""Switching functions in a bracket: the cubic through values and slopes at its ends, and where to look next."""
+"""Switching functions in a bracket: the cubic through values and slopes at its ends, and the next point to try."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ from symgen.runtime.search_records import (
 from symgen.store.emitted import plain
 
 A = Any
-#: Iterations for the root of a cubic, most of which halve a part at worst.
+#: Iterations for the root of a cubic, at worst mostly bisections.
 _ITERATIONS = 60
-#: What is below this part of g at both ends is rounding.
+#: Values below this fraction of g at both ends are rounding.
 _ROUNDING = 1e-14
-#: A search ends in a bracket that is so many times as wide each time that the root seems to be at an end of it.
+#: Factor by which the final bracket grows each time that the root seems to be at an end of it.
 _WIDER = 8.0
-#: Attempts at extrema in a bracket, at most.
+#: Largest number of attempts at extrema in a bracket.
 _MOST_PROBES = 12
 
 
@@ -48,7 +48,7 @@ def cubic(g0: float, d0: float, g1: float, d1: float, x: float) -> float:
 
 @plain
 def extremum(g0: float, d0: float, g1: float, d1: float, which: int) -> float:
-    """Return where the cubic has its first or second extremum inside (0, 1), 2 where it has none."""
+    """Return the position of the first or second extremum of the cubic inside (0, 1), 2 for no extremum."""
     rise = g1 - g0
     c, b, a = d0, 3.0 * rise - 2.0 * d0 - d1, 3.0 * (d0 + d1 - 2.0 * rise)  # a x^2 + 2 b x + c
     square = b * b - a * c
@@ -64,13 +64,13 @@ def extremum(g0: float, d0: float, g1: float, d1: float, which: int) -> float:
 
 @plain
 def side_of(g: float, before: float) -> float:
-    """Return the side that g is on, 1 or -1; that of before where g is 0 or no number."""
+    """Return the side of g, 1 or -1; that of before where g is 0 or nan."""
     return 1.0 if g > 0.0 else -1.0 if g < 0.0 else before
 
 
 @plain
 def is_sought(direction: float, before: float, after: float) -> int:
-    """Return 1 where a change of sides is in the direction that is sought, else 0."""
+    """Return 1 where a change of sides is in the sought direction, else 0."""
     return 1 if before != after and (direction == 0.0 or direction == after) else 0
 
 
@@ -82,7 +82,7 @@ def is_finite(x: float) -> int:
 
 @plain
 def root_between(g0: float, d0: float, g1: float, d1: float, side: float, low: float, high: float) -> float:
-    """Return where the cubic leaves a side between two of its extrema: Newton's iteration, halves where it strays."""
+    """Return the root of the cubic between two extrema, by Newton's iteration, or bisection where that leaves them."""
     rise, x = g1 - g0, 0.5 * (low + high)
     for _ in range(_ITERATIONS):
         g = cubic(g0, d0, g1, d1, x)
@@ -100,7 +100,7 @@ def root_between(g0: float, d0: float, g1: float, d1: float, side: float, low: f
 
 @plain
 def first_root(g0: float, d0: float, g1: float, d1: float, side: float) -> float:
-    """Return where the cubic first leaves a side, g1 being on the other one; 0 where it has left it already."""
+    """Return the position where the cubic first leaves a side, g1 being on the other; 0 where it has left already."""
     low, below = 0.0, 1 if side * g0 >= 0.0 else 0
     for k in range(3):
         high = 1.0 if k == 2 else extremum(g0, d0, g1, d1, k)
@@ -115,10 +115,10 @@ def first_root(g0: float, d0: float, g1: float, d1: float, side: float) -> float
 
 @plain
 def dip(g0: float, d0: float, g1: float, d1: float, side: float) -> float:
-    """Return where g may be on the other side for a while although both ends are on this one; 2 where it is not.
+    """Return a position where g may be on the other side although both ends are on this one; 2 where it is not.
 
-    That is at the extremum of the cubic, or, as conditions of several parts have corners, where tangents meet: at the
-    first of the two, as what is behind it is looked at again.
+    It is the extremum of the cubic, or, as conditions of several parts have corners, the intersection of the tangents:
+    the first of the two, as the rest is examined again.
     """
     if not (side * d0 < 0.0 and side * d1 > 0.0):
         return 2.0
@@ -131,16 +131,16 @@ def dip(g0: float, d0: float, g1: float, d1: float, side: float) -> float:
 
 @plain
 def passes(hunt: A, n: int, k: int, column: int) -> int:
-    """Return 1 where a function changes sides, as is sought, between the bracket's beginning and a column; else 0."""
+    """Return 1 where a function changes sides as sought between the bracket's beginning and a column, else 0."""
     side = hunt[N_HEAD + LOCAL * n + k]
     return int(is_sought(hunt[N_HEAD + DIRECTION * n + k], side, side_of(hunt[N_HEAD + column * n + k], side)))
 
 
 @plain
 def beyond_low(hunt: A, n: int, k: int, otherwise: float) -> float:
-    """Return the part of the bracket at which g leaves its side, by what is known before the bracket alone.
+    """Return the fraction of the bracket at which g leaves its side, by values and rates up to its beginning.
 
-    Behind a jump, rates at the end of the bracket are others.
+    Behind a jump, rates at the end of the bracket are different.
     """
     at, low, width = N_HEAD, hunt[LOW], hunt[HIGH] - hunt[LOW]
     g, d, bent = hunt[at + G_LOW * n + k], hunt[at + D_LOW * n + k], 0.0
@@ -156,7 +156,7 @@ def beyond_low(hunt: A, n: int, k: int, otherwise: float) -> float:
 
 @plain
 def candidate(hunt: A, n: int) -> float:
-    """Return where to look next for the first change of sides in a bracket."""
+    """Return the next point to try for the first change of sides in a bracket."""
     at = N_HEAD
     low, high, rounds = hunt[LOW], hunt[HIGH], int(hunt[ROUNDS])
     width = high - low
@@ -175,20 +175,20 @@ def candidate(hunt: A, n: int) -> float:
                 root = beyond_low(hunt, n, k, root)
             x = min(x, root)
     x = low + x * width
-    # a little beyond the root, seen from the nearer end, so that the bracket has it between two near ends
+    # a little beyond the root, from the nearer end, so that the root lies between two near ends
     ahead = 1 if x - low < high - x else 0
     distance = x - low if ahead == 1 else high - x
     beyond = distance * min(0.1, math.sqrt(distance / hunt[WHOLE])) if rounds > 0 else 0.0
     x += beyond if ahead == 1 else -beyond
     least = 0.5 * hunt[BLUR]
-    if distance < least:  # at the end of the bracket: rounding of g hides it in more time than time resolves
+    if distance < least:  # at the end of the bracket: rounding of g hides it for longer than the resolution of time
         hunt[BLUR] *= _WIDER
     return float(min(max(x, low + least), high - least))
 
 
 @plain
 def concealed(hunt: A, n: int) -> float:
-    """Return where in a bracket to look for events that its end does not show; its end where there are none."""
+    """Return the point of a bracket to try for events that its end does not show; its end without such events."""
     at = N_HEAD
     low, high = hunt[LOW], hunt[HIGH]
     x = 2.0

@@ -1,8 +1,8 @@
-"""Switches and points of tables that the state passes: where an argument is, and steps that end at the next point.
+"""Switches and points of tables that the state passes: the interval of an argument, and steps to the next point.
 
-Where a table is read over the state, nobody knows beforehand when its next point is passed, but nearly, at an accepted
-state: with s, s' and s'' of the argument, at the root of s + s' h + s'' h^2 / 2 = point. Steps are made to end there.
-Steps to what formulas compare end shortly before it, so that none of their stages passes it.
+The time at which the state passes the next point of a table is not foreseen, but estimated at an accepted state: with
+s, s' and s'' of the argument, it is the root of s + s' h + s'' h^2 / 2 = point. Steps are made to end there. Steps to a
+switch of a formula end shortly before it, so that none of their stages passes it.
 """
 
 from __future__ import annotations
@@ -42,23 +42,23 @@ from symgen.runtime.switching import is_finite, passes
 from symgen.store.emitted import plain
 
 A = Any
-#: This part of the way between two points is none.
+#: Distances below this fraction of that between two points are 0.
 _REACHED = 1e-2
-#: No step ends at a point after less than this part of it: a rate that is nearly infinite says nothing.
+#: No step to a point is shorter than this fraction of the original step: a nearly infinite rate is no information.
 _LEAST = 1e-12
-#: The part of the way to a jump of a step whose stages do not pass it.
+#: Fraction of the distance to a jump for a step whose stages do not pass it.
 SHORT_OF = 0.99
-#: Rounding of a switch is passed at once in so many times what time resolves, however short steps are.
+#: Rounding of a switch is passed at once within this multiple of the resolution of time, however short steps are.
 _MOST = 1e6
 #: Beyond the points of a table.
 _FAR = 1e300
-#: A switch within this part of the size of its terms is on the side that it was on before.
+#: A switch below this fraction of the size of its terms keeps its side.
 _ROUNDING = 1e-13
 
 
 @plain
 def point(hunt: A, n: int, k: int, i: int) -> float:
-    """Return the point number i of the table of a function, counted on through its periods."""
+    """Return point number i of the table of a function, counted through its periods."""
     count, first = int(hunt[N_HEAD + POINTS * n + k]), int(hunt[TABLES] + hunt[N_HEAD + FIRST * n + k])
     period = hunt[N_HEAD + PERIOD * n + k]
     if period > 0.0:
@@ -73,7 +73,7 @@ def point(hunt: A, n: int, k: int, i: int) -> float:
 
 @plain
 def place_of(hunt: A, n: int, k: int, s: float, rate: float) -> int:
-    """Return the number of the point that the interval of s begins at; at a point itself, where s goes."""
+    """Return the number of the point at which the interval of s begins; at a point, that of the interval s enters."""
     count, first = int(hunt[N_HEAD + POINTS * n + k]), int(hunt[TABLES] + hunt[N_HEAD + FIRST * n + k])
     period, turns = hunt[N_HEAD + PERIOD * n + k], 0
     if period > 0.0:
@@ -90,7 +90,7 @@ def place_of(hunt: A, n: int, k: int, s: float, rate: float) -> int:
 
 @plain
 def is_met(hunt: A, n: int, k: int, i: int, s: float, rate: float, h: float) -> int:
-    """Return 1 where s is as good as at the point number i in a step of h, else 0."""
+    """Return 1 where s is practically at point number i in a step of h, else 0."""
     here = point(hunt, n, k, i)
     near = min(here - point(hunt, n, k, i - 1), point(hunt, n, k, i + 1) - here)
     return 1 if abs(here - s) <= min(_REACHED * near, hunt[N_HEAD + MISSED * n + k] * h * abs(rate)) else 0
@@ -98,7 +98,7 @@ def is_met(hunt: A, n: int, k: int, i: int, s: float, rate: float, h: float) -> 
 
 @plain
 def enter(hunt: A, n: int, k: int, h: float) -> int:
-    """Have the argument of a table be in the interval that it goes to where a step of h begins at a point."""
+    """Move the argument of a table to the interval that it enters where a step of h begins at a point."""
     s, rate = hunt[N_HEAD + ARGUMENT_START * n + k], hunt[N_HEAD + SLOPE_START * n + k]
     place = int(hunt[N_HEAD + PLACE * n + k])
     if rate > 0.0 and is_met(hunt, n, k, place + 1, s, rate, h) == 1:
@@ -110,7 +110,7 @@ def enter(hunt: A, n: int, k: int, h: float) -> int:
 
 @plain
 def face(hunt: A, n: int, k: int, h: float) -> int:
-    """Look at the point by which a step of h leaves its interval; at the one ahead where it stays."""
+    """Select the point at which a step of h leaves its interval; the one ahead where it stays."""
     enter(hunt, n, k, h)
     s, rate, place = hunt[N_HEAD + ARGUMENT * n + k], hunt[N_HEAD + SLOPE_START * n + k], hunt[N_HEAD + PLACE * n + k]
     low, high = point(hunt, n, k, int(place)), point(hunt, n, k, int(place) + 1)
@@ -124,35 +124,35 @@ def face(hunt: A, n: int, k: int, h: float) -> int:
 
 @plain
 def ends_at(hunt: A, n: int, k: int, h: float) -> int:
-    """Return 1 where a step of h that has passed the point that is looked at ends there as good as, else 0."""
+    """Return 1 where a step of h that has passed the examined point ends practically there, else 0."""
     i = int(hunt[N_HEAD + PLACE * n + k]) + (1 if hunt[N_HEAD + WAY * n + k] > 0.0 else 0)
     return int(is_met(hunt, n, k, i, hunt[N_HEAD + ARGUMENT * n + k], hunt[N_HEAD + SLOPE * n + k], h))
 
 
 @plain
 def short(hunt: A, n: int, k: int) -> float:
-    """Return the step below which it does not matter that some of its stages are behind a jump and others are not."""
+    """Return the step below which stages on both sides of a jump do not matter."""
     least = max(hunt[N_HEAD + MISSED * n + k] * hunt[REACH], 4.0 * hunt[RESOLUTION])
     return float(max(least, 2.0 * through(hunt, n, k)))
 
 
 @plain
 def through(hunt: A, n: int, k: int) -> float:
-    """Return the time in which a switch passes what counts as rounding of it."""
+    """Return the time in which a switch passes its rounding."""
     far, rate = 4.0 * hunt[N_HEAD + GRAIN * n + k], abs(hunt[N_HEAD + D_START * n + k])
     return float(far / rate) if far < rate * max(hunt[REACH], _MOST * hunt[RESOLUTION]) else 0.0
 
 
 @plain
 def curvature(rise: float, before: float, after: float, h: float) -> float:
-    """Return the rate of the rate at the end of a step: that of the cubic through values and rates at both ends."""
+    """Return the second derivative at the end of a step, of the cubic through values and rates at both ends."""
     curve = (2.0 * before + 4.0 * after - 6.0 * rise / h) / h
     return curve if is_finite(curve) == 1 else 0.0
 
 
 @plain
 def bend(hunt: A, n: int, k: int, g: float, d: float, h: float) -> int:
-    """Keep the rate of the rate at the end of a step of h."""
+    """Store the second derivative at the end of a step of h."""
     rise, before = g - hunt[N_HEAD + G_START * n + k], hunt[N_HEAD + D_START * n + k]
     hunt[N_HEAD + CURVE * n + k] = curvature(rise, before, d, h)
     return 0
@@ -160,7 +160,7 @@ def bend(hunt: A, n: int, k: int, g: float, d: float, h: float) -> int:
 
 @plain
 def arrive(hunt: A, n: int, k: int, h: float) -> int:
-    """Have the last state that was looked at, after a step of h (0: none), as the beginning of the next step."""
+    """Make the last examined state, after a step of h (0: no step), the beginning of the next step."""
     s, rate = hunt[N_HEAD + ARGUMENT * n + k], hunt[N_HEAD + SLOPE * n + k]
     rate = rate if is_finite(rate) == 1 else 0.0
     if is_finite(s) == 1:
@@ -175,7 +175,7 @@ def arrive(hunt: A, n: int, k: int, h: float) -> int:
 
 @plain
 def time_to(distance: float, rate: float, curve: float, turning: int) -> float:
-    """Return when s' t + s'' t^2 / 2 is a distance, with `turning` 1 behind where it turns round; 0 where never."""
+    """Return the time t of s' t + s'' t^2 / 2 = distance, with `turning` 1 the one after it turns; 0 where never."""
     square = rate * rate + 2.0 * curve * distance
     if not (abs(distance) < _FAR and square >= 0.0):
         return 0.0
@@ -189,7 +189,7 @@ def time_to(distance: float, rate: float, curve: float, turning: int) -> float:
 def aim(hunt: A, n: int, h: float) -> int:
     """Set the step to try in place of one of h: one that ends at the next point, or half-way to one that is near.
 
-    To a jump it goes nearly, so that no stage passes it, and then across by a step that is short.
+    It ends shortly before a jump, so that no stage passes it; a short step then crosses the jump.
     """
     first, least = 2.0 * h, _LEAST * h
     hunt[REACH] = h
@@ -225,7 +225,7 @@ def aim(hunt: A, n: int, h: float) -> int:
 
 @plain
 def switch_values(hunt: A, n: int, h: float, hunting: int) -> int:
-    """Have the values of switches as they count: those within rounding of zero, or undefined, as on the same side."""
+    """Set the effective values of switches: those within rounding of zero, or undefined, stay on the same side."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     for k in range(n):
         if hunt[at + ACTION * n + k] != float(ANEW):
@@ -247,7 +247,7 @@ def switch_values(hunt: A, n: int, h: float, hunting: int) -> int:
 
 @plain
 def ends_near(hunt: A, n: int) -> int:
-    """Return 1 where the bracket ends near enough behind everything that it passes, all of it switches, else 0."""
+    """Return 1 where the bracket passes only switches, and ends near enough behind all of them, else 0."""
     for k in range(n):
         if passes(hunt, n, k, G_HIGH) == 1:
             if hunt[N_HEAD + POINTS * n + k] > 0.0:
@@ -260,7 +260,7 @@ def ends_near(hunt: A, n: int) -> int:
 
 @plain
 def is_before(hunt: A, n: int) -> int:
-    """Return 1 where a jump is passed in the bracket, whose beginning is nearly there, but no event; else 0."""
+    """Return 1 where the bracket begins near a jump and passes it, but no event, else 0."""
     jumps = 0
     for k in range(n):
         if passes(hunt, n, k, G_HIGH) == 1:

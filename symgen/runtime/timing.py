@@ -1,4 +1,4 @@
-"""Run times that mean something: a warm-up, then the best of several, with the spread."""
+"""Reliable run times: a warm-up, then the best of several runs, with the spread."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from symgen.runtime.outcome import Outcome
 
-#: Timed runs at most, unless more are requested.
+#: Largest number of timed runs, unless more are requested.
 MOST = 30
 
 
 @dataclass(frozen=True)
 class Timed:
-    """Repeated runs, which are all the same but for the clock.
+    """Repeated runs, which differ in their times only.
 
     Attributes
     ----------
     outcome : Outcome
         Of the last whole run. `run_seconds` is the shortest of all; `interrupted` if the repetitions were cut short.
     seconds : tuple of float
-        Of every timed run [s]; empty where there were none beside a first one.
+        Of every timed run [s]; empty if only the first one ran.
     """
 
     outcome: Outcome
@@ -48,10 +48,9 @@ def timed(run: Callable[[], Outcome], repeat: int, at_least: float = 0.0) -> Tim
     run : callable
         Integrates, and returns the outcome.
     repeat : int
-        How many runs are timed; 1 runs once and has no warm-up.
+        Number of timed runs; 1 runs once and has no warm-up.
     at_least : float, optional
-        Seconds that the timed runs take together at least, so that short ones are repeated more often, up to `MOST`
-        times.
+        Least total of the timed runs [s], so that short ones are repeated more often, up to `MOST` times.
     """
     first = run()
     if repeat <= 1 or first.interrupted:
@@ -59,7 +58,7 @@ def timed(run: Callable[[], Outcome], repeat: int, at_least: float = 0.0) -> Tim
     outcome, seconds = first, list[float]()
     while len(seconds) < repeat or (sum(seconds) < at_least and len(seconds) < MOST):
         last = run()
-        if last.interrupted:  # an earlier run is whole, so nothing is lost but repetitions
+        if last.interrupted:  # an earlier run is whole: only repetitions are lost
             shortest = min([*seconds, first.run_seconds])
             return Timed(replace(outcome, run_seconds=shortest, interrupted=True), tuple(seconds))
         outcome = last

@@ -1,6 +1,6 @@
-"""The start of a run in joint coordinates from a consistent one of bodies: its state, scales, and rows without a say.
+"""The start of a run in joint coordinates from a consistent one of bodies: its state, scales, and redundant rows.
 
-Rows of loops may vanish as a whole there, for ever (a hinge beside another on one axis) or at a dead centre.
+Whole rows of loops may vanish there, permanently (two hinges on one axis) or at a dead centre.
 """
 
 from __future__ import annotations
@@ -27,27 +27,27 @@ Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 _I, _A = types.int64[::1], types.float64[::1]
 
-#: A product of Euler parameters below this is one of orientations more than 120 degrees apart.
+#: Orientations are more than 120 degrees apart where the product of their Euler parameters is below this.
 TURNED_OVER = 0.5
 
 
-#: Where what stands in rows of bodies and of a tree.
+#: Indices in rows of bodies and of a tree.
 #: - work, outs: Elements of a tree's state before the work; numbers that ``observe`` writes.
-#: - places (shape (2 work,)): Of each of these elements: 0 and where it stands in the state of bodies, or 1 and where
-#:   ``observe`` writes it.
-#: - windings, gauges, spins: Where angles that count turns, and squares of lengths, stand in the scratch of bodies;
-#:   -1 where that is 1. Where Euler parameters begin among the coordinates of bodies.
+#: - places (shape (2 work,)): Of each of these elements: 0 and its index in the state of bodies, or 1 and its index in
+#:   the output of ``observe``.
+#: - windings, gauges, spins: Indices of angles that count turns, and of squares of lengths, in the scratch of bodies;
+#:   -1 where that is 1. First indices of Euler parameters in the coordinates of bodies.
 _CARRYING = record_type("Carrying", __name__, ("work outs", types.int64), ("places windings gauges spins", _I))
 Carrying: Any = _CARRYING.constructor
 
 
-#: A tree with the ``observe`` of bodies, the function that carries its motion to bodies, and where what stands.
+#: A tree with the ``observe`` of bodies, the function that maps its motion to bodies, and the indices.
 _TREE = types.RecordType((MODEL, abi.OBSERVE, abi.OBSERVE, _CARRYING))
 
 
 @exact(types.int64(_TREE, INSTANT, INSTANT, WORK, _A, _A), once=True)
 def settle_row(tree: Any, of_bodies: Any, now: Any, work: Any, room: Any, alike: Any) -> int:
-    """Carry a start of bodies to the tree; return how many rows of its loops depend on others.
+    """Map a start of bodies to the tree; return the number of redundant rows of its loops.
 
     Parameters
     ----------
@@ -58,10 +58,10 @@ def settle_row(tree: Any, of_bodies: Any, now: Any, work: Any, room: Any, alike:
     work : Work
         Working memory of the tree's start.
     room : Array
-        Working memory: a state of bodies, what ``observe`` writes, and scratch.
+        Working memory: a state of bodies, the output of ``observe``, and scratch.
     alike : Array, shape (spins,)
-        Set to the products of Euler parameters as bodies were closed with those that the tree carries: rows of
-        absolute coordinates leave open to which side the axis of a joint points, a tree does not.
+        Set to the products of Euler parameters of closed bodies with those of the tree: rows of absolute coordinates
+        do not determine to which side the axis of a joint points, a tree does.
     """
     (layout, geometry, measure, move, spread, solve, _, _), observe, carry, carrying = tree
     (y, p, w), (y_t, p_t, w_t) = of_bodies, now
@@ -102,14 +102,14 @@ def settle_row(tree: Any, of_bodies: Any, now: Any, work: Any, room: Any, alike:
 def settle_rows(
     tree: Any, of_bodies: Any, of_tree: Any, work: Any, room: Any, alike: Any, selected: Any, control: Any
 ) -> int:
-    """Carry the starts of many rows, one behind the other, to the tree; return how many were worked on.
+    """Map the starts of many rows, one after the other, to the tree; return the number of processed rows.
 
     Parameters
     ----------
     tree, of_bodies, of_tree, work, room, alike
         As for `settle_row`.
     selected, control : Array of int
-        Rows to work on; what the watching thread shares.
+        Rows to work on; memory shared with the watching thread.
     """
     (layout, geometry, measure, move, spread, solve, turns, rhs), observe, carry, carrying = tree
     layout, carrying, work = bare(layout), bare(carrying), bare(work)
@@ -130,7 +130,7 @@ def settle_rows(
 
 @dataclass(frozen=True)
 class Carried:
-    """The one start of bodies as that of a tree.
+    """Mapping of a start of bodies to a tree.
 
     Attributes
     ----------
@@ -139,7 +139,7 @@ class Carried:
     assembly : Assembly
         Of the tree.
     carrying : Carrying
-        Where what stands.
+        Indices in rows of bodies and of the tree.
     """
 
     bodies: CompiledModel
@@ -147,14 +147,14 @@ class Carried:
     carrying: Carrying
 
     def settle(self, of_bodies: Instant, now: Instant, selected: Integers, control: Integers) -> Array:
-        """Carry the starts of the selected rows; return the products of Euler parameters, shape (rows, spins).
+        """Map the starts of the selected rows; return the products of Euler parameters, shape (rows, spins).
 
         Parameters
         ----------
         of_bodies, now : Instant
             Of all rows, one row of a matrix for each: the starts of bodies, and those of the tree, which are written.
         selected, control : Array of int
-            Rows to work on; what the watching thread shares.
+            Rows to work on; memory shared with the watching thread.
         """
         assembly, alike = self.assembly, np.zeros((len(now.y), len(self.carrying.spins)))
         flat, functions, form = assembly.prepare(now, selected, assembly.layout.m)

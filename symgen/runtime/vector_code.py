@@ -17,7 +17,7 @@ from symgen.runtime.padding import BLOCK
 F64, I32, I64 = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
 VECTOR, _INDICES, _PAIR = ir.VectorType(F64, BLOCK), ir.VectorType(I64, BLOCK), ir.VectorType(F64, 2)
 ZERO = ir.Constant(VECTOR, [0.0] * BLOCK)
-#: Up to this width numbers that were just written one by one are read one by one.
+#: Largest width up to which numbers just written one by one are read one by one.
 _SMALL = 4 * BLOCK
 #: Multiplication and addition may be contracted, as everywhere in compiled code; nothing else is allowed.
 _FLAGS = ("contract",)
@@ -46,14 +46,14 @@ def _magnitude(builder: Any, vector: Any) -> Any:
 
 
 def added(builder: Any, a: Any, b: Any, c: Any) -> Any:
-    """Return a b + c, contracted wherever the processor can: which is left to no optimisation, and so is every bit."""
+    """Return a b + c, contracted wherever the processor can: results do not depend on optimisation to the bit."""
     kind = ir.FunctionType(a.type, [a.type] * 3)
     name = f"llvm.fmuladd.v{a.type.count}f64"
     return builder.call(_declared(builder, kind, name), [a, b, c])
 
 
 def _greater(builder: Any, a: Any, b: Any) -> Any:
-    """Return the greater of two, element by element; b where they cannot be compared."""
+    """Return the greater of two, element by element; b where one is nan."""
     return builder.select(builder.fcmp_ordered(">", a, b), a, b)
 
 
@@ -67,12 +67,12 @@ def folded(builder: Any, vector: Any, join: Callable[[Any, Any], Any]) -> Any:
 
 
 def _declared(builder: Any, kind: Any, name: str) -> Any:
-    """Return a function that LLVM knows."""
+    """Return the declaration of an LLVM function."""
     return builder.module.globals.get(name) or ir.Function(builder.module, kind, name)
 
 
 def variable(builder: Any, begin: Any) -> Any:
-    """Return memory for a value, which is set to a first one."""
+    """Return memory for a value, set to an initial one."""
     with builder.goto_entry_block():
         place = builder.alloca(begin.type)
     builder.store(begin, place)
@@ -123,7 +123,7 @@ def follow(
 
 
 def _combined(builder: Any, table: tuple[Any, ...], base: Any, out: Any, last_row: Callable[..., None]) -> None:
-    """Write `combine`, with one of two ways to add the last row."""
+    """Write `combine` with one of two functions that add the last row."""
     width, h, first, last, column, value, rows = table
     with builder.if_else(builder.icmp_signed("<", first, last)) as (some, none):
         with some:
@@ -139,12 +139,12 @@ def _combined(builder: Any, table: tuple[Any, ...], base: Any, out: Any, last_ro
 
 
 def _last_whole(builder: Any, width: Any, before: Any, factor: Any, rate: Any, out: Any) -> None:
-    """Write a block of a state, from it without the last row and the block of that row."""
+    """Write a block of a state: its part without the last row, plus the block of that row."""
     store(builder, added(builder, factor, load(builder, rate, I64(0)), before), out, I64(0))
 
 
 def _last_as_written(builder: Any, width: Any, before: Any, factor: Any, rate: Any, out: Any) -> None:
-    """Do the same where an emitted function has just written the row."""
+    """Write a block as `_last_whole` does where an emitted function has just written the row."""
 
     def small() -> None:
         undefined = ir.Constant(VECTOR, ir.Undefined)
@@ -158,12 +158,12 @@ def _last_as_written(builder: Any, width: Any, before: Any, factor: Any, rate: A
 
 # -- what emitted functions have just written --------------------------------------------------------------------------
 #
-# They write number by number, and a vector of numbers that still wait to be written is not to be had before they are;
-# each by itself is. Large states are read as vectors all the same, as there are too many numbers.
+# They write number by number, and a vector cannot be loaded before all its numbers have left the store buffer; single
+# numbers can. Large states are read as vectors all the same, as they have too many numbers.
 
 
 def _as_written(builder: Any, width: Any, small: Callable[[], None], large: Callable[[], None]) -> None:
-    """Write one of two ways to do a block, by the width of the state."""
+    """Write one of two versions of a block, by the width of the state."""
     with builder.if_else(builder.icmp_signed("<=", width, I64(_SMALL))) as (then, otherwise):
         with then:
             small()
@@ -172,7 +172,7 @@ def _as_written(builder: Any, width: Any, small: Callable[[], None], large: Call
 
 
 def _pairs(builder: Any, data: Any) -> Iterator[tuple[int, Any]]:
-    """Give a block in pairs, and where they stand in it; loads that are atomic are not joined by the compiler."""
+    """Yield the pairs of a block with their positions; the compiler does not join atomic loads."""
     for k in range(0, BLOCK, 2):
         pair: Any = ir.Constant(_PAIR, ir.Undefined)
         for i in range(2):
@@ -196,7 +196,7 @@ def total(
 
 
 def _sums(builder: Any, table: tuple[Any, ...]) -> Iterator[tuple[Any, Any]]:
-    """Give each block's index and its sum of values times rows, inside the loop over blocks."""
+    """Yield each block's index and its sum of values times rows, inside the loop over blocks."""
     width, _, first, last, column, value, rows = table
     with _each_block(builder, width) as i:
         total = variable(builder, ZERO)

@@ -1,10 +1,10 @@
 """Arithmetic on whole states in vectors of eight numbers.
 
-Arrays are as long as `symgen.runtime.padding` says, filled up with zeros, so no loop has a remainder; and vectors are
-written as such, because compilers that have to find them by themselves first ask at run time whether arrays overlap,
-which takes as long as the work on a small state. Processors with shorter vectors do a block in several parts.
+Arrays have lengths of `symgen.runtime.padding`, filled up with zeros, so no loop has a remainder. Vectors are explicit,
+because compilers that vectorise loops check at run time whether arrays overlap, which takes as long as the work on a
+small state. Processors with shorter vectors process a block in several parts.
 
-Here are the plain loops, which Numba and CUDA devices have too; `symgen.runtime.vector_code` writes the vectors.
+This module has the plain loops, which Numba and CUDA devices use too; `symgen.runtime.vector_code` writes the vectors.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def _weigh(width: int, error: Any, share: Any, y: Any, new: Any, rtol: float, at
 
 
 def _largest(width: int, array: Any, weights: Any, first: int, last: int) -> float:
-    """Return the largest weighted magnitude of the elements from `first` to `last`, at least 0; nan is passed over."""
+    """Return the largest weighted magnitude of the elements from `first` to `last`, at least 0; nan is ignored."""
     largest = 0.0
     for i in range(first, last):
         if abs(array[i]) * weights[i] > largest:
@@ -105,7 +105,7 @@ _WRITERS, _RESULTS = (
 
 
 def _function(name: str) -> Any:
-    """Return one of these functions, in the form that the compiler in use takes."""
+    """Return one of these functions in the form for the compiler in use."""
     plain = PLAIN[name]
     return plain if interpreted() else Piece(name, plain, _RESULTS.get(name, types.void), "symgen.runtime.vector_code")
 

@@ -1,4 +1,4 @@
-"""What happens at each accepted state: measures, limits and passages near singular positions."""
+"""Checks of each accepted state: measures, limits and passages near singular positions."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from symgen.runtime.vectors import finite, largest
 
 _N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
 
-#: Attempts over which progress is judged, at least: as many as all before them.
+#: Least number of attempts over which progress is judged: as many as all before them.
 _WINDOW = 10_000
-#: A row that is an angle has lost its gradient where this part of it is left.
+#: A row on an angle has lost its gradient below this fraction of it.
 VANISHING = 1e-2
-#: An error of the energy below this part of kinetic and potential energy is no failure.
+#: An error of the energy below this fraction of kinetic and potential energy is no failure.
 NEGLIGIBLE = 1e-9
-#: A passage lasts while the root of the smallest pivot is below this part of its largest value. The energy that is lost
-#: or gained over it shows what steps that are too long, or joints that give, have missed there.
+#: A passage lasts while the root of the smallest pivot is below this fraction of its largest value. The energy lost or
+#: gained over it shows the error of steps that are too long, or of joints that give.
 PASSAGE = 0.2
-#: A way below this part of the mechanism's length is none: so far two motions that agree may be apart.
+#: Displacements below this fraction of the mechanism's length are 0: motions that agree may differ by so much.
 NO_WAY = 1e-4
 
 
 def remember_rank(sizes: Any, run: Any) -> None:
-    """Take the rank of D D^T that the start was found to have as that before the first state."""
+    """Take the rank of D D^T at the start as that before the first state."""
     rank = masked = 0
     for i in range(sizes.m):
         if run.w[sizes.mask + i] > 0.0:
@@ -36,7 +36,7 @@ def remember_rank(sizes: Any, run: Any) -> None:
 
 
 def begin(run: Any) -> None:
-    """Take the energies of the first accepted state as those the balance starts from."""
+    """Take the energies of the first accepted state as the beginning of the balance."""
     run.gauges[abi.ENERGY_START] = run.w[abi.KINETIC] + run.w[abi.POTENTIAL]
     run.gauges[abi.POTENTIAL_START] = run.w[abi.POTENTIAL]
 
@@ -55,10 +55,10 @@ def keep_maxima(sizes: Any, run: Any, y: Any) -> float:
 
 
 def approach(h: float, gauges: Any) -> float:
-    """Return the step that may be taken: near a singular position not more than half the way to it.
+    """Return the allowed step: near a singular position at most half the distance to it.
 
-    Inside the zone that counts as near the step is free again, so a passage costs about as many further steps as there
-    are halvings from the last regular step to the zone.
+    Inside the zone that counts as near the step is free again, so a passage costs about as many further steps as
+    halvings from the last regular step to the zone.
     """
     sine, fall = gauges[abi.LAST_SINE], gauges[abi.FALL]
     if fall > 0.0 and sine * sine >= gauges[abi.WARN_PIVOT] and h * fall > 0.5 * sine:
@@ -70,14 +70,14 @@ def approach(h: float, gauges: Any) -> float:
 
 
 def meets(run: Any) -> bool:
-    """Return whether a step ends on a singular position, as good as: rounding would decide which way it goes on."""
+    """Return whether a step ends practically on a singular position, where rounding would decide the branch."""
     return bool(run.w[abi.PIVOT] < SKIP <= run.gauges[abi.LAST_SINE] ** 2)
 
 
 def stuck(span: Any, run: Any, t: float) -> bool:
-    """Return whether an adaptive run has taken, or at its present rate would take, more attempts than it may.
+    """Return whether an adaptive run has taken, or at its present rate would take, too many attempts.
 
-    The rate is that of a window of attempts as long as all before it: a passage that takes many of them is none.
+    The rate is that of a window of attempts as long as all before it: a passage with many attempts does not decide it.
     """
     attempts, mark = run.control[abi.STEPS] + run.control[abi.REJECTED], run.control[abi.MARKED]
     if attempts - mark < max(_WINDOW, mark):
@@ -90,7 +90,7 @@ def stuck(span: Any, run: Any, t: float) -> bool:
 
 
 def force(sizes: Any, run: Any, y: Any, before: float) -> float:
-    """Return the force that a step shows [N]: its change of kinetic energy or of work over the largest way of a body.
+    """Return the force in a step [N]: its change of kinetic energy or work over the largest displacement of a body.
 
     Parameters
     ----------
@@ -108,14 +108,14 @@ def force(sizes: Any, run: Any, y: Any, before: float) -> float:
 
 
 def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
-    """Judge an accepted state; return how the loop has to end, or `DONE` to go on.
+    """Check an accepted state; return the end code of the loop, or `DONE` to continue.
 
     Parameters
     ----------
     sizes : Sizes
         Of the model.
     run : Run
-        Its scratch holds the status that ``accept`` left; the speed scale follows the largest speed so far.
+        Its scratch holds the status from ``accept``; the speed scale follows the largest speed so far.
     y : Array
         The state.
     t : float
@@ -125,7 +125,7 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     run.clock[abi.TIME] = t
     moving, behind = sizes.nq, sizes.nq + sizes.nv
     work = y[behind]
-    # the scale that corrections go by stays that of the start
+    # the scale of corrections stays that of the start
     length = max(w[abi.LENGTH], largest(sizes.width, y, run.metric, 0, moving))
     speed = w[abi.SPEED] = max(w[abi.SPEED], largest(sizes.width, y, run.metric, moving, behind))
     error = keep_maxima(sizes, run, y)
@@ -154,7 +154,7 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
             gauges[abi.MAX_ENERGY_JUMP] = max(gauges[abi.MAX_ENERGY_JUMP], abs(error - gauges[abi.ENERGY_ENTRY]))
         gauges[abi.ENERGY_ENTRY] = error
     gauges[abi.FALL] = (gauges[abi.LAST_SINE] - sine) / elapsed if elapsed > 0.0 else 0.0
-    # so does the length of a gradient that vanishes; what the row says behind that nobody knows
+    # so does the length of a gradient that vanishes; behind it the row is undefined
     short, fell = math.sqrt(max(w[abi.SHORTEST_ROW], 0.0)), gauges[abi.SHORT_FALL]
     vanished = short < VANISHING or (fell > 0.0 and gauges[abi.LAST_SHORT] - fell * elapsed < VANISHING)
     gauges[abi.SHORT_FALL] = (gauges[abi.LAST_SHORT] - short) / elapsed if elapsed > 0.0 else 0.0
@@ -183,11 +183,11 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
         return abi.POSITION
     if w[abi.DRIFT_MEASURE] > gauges[abi.LIMIT_DRIFT] * speed:
         return abi.VELOCITY
-    # energies are no more exact than the rounding of what they are sums of
+    # energies are no more exact than the rounding of their terms
     limit, rounding = gauges[abi.LIMIT_ENERGY], NEGLIGIBLE * (w[abi.KINETIC] + abs(w[abi.POTENTIAL]))
     excess, way = abs(error) - rounding, NO_WAY * length
     if excess > limit * max(gauges[abi.ENERGY_SCALE], way * gauges[abi.FORCE]):
-        # large works cancel where a body stands still: the energy in motion is at least that over a way that is none
+        # large works cancel where a body is at rest: the energy in motion is at least that over the least displacement
         gauges[abi.FORCE] = max(gauges[abi.FORCE], force(sizes, run, y, before))
         if excess > limit * max(gauges[abi.ENERGY_SCALE], way * gauges[abi.FORCE]):
             return abi.ENERGY

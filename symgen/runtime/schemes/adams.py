@@ -1,8 +1,8 @@
 """Adams-Bashforth-Moulton predictor-corrector schemes with derivatives at unequal distances.
 
-Coefficients are integrals of the Lagrange polynomials through the past derivatives, by Gauss' quadrature that is
-exact for them, so one source serves constant and varying steps. The derivative kept for a time is evaluated at the
-corrected state: a correction enters the history instead of spoiling it.
+Coefficients are integrals of the Lagrange polynomials through the past derivatives, by exact Gauss quadrature, so one
+source serves constant and varying steps. Stored derivatives are evaluated at the corrected state: a correction enters
+the history instead of spoiling it.
 
 Runs with constant steps start with one-step schemes: the classical Runge-Kutta scheme up to order 4, extrapolated
 midpoint rules beyond, so that the start keeps the order. Those with varying steps start at order 1 with a short step
@@ -30,7 +30,7 @@ ADAPTIVE = False
 
 @called
 def weights(count: int, times: Any, low: float, high: float, nodes: Any, factors: Any, out: Any) -> None:
-    """Integrals from `low` to `high` of the Lagrange polynomials on the first `count` entries of `times`."""
+    """Set `out` to integrals from `low` to `high` of the Lagrange polynomials on the first `count` of `times`."""
     for i in range(count):
         out[i] = 0.0
     half, middle = 0.5 * (high - low), 0.5 * (high + low)
@@ -95,7 +95,7 @@ def extrapolated(system: Any, run: Any, t: float, h: float, stage: Any, rate: An
 
 @called
 def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
-    """Begin the history: derivatives, newest first, then their times."""
+    """Initialise the history: derivatives, newest first, then their times."""
     evaluate(system, run, run.clock[abi.TIME], run.y, part(run.memory, 0, system.sizes.width))
     run.control[abi.EVALUATIONS] += 1
     run.memory[DEPTH * system.sizes.width] = run.clock[abi.TIME]
@@ -106,7 +106,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 def attempt(
     system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
 ) -> float:
-    """Try a step by predictor, evaluation and corrector; the difference of both is the error."""
+    """Try a step by predictor, evaluation and corrector; the error is their difference."""
     width, count = system.sizes.width, run.control[abi.POINTS]
     past = part(run.memory, DEPTH * width, DEPTH)
     predicted, rate = part(run.room, 0, width), part(run.room, width, width)
@@ -145,7 +145,7 @@ def attempt(
 
 
 def refuse(run: Any) -> None:
-    """Forget the history where two attempts in a row were refused: it misleads."""
+    """Clear the history where two attempts in a row were refused: it is misleading."""
     if run.control[abi.REFUSED] == 1:
         run.control[abi.POINTS] = 1
 
@@ -164,7 +164,7 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
 
 
 def memory(width: int) -> tuple[int, int]:
-    """Return the numbers of a history, and the working memory of a step behind the state that is tried."""
+    """Return the lengths of a history, and of the working memory of a step behind the trial state."""
     return DEPTH * (width + 1), 3 * width + 3 * DEPTH + 1
 
 

@@ -11,15 +11,14 @@ Bruls 2007). Unknowns of the Newton iteration are v1', lambda and z1', z being t
 velocities do, which is the scheme for equations of first order (Jansen, Whiting, Hulbert 2000) with the same numbers.
 Other auxiliary states follow by the trapezoidal rule.
 
-The memory of a run holds k = (v, v', lambda, z') as the next iteration begins with it, a0, and the rates of the state;
-with adaptive steps also how a changed in the step before, that step, and the one that a0 is meant for. Arrays of a have
-v' first, then z'.
+The memory of a run holds the initial k = (v, v', lambda, z') of the next iteration, a0, and the rates of the state;
+with adaptive steps also the change of a in the step before, that step, and the step for which a0 is valid. Arrays of a
+have v' first, then z'.
 
 With theta = alpha_m - alpha_f, a0 is v' at the time t + theta h, so that a0 - v0' changes as steps do. A step of
 positions is off by (1/6 - theta/2 - beta) h^2 (a1 - a0) (Zienkiewicz, Xie 1991), one of velocities by
 (theta^2/2 - 1/12) h^3 times the second derivative of a, from two steps. The estimate takes J^-1 M (a1 - a0) in place of
-a1 - a0 with Newton's matrix J, for velocities twice: what vibrates faster than steps can follow counts by how far it
-moves.
+a1 - a0 with Newton's matrix J, for velocities twice: vibrations too fast for the steps count by their displacement.
 """
 
 from __future__ import annotations
@@ -45,18 +44,18 @@ ADAPTIVE = False
 
 
 def in_state(sizes: Any, i: int) -> Any:
-    """Return where what moves with rate i stands in the state: velocities, then the states behind the work."""
+    """Return the index in the state of the element with rate i: velocities, then the states behind the work."""
     return sizes.nq + i if i < sizes.nv else sizes.nq + i + 1
 
 
 def in_unknowns(sizes: Any, i: int) -> Any:
-    """Return where rate i of v and z stands in k."""
+    """Return the index in k of rate i of v and z."""
     return sizes.nq + i if i < sizes.nv else sizes.unknowns - sizes.states - sizes.nv + i
 
 
 @called
 def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
-    """Begin with ``a0 = v0' + (alpha_m - alpha_f) h v0''``.
+    """Set ``a0 = v0' + (alpha_m - alpha_f) h v0''``.
 
     With a0 = v0' multipliers would start with an error of order 1. v'' comes from two evaluations; its error enters
     multiplied by h (alpha_m - alpha_f).
@@ -85,7 +84,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 
 @called
 def move(system: Any, scheme: Any, run: Any, h: float, k: Any, a1: Any, change: Any) -> None:
-    """Set ``run.trial`` and a1 from v1' and z1', which stand in `k`; `change` receives how far positions move.
+    """Set ``run.trial`` and a1 from v1' and z1' in `k`, and `change` to the displacements.
 
     With adaptive steps a0 for this step follows a1.
     """
@@ -151,7 +150,7 @@ def attempt(
                 moved += (change[i] / (1.0 + abs(k[nq + i]))) ** 2
         for i in range(nq):
             length = max(length, run.scales[i] * abs(run.trial[i]))
-        # rounding of positions is divided by the square of the step in accelerations: it decides where those stall
+        # rounding of positions enters accelerations over the square of the step: it decides where those stall
         rate = run.w[abi.SPEED] / run.w[abi.LENGTH]
         at_floor = math.sqrt(moved) * rate * by_position < 1e-12 * length
         moved = math.sqrt(moved) / (rate + math.sqrt(total))
@@ -175,7 +174,7 @@ def attempt(
 
 @called
 def step_error(system: Any, scheme: Any, span: Any, run: Any, following: float, h: float) -> float:
-    """Return the error estimate of a step that was just solved over the tolerance."""
+    """Return the error estimate over the tolerance of a step just solved."""
     sizes = system.sizes
     nq, nv, n, width, count = sizes.nq, sizes.nv, sizes.unknowns, sizes.width, sizes.nv + sizes.states
     right, change = part(run.room, n, n), part(run.room, 2 * n, n)
@@ -264,9 +263,9 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
 
 
 def memory(width: int, count: int, unknowns: int) -> tuple[int, int]:
-    """Return the numbers that a run keeps, and the working memory of a step behind the state that is tried.
+    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state.
 
-    `count` velocities and states of the file move alike.
+    `count` is the number of velocities and states of the file.
     """
     return unknowns + 2 * count + width + 2, 3 * unknowns + 3 * count + 4 + 2 * width
 

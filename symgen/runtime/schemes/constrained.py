@@ -1,4 +1,4 @@
-"""What explicit schemes share whose stages meet constraints by forces along D^T: a linear system with M and D."""
+"""Linear system with M and D of explicit schemes whose stages meet constraints by forces along D^T."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ def slopes_at(system: Any, scheme: Any, run: Any, t: float, y: Any, k: Any, plac
 
 
 def carry_slopes(scheme: Any) -> None:
-    """Have M and D of the second half in the first one as well."""
+    """Copy M and D of the second half to the first one."""
     count = scheme.slopes.shape[0] // 2
     for i in range(count):
         scheme.slopes[i] = scheme.slopes[count + i]
 
 
 def factorised(scheme: Any, factors: Any) -> bool:
-    """Factorise ``[M D^T; E 0]``; return whether there was room for it."""
+    """Factorise ``[M D^T; E 0]``; return whether its factors had room."""
     factors[0] = 1.0
     return sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) >= 0
 
@@ -38,7 +38,7 @@ def solved(system: Any, scheme: Any, run: Any, right: Any, x: Any) -> None:
 
 
 def auxiliary_rates(system: Any, run: Any, rest: Any, rates: Any) -> None:
-    """Write the rates of auxiliary states to `rates`; `rest` are the residuals, at which those of the file's are 0."""
+    """Write the rates of auxiliary states to `rates`; `rest` are the residuals with rates of 0 of the file's states."""
     sizes = system.sizes
     for i in range(rates.shape[0]):
         if 0 < i <= sizes.states:
@@ -48,6 +48,6 @@ def auxiliary_rates(system: Any, run: Any, rest: Any, rates: Any) -> None:
 
 
 def memory(width: int, nv: int, m: int, unknowns: int, stages: int) -> tuple[int, int]:
-    """Return the numbers that a run keeps, and the working memory of a step behind the state that is tried."""
+    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state."""
     n = nv + m
     return n, 2 + 3 * n + 2 * unknowns + m + (stages + 2) * (nv + width)

@@ -19,18 +19,18 @@ from symgen.runtime.scheme_records import TABLEAU
 from symgen.runtime.vectors import combine, copied, follow, total, weigh
 from symgen.runtime.watch import keep_maxima
 
-#: By how much the step that the tolerance allows may grow from one step to the next: an estimate that says more passes
-#: through zero. Nothing is known where the last step was shorter than this part of what it allowed, at the start or
-#: where its error is rounding, and near singular positions.
+#: Largest growth of the allowed step from one step to the next: with more growth the estimate passes through zero. It
+#: is not applied where the last step was shorter than this fraction of the allowed one, at the start or where its error
+#: is rounding, and near singular positions.
 _GROWTH, _SETTLED = 1.25, 0.25
-#: What a first step is guessed from is no shorter than this part of a run: more steps than `MAX_ATTEMPTS` would follow.
+#: Least trial step for the guess of a first step, over a run: below, more than `MAX_ATTEMPTS` steps would follow.
 _SHORTEST = 1e-10
 
 
 def attempt_constant(
     system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
 ) -> float:
-    """Try a step whose error is not asked for."""
+    """Try a step without an error estimate."""
     width, start, column, value = system.sizes.width, scheme.start, scheme.column, scheme.value
     for s in range(scheme.stages + 1):
         follow(width, h, start[s], start[s + 1], column, value, run.room, run.y, run.trial)
@@ -57,7 +57,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
     d0 = math.sqrt(weigh(width, y, share, y, y, span.rtol, span.atol) / count)
     d1 = math.sqrt(weigh(width, first, share, y, y, span.rtol, span.atol) / count)
     h0 = least if d0 < 1e-5 or d1 * span.duration < 1e-5 else 0.01 * d0 / d1
-    # a state that is rounding beside its tolerance, coordinates of 1e-16 at rest, says nothing of the time
+    # a state that is rounding compared with its tolerance, as coordinates of 1e-16 at rest, has no scale of time
     h0 = min(max(h0, _SHORTEST * span.duration), span.until - t)
     for i in range(width):
         run.trial[i] = y[i] + h0 * first[i]
@@ -87,7 +87,7 @@ def attempt(
     run.control[abi.EVALUATIONS] += last - 1 + scheme.ends
     run.control[abi.KNOWN] = scheme.ends
     copied(width, run.trial, new)
-    # error weights stand behind all stages in the table
+    # error weights follow all stages in the table
     row, count, share = scheme.nodes.shape[0], system.sizes.controlled, weights_of(span, run)
     work, first, second, before, done = system.sizes.nq + system.sizes.nv, 0.0, 0.0, 0.0, 0.0
     for e in range(scheme.estimates):
@@ -113,7 +113,7 @@ def attempt(
 
 
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
-    """Have the first stage of the next step: the last of this one, unless a correction has changed the state."""
+    """Set the first stage of the next step: the last of this one, unless a correction has changed the state."""
     width, first = system.sizes.width, part(run.memory, 0, system.sizes.width)
     if changed or run.control[abi.KNOWN] == 0:
         evaluate(system, run, t, run.y, first)
@@ -126,7 +126,7 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
 def interpolate(
     system: Any, scheme: Any, span: Any, run: Any, outputs: Any, t: float, following: float, h: float
 ) -> None:
-    """Write the outputs inside a step, each projected; what ``accept`` measured at the end of the step is kept."""
+    """Write the outputs inside a step, each projected; the status at the end of the step is restored."""
     scheme, run, outputs = bare(scheme), bare(run), bare(outputs)
     width, start, column, value = system.sizes.width, scheme.start, scheme.column, scheme.value
     stages, last, every, count = run.memory, scheme.stages, scheme.nodes.shape[0], scheme.count
@@ -168,13 +168,13 @@ def interpolate(
 
 
 def room(width: int, scheme: Any, windings: int) -> int:
-    """Return the working memory of a step behind the state that is tried; `windings` angles count turns."""
+    """Return the working memory of a step behind the trial state; `windings` angles count turns."""
     if not scheme.degree:
         return int(scheme.stages) * width
     return 3 * width + 2 * len(scheme.dense) // int(scheme.degree) + windings
 
 
-#: What the names of the frame mean.
+#: Parts of the frame.
 CONSTANT_PARTS = {"attempt": attempt_constant}
 ADAPTIVE_PARTS = {
     **{"ADAPTIVE": True, "DENSE": True, "prepare": prepare, "attempt": attempt},

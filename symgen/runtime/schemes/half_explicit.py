@@ -2,8 +2,8 @@
 
 ``V_(i+1) = v + h sum_j a_ij V'_j`` with ``M V'_i = f_i - D_i^T lambda_i`` and ``D_(i+1) V_(i+1) = nu_(i+1)``, the state
 behind the last stage being the end of the step. Positions come first, as they need velocities of earlier stages only;
-bodies in space turn by exponentials (`symgen.runtime.schemes.lie`), so that Euler parameters keep their length and the
-constraint that a stage meets is that of the state.
+bodies in space turn by exponentials (`symgen.runtime.schemes.lie`), so that Euler parameters keep their length and
+stages meet the constraints of the state.
 """
 
 from __future__ import annotations

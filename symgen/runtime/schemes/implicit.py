@@ -27,7 +27,7 @@ ADAPTIVE = False
 
 @called
 def begin_step(system: Any, run: Any, t: float) -> None:
-    """Have the unknowns k at the beginning of the step, and the rates of auxiliary states, in the memory of the run."""
+    """Write the unknowns k and the rates of auxiliary states at the beginning of the step to the memory of the run."""
     sizes = system.sizes
     first, n, m = sizes.nq + sizes.nv, sizes.unknowns, sizes.m
     tail = n - sizes.states
@@ -48,7 +48,7 @@ def begin_step(system: Any, run: Any, t: float) -> None:
 
 @called
 def stage_state(system: Any, scheme: Any, run: Any, h: float, stage: int, k: Any, rates: Any) -> None:
-    """Set ``run.trial`` to y + h sum_j a[stage, j] y'_j; rates of auxiliary states stand stage by stage in `rates`."""
+    """Set ``run.trial`` to y + h sum_j a[stage, j] y'_j; `rates` are those of auxiliary states, stage by stage."""
     first, n, ny = system.sizes.nq + system.sizes.nv, system.sizes.unknowns, system.sizes.ny
     copied(system.sizes.width, run.y, run.trial)
     for j in range(scheme.stages):
@@ -61,16 +61,16 @@ def stage_state(system: Any, scheme: Any, run: Any, h: float, stage: int, k: Any
 
 
 def ended(moved: float, last: float, least: float, poor: float, at_floor: bool) -> int:
-    """Return 1 where a Newton iteration is at its end, -1 where it leads nowhere, 0 where it goes on.
+    """Return 1 where a Newton iteration has converged, -1 where it fails, 0 where it continues.
 
-    It ends where its correction is small, or where only rounding keeps it from that.
+    It has converged where its correction is small, or where only rounding keeps it larger.
 
     Parameters
     ----------
     moved, last : float
         Length of this correction and of the one before.
     least, poor : float
-        What is small; and what is small enough where corrections no longer shrink.
+        Limit of a correction; and that where corrections no longer shrink.
     at_floor : bool
         Whether the correction is rounding of positions.
     """
@@ -104,7 +104,7 @@ def attempt(
     groups = 1 if scheme.together == 1 else s_count
     for group in range(groups):
         if scheme.together == 0 and scheme.a[group * s_count + group] == 0.0:
-            continue  # an explicit first stage is the derivative that is known
+            continue  # an explicit first stage is the known derivative
         low, high = (0, s_count) if scheme.together == 1 else (group, group + 1)
         last, fresh, end = math.inf, True, 0
         for _ in range(_MOST_ITERATIONS):
@@ -144,10 +144,10 @@ def attempt(
                         size += (run.scales[i] * k[s * n + i]) ** 2
                     elif i >= tail:
                         rates[s * more + 1 + i - tail] = k[s * n + i]
-                        scale = 1.0 / (1.0 + abs(k[s * n + i]))  # of any unit, so that pressures hide no lengths
+                        scale = 1.0 / (1.0 + abs(k[s * n + i]))  # relative, so that pressures hide no lengths
                         moved += (scale * change[(s - low) * n + i]) ** 2
                         size += (scale * k[s * n + i]) ** 2
-            # stiff forces turn rounding of positions into noise of derivatives: how far the state moves counts
+            # stiff forces turn rounding of positions into noise of derivatives: the change of the state counts
             length = 1.0
             for i in range(first):
                 length = max(length, run.scales[i] * abs(run.trial[i]))
@@ -160,7 +160,7 @@ def attempt(
         if end <= 0:
             return DIVERGED
     if tail > first + sizes.m:
-        # multipliers of index 2 are of lower order than the state: these rates come from the law's own
+        # multipliers of index 2 are of lower order than the state: these rates use those of the law
         of_law = part(run.room, 0, sizes.width)
         for s in range(s_count):
             stage_state(system, scheme, run, h, s, k, rates)
@@ -227,14 +227,14 @@ def step_error(system: Any, scheme: Any, span: Any, run: Any, t: float, h: float
 
 
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
-    """Have the next step evaluate its beginning."""
+    """Make the next step evaluate its beginning."""
     run.control[abi.KNOWN] = 0
 
 
 def memory(width: int, unknowns: int, more: int, stages: int, together: bool) -> tuple[int, int]:
-    """Return the numbers kept of the beginning of a step, and its working memory behind the state that is tried.
+    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state.
 
-    Kept are the unknowns, and rates of `more` auxiliary states.
+    The memory holds the unknowns at the beginning of a step, and rates of `more` auxiliary states.
     """
     solved = max(width, unknowns, stages * unknowns if together else 0)
     return unknowns + more, width + stages * (unknowns + more) + 2 * solved + stages * stages + 2

@@ -3,7 +3,7 @@
 Within a step the position is ``q0`` moved by u, bodies turned by the exponential of their part of it, and the scheme
 integrates u, v and auxiliary states. In body axes ``u' = omega + u x omega / 2 + u x (u x omega) / 12``, the series of
 the inverse differential of the exponential to the terms that order 4 needs (Munthe-Kaas 1999; Hairer, Lubich, Wanner,
-Geometric Numerical Integration, IV.8). Coordinates that are no rotations have u' = v.
+Geometric Numerical Integration, IV.8). Other coordinates have u' = v.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def exponential_rate(v: Any, at: int, u: Any, spins: Any, nv: int, rate: Any) ->
 def attempt(
     system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
 ) -> float:
-    """Try a step: what moves is u, v and the auxiliary states, from 0 on."""
+    """Try a step of u, v and the auxiliary states, from 0 on."""
     tableau, sizes, y, trial = scheme.tableau, system.sizes, run.y, run.trial
     nq, nv, ny, width = sizes.nq, sizes.nv, sizes.ny, scheme.width
     rate, moved = part(run.room, 0, sizes.width), part(run.room, sizes.width, width)
@@ -63,7 +63,7 @@ def stage_width(nq: int, nv: int, ny: int) -> int:
 
 
 def room(width: int, stage: int, stages: int) -> int:
-    """Return the working memory of a step behind the state that is tried."""
+    """Return the working memory of a step behind the trial state."""
     return width + (1 + stages) * stage
 
 

@@ -1,13 +1,13 @@
 """Collocation at Lobatto's points by Picard's iteration, the right-hand side evaluated at all nodes at once.
 
-A step is a polynomial of degree 8 through the rates at its start and at eight nodes; integrals of it are the states at
-the nodes, of which the rates follow anew. The iteration begins with the polynomial of the step before, carried on, and
+A step is a polynomial of degree 8 through the rates at its start and at eight nodes; its integrals are the states at
+the nodes, which determine new rates. The iteration begins with the extrapolated polynomial of the step before, and
 ends where its error, the last change times the factor by which changes fall, is below the tolerance. Coordinates whose
-rate is a velocity follow from accelerations by second integrals, so that each iteration carries them on by two orders.
+rate is a velocity follow from accelerations by second integrals, so that each iteration adds two orders to them.
 
-The error of the polynomial is that of its last two Legendre coefficients, carried on by the fourth power of how they
-fall against the two before: rounding of the iteration, which stands in them as well, is taken away. A step is chosen
-so that five iterations do; one that will not converge in seven is given up as soon as that is foreseen.
+The error of the polynomial is that of its last two Legendre coefficients, extrapolated by the fourth power of their
+ratio to the two before: rounding of the iteration, which they contain, is subtracted. Steps are chosen for five
+iterations; a step that will not converge in seven is given up as soon as that is foreseen.
 """
 
 from __future__ import annotations
@@ -30,33 +30,33 @@ from symgen.runtime.watch import keep_maxima
 
 #: As in the frame: whether steps follow the error estimate.
 ADAPTIVE = False
-#: Iterations that a step aims at, that it takes at most, and that one without a polynomial before it takes.
+#: Intended and largest number of iterations of a step, and the number for one without a polynomial before it.
 AIM, MOST, FIRST = 5, 7, 24
-#: Iterations of a constant step, which goes on until rounding ends it, and the square of changes that are rounding.
+#: Iterations of a constant step, which continues down to rounding, and the square of changes that are rounding.
 CONSTANT, ROUNDING = 60, 1e8
-#: The next step over this one: at least, at most, and after a refused one; the square of a change that leads nowhere,
-#: and the least square of the factor by which changes fall.
+#: The next step over this one: at least, at most, and after a refused one; the square of a change that diverges, and
+#: the least square of the factor by which changes fall.
 _SHORTEST, _LONGEST, _AGAIN, _ENDLESS, _FASTEST = 0.3, 2.0, 0.8, 1e60, 1e-4
 #: The same after the first step, at most.
 _FIRST_GROWTH = 3.0
 #: A step is slow whose changes fall by more than the root of the first, and whose rates have coefficients of degree 5
 #: and 6 below the root of the second, over the tolerance: stiffness bounds it, not the motion.
 _SLOW, _SMOOTH = 0.008, 1.0
-#: What the estimate is multiplied with, so that errors over the tolerance are those of `dop853`.
+#: Factor of the estimate, so that errors over the tolerance are those of `dop853`.
 STRICT = 10.0
 #: Legendre polynomials of rates at the nodes, and of those between them as well; numbers of a row of their table.
 TERMS, ALL_TERMS, COLUMNS = NODES + 1, 2 * NODES + 1, 3 * NODES
-#: Outputs are read from more rates where the last coefficients of rates, over the tolerance, are more than this.
+#: Outputs use more rates where the last coefficients of rates, over the tolerance, are more than this.
 _LEFT_OUT = 12.0
-#: What is kept, before rates at the start of a step and Legendre coefficients of those of the last: the last step [s],
-#: 0 at a start; 1 where nodes are evaluated one by one; 1 where the rates at the start of the step are to be evaluated.
+#: Memory, before rates at the start of a step and Legendre coefficients of those of the last: the last step [s], 0 at
+#: a start; 1 where nodes are evaluated one by one; 1 where the rates at the start of the step have to be evaluated.
 STEP, SINGLE, STALE = range(3)
-#: In working memory: the next step over this one; which buffer has the rates of the step; 1 where outputs need more of
-#: them; 1 where nodes were evaluated one by one; 1 where the iteration has not converged; 1 where
-#: convergence bounds the step, not the motion.
+#: In working memory: the next step over this one; the buffer with the rates of the step; 1 where outputs need more of
+#: them; 1 where nodes were evaluated one by one; 1 where the iteration has not converged; 1 where convergence bounds
+#: the step, not the motion.
 RATIO, BUFFER, COARSE, ALONE, ADRIFT, SLOW = range(6)
-#: Where its parts begin: times of nodes, squares of coefficients, weights of outputs, and arrays
-#: of the width of a state.
+#: First indices of its parts: times of nodes, squares of coefficients, weights of outputs, and arrays of the width of a
+#: state.
 _TIMES, _SQUARES, _WEIGHTS = NODES, 2 * NODES, 4 * NODES
 _WIDE = _WEIGHTS + 4 * COLUMNS
 #: Of these, in widths: weights, a state, its rate, coefficients, states at nodes, two buffers of rates, and a third.
@@ -66,12 +66,12 @@ _ENDS = _MORE + NODES
 
 
 def memory(width: int) -> int:
-    """Return the numbers that are kept from step to step."""
+    """Return the length of the memory of a run."""
     return NODES + width + 2 * NODES * width
 
 
 def room(width: int, windings: int) -> int:
-    """Return the working memory of a step behind the state that is tried; `windings` angles count turns."""
+    """Return the working memory of a step behind the trial state; `windings` angles count turns."""
     return _WIDE + _ENDS * width + abi.N_STATUS + windings
 
 
@@ -94,7 +94,7 @@ def one_by_one(system: Any, run: Any, times: Any, states: Any, rates: Any) -> No
 
 
 def weigh_rates(system: Any, scheme: Any, span: Any, run: Any, h: float, ends: Any, weights: Any) -> None:
-    """Set `weights` to what makes squares of errors over tolerances of squares of rates, over a step of `h` seconds.
+    """Set `weights` to factors that turn squares of rates into squares of errors over tolerances in a step of `h` [s].
 
     `ends` are states at the nodes, of which the last is the end of the step. Errors of accelerations are those of
     velocities, and half a step later those of coordinates.
@@ -248,13 +248,13 @@ def crossed(system: Any, scheme: Any, span: Any, run: Any, t: float, following: 
 
 
 def refuse(run: Any) -> None:
-    """Begin anew where two attempts in a row were refused: what is known of the step before misleads."""
+    """Restart where two attempts in a row were refused: the polynomial of the step before is misleading."""
     if run.control[abi.REFUSED] == 1:
         run.memory[STALE] = 1.0
 
 
 def shrunk(span: Any, run: Any, error: float) -> float:
-    """Return the part of a refused step that is tried next."""
+    """Return the next step over a refused one."""
     return float(run.room[RATIO])
 
 
@@ -265,7 +265,7 @@ def grown(span: Any, run: Any, h: float, error: float) -> float:
 
 @called
 def begin(system: Any, run: Any, t: float) -> None:
-    """Forget the polynomial; evaluate the rates at the start of a step."""
+    """Clear the polynomial; evaluate the rates at the start of a step."""
     evaluate(system, run, t, run.y, part(run.memory, NODES, system.sizes.width))
     run.control[abi.EVALUATIONS] += 1
     run.memory[STEP] = run.memory[STALE] = 0.0
@@ -273,7 +273,7 @@ def begin(system: Any, run: Any, t: float) -> None:
 
 @called
 def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
-    """Begin, and choose a first step."""
+    """Initialise the memory, and choose a first step."""
     sizes, first, t = system.sizes, part(run.memory, NODES, system.sizes.width), run.clock[abi.TIME]
     begin(system, run, t)
     run.control[abi.ORDER] = NODES
@@ -291,7 +291,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 
 
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
-    """Keep the rates at the end of the step, and its polynomial, where the iteration has converged."""
+    """Store the rates at the end of the step, and its polynomial, where the iteration has converged."""
     if run.room[ADRIFT] != 0.0:
         begin(system, run, t)
         return
@@ -309,9 +309,9 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
 def interpolate(
     system: Any, scheme: Any, span: Any, run: Any, outputs: Any, t: float, following: float, h: float
 ) -> None:
-    """Write the outputs inside a step, each corrected; what ``accept`` measured at the end of the step is kept.
+    """Write the outputs inside a step, each corrected; the status at the end of the step is restored.
 
-    Where the polynomial of the nodes does not have the digits of the tolerance inside the step, the right-hand side is
+    Where the polynomial of the nodes is less accurate than the tolerance inside the step, the right-hand side is
     evaluated once more, at eight points between the nodes.
     """
     rows, width, size = scheme.rows, system.sizes.width, NODES * system.sizes.width
@@ -362,8 +362,8 @@ def interpolate(
 def integrate_legendre(terms: int, x: float, numbers: Any, once: Any, twice: Any) -> None:
     """Set `once` and `twice` to integrals and second integrals of shifted Legendre polynomials from 0 to `x`.
 
-    Of P_k on (0, 1) the integral is (P_k+1 - P_k-1) / (4 k + 2), and so again. `numbers` are 1 / (4 k + 2) for each k,
-    then the two numbers of the recurrence of the polynomials.
+    The integral of P_k on (0, 1) is (P_k+1 - P_k-1) / (4 k + 2), the second one likewise. `numbers` are 1 / (4 k + 2)
+    for each k, then the two numbers of the recurrence of the polynomials.
     """
     z = 2.0 * x - 1.0
     lower, here = 1.0, z

@@ -32,7 +32,7 @@ _LEAST_PENALTY = 1e3
 
 @called
 def lead(system: Any, scheme: Any, run: Any, t: float, h: float, penalty: float, k: Any, shift: Any) -> bool:
-    """Factorise W at the state that is tried; return whether there was room for it."""
+    """Factorise W at the trial state; return whether its factors had room."""
     quarter, factors = 0.25 * h * h, part(run.room, 0, 5)
     system.tangent(t, run.trial, k, run.p, run.w, scheme.slopes)
     factors[0], factors[1], factors[2], factors[3], factors[4] = 1.0, 0.5 * h, quarter, -quarter, quarter * penalty
@@ -52,7 +52,7 @@ def pull_back(factor: float, nv: int, forces: Any, slopes: Any, rest: Any, at: i
 
 @called
 def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
-    """Have rates and multipliers at the start, and the largest mass."""
+    """Store rates and multipliers at the start, and the largest mass."""
     sizes, t = system.sizes, run.clock[abi.TIME]
     width, n = sizes.width, sizes.unknowns
     evaluate(system, run, t, run.y, part(run.memory, 0, width))
@@ -70,7 +70,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 
 @called
 def follow(system: Any, run: Any, h: float, shift: Any, k: Any) -> None:
-    """Set velocities and accelerations, states and their rates, from the change of positions and that of states."""
+    """Set velocities and accelerations, states and their rates, from the changes of positions and states."""
     nq, nv, states, first = system.sizes.nq, system.sizes.nv, system.sizes.states, system.sizes.unknowns
     for i in range(nv):
         run.trial[nq + i] = 2.0 / h * shift[i] - run.y[nq + i]
@@ -173,7 +173,7 @@ def attempt(
                 else:
                     k[nq + i] -= change[i]
     # multipliers of the iteration belong to accelerations before their projection, of order 1: rates of auxiliary
-    # states come from those of the law
+    # states use those of the law
     evaluate(system, run, following, run.trial, rate)
     run.control[abi.EVALUATIONS] += 1
     for i in range(first, sizes.ny):
@@ -185,7 +185,7 @@ def attempt(
 
 
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
-    """Keep rates and multipliers at the end of the step."""
+    """Store rates and multipliers at the end of the step."""
     sizes = system.sizes
     nq, m, width = sizes.nq, sizes.m, sizes.width
     at = 8 + 2 * sizes.unknowns + 2 * m + 3 * (sizes.nv + sizes.states)
@@ -196,9 +196,9 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
 
 
 def memory(width: int, count: int, m: int, unknowns: int) -> tuple[int, int]:
-    """Return the numbers that a run keeps, and the working memory of a step behind the state that is tried.
+    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state.
 
-    `count` are velocities and states of the file.
+    `count` is the number of velocities and states of the file.
     """
     return width + m + 1, 8 + 2 * unknowns + 3 * m + 3 * count + width
 

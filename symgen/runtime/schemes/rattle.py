@@ -31,7 +31,7 @@ _MOST_ITERATIONS = 50
 
 @called
 def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
-    """Know nothing of accelerations and multipliers."""
+    """Set the stored accelerations and multipliers to 0."""
     for i in range(system.sizes.nv + system.sizes.m):
         run.memory[i] = 0.0
 
@@ -135,7 +135,7 @@ def attempt(
 
 @called
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
-    """Keep accelerations and multipliers at the end of the step."""
+    """Store accelerations and multipliers at the end of the step."""
     for i in range(system.sizes.nv + system.sizes.m):
         run.memory[i] = run.room[i]
 

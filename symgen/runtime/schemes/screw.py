@@ -1,12 +1,12 @@
 """Explicit Runge-Kutta-Munthe-Kaas schemes on SE(3): bodies turn and move by exponentials of one screw.
 
-Within a step a body is where ``x0 + R0 V(theta) rho`` and ``R0 exp(theta)`` put it, and the scheme integrates u = (rho,
-theta), the twist (l, omega) of the body in its own axes, ``l = R^T v``, ``l' = R^T v' - omega x l``, and all else. With
+Within a step a body has the pose ``x0 + R0 V(theta) rho``, ``R0 exp(theta)``, and the scheme integrates u = (rho,
+theta), the twist (l, omega) of the body in its own axes, ``l = R^T v``, ``l' = R^T v' - omega x l``, and the rest. With
 the commutator ``[u, (l, omega)] = (theta x l + rho x omega, theta x omega)``, ``u' = (l, omega) + [u, .] / 2 + [u, [u,
 .]] / 12`` is the series of the inverse differential of the exponential to the terms that order 4 needs.
 
-What a lower pair to the ground allows is a subspace of twists that commutators do not leave: stages and steps stay on
-such constraints to rounding. Coordinates that belong to no free body are integrated as by `rkmk4`.
+A lower pair to the ground allows a subspace of twists that is closed under commutators: stages and steps satisfy such
+constraints to rounding. Coordinates that belong to no free body are integrated as by `rkmk4`.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def turned(q: Any, e: int, x: Any, at: int, sign: float, result: Any, to: int) -
 
 @called
 def displaced(u: Any, j: int, result: Any) -> None:
-    """Write V(theta) rho, the way of a body along a screw, to `result`; theta stands at index j of `u`, rho before."""
+    """Write V(theta) rho, the displacement along a screw, to `result`; theta is at index j of `u`, rho before it."""
     a, b, c = u[j], u[j + 1], u[j + 2]
     x, y, z = u[j - 3], u[j - 2], u[j - 1]
     square = a * a + b * b + c * c
@@ -71,7 +71,7 @@ def screw_rate(twist: Any, j: int, u: Any, rate: Any) -> None:
 def attempt(
     system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
 ) -> float:
-    """Try a step: what moves is u, the twists, other velocities and the auxiliary states, from 0 on."""
+    """Try a step of u, the twists, other velocities and the auxiliary states, from 0 on."""
     tableau, sizes, y, trial = scheme.tableau, system.sizes, run.y, run.trial
     nq, nv, ny, width, bodies = sizes.nq, sizes.nv, sizes.ny, scheme.width, scheme.bodies
     rate, moved = part(run.room, 0, sizes.width), part(run.room, sizes.width, width)
