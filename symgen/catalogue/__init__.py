@@ -1,4 +1,4 @@
-"""The mechanisms that come with symgen: TOML files, and modules for those that come in sizes.
+"""The mechanisms included in symgen: TOML files, and modules for those with sizes.
 
 A file ``name.toml`` is the entry ``name``. A module ``n_four_bar.py`` is the sized entry ``n-four-bar``, its `KIND` a
 `Sized` that makes the description for a size. Entries are of two groups: those of this folder are studied with every
@@ -18,7 +18,7 @@ from symgen.registry import Registry
 
 
 def _folder() -> Path:
-    """Return the folder of the files; in an archive, what stands for one."""
+    """Return the folder of the files; in an archive, its equivalent."""
     here = Path(__file__).parent
     if here.is_dir():
         return here
@@ -28,7 +28,7 @@ def _folder() -> Path:
 
 
 _FOLDER = _folder()
-#: Groups of entries: what studies, the gallery and tests of every method take, and machines to start from.
+#: Groups of entries: those of studies, the gallery and tests of every method, and machines to start from.
 STUDIED, MACHINES = "studied", "machines"
 
 
@@ -38,9 +38,9 @@ class Sized(msgspec.Struct, frozen=True):
     Parameters
     ----------
     build : callable
-        Size -> nested dictionary, as a file would give it.
+        Size -> nested dictionary, as read from a file.
     default, largest : int
-        The size where none is asked for, and the largest that is allowed; the smallest is 1.
+        Default and largest size; the smallest is 1.
     """
 
     build: Callable[[int], dict[str, Any]]
@@ -74,7 +74,7 @@ def names(group: str = STUDIED) -> tuple[str, ...]:
     Parameters
     ----------
     group : {"studied", "machines"}
-        Which entries.
+        Group of the entries.
     """
     return tuple(sorted({*_files(group), *(SIZED.names if group == STUDIED else ())}))
 
@@ -118,7 +118,7 @@ def entries(group: str = STUDIED) -> tuple[CatalogueEntry, ...]:
     Parameters
     ----------
     group : {"studied", "machines"}
-        Which entries.
+        Group of the entries.
     """
     result = []
     for name in names(group):
@@ -129,6 +129,6 @@ def entries(group: str = STUDIED) -> tuple[CatalogueEntry, ...]:
 
 
 def example_of_size() -> str:
-    """Return how a size is written, for messages."""
+    """Return an example of an entry with a size, for messages."""
     name = SIZED.names[0]
     return f"'{name}:{SIZED.get(name).default}'"

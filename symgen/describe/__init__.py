@@ -1,6 +1,6 @@
 """Describing a mechanism: text or Python in, one validated frozen `Mechanism` out.
 
-The stage reads a TOML file, a catalogue entry or what a `MechanismBuilder` collected; all three become the same nested
+The stage reads a TOML file, a catalogue entry or the keys of a `MechanismBuilder`; all three become the same nested
 dictionary and pass the same validator. Neither SymPy nor NumPy is imported here.
 """
 

@@ -13,7 +13,7 @@ from symgen.describe.triads import frame
 from symgen.vocabulary.expressions import ZERO, Expr, call, difference, dot, number, product, total
 from symgen.vocabulary.measures import GROUND
 
-#: Elements of a beam at most.
+#: Maximum number of elements of a beam.
 MOST_ELEMENTS = 100_000
 #: Weights of few nodes: trapezoid, Simpson, 3/8, Boole; and those at the ends of many nodes.
 _FEW = {1: (0.5,), 2: (1 / 3, 4 / 3), 3: (3 / 8, 9 / 8), 4: (14 / 45, 64 / 45, 24 / 45)}
@@ -163,7 +163,7 @@ def _points(scope: Scope, beam: BeamSection) -> list[tuple[str, Vec]]:
 
 
 def _sides(scope: Scope, beam: BeamSection, count: int) -> list[Vec]:
-    """Return a direction on the side of y of each segment's section, in the plane none."""
+    """Return a direction on the side of y of each segment's section; none in the plane."""
     if not scope.spatial:
         if beam.y_axis is not None:
             raise scope.error("y_axis", "no such key in the plane", words_of(beam.y_axis))
@@ -178,7 +178,7 @@ def _sides(scope: Scope, beam: BeamSection, count: int) -> list[Vec]:
 
 
 def _counts(scope: Scope, elements: int | tuple[int, ...], lengths: list[float]) -> list[int]:
-    """Return the number of elements of each segment; where it is free, the longest element is as short as can be."""
+    """Return the number of elements of each segment; where it is free, the longest element is as short as possible."""
     least = len(lengths)
     counts = list(elements) if isinstance(elements, tuple) else [1] * least
     whole = sum(counts) if isinstance(elements, tuple) else elements

@@ -1,4 +1,4 @@
-"""What a beam is made of: its table in a file, and stiffness and mass by length from section and material."""
+"""Beams in a file: their table, and stiffness and mass by length from section and material."""
 
 from __future__ import annotations
 
@@ -126,7 +126,7 @@ def properties_of(scope: Scope, beam: BeamSection) -> Properties:
     Raises
     ------
     InputError
-        If something is missing, is there twice or has no meaning.
+        If a key is missing, duplicated or meaningless.
     """
     direct = ("axial", "shear", "torsion", "bending", "mass", "rotary")
     named = [key for key in direct if getattr(beam, key) is not None]
@@ -209,7 +209,7 @@ def _rectangle(width: Expr, height: Expr) -> tuple[Expr, tuple[Expr, Expr], Expr
 
 
 def _ring(outer: Expr, inner: Expr) -> tuple[Expr, tuple[Expr, Expr], Expr]:
-    """Return the same of a circle with a hole."""
+    """Return area, second moments and torsion constant of a circle with a hole."""
     squares = [product(d, d) for d in (outer, inner)]
     area = product(number(0.25 * math.pi), difference(*squares))
     moment = product(area, total(*squares), number(1.0 / 16.0))

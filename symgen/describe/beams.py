@@ -31,12 +31,12 @@ from symgen.vocabulary.measures import GROUND
 from symgen.vocabulary.rotations import matrix
 
 Raw = Mapping[str, Any]
-#: Names of the nodes at the ends, and how elements and loads are called behind a beam's name.
+#: Names of the nodes at the ends, and of elements and loads behind a beam's name.
 START, END, ELEMENT, LOAD = "start", "end", "e", "load"
 _PLACE = re.compile(r"at\(\s*([0-9.eE+-]+)\s*\)")
 #: Coordinates of the place in a load by length.
 _OWN = re.compile(r"(?<![A-Za-z0-9_.])([xyz])(?![A-Za-z0-9_.])")
-#: A place that is this part of a beam's length away from a node is that of the node.
+#: A place within this part of a beam's length from a node is at the node.
 _NEAR = 1e-6
 #: Axes of a body in its own frame.
 _UNTURNED = {n: tuple(tuple(ONE if i == j else ZERO for j in range(n)) for i in range(n)) for n in (2, 3)}
@@ -56,14 +56,14 @@ class _Mass:
 
 @dataclass(frozen=True)
 class _Seat:
-    """Where elements meet: a body, the place in its frame, and directions x and y there of each cross section."""
+    """A node of elements: a body, the place in its frame, and directions x and y there of each cross section."""
 
     body: str
     place: str | list[float | str]
     sides: list[tuple[Vec, ...]]
 
     def side(self, section: int, i: int) -> list[float | str]:
-        """Return direction x or y of a cross section as a file has it."""
+        """Return direction x or y of a cross section as written in a file."""
         return _written(self.sides[section][i])
 
 
@@ -95,7 +95,7 @@ class Beams:
         self.raw, self.scope_of, self.body_of = raw, scope_of, body_of
         self._nodes: dict[str, list[tuple[str, float]]] = {}  # of a beam, "" for a clamped end, and parts of its length
         self._counts: dict[str, list[int]] = {}  # elements of the segments of a beam
-        self._further: dict[str, list[_Mass]] = {}  # of bodies beside those of their tables
+        self._further: dict[str, list[_Mass]] = {}  # of bodies, besides those of their tables
         self._centres: dict[str, Any] = {}  # of bodies that ends are clamped to, in their frames
         self.bodies: dict[str, Any] = {}
         self.forces: dict[str, Any] = {}
@@ -106,7 +106,7 @@ class Beams:
         Raises
         ------
         InputError
-            At the first thing of a beam that is wrong.
+            At the first error in a beam.
         """
         for name, table in self.raw["beams"].items():
             scope = self.scope_of("beams", name)
@@ -193,7 +193,7 @@ class Beams:
         return _Seat(name, CENTRE, [section.sides if vertex else unturned for section in sections])
 
     def _point(self, body: str, name: str, place: str | list[float | str]) -> str:
-        """Return the name of a further point of a body that an end is clamped to."""
+        """Return the name of a further point of a body with a clamped end."""
         table = self.bodies.get(body, self.raw["bodies"][body])
         points = table.get("points", {})
         while name in points:
@@ -202,7 +202,7 @@ class Beams:
         return name
 
     def _clamp(self, scope: Scope, name: str, end: CrossSection, properties: Properties) -> _Seat:
-        """Return the seat of a clamped end on its body, which is to have the mass of the end."""
+        """Return the seat of a clamped end on its body, which takes the mass of the end."""
         if name == GROUND:
             return _Seat(name, _written(end.place), [end.sides])
         bodies = self.raw.get("bodies", {})
@@ -277,7 +277,7 @@ class Beams:
 
 
 def _motion(scope: Scope, beam: BeamSection, start: Vec) -> _Motion | None:
-    """Return how a beam moves at the start as if it were rigid, None where its tables say nothing of that."""
+    """Return the rigid-body motion of a beam at the start, None where its table has no velocities."""
     if beam.velocity is None and beam.angular_velocity is None:
         return None
     velocity = scope.vector("velocity", (0.0,) * scope.dimension if beam.velocity is None else beam.velocity)
@@ -295,7 +295,7 @@ def _velocities(section: CrossSection, motion: _Motion) -> dict[str, Any]:
 
 
 def _pose(section: CrossSection) -> dict[str, Any]:
-    """Return where a node is and how it is turned."""
+    """Return the position and orientation of a node."""
     if len(section.axes) == 2:
         return {"position": _written(section.place), "angle": file_value(section.angle)}
     turned = {"x_axis": _written(section.axes[0]), "y_axis": _written(section.axes[1])}
@@ -309,7 +309,7 @@ def _mass(properties: Properties, section: CrossSection, axes: tuple[Vec, ...] |
         return mass, tuple(rotary)
     x, y, _ = axes
     pairs = (0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)
-    # of three perpendicular axes the third one follows, which has the longest formulas
+    # the third of three perpendicular axes follows from the others: its formulas are the longest
     about_x, about_y = (difference(e, rotary[2]) for e in rotary[:2])
     return mass, tuple(
         total(rotary[2] if i == j else ZERO, product(about_x, x[i], x[j]), product(about_y, y[i], y[j]))
@@ -353,7 +353,7 @@ def _within(frame: Sequence[Vec], vectors: Sequence[Vec]) -> tuple[Vec, ...]:
 
 
 def _written(vector: Iterable[Expr]) -> list[float | str]:
-    """Return a vector as a file has it."""
+    """Return a vector as written in a file."""
     return [file_value(e) for e in vector]
 
 

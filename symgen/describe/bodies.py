@@ -64,7 +64,7 @@ def spatial_body(scope: Scope, raw: object) -> SpatialBody:
 
 
 def _without_shape(raw: object) -> object:
-    """Return the table of a body without what it looks like, which `symgen.describe.bodies` reads."""
+    """Return the table of a body without its shapes, which `symgen.describe.bodies` reads."""
     return {key: value for key, value in raw.items() if key != "shape"} if isinstance(raw, Mapping) else raw
 
 
@@ -219,21 +219,21 @@ def shifted(tensor: Tensor, mass: Expr, d: Vec) -> Tensor:
     return a, b, c, e, f, g
 
 
-#: Type of a shape -> the keys it needs, and those it may have, beside `type` and `colour`.
+#: Type of a shape -> its required and its optional keys, besides `type` and `colour`.
 KEYS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "polyline": (("points",), ("closed",)),
     "box": (("size",), ("at",)),
     "cylinder": (("radius",), ("at", "length", "axis")),
     "sphere": (("radius",), ("at",)),
 }
-#: Shapes of one body at most, and points of a polyline.
+#: Maximum number of shapes of a body, and of points of a polyline.
 MOST, MOST_POINTS = 100, 2000
 
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
 def shapes_of(scope: Scope, raw: object) -> tuple[Shape, ...]:
-    """Return the shapes of the body that a scope names: those of the key ``shape`` of its table, one or a list."""
+    """Return the shapes of a scope's body, from the key ``shape`` of its table: one or a list."""
     shapes = raw.get("shape", ()) if isinstance(raw, Mapping) else ()
     several = isinstance(shapes, list | tuple)
     tables = shapes if several else (shapes,)

@@ -100,11 +100,11 @@ class MechanismBuilder:
 
     @property
     def source(self) -> str:
-        """What messages call this description."""
+        """Name of this description in messages."""
         return f"builder '{self._raw['mechanism']['name']}'"
 
     def raw(self) -> dict[str, dict[str, Any]]:
-        """Return a copy of the nested dictionary, as a file would give it."""
+        """Return a copy of the nested dictionary, as read from a file."""
         copied: dict[str, dict[str, Any]] = _plain(self._raw)
         return copied
 
@@ -138,7 +138,7 @@ for _method, _keys, _open in (
 
 
 def _plain(value: Any) -> Any:
-    """Return `value` as a file would give it: tables, lists, texts, numbers (NumPy's too) and truth values."""
+    """Return `value` as read from a file: tables, lists, texts, numbers (NumPy's too) and truth values."""
     if isinstance(value, Mapping):
         return {key: _plain(item) for key, item in value.items()}
     if isinstance(value, str | bool | int):
@@ -159,7 +159,7 @@ def to_toml(raw: Mapping[str, Any]) -> str:
     Parameters
     ----------
     raw : mapping
-        Sections as `symgen.describe.load.read_toml` gives them.
+        Sections as `symgen.describe.load.read_toml` returns them.
     """
     blocks = []
     for section in (*SECTIONS, *(key for key in raw if key not in SECTIONS)):

@@ -12,7 +12,7 @@ Point = str | Iterable[Any]
 
 
 class MechanismKeys(TypedDict, total=False):
-    """Keys of ``[mechanism]`` beside its name."""
+    """Keys of ``[mechanism]`` besides its name."""
 
     title: str
     source: str
@@ -33,7 +33,7 @@ class RunKeys(TypedDict, total=False):
 
 
 class TableKeys(TypedDict, total=False):
-    """Keys of ``[tables.NAME]`` beside its points."""
+    """Keys of ``[tables.NAME]`` besides its points."""
 
     interpolation: Literal["linear", "cubic", "pchip"]
     periodic: bool

@@ -1,4 +1,4 @@
-"""What a column of a table is called wherever all tables meet: in frames, files, plots, pages and commands.
+"""Names of columns where all tables are joined: in frames, files, plots, pages and commands.
 
 Bodies, joints and forces have names of their own, so that most columns need no more than these. Multipliers, energies
 and violations say which they are. A body, force or driver with the name of one of these heads is refused where two
@@ -49,12 +49,12 @@ def check_columns(mechanism: Mechanism, source: str) -> None:
     mechanism : Mechanism
         With bodies, joints and forces.
     source : str
-        Where it is from, for the message.
+        Its origin, for the message.
 
     Raises
     ------
     InputError
-        If there is one.
+        If one has such a name.
     """
     drivers = [joint.name for joint in mechanism.joints if joint.kind == "driver"]
     owners = {"bodies": mechanism.bodies, "forces": mechanism.forces}

@@ -1,6 +1,6 @@
-"""A model's digest: equal for two descriptions exactly when they lead to the same generated code.
+"""A model's digest: equal for two descriptions exactly when their generated code is the same.
 
-The start (positions, angles, velocities, what is held), title, source, run defaults and the values and notes of
+The start (positions, angles, velocities, holds), title, source, run defaults and the values and notes of
 parameters stay outside: they can change without compiling again. A number written in place of a parameter is inside.
 """
 
@@ -14,12 +14,12 @@ from symgen.describe.tables import Table
 
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
-#: Fields that are younger than the form: one that is empty is left out.
+#: Fields added after the form was fixed: empty ones are left out.
 _LATER = ("flexures",)
 
 
 def canonical(mechanism: Mechanism) -> str:
-    """Return the text of everything in `mechanism` that the equations depend on.
+    """Return the text of all parts of `mechanism` on which the equations depend.
 
     Bodies, joints, forces, parameters and rows keep the declared order, which is the order of coordinates, multipliers
     and parameters in the generated code; tables and named points are sorted, as their order means nothing.
@@ -65,7 +65,7 @@ def digest(mechanism: Mechanism) -> str:
 def identity(mechanism: Mechanism) -> str:
     """Return the digest of all of a mechanism: equations, start, values of parameters and defaults.
 
-    Shapes stay outside, as nothing is computed with them, and so does what inputs are given, which stands in forces.
+    Shapes stay outside, as nothing is computed with them, and so do the sources of inputs, which are part of forces.
     """
     import hashlib
 
@@ -78,7 +78,7 @@ def identity(mechanism: Mechanism) -> str:
 
 
 def _table(table: Table) -> list[str]:
-    """Return the content of a table; one of straight lines is what it was when there were no others."""
+    """Return the content of a table; that of a linear one is unchanged from when all tables were linear."""
     how = [] if table.interpolation == "linear" else [table.interpolation, str(table.periodic)]
     return [table.name, _text(table.x), _text(table.y), *how]
 

@@ -1,4 +1,4 @@
-"""Values of expressions, given numbers for their names: for starts, sizes and checks, not for run time."""
+"""Values of expressions with numbers for their names: for starts, sizes and checks, not for run time."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, names, table_of
 
-#: What is wrong with a value, by what evaluating it raises.
+#: Exception of an evaluation -> description of the error.
 _FAULTS: dict[type[Exception], str] = {ZeroDivisionError: "divides by zero", OverflowError: "is too large"}
 
 
@@ -71,7 +71,7 @@ def scalars(values: Mapping[str, float]) -> Scalars:
 
 
 def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None = None) -> dict[str, float]:
-    """Return all parameter values of a mechanism, `changed` ones replaced, those that follow from them worked out.
+    """Return all parameter values of a mechanism, `changed` ones replaced, dependent ones computed.
 
     Raises
     ------
@@ -91,13 +91,13 @@ def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None =
 
 
 def independent_values(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
-    """Return of all parameter values those that the others follow from: of formulas only the ones that are set."""
+    """Return the parameter values from which the others follow: of formulas only those that are set."""
     following = {name for name, formula in derived(mechanism.parameters) if evaluate(formula, values) == values[name]}
     return {name: value for name, value in values.items() if name not in following}
 
 
 def _joined(expression: Call, values: Mapping[str, float], where: str, tables: Mapping[str, Table] | None) -> float:
-    """Return whether both, or one, of two conditions hold; one may be undefined where the other decides."""
+    """Return 1 where both, or one, of two conditions hold, else 0; one may be undefined if the other decides."""
     deciding, undefined = expression.function == "or", None
     for argument in expression.arguments:
         try:
@@ -117,12 +117,12 @@ def _undefined(expression: Call, operands: list[float], where: str, why: str) ->
     return InputError(where, "a finite number", got)
 
 
-#: Parameters that a message about a circle of them lists.
+#: Maximum number of parameters in a message about a cycle.
 _LISTED = 8
 
 
 def in_order(formulas: Mapping[str, Expr | None], where: str) -> list[str]:
-    """Return names so that each stands behind those that its formula depends on, else in their own order.
+    """Return names, each behind those that its formula depends on, else in their own order.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def in_order(formulas: Mapping[str, Expr | None], where: str) -> list[str]:
     Raises
     ------
     InputError
-        If formulas lead back to where they began; says by which way.
+        If formulas form a cycle, which the message lists.
     """
     needs = {name: () if formula is None else dict.fromkeys(names(formula)) for name, formula in formulas.items()}
     try:
@@ -158,7 +158,7 @@ def in_order(formulas: Mapping[str, Expr | None], where: str) -> list[str]:
 
 
 def derived(parameters: Iterable[Parameter], values: Container[str] = ()) -> list[tuple[str, Expr]]:
-    """Return name and formula of the parameters that follow from others, each behind those it depends on.
+    """Return name and formula of dependent parameters, each behind those it depends on.
 
     Parameters
     ----------

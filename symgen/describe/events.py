@@ -1,4 +1,4 @@
-"""Events of a mechanism or a run: conditions as switching functions, and what is done when one becomes true."""
+"""Events of a mechanism or a run: conditions as switching functions, and the actions they trigger."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from symgen.vocabulary.expressions import Call, Expr, Name, Number, call, names
 
 RISING, FALLING, ANY = "rising", "falling", "any"
 RECORD, STOP, RESET = "record", "stop", "reset"
-#: What those do to a motion that are more than noted, in words.
+#: Effects on a motion of actions other than recording, in words.
 DOES = {STOP: "ends runs", RESET: "changes velocities"}
 _LOGIC = frozenset(("lt", "le", "gt", "ge", "and", "or", "not"))
 
@@ -56,7 +56,7 @@ def read_event(scope: Scope, name: str, raw: object) -> Event:
     scope : Scope
         The table's place.
     name : str
-        What the event is called.
+        Name of the event.
     raw : object
         The table.
 
@@ -80,14 +80,14 @@ def read_event(scope: Scope, name: str, raw: object) -> Event:
 
 
 def watched(mechanism: Mechanism, settings: str, when: str, action: str) -> Event:
-    """Return an event that is asked for beside the mechanism's own, named after its condition.
+    """Return an event requested in addition to the mechanism's own, named after its condition.
 
     Parameters
     ----------
     mechanism : Mechanism
         What it is about.
     settings : str
-        The setting that has it, for messages.
+        The setting with the condition, for messages.
     when : str
         The condition.
     action : {"record", "stop"}
@@ -99,7 +99,7 @@ def watched(mechanism: Mechanism, settings: str, when: str, action: str) -> Even
 
 
 def events_of(mechanism: Mechanism, tables: Mapping[str, Any]) -> tuple[Event, ...]:
-    """Return events that are given in Python as tables by name, in the words of a file."""
+    """Return events from Python tables by name, with the keys of a file."""
     result = []
     for name, table in tables.items():
         check_identifier(name, f"{mechanism.name}: events", "event")
@@ -112,7 +112,7 @@ def events_of(mechanism: Mechanism, tables: Mapping[str, Any]) -> tuple[Event, .
 
 
 def in_words(events: Iterable[Event]) -> str:
-    """Return events in words that are others where the events are."""
+    """Return events in words, which differ where the events differ."""
     return "; ".join(
         f"{e.name} ({', '.join([e.action, *(f'{to_text(v)} = {to_text(x)}' for v, x in e.reset)])}) "
         f"where {to_text(e.when)} passes 0, {e.direction}"
@@ -150,7 +150,7 @@ def _difference(a: Expr, b: Expr) -> Expr:
 
 
 def _velocity(scope: Scope, key: str, value: float | str) -> tuple[Expr, Expr]:
-    """Return a velocity that is named, and its new value."""
+    """Return a named velocity and its new value."""
     where = f"reset.{quoted(key)[1:-1]}"
     quantity = scope.of_state(where, key)
     body, _, speed = quantity.name.rpartition(".") if isinstance(quantity, Name) else ("", "", "")

@@ -98,7 +98,7 @@ Points = Annotated[
 ]
 Flag = Annotated[bool, Meta(description="true or false")]
 Numbers = Annotated[tuple[float, ...], Meta(description="a list of numbers")]
-#: The words are looked at where they are resolved, which says the nearest one.
+#: The words are checked where they are resolved, with a message that names the nearest one.
 Held = Annotated[
     bool | str | tuple[str, ...], Meta(description="true, or which of 'position', 'angle' and 'velocity' are kept")
 ]
@@ -125,7 +125,7 @@ Scalars = Annotated[
 BodyNames = Annotated[tuple[str, ...], Meta(description="names of bodies", min_length=1)]
 PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
 
-#: Keys that joints of any kind may have beside their own, and their types.
+#: Keys, with their types, that joints of any kind may have besides their own.
 OF_ANY_JOINT: Mapping[str, Any] = {"start": JointStart, "cut": Flag, "rotor_inertia": Scalar, "gear_ratio": Scalar}
 
 T = TypeVar("T")
@@ -134,7 +134,7 @@ _AT = re.compile(r" - at `\$(.*)`$")
 
 
 def words_of(value: object) -> str:
-    """Return a value of a file in words short enough for a message."""
+    """Return a short text of a file's value for a message."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, Mapping):
@@ -159,7 +159,7 @@ def read(kind: type[T], raw: object, where: str, further: tuple[str, ...] = ()) 
     kind : type
         A Struct whose fields are the table's keys.
     raw : object
-        What the file has there.
+        The value in the file.
     where : str
         File and table, for the message.
     further : tuple of str, optional
@@ -180,7 +180,7 @@ def read(kind: type[T], raw: object, where: str, further: tuple[str, ...] = ()) 
     return kind(**{key: read_value(fields[key].type, value, f"{where}.{key}") for key, value in raw.items()})
 
 
-@cache  # one entry a section and kind; asking msgspec evaluates every annotation
+@cache  # one entry for each section and kind; msgspec evaluates every annotation
 def _fields(kind: type[msgspec.Struct]) -> dict[str, msgspec.structs.FieldInfo]:
     return {field.name: field for field in msgspec.structs.fields(kind)}
 
@@ -218,7 +218,7 @@ def _follow(value: object, path: str) -> object:
 
 
 def describe_type(type_: Any) -> str:
-    """Return in words what a value of this type is."""
+    """Return a description in words of a value of this type."""
     for note in getattr(type_, "__metadata__", ()):
         if isinstance(note, Meta) and note.description:
             return note.description

@@ -1,4 +1,4 @@
-"""A mechanism with twice the elements in each of its beams, by which the error of their number is estimated."""
+"""A mechanism with twice the elements in each beam, to estimate the discretisation error."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def refined(mechanism: Mechanism) -> tuple[Mechanism, dict[str, str]]:
 
 
 def _renumber(table: dict[str, Any], beams: dict[str, Any]) -> None:
-    """Double the numbers of nodes that a joint or force is at."""
+    """Double the numbers of the nodes of a joint or force."""
     at = table.get("at")
     if table.get("body") in beams:
         table["at"] = _twice(at)

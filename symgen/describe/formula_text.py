@@ -27,7 +27,7 @@ def to_text(expression: Expr) -> str:
 
 
 def file_value(expression: Expr) -> float | str:
-    """Return an expression as a file has it: a number, or a formula."""
+    """Return an expression as written in a file: a number, or a formula."""
     return expression.value if isinstance(expression, Number) else to_text(expression)
 
 
@@ -37,7 +37,7 @@ def _bracketed(expression: Expr, least: int) -> str:
 
 
 def _print(expression: Expr) -> tuple[str, int]:
-    """Return the text and how strongly its outermost operator binds."""
+    """Return the text and the precedence of its outermost operator."""
     if isinstance(expression, Number):
         return repr(expression.value), _SIGN if repr(expression.value).startswith("-") else _ATOM
     if isinstance(expression, Name | Reading):
@@ -62,5 +62,5 @@ def _print(expression: Expr) -> tuple[str, int]:
 
 
 def _right(strength: int) -> int:
-    """Return how strongly a right operand must bind: a sign is bracketed there for the eye only."""
+    """Return the least precedence of a right operand: a sign is bracketed there for readability only."""
     return _POWER if strength == _INFIX["mul"][1] else strength + 1

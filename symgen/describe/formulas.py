@@ -37,7 +37,7 @@ class Formulas:
         self.size = index
         for i, state in enumerate(self.mechanism.states, 1):  # behind the work
             self.names[state.name] = g.input("z", i)
-        #: Body -> the point that points of it are relative to: its centre of mass, unless a joint holds it elsewhere.
+        #: Body -> reference point of its points: its centre of mass, unless a joint holds it elsewhere.
         self.references = {b.name: b.centre_of_mass for b in self.mechanism.bodies}
 
     def expression(self, e: Expr, **placeholders: int) -> int:

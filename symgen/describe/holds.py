@@ -1,4 +1,4 @@
-"""What a start keeps: keys of bodies and joints in a file, and names with values of whoever runs it."""
+"""Quantities that a start keeps: from keys of bodies and joints in a file, and from names and values of a run."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from symgen.vocabulary.measures import GROUND, Angle
 if TYPE_CHECKING:
     from symgen.describe.scope import Scope
 
-#: Word of the key ``hold`` -> the keys it is about, in the plane and in space.
+#: Word of the key ``hold`` -> the keys it refers to, in the plane and in space.
 _WORDS = {
     "position": ("position",),
     "angle": ("angle", "orientation"),
     "velocity": ("velocity", "angular_velocity"),
 }
-#: What stands for the orientation of a body in space, which is none of its coordinates.
+#: Name of the orientation of a body in space, which is not one of its coordinates.
 ORIENTATION = "orientation"
 _EULER = ("e0", "e1", "e2", "e3")
 
@@ -30,7 +30,7 @@ def body_holds(scope: Scope, raw: Mapping[str, Any], body: AnyBody) -> tuple[Hol
     Raises
     ------
     InputError
-        If a word is none, or stands for something that the table does not describe.
+        If a word is unknown, or refers to a key that the table lacks.
     """
     value = raw.get("hold", False)
     described = [word for word, keys in _WORDS.items() if any(key in raw for key in keys)]
@@ -68,7 +68,7 @@ def joint_holds(scope: Scope, values: Mapping[str, float | str], joint: Joint) -
     Raises
     ------
     InputError
-        If a key is no coordinate of the joint.
+        If a key is not a coordinate of the joint.
     """
     coordinates = {name.partition(".")[2]: whole for name, whole in _of_joint(joint).items()}
     if not coordinates:
@@ -82,7 +82,7 @@ def joint_holds(scope: Scope, values: Mapping[str, float | str], joint: Joint) -
 
 
 def _of_joint(joint: Joint) -> dict[str, str]:
-    """Return the names of a joint's coordinates and rates, each with the whole one that it is short for."""
+    """Return the full and short names of a joint's coordinates and rates, each with its full name."""
     names = [f"{joint.name}.{label}" for label, _ in joint.coordinates]
     whole_names = {whole: whole for name in names for whole in (name, f"{name}.rate")}
     return whole_names | ({f"{joint.name}.rate": f"{names[0]}.rate"} if len(names) == 1 else {})
@@ -99,9 +99,9 @@ def _as_body(joint: Joint) -> dict[str, str]:
 
 
 def joint_names(mechanism: Mechanism) -> dict[str, str]:
-    """Return the names of joint coordinates and their rates, each with the one name of what it is.
+    """Return the names of joint coordinates and their rates, each with its canonical name.
 
-    Short names stand for whole ones, and what is a coordinate or velocity of a body has that name.
+    Short names map to full ones, and those of coordinates or velocities of a body to the body's names.
     """
     canonical = dict[str, str]()
     for joint in mechanism.joints:
@@ -111,21 +111,21 @@ def joint_names(mechanism: Mechanism) -> dict[str, str]:
 
 
 def holds_of(mechanism: Mechanism, where: str = "start", values: Mapping[str, float] | None = None) -> tuple[Hold, ...]:
-    """Return all that a start keeps, each thing by one name.
+    """Return all quantities that a start keeps, each under one name.
 
     Parameters
     ----------
     mechanism : Mechanism
-        What is run; what its file holds is kept unless it is asked for otherwise.
+        The mechanism; quantities held in its file are kept unless `values` replaces them.
     where : str
-        Who asks, for messages.
+        Origin of the values, for messages.
     values : mapping of str to float, optional
         Values by names of coordinates and velocities of bodies and joints [m, rad, m/s, rad/s].
 
     Raises
     ------
     InputError
-        If a name is none (says the nearest one), or two of them mean one thing.
+        If a name is unknown (the message names the nearest one), or two names mean one quantity.
     """
     bodies = {f"{b.name}.{n}": f"{b.name}.{n}" for b in mechanism.bodies for n in (*b.coordinates, *b.speeds)}
     joints, same = dict[str, str](), dict[str, str]()

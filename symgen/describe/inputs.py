@@ -42,13 +42,13 @@ class Jump:
     argument : Expr
         Of t and parameters.
     levels : tuple of float
-        What it passes.
+        Values at which it changes.
     switch : str
-        The parameter that says which side holds; empty where both are the same there, as at a kink.
+        The parameter that selects the side; empty where both sides are equal there, as at a kink.
     value : Expr
-        What the switch is.
+        Value of the switch.
     period : float
-        By which the levels repeat themselves, 0 where they do not.
+        Period of the levels, 0 without one.
     """
 
     argument: Expr
@@ -60,7 +60,7 @@ class Jump:
 
 @dataclass(frozen=True)
 class DrivenMechanism:
-    """A mechanism with what a run gives its inputs.
+    """A mechanism with the inputs of a run.
 
     Attributes
     ----------
@@ -90,14 +90,14 @@ class DrivenMechanism:
 
     @property
     def varied(self) -> Mechanism:
-        """The mechanism whose inputs are their formulas and data, and what stands in their slots beside these."""
+        """The mechanism whose inputs are their formulas and data plus the values in their slots."""
         beside = {name: call("add", e, Name(name)) for name, e in self.mechanism.input_formulas}
         parts = {part: put(getattr(self.declared, part), beside) for part in _READING}
         return msgspec.structs.replace(self.mechanism, **parts)
 
 
 def driven(mechanism: Mechanism, sources: Mapping[str, Any]) -> DrivenMechanism:
-    """Return a mechanism with what a run gives its inputs.
+    """Return a mechanism with the inputs of a run.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def driven(mechanism: Mechanism, sources: Mapping[str, Any]) -> DrivenMechanism:
     Raises
     ------
     InputError
-        If a name is no input, or what is given is none of these.
+        If a name is not an input, or its value has none of these forms.
     """
     inputs = {p.name: p.value for p in mechanism.parameters if p.input}
     numbers, samples, curves, formulas = dict[str, float](), dict[str, Data](), dict[str, Data](), dict[str, Expr]()
@@ -195,7 +195,7 @@ def compared(e: Call) -> Expr:
 
 
 class _Switching:
-    """Takes jumps out of one formula, and notes them and its kinks down."""
+    """Removes the jumps from one formula, and records them and its kinks."""
 
     def __init__(self, mechanism: Mechanism, name: str, jumps: list[Jump]) -> None:
         self.tables = {table.name: table for table in mechanism.tables}
@@ -218,12 +218,12 @@ class _Switching:
         return Call(e.function, arguments)
 
     def note(self, jump: Jump) -> None:
-        """Note a kink down, where it depends on t."""
+        """Record a kink, where it depends on t."""
         if "t" in set(names(jump.argument)):
             self.jumps.append(jump)
 
     def switch(self, e: Call) -> Expr:
-        """Return the replacement of a condition or a sign: the number that a run sets."""
+        """Return the replacement of a condition or a sign: a number that the run sets."""
         if e not in self.switches:
             name = f"{self.name}~{sum(1 for j in self.jumps if j.switch) + 1}"  # no name of a file
             self.jumps.append(Jump(compared(e), switch=name, value=e))
@@ -232,12 +232,12 @@ class _Switching:
         return self.switches[e]
 
 
-#: Points of a table that a run stops at; one with more of them is evaluated as it stands.
+#: Maximum number of points of a table at which a run stops; a longer one is evaluated as it is.
 MOST_KNOTS = 100_000
 
 
 INTERPOLATIONS = ("hold", "linear", "cubic", "pchip")
-#: Bytes of a file of data.
+#: Maximum bytes of a data file.
 LARGEST_FILE = 50_000_000
 _FILE = re.compile(r"(?P<file>.+\.csv):(?P<column>[^:]+)(?::(?P<how>[^:]*))?", re.IGNORECASE)
 _WORDS = re.compile(rf".* \(({'|'.join(INTERPOLATIONS)})\)", re.DOTALL)
@@ -255,7 +255,7 @@ class Data:
     interpolation : str
         ``hold``: each value until the next one; else see `symgen.describe.tables.Table`.
     words : str
-        What it is, for people.
+        Description for people.
     """
 
     t: tuple[float, ...]
@@ -277,7 +277,7 @@ class Data:
 
 
 def data_of(where: str, value: object) -> Data | None:
-    """Return the data that are given for an input, None where it is a number or a formula.
+    """Return the data of an input, None where it is a number or a formula.
 
     Parameters
     ----------
@@ -290,7 +290,7 @@ def data_of(where: str, value: object) -> Data | None:
     Raises
     ------
     InputError
-        If it means data that are not there or make no sense.
+        If the data are missing or invalid.
     """
     if isinstance(value, str):
         match = _FILE.fullmatch(value.strip())
@@ -370,5 +370,5 @@ def _checked(where: str, t: object, u: object, how: str, source: str) -> Data:
 
 
 def are_words_of_data(text: str | float) -> bool:
-    """Return whether the description of an input names data, which are no formula."""
+    """Return whether the description of an input names data rather than a formula."""
     return isinstance(text, str) and _WORDS.fullmatch(text) is not None

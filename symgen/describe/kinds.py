@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class JointKind(Protocol):
-    """What every joint kind offers."""
+    """Interface of a joint kind."""
 
     #: Where the kind exists: in planar mechanisms, in spatial ones, or in both.
     SPACES: ClassVar[tuple[str, ...]]
@@ -23,7 +23,7 @@ class JointKind(Protocol):
 
 
 class ForceKind(Protocol):
-    """What every force kind offers."""
+    """Interface of a force kind."""
 
     #: Where the kind exists: in planar mechanisms, in spatial ones, or in both.
     SPACES: ClassVar[tuple[str, ...]]

@@ -1,4 +1,4 @@
-"""Where formulas of joints and forces have kinks, and where they may hide something short.
+"""Kinks in formulas of joints and forces, and formulas that may hide short changes.
 
 Kinks lie at times that are computed before a run, or where the state passes points. Of formulas of the time that are
 no polynomials with one sine no time says where something short lies: there adaptive steps are bounded.
@@ -22,7 +22,7 @@ from symgen.vocabulary.expressions import BENT, Call, Expr, Name, Number, Readin
 from symgen.vocabulary.functions import ELEMENTARY
 from symgen.vocabulary.measures import Effort
 
-#: What may jump, and what compares something with zero, or two values with each other.
+#: Functions that may jump, and those that compare a value with zero, or two values with each other.
 _SIDES = ("lt", "le", "gt", "ge", "sign")
 _COMPARED = (*_SIDES, *BENT)
 #: How these are written where a formula is encoded: with their lengths, as `le` stands in other words too.
@@ -31,11 +31,11 @@ _COMPARED_TEXTS = tuple(map(msgspec.msgpack.encode, _COMPARED))
 
 #: Steps for which something may lie hidden are no longer than a run over this.
 PARTS = 1000
-#: How formulas of the time are written where they are encoded.
+#: Encoded forms of formulas of the time.
 _TIME = msgspec.msgpack.encode(Name("t"))
 #: Powers beyond this one are as sharp as pulses.
 _LOW = 16
-#: Functions that are polynomials where their arguments are, but for jumps and kinks.
+#: Functions that are polynomials where their arguments are, except at jumps and kinks.
 _PLAIN = frozenset(("add", "sub", "neg", "mul", "where", "and", "or", "not", *BENT))
 
 
@@ -67,7 +67,7 @@ def _tables(mechanism: Mechanism) -> dict[str, Table]:
 
 
 def _timely(mechanism: Mechanism) -> set[str]:
-    """Return the names in formulas of the time alone."""
+    """Return the names in formulas of time alone."""
     return {p.name for p in mechanism.parameters if not p.input} | {"t"}
 
 
@@ -79,7 +79,7 @@ def _may_pass(part: Any) -> bool:
 
 @dataclass(frozen=True)
 class Discontinuity:
-    """Where formulas of joints, forces and integrals jump or have kinks as the state passes something.
+    """A jump or kink of formulas of joints, forces and integrals at a value of the state.
 
     Attributes
     ----------
@@ -152,7 +152,7 @@ def _of_a_run(e: Expr, effort: Effort) -> Expr:
 def _calls(*parts: Any, enters: Callable[[Call], bool] = lambda e: True) -> Iterator[tuple[Call, Effort | None]]:
     """Yield the calls of functions in the formulas of parts of a mechanism, and in which effort each is.
 
-    Those inside a call follow where `enters` is true of it.
+    Calls inside a call follow where `enters` is true for it.
     """
     waiting: list[tuple[Any, Effort | None]] = [(part, None) for part in parts]
     while waiting:  # in a loop: large mechanisms have tens of thousands of nodes
@@ -184,9 +184,9 @@ def longest_step(
     Returns
     -------
     float
-        Infinity where any step does.
+        Infinity where no bound is needed.
     str
-        A sentence; empty where there is nothing to say.
+        A sentence, or empty.
     """
     if mechanism.defaults.max_step is not None:
         return mechanism.defaults.max_step, ""
@@ -203,13 +203,13 @@ def longest_step(
 
 @remembered
 def _groups(mechanism: Mechanism) -> tuple[str, ...]:
-    """Return which formulas that a run integrates may hide something short."""
+    """Return the groups of integrated formulas that may hide short changes."""
     parts = zip(("drivers", "forces", "integrals"), integrated(mechanism), strict=True)
     return tuple(group for group, part in parts if _may_hide(part, mechanism))
 
 
 def _may_hide(part: Any, mechanism: Mechanism) -> bool:
-    """Return whether a part of a mechanism has a formula of t and parameters that may hide something short."""
+    """Return whether a part of a mechanism has a formula of t and parameters that may hide short changes."""
     if _TIME not in msgspec.msgpack.encode(part):
         return False
     timely, tables = _timely(mechanism), frozenset(_tables(mechanism))
@@ -218,7 +218,7 @@ def _may_hide(part: Any, mechanism: Mechanism) -> bool:
 
 
 def _form(e: Expr, tables: frozenset[str]) -> tuple[float, frozenset[Expr]] | None:
-    """Return the power of a polynomial of t and one sine, and what that sine is of; None for any other formula."""
+    """Return the power of a polynomial of t and one sine, and the sine's argument; None for any other formula."""
     if not isinstance(e, Call):
         return float(isinstance(e, Name) and e.name == "t"), frozenset()
     forms = [form for a in e.arguments if (form := _form(a, tables)) is not None]

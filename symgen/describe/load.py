@@ -1,6 +1,6 @@
 """From the word after a command to a mechanism: a catalogue name or the path of a file.
 
-Bounds of a file are checked on its text before the TOML parser builds anything of it. The parser keeps every beginning
+Bounds of a file are checked on its text before the TOML parser builds anything of it. The parser keeps every prefix
 of a dotted key, so a long key costs the square of its parts; brackets that are nested too deep end in a
 `RecursionError`. No table of a mechanism file lies deeper than four keys, so the bounds refuse nothing that has a
 meaning.
@@ -22,7 +22,7 @@ from symgen.errors import InputError, nearest, quoted
 
 _CATALOGUE = re.compile(r"(?P<name>[a-z][a-z0-9-]*)(:(?P<size>[0-9]{1,9}))?")
 
-#: Bytes of a file and operators in all formulas together.
+#: Maximum bytes of a file, and operators in all formulas together.
 LARGEST_FILE = 1_000_000
 MOST_OPERATORS = 50_000
 #: Parameters: each is a name in every module that is emitted.
@@ -31,7 +31,7 @@ MOST_PARAMETERS = 10_000
 LONGEST_KEY, MOST_PARTS = 8, 50_000
 
 # What may hold a dot that joins no keys (comments and strings) comes first; a string that does not end matches nothing
-# here, and the parser says so. Nothing is tried twice: the loops keep what they have.
+# here, and the parser reports it. Nothing is tried twice: the loops do not backtrack.
 _TOKEN = re.compile(
     r"""(?P<comment>\#[^\n]*+)
       | (?P<long>\"{3}(?:[^"\\]++|\\.|"{1,2}+(?!"))*+"{3,5}+ | '{3}(?:[^']++|'{1,2}+(?!'))*+'{3,5}+)
@@ -49,12 +49,12 @@ def load(model: str | os.PathLike[str], parameters: Mapping[str, float] | None =
     model : str or path
         ``"four-bar"``, ``"n-four-bar:40"`` or the path of a TOML file.
     parameters : mapping of str to float, optional
-        Values in place of the defaults of some parameters; what depends on them is checked with these.
+        Values in place of the defaults of some parameters; dependent quantities are checked with these.
 
     Raises
     ------
     InputError
-        If there is no such mechanism or its description is wrong.
+        If the mechanism is unknown or its description is wrong.
     """
     raw, source = read_raw(model)
     return validate(with_parameters(raw, parameters, source) if parameters else raw, source)
@@ -68,7 +68,7 @@ def with_parameters(raw: Mapping[str, Any], values: Mapping[str, float], source:
     raw : mapping
         The description, not yet validated.
     values : mapping of str to float
-        New values; a name that is no parameter is an error.
+        New values; an unknown name is an error.
     source : str
         File name or other origin, for messages.
     """
@@ -85,7 +85,7 @@ def with_parameters(raw: Mapping[str, Any], values: Mapping[str, float], source:
 
 
 def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
-    """Return the nested dictionary of `model`, not yet validated, and the name messages give to its origin."""
+    """Return the nested dictionary of `model`, not yet validated, and the name of its origin for messages."""
     from symgen import catalogue
 
     arguments.path("model", model)
@@ -123,7 +123,7 @@ def read_toml(path: Path) -> dict[str, Any]:
     if len(content) > LARGEST_FILE:
         raise InputError(path.name, f"a file of at most {LARGEST_FILE} bytes", "a larger one")
     try:
-        text = content.decode("utf-8-sig")  # some editors begin files with a mark
+        text = content.decode("utf-8-sig")  # some editors begin files with a byte order mark
     except UnicodeDecodeError as error:
         raise InputError(path.name, "text in UTF-8", f"another byte at position {error.start}") from None
     return parse_toml(text, path.name)
@@ -170,7 +170,7 @@ def _check_text(text: str, source: str) -> None:
 
 
 def _check_values(raw: Mapping[str, Any], source: str) -> None:
-    """Refuse tables that are nested too deep, or hold more than a mechanism can mean.
+    """Refuse tables that are nested too deep, or exceed the bounds of a mechanism.
 
     Raises
     ------

@@ -16,7 +16,7 @@ from symgen.vocabulary.rotations import IDENTITY, Orientation
 
 T = TypeVar("T")
 
-#: Velocity -> what its rate is called.
+#: Velocity -> name of its rate.
 ACCELERATIONS = {
     "vx": "ax",
     "vy": "ay",
@@ -93,7 +93,7 @@ class Body(msgspec.Struct, frozen=True):
 
     @property
     def weightless(self) -> bool:
-        """Whether nothing of it has a mass: mass and inertia are the number 0."""
+        """Whether mass and inertia, if any, are the number 0."""
         return {self.mass, self.inertia} <= {ZERO, None}
 
 
@@ -137,7 +137,7 @@ class SpatialBody(msgspec.Struct, frozen=True):
 
     @property
     def weightless(self) -> bool:
-        """Whether nothing of it has a mass: mass and moments of inertia are the number 0."""
+        """Whether mass and all moments of inertia are the number 0."""
         return {self.mass, *(self.inertia or ())[:3]} == {ZERO}
 
 
@@ -145,7 +145,7 @@ AnyBody = Body | SpatialBody
 
 
 class Shape(msgspec.Struct, frozen=True):
-    """What a body looks like in pictures, in its own frame.
+    """Shape of a body in pictures, in its own frame.
 
     `kind` is ``polyline``, ``box``, ``cylinder`` or ``sphere``; `sizes` holds the edges of a box, the radius of a
     sphere, radius and length of a cylinder [m].
@@ -161,7 +161,7 @@ class Shape(msgspec.Struct, frozen=True):
 
 
 class Articulation(msgspec.Struct, frozen=True):
-    """How the bodies of a joint move against each other: what a joint is that can stand in a tree.
+    """Relative motion of the bodies of a joint that can be part of a tree.
 
     The second body's marker is the first body's, moved along `slides`, which are directions of the first body; the
     second body's frame is the first body's, turned as `turn` says.
@@ -195,7 +195,7 @@ class Articulation(msgspec.Struct, frozen=True):
 
 
 class Link(msgspec.Struct, frozen=True):
-    """How a body hangs in the tree: by a joint on another body, or by none, where it is free.
+    """Attachment of a body in the tree: by a joint to another body, or free without a joint.
 
     `forward` says whether the joint's first body is the one that carries.
     """
@@ -213,15 +213,15 @@ class Prescribed(msgspec.Struct, frozen=True):
     Parameters
     ----------
     driver : str
-        Name of the driver, which has no row then.
+        Name of the driver, which then has no row.
     body : str
         The body whose link has the coordinate.
     label : str
         Of the joint's coordinate, or ``"theta"`` for the angle of a planar body itself.
     value : Expr
-        What the driver says, a formula of t and parameters [m or rad].
+        The driver's value, a formula of t and parameters [m or rad].
     sign : float
-        1, or -1 where the driver says the opposite of the coordinate.
+        1, or -1 where the driver prescribes the opposite of the coordinate.
     """
 
     driver: str
@@ -277,7 +277,7 @@ class Force(msgspec.Struct, frozen=True, omit_defaults=True, repr_omit_defaults=
     kind: str
     bodies: tuple[str, ...]
     efforts: tuple[Effort, ...]
-    flexures: tuple[Flexure, ...] = ()  # texts of what has none stay what they were
+    flexures: tuple[Flexure, ...] = ()  # without any, texts stay unchanged
 
 
 class StateVariable(msgspec.Struct, frozen=True):
@@ -290,7 +290,7 @@ class StateVariable(msgspec.Struct, frozen=True):
 
 
 class Output(msgspec.Struct, frozen=True):
-    """A formula that results report; it may read what is known at outputs only (`symgen.describe.readings`)."""
+    """A formula that results report; it may read quantities of outputs (`symgen.describe.readings`)."""
 
     name: str
     value: Expr
@@ -298,7 +298,7 @@ class Output(msgspec.Struct, frozen=True):
 
 
 class Hold(msgspec.Struct, frozen=True):
-    """What a start keeps while assembly moves everything else.
+    """A quantity that a start keeps while assembly moves all others.
 
     `name` is a coordinate or velocity of a body (``crank.theta``, ``rod.vx``), the orientation of a body in space
     (``rod.orientation``), or a joint coordinate or its rate (``motor.angle``, ``motor.angle.rate``).
@@ -309,7 +309,7 @@ class Hold(msgspec.Struct, frozen=True):
 
 
 class Defaults(msgspec.Struct, frozen=True):
-    """What a run uses where nothing else is asked for; `max_step` bounds its adaptive steps.
+    """Default settings of a run; `max_step` bounds its adaptive steps.
 
     `step` is that of constant steps; adaptive ones begin with `first_step`, the step that a file has, if any.
     """
@@ -368,7 +368,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     holds: tuple[Hold, ...] = ()
     events: tuple[Event, ...] = ()
     cuts: tuple[str, ...] = ()  # joints that carry nothing where the state is that of a tree
-    shapes: tuple[tuple[str, Shape], ...] = ()  # body -> what it looks like, several entries for several shapes
+    shapes: tuple[tuple[str, Shape], ...] = ()  # body -> its shape, several entries for several shapes
     topology: Topology | None = None  # where joint coordinates are the state; joints of the tree have no rows then
     input_formulas: tuple[tuple[str, Expr], ...] = ()  # input -> the formula that a run has put in its place
     states: tuple[StateVariable, ...] = ()
@@ -397,7 +397,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
 
     @property
     def body_coordinates(self) -> int:
-        """How many coordinates all bodies have together."""
+        """Number of coordinates of all bodies together."""
         return sum(len(body.coordinates) for body in self.bodies)
 
     def body(self, name: str) -> AnyBody:
@@ -406,7 +406,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
         Raises
         ------
         InputError
-            If there is none; says the nearest name.
+            If the name is unknown; the message has the nearest one.
         """
         return self._named("body", {body.name: body for body in self.bodies}, name)
 

@@ -1,4 +1,4 @@
-"""Which names a file may use: they become identifiers in emitted code, so they are checked where they were typed."""
+"""Names that a file may use: they become identifiers in emitted code, so they are checked where they are typed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ OPERATORS = frozenset({"add", "sub", "mul", "div", "pow", "neg", "lt", "le", "gt
 OPERATORS |= {"both", "either"}
 #: Functions a formula may call.
 CALLABLE = frozenset(FUNCTIONS) - OPERATORS | {"piecewise"}
-#: What outputs may write besides.
+#: Further function in outputs.
 INTEGRAL = "integral"
 #: Names with a meaning of their own: `s` and `rate` are the placeholders of an effort.
 RESERVED = frozenset({"ground", "t", "pi", "s", "rate"}) | CALLABLE

@@ -45,9 +45,9 @@ _TOKEN = re.compile(
       | (?P<operator>\*\*|<=|>=|[-+*/<>(),.](?!=))""",
     re.VERBOSE,
 )
-#: A number with a unit that people write behind it.
+#: A number followed by a unit.
 _WITH_UNIT = re.compile(r"\s*[-+]?[\d.]+(e[-+]?\d+)?\s*([cmk]?m(/s)?|km/h|k?g|ms|min|k?N ?m?|(rad|deg)(/s)?|°|rpm)\s*")
-#: The number of a beam's node between dots, to which Python's grammar gives no meaning.
+#: The number of a beam's node between dots, which Python's grammar does not allow.
 _NODE = re.compile(r"(?<=[A-Za-z0-9_])\.([0-9]+)(?=\.[A-Za-z])")
 _WORDS = frozenset({"and", "or", "not", "if", "else"})
 _HINTS = {
@@ -66,7 +66,7 @@ _COMPARE: Mapping[type, str] = {ast.Lt: "lt", ast.LtE: "le", ast.Gt: "gt", ast.G
 
 
 class FormulaNames(msgspec.Struct, frozen=True):
-    """What the names in a formula may be.
+    """Names that a formula may use.
 
     Parameters
     ----------
@@ -81,11 +81,11 @@ class FormulaNames(msgspec.Struct, frozen=True):
     elsewhere : frozenset of str
         Names that exist, though not in this formula; only the message differs.
     readings : Readings, optional
-        What else may be written with dots: points of bodies, coordinates of joints.
+        Further dotted names: points of bodies, coordinates of joints.
     integrals : bool
         Whether ``integral(...)`` may be written.
     hints : mapping of str to str
-        What to say of some of them.
+        Hints on some of the names.
     """
 
     what: str
@@ -98,7 +98,7 @@ class FormulaNames(msgspec.Struct, frozen=True):
     hints: Mapping[str, str] = {}
 
     def beside(self, what: str, plain: Mapping[str, str]) -> FormulaNames:
-        """Return other plain names where the same ones exist elsewhere."""
+        """Return these names with other plain ones."""
         return FormulaNames(what, plain, elsewhere=self.elsewhere, hints=self.hints)
 
 
@@ -120,7 +120,7 @@ def parse(text: str, names: FormulaNames, where: str, conditions: bool = False) 
 
 
 class _Reader:
-    """One formula being read; holds what its messages need."""
+    """One formula being read, with the data of its messages."""
 
     def __init__(self, names: FormulaNames, where: str) -> None:
         self.names, self.where, self.nodes = names, where, 0
@@ -181,7 +181,7 @@ class _Reader:
             raise self.fail(f"'//' at column {text.index('//') + 1}", "a division is written /")
 
     def convert(self, node: ast.expr, depth: int) -> Expr:
-        """Translate one node of Python's tree; anything not named here is refused."""
+        """Translate one node of Python's tree; all other nodes are refused."""
         self.nodes += 1
         if depth > DEEPEST:
             raise self.too_deep()
@@ -213,7 +213,7 @@ class _Reader:
                     before = self.nodes
                     sides.append(self.quantity(other, depth))
                     if other is not others[-1]:
-                        self.nodes += self.nodes - before  # stands in two comparisons
+                        self.nodes += self.nodes - before  # is part of two comparisons
                 pairs = zip(operators, sides, sides[1:], strict=False)
                 return self.chain("and", [self.apply(_COMPARE[type(o)], a, b) for o, a, b in pairs])
             case ast.IfExp(test=test, body=yes, orelse=no):
@@ -250,7 +250,7 @@ class _Reader:
         raise self.fail(f"the unknown name {quoted(name)}", nearest(name, [*self.names.plain, "pi"]))
 
     def dotted(self, path: tuple[str, ...]) -> Expr:
-        """Return a body's coordinate, or what else has a name with dots."""
+        """Return a body's coordinate, or another quantity with a dotted name."""
         text, readings = ".".join(path), self.names.readings
         if (node := ".".join(path[:2])) in self.names.coordinates or (readings is not None and readings.has(node)):
             path = (node, *path[2:])  # a node or an element of a beam
@@ -342,7 +342,7 @@ class _Reader:
 
 
 def _path(node: ast.expr) -> tuple[str, ...] | None:
-    """Return the parts of a name with dots, None where something else stands before a dot."""
+    """Return the parts of a dotted name, None where another expression precedes a dot."""
     parts: list[str] = []
     while isinstance(node, ast.Attribute):
         parts.append(node.attr.lstrip("_"))
@@ -351,7 +351,7 @@ def _path(node: ast.expr) -> tuple[str, ...] | None:
 
 
 def _is_condition(node: ast.expr) -> bool:
-    """Whether what is written is true or false; asked of the text, as a folded condition is a plain number."""
+    """Whether the text is a condition; the tree cannot tell, as a folded condition is a plain number."""
     negated = isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not)
     return negated or isinstance(node, ast.Compare | ast.BoolOp)
 

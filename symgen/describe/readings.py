@@ -1,4 +1,4 @@
-"""What formulas may read of a motion by dotted names: points of bodies, joints, forces and drivers.
+"""Quantities that formulas read by dotted names: of points of bodies, joints, forces and drivers.
 
 | written | is | where |
 | --- | --- | --- |
@@ -53,9 +53,9 @@ if TYPE_CHECKING:
     from symgen.describe.scope import Context
 
 
-#: What begins the names of a point's coordinates, by the order of the derivative, and their units.
+#: Prefixes of a point's coordinates, by the order of the derivative, and their units.
 ORDERS = {"": "m", "v": "m/s", "a": "m/s^2"}
-#: Largest order that functions of state may read, and outputs, which know v' and what is exerted.
+#: Largest order in functions of state, and in outputs, where v' and efforts are available.
 STATE, OUTPUT = 1, 2
 
 #: Axes of a body's frame in space.
@@ -67,7 +67,7 @@ SPACE = (
     ("N", "Qy", "Qz", "T", "My", "Mz"),
 )
 
-#: Names behind an owner's -> what is read, and its unit.
+#: Names behind an owner's -> quantity and unit.
 Table = dict[str, tuple[Reading, str]]
 
 
@@ -91,7 +91,7 @@ def of_axis(name: str, axis: Direction) -> Table:
 
 
 def of_joint(joint: Joint, order: int) -> Table:
-    """Return the coordinates of a joint with their rates, of a driver the one that it drives, and what it exerts."""
+    """Return the coordinates of a joint with their rates; of a driver, its driven coordinate and its effort."""
     row = joint.rows[0] if joint.kind == "driver" else None
     coordinates = joint.coordinates
     if isinstance(row, Holonomic) and not coordinates:
@@ -110,7 +110,7 @@ def of_joint(joint: Joint, order: int) -> Table:
 
 
 def of_force(force: Force, order: int) -> Table:
-    """Return the measure of a force along one measure, and at outputs what a force exerts."""
+    """Return the measure of a force along one measure, and at outputs its effort."""
     table, name = Table(), force.name
     efforts = tuple(map(_along_length, force.efforts))
     single = efforts[0] if len(efforts) == 1 else None
@@ -168,7 +168,7 @@ def _extent(measure: Source) -> str:
 
 
 def _components(effort: Effort, extent: str) -> list[str]:
-    """Return the whole that an effort is part of: the force or torque along a measure, or components along axes."""
+    """Return names of the total of an effort: force or torque along a measure, or components along axes."""
     if not effort.label:
         return []
     if extent:
@@ -179,7 +179,7 @@ def _components(effort: Effort, extent: str) -> list[str]:
 
 
 def is_turning(measure: Source) -> bool:
-    """Whether what works along a measure is a torque."""
+    """Whether the effort along a measure is a torque."""
     if isinstance(measure, Sum):
         return is_turning(measure.terms[0][1])
     if isinstance(measure, FormulaMeasure):
@@ -193,9 +193,9 @@ class Readings:
     Parameters
     ----------
     context : Context
-        What is known of the mechanism.
+        Facts about the mechanism.
     order : int
-        `STATE`, or `OUTPUT` where v' and what is exerted are known.
+        `STATE`, or `OUTPUT` where v' and efforts are available.
     """
 
     def __init__(self, context: Context, order: int = STATE) -> None:
@@ -203,17 +203,17 @@ class Readings:
         self._dimension = 3 if context.space == "spatial" else 2
 
     def owners(self) -> Iterator[str]:
-        """Yield the names of all bodies, joints and forces that have something to read."""
+        """Yield the names of all bodies, joints and forces with readings."""
         yield from self._context.bodies
         yield from self._context.joint_names
         yield from self._context.forces
 
     def has(self, name: str) -> bool:
-        """Return whether a force is called so."""
+        """Return whether a force has this name."""
         return name in self._context.forces
 
     def names_of(self, owner: str, where: str) -> tuple[str, ...]:
-        """Return the readings of a body, joint or force beside a body's own coordinates."""
+        """Return the readings of a body, joint or force besides a body's own coordinates."""
         if owner in self._context.bodies:
             points = self._context.points[owner]
             return tuple(f"{p}.{label}" for p in points for label in self._of_point(owner, p))
@@ -284,7 +284,7 @@ def outputs(mechanism: Mechanism) -> tuple[Column, ...]:
 
 
 def integrals(mechanism: Mechanism) -> dict[Integral, int]:
-    """Return the integrals that outputs ask for, numbered in their order, each once."""
+    """Return the integrals in outputs, numbered in their order, each once."""
     sources = (r.source for output in mechanism.outputs for r in readings(output.value))
     return {source: i for i, source in enumerate(dict.fromkeys(s for s in sources if isinstance(s, Integral)))}
 

@@ -1,4 +1,4 @@
-"""What is worked out of a mechanism once, for as long as the mechanism is there."""
+"""Values computed once for each mechanism and kept as long as it exists."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ Result = TypeVar("Result")
 
 
 def remembered(function: Callable[[Mechanism], Result]) -> Callable[[Mechanism], Result]:
-    """Return a function that works out what another gives of a mechanism, which cannot change, once.
+    """Return a function that computes the value of another once for each mechanism, which is immutable.
 
     Parameters
     ----------
     function : callable
-        Takes a mechanism. What it gives does not hold the mechanism, which would be there forever.
+        Takes a mechanism. Its value must not refer to the mechanism, which would then live forever.
     """
     values: dict[int, Result] = {}
 

@@ -1,4 +1,4 @@
-"""Rows that repeat another one for all q: told from what they would be derived of, in both shapes by this module."""
+"""Rows that repeat another one for all q: detected from their measures, in both shapes by this module."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from symgen.vocabulary.measures import (
 
 
 def without_repeats(mechanism: Mechanism) -> tuple[Mechanism, tuple[tuple[str, str], ...]]:
-    """Return a mechanism without the rows that repeat an earlier one, and the names of each with the one it repeats.
+    """Return a mechanism without the rows that repeat an earlier one, and the names of each pair.
 
     Two rows are alike where they hold the same measure at the same value, formulas compared after simplification: a
     point at ``1*p`` is the point at ``p``.

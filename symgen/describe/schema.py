@@ -24,7 +24,7 @@ from symgen.describe.sections import (
     TableSection,
 )
 
-#: What keys stand under in docstrings.
+#: Heading of keys in docstrings.
 _KEYS = "Parameters\n----------\n"
 _NAME = "^[A-Za-z][A-Za-z0-9_]{0,63}$"
 
@@ -60,7 +60,7 @@ def _named(entry: dict[str, Any]) -> dict[str, Any]:
 
 
 def _kinds(kinds: Iterable[tuple[str, Any]], aliases: dict[str, str], **common: Any) -> list[dict[str, Any]]:
-    """Return one alternative for each kind, told apart by its type; `common` are the types of keys that all have."""
+    """Return one alternative for each kind, selected by its type; `common` are the types of shared keys."""
     result, shared = [], {key: msgspec.json.schema(kind) for key, kind in common.items()}
     for name, kind in kinds:
         table = _table(kind)

@@ -1,4 +1,4 @@
-"""The mechanism as far as it is read, and the bodies, points, directions and formulas that a kind resolves in it."""
+"""The mechanism read so far, and the bodies, points, directions and formulas that a kind resolves in it."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ ROUNDING = 1e-12
 
 
 class Context(msgspec.Struct, frozen=True, dict=True):
-    """What is known of the mechanism when joints and forces are resolved.
+    """Facts about the mechanism when joints and forces are resolved.
 
-    What every formula asks for is worked out once: a file may have thousands of parameters, bodies and formulas.
+    Values that all formulas need are computed once: a file may have thousands of parameters, bodies and formulas.
     """
 
     source: str
@@ -45,7 +45,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
 
     @classmethod
     def of(cls, mechanism: Mechanism, source: str = "") -> Context:
-        """Return the context of a mechanism that was read already, for formulas that come later."""
+        """Return the context of a complete mechanism, for later formulas."""
         joints = {joint.name: joint for joint in mechanism.joints}
         return cls(
             source or mechanism.name,
@@ -125,7 +125,7 @@ class Scope:
 
     @property
     def spatial(self) -> bool:
-        """Whether the mechanism lives in space."""
+        """Whether the mechanism is spatial."""
         return self.context.space == "spatial"
 
     @property
@@ -178,14 +178,14 @@ class Scope:
         return name == GROUND or not self.context.bodies[name].is_point
 
     def pair(self, key: str, names: tuple[str, str], *, turns: tuple[bool, bool] = (False, False)) -> tuple[str, str]:
-        """Return two different bodies, so that at least one of them moves."""
+        """Return two different bodies, so that at least one moves."""
         a, b = (self.body(key, name, turns=turn) for name, turn in zip(names, turns, strict=True))
         if a == b:
             raise self.error(key, "two different bodies", f"'{a}' twice")
         return a, b
 
     def marker(self, key: str, body: str, point: str | tuple[float | str, ...]) -> Marker:
-        """Return the point of `body` that is given by name, as ``"centre"`` or by coordinates."""
+        """Return a point of `body` from its name, ``"centre"`` or its coordinates."""
         if not isinstance(point, str):
             return self._free_marker(key, body, self.vector(key, point))
         if body == GROUND:
@@ -234,9 +234,9 @@ class Scope:
     def joint_coordinate(
         self, name: str, label: str | None, keys: tuple[str, str] = ("joint", "coordinate"), unit: str = ""
     ) -> tuple[Joint, str, Measure]:
-        """Return a joint, and label and measure of one of its coordinates: the only one where no label is given.
+        """Return a joint, and label and measure of one of its coordinates: by default the only one.
 
-        With `unit` (``"rad"`` or ``"m"``) coordinates of the other one are left out of account.
+        With `unit` (``"rad"`` or ``"m"``) coordinates of the other unit are ignored.
         """
         joint = self.joint(keys[0], name)
         coordinates = {n: m for n, m in joint.coordinates if unit in ("", Joint.unit(n))}
@@ -256,7 +256,7 @@ class Scope:
     def constant(self, key: str, value: float | str, *, positive: bool = False, or_zero: bool = False) -> Expr:
         """Return a number or an expression of parameters that is finite with their defaults.
 
-        With `positive` it must be above 0; with `or_zero` besides it may be the number 0 itself, no expression.
+        With `positive` it must be above 0; with `or_zero` as well, it may be the number 0, but not an expression.
         """
         expression = self._expression(key, value, self.context.constants)
         size = self.value(expression, key)
@@ -300,7 +300,7 @@ class Scope:
     def of_row(self, key: str, value: float | str, speeds: bool) -> Expr:
         """Return an expression of t, parameters and positions, and with `speeds` velocities, with smooth tables.
 
-        Two derivatives of it are wanted, so that inputs and Euler parameters have no place in it.
+        It is differentiated twice, so inputs and Euler parameters are excluded.
         """
         times, what = self.context.times, "positions and velocities" if speeds else "positions"
         coordinates = {
@@ -343,7 +343,7 @@ class Scope:
         return self._expression(key, value, names, conditions)
 
     def of_motion(self, key: str, value: float | str) -> Expr:
-        """Return a number or an expression of t, parameters and all that is known at outputs."""
+        """Return a number or an expression of t, parameters and all quantities available at outputs."""
         what = "a number or an expression of t, parameters and what is known of the motion"
         own = {
             name: (*coordinates, *(ACCELERATIONS[speed] for speed in self.context.bodies[name].speeds))

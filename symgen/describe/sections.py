@@ -300,7 +300,7 @@ class SpatialBodySection(AnyBodySection, frozen=True, kw_only=True, forbid_unkno
     angular_velocity: Vector | None = None
 
 
-#: Sections whose entries are named tables -> what one entry is called.
+#: Sections whose entries are named tables -> name of one entry.
 NAMED = {
     "parameters": "parameter",
     "inputs": "input",

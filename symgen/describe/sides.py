@@ -1,6 +1,6 @@
-"""To which side directions point that joints hold parallel: rows are fulfilled half a turn away as well.
+"""Senses of directions that joints hold parallel: rows are fulfilled half a turn away as well.
 
-A product of directions that is zero says that they are perpendicular, and not which way they point. Closing goes to
+Products of directions that are zero make them perpendicular, but do not fix their sense. Closing goes to
 what is nearest, so that a body that is described turned too far is held the wrong way round.
 """
 
@@ -19,7 +19,7 @@ from symgen.vocabulary.rotations import matrix, rotate
 
 
 class Arm(NamedTuple):
-    """A direction that is fixed in a body: where its Euler parameters stand, -1 where there are none, and a vector."""
+    """A direction fixed in a body: index of its Euler parameters, -1 without any, and a vector."""
 
     first: int
     vector: tuple[float, float, float]
@@ -103,7 +103,7 @@ def _of_joint(joint: Joint) -> Iterator[tuple[bool, tuple[tuple[Direction, Direc
 
 
 def _in_ground(arm: Arm, q: Any) -> tuple[Any, ...]:
-    """Return a direction, turned as its body is."""
+    """Return the vector of a direction in ground axes."""
     if arm.first < 0:
         return arm.vector
     e = q[arm.first : arm.first + 4]

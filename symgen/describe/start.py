@@ -1,4 +1,4 @@
-"""The described start of a mechanism: coordinates that are not closed yet, and velocities; how far closing moves it.
+"""The described start of a mechanism: coordinates before closing, and velocities; displacements by closing.
 
 Algorithms are written once, with the operators of Python and the functions of formulas, over the numbers of one run
 (`Scalars`) or arrays with an element for each of many (`symgen.runtime.array_formulas`). Euler parameters (e0, e1, e2,
@@ -28,7 +28,7 @@ class Numbers(Protocol):
         """Return a function of formulas (`symgen.vocabulary.expressions.FUNCTIONS`) of numbers."""
 
     def above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
-        """Return `x`, which has to be above a limit."""
+        """Return `x`, which must be above a limit."""
 
 
 @dataclass(frozen=True)
@@ -38,13 +38,13 @@ class Scalars:
     Attributes
     ----------
     evaluate : callable
-        What a formula stands for; the second argument is file and key, for the message.
+        Value of a formula; the second argument is file and key, for the message.
     """
 
     evaluate: Callable[[Expr, str], float]
 
     def value(self, expression: Expr, where: str) -> float:
-        """Return the number that a formula stands for.
+        """Return the value of a formula.
 
         Raises
         ------
@@ -63,7 +63,7 @@ class Scalars:
         Raises
         ------
         InputError
-            If it is not above the limit.
+            If it is at or below the limit.
         """
         if not x > limit:
             raise InputError(where, expected, got)
@@ -71,14 +71,14 @@ class Scalars:
 
 
 def described_start(mechanism: Mechanism, numbers: Numbers) -> tuple[list[Any], list[Any]]:
-    """Return q as described and the given velocities, None where there is none.
+    """Return q as described and the described velocities, None for others.
 
     Parameters
     ----------
     mechanism : Mechanism
         The description.
     numbers : Numbers
-        What is worked out: the start of one run, or of many.
+        Numbers of one run, or of many.
 
     Returns
     -------
@@ -123,14 +123,14 @@ def euler_parameters(orientation: Orientation, numbers: Numbers, where: str) -> 
     orientation : Orientation
         As written.
     numbers : Numbers
-        What is worked out: one orientation, or many.
+        Numbers of one orientation, or of many.
     where : str
         For the message.
 
     Raises
     ------
     InputError
-        If it says nothing: a quaternion of length 0, an axis of length 0, two parallel axes.
+        If it is undefined: a quaternion of length 0, an axis of length 0, two parallel axes.
     """
     x = tuple(numbers.value(e, where) for e in orientation.values)
     if orientation.kind == "quaternion":
@@ -198,16 +198,16 @@ def from_matrix(m: Matrix, numbers: Numbers) -> EulerParameters:
 def moved(
     mechanism: Mechanism, numbers: Scalars, before: Sequence[float], after: Sequence[float]
 ) -> Iterator[tuple[str, float, str]]:
-    """Yield how far each body was turned and its points were moved: name, size and unit.
+    """Yield the rotation of each body and the displacements of its points: name, size and unit.
 
-    Points are those that have names, the body's origin and its centre of mass.
+    Points are the named ones, the body's origin and its centre of mass.
 
     Parameters
     ----------
     mechanism : Mechanism
         The description.
     numbers : Scalars
-        What formulas stand for.
+        Values of formulas.
     before, after : sequence of float
         Coordinates of all bodies as described and as closed.
     """
@@ -226,7 +226,7 @@ def moved(
 
 
 def _turned(body: AnyBody, before: Sequence[float], after: Sequence[float]) -> float:
-    """Return by which angle a body was turned [rad]; in space the smallest one."""
+    """Return the angle by which a body was turned [rad]; in space the smallest one."""
     if not isinstance(body, SpatialBody):
         return abs(after[2] - before[2])
     lengths = [math.sqrt(sum(e * e for e in q[3:])) for q in (before, after)]
@@ -235,7 +235,7 @@ def _turned(body: AnyBody, before: Sequence[float], after: Sequence[float]) -> f
 
 
 def _placed(body: AnyBody, q: Sequence[float], at: Sequence[float]) -> list[float]:
-    """Return where a point is that is given from the centre of mass in the body's frame."""
+    """Return the position of a point from its coordinates relative to the centre of mass in the body's frame."""
     if body.is_point:
         return list(q)
     if isinstance(body, SpatialBody):

@@ -1,4 +1,4 @@
-"""Tables of a mechanism: functions of one argument that are given by points."""
+"""Tables of a mechanism: functions of one argument, defined by points."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ class Table(msgspec.Struct, frozen=True, omit_defaults=True):
 
     @property
     def function(self) -> str:
-        """What calls of it are in an expression, see `symgen.vocabulary.expressions.Call`."""
+        """Function of its calls in an expression, see `symgen.vocabulary.expressions.Call`."""
         return f"table:{'' if self.interpolation == 'linear' else SMOOTH}{self.name}"
 
     @property
     def interpolated(self) -> Interpolation:
-        """What it is made of."""
+        """Its interpolation."""
         return _interpolated(self)
 
 

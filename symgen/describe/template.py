@@ -17,7 +17,7 @@ def template(name: str = "my-mechanism", space: str = "planar") -> str:
     name : str
         Name of the mechanism: lower-case words joined by dashes.
     space : {"planar", "spatial"}
-        Which of the two it describes.
+        Space of the mechanism.
     """
     check_mechanism_name(name, "name")
     joints = _listed([k for k, kind in JOINTS.items() if space in kind.SPACES and k != "revolute"])

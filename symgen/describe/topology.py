@@ -25,13 +25,13 @@ UNITS = {
 
 
 def articulation_of(joint: Joint) -> Articulation | None:
-    """Return how the bodies of a joint move against each other, None for a kind that is rows only."""
+    """Return the relative motion of a joint's bodies, None for a kind with rows only."""
     articulate = getattr(JOINTS.get(joint.kind), "articulate", None)
     return None if articulate is None else articulate(joint)
 
 
 def edges_of(mechanism: Mechanism) -> dict[str, Articulation]:
-    """Return the joints that can stand in a tree, with how their bodies move."""
+    """Return the joints that can be part of a tree, with their relative motions."""
     edges = dict[str, Articulation]()
     for joint in mechanism.joints:
         articulation = articulation_of(joint)
@@ -48,11 +48,11 @@ def spanning_tree(mechanism: Mechanism, cut: Sequence[str] = ()) -> Topology:
     mechanism : Mechanism
         A validated mechanism.
     cut : sequence of str
-        Joints that shall not stand in the tree.
+        Joints excluded from the tree.
 
     Notes
     -----
-    Bodies that no joint of the tree leads to are free; the first one of the file is taken where there is a choice.
+    Bodies that no joint of the tree reaches are free; of several choices the first in the file is taken.
     """
     edges = {name: a for name, a in edges_of(mechanism).items() if name not in cut}
     points = {body.name for body in mechanism.bodies if body.is_point}
@@ -114,14 +114,14 @@ def _prescribed(mechanism: Mechanism, tree: Topology) -> tuple[Prescribed, ...]:
 
 
 def _alike(measure: Measure) -> Iterator[tuple[Measure, float]]:
-    """Yield a measure, and what it is the opposite of."""
+    """Yield a measure with sign 1 and, if it is the negative of another measure, that one with sign -1."""
     yield measure, 1.0
     if isinstance(measure, Sum) and len(measure.terms) == 1 and measure.terms[0][0] == Number(-1.0):
         yield measure.terms[0][1], -1.0
 
 
 def _ways(name: str, articulation: Articulation, at: str) -> Iterator[Link]:
-    """Yield how a joint leads on from a body."""
+    """Yield the links of a joint from a body."""
     if articulation.a.body == at:
         yield Link(articulation.b.body, name, at, True, articulation)
     if articulation.b.body == at:
@@ -141,7 +141,7 @@ def _suits(link: Link, points: set[str], spatial: bool) -> bool:
 
 
 def loops_of(mechanism: Mechanism, topology: Topology) -> tuple[tuple[str, ...], ...]:
-    """Return for each joint that closes a loop and could stand in a tree the joints of the tree in that loop."""
+    """Return for each cut joint with an articulation the joints of the tree in its loop."""
     links = {link.body: link for link in topology.links}
 
     def path(body: str) -> list[str]:
@@ -160,7 +160,7 @@ def loops_of(mechanism: Mechanism, topology: Topology) -> tuple[tuple[str, ...],
 
 
 def with_joint_coordinates(mechanism: Mechanism, topology: Topology) -> Mechanism:
-    """Return a mechanism whose state is that of the joints of a tree: these have no rows any more."""
+    """Return a mechanism whose state is that of the joints of a tree, which then have no rows."""
     inside = {*(link.joint for link in topology.links), *(x.driver for x in topology.prescribed)}
     joints = tuple(msgspec.structs.replace(j, rows=()) if j.name in inside else j for j in mechanism.joints)
     return msgspec.structs.replace(mechanism, joints=joints, topology=topology)
@@ -225,7 +225,7 @@ def quantities(mechanism: Mechanism) -> tuple[tuple[Quantity, ...], tuple[Quanti
 
 
 def state_measures(mechanism: Mechanism, topology: Topology) -> dict[Measure, tuple[int, int, float]]:
-    """Return measures that are coordinates of the state: where they stand in q and v, and with which sign."""
+    """Return measures that are coordinates of the state, with their indices in q and v and their sign."""
     names, speeds = state_names(mechanism, topology)
     q, v = ({name: i for i, (name, _) in enumerate(part)} for part in (names, speeds))
     places = dict[Measure, tuple[int, int, float]]()

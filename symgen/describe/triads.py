@@ -61,7 +61,7 @@ def make_triads(
     reference : pair of directions, optional
         Directions of each body that coincide where the angle is 0.
     keys : pair of str
-        What these are called in the file.
+        Their names in the file.
     fixed : bool
         Whether the joint holds the first directions together, so that these must not be arbitrary.
     """
@@ -96,7 +96,7 @@ def frame(scope: Scope, key: str, along: Vec, side: Vec) -> tuple[Vec, Vec, Vec]
     Raises
     ------
     InputError
-        About a key, if the side is no other direction.
+        About a key, if the side is parallel to x.
     """
     rest = tuple(difference(s, product(dot(side, along), a)) for s, a in zip(side, along, strict=True))
     size = call("sqrt", dot(rest, rest))

@@ -1,4 +1,4 @@
-"""What springs and dampers of either sort share."""
+"""Keys and efforts shared by both sorts of springs and dampers."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ def sprung(scope: Scope, keys: Sprung, label: str, measure: Measure, coordinate:
     label : str
         Of the effort.
     measure : Measure
-        What it works along.
+        Measure of the effort.
     coordinate : str
-        What the file calls that: ``"length"`` or ``"angle"``.
+        Its name in the file: ``"length"`` or ``"angle"``.
     free : scalar
-        Where the spring is at rest.
+        Coordinate of the unloaded spring.
     """
     stiffness, rest = scope.constant("stiffness", keys.stiffness), scope.constant(f"free_{coordinate}", free)
     damping = scope.constant("damping", keys.damping)

@@ -98,7 +98,7 @@ class Bushing(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         return Force(scope.name, scope.kind, (a, b), tuple(efforts))
 
     def _displacements(self, scope: Scope, bodies: tuple[str, str], turning: bool) -> tuple[Measure, ...]:
-        """Return the displacements, those of rotations only where something works on them."""
+        """Return the displacements, those of rotations only where an effort acts on them."""
         ends = scope.marker("at", bodies[0], self.at[0]), scope.marker("at", bodies[1], self.at[1])
         grounded = self.frame == "ground"
         directions = axes(GROUND if grounded else bodies[0], scope.dimension)
@@ -128,7 +128,7 @@ def _sines(u: tuple[Direction, ...], v: tuple[Direction, ...]) -> tuple[Measure,
 def _matrix(
     scope: Scope, key: str, entries: tuple[float | str | tuple[float | str, ...], ...] | None, size: int
 ) -> _Matrix:
-    """Return a symmetric matrix given as its diagonal or by its rows."""
+    """Return a symmetric matrix from its diagonal or its rows."""
     if entries is None:
         return ((ZERO,) * size,) * size
     rows = [e for e in entries if isinstance(e, tuple)]

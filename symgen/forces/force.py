@@ -65,7 +65,7 @@ class Force(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
         return Resolved(scope.name, scope.kind, (body,), tuple(efforts))
 
     def _magnitudes(self, scope: Scope, body: str) -> tuple[Expr, ...]:
-        """Return the components in ground axes, in space in the axes asked for."""
+        """Return the components in ground axes, in space in the selected axes."""
         if self.force is None:
             return (ZERO,) * scope.dimension
         components = tuple(scope.of_state("force", component) for component in self.force)

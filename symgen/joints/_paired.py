@@ -1,4 +1,4 @@
-"""What joints share that hold a point of one body to a point of another, and those whose bodies share an axis."""
+"""Keys shared by joints that hold a point of one body to a point of another, or whose bodies share an axis."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What bodies share that roll without slip on a plane of the ground."""
+"""Keys and rows shared by bodies that roll without slip on a plane of the ground."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class RollingContact(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
     reference: Axis | None = None
 
     def contact(self, scope: Scope) -> Contact:
-        """Return the body that rolls, and its plane."""
+        """Return the rolling body and its plane."""
         body = scope.body("body", self.body, turns=True, ground=False)
         centre, radius = scope.marker("centre", body, self.centre), scope.constant("radius", self.radius, positive=True)
         return Contact(body, centre, radius, *plane_of_ground(scope, self.on, self.normal, self.reference))

@@ -1,4 +1,4 @@
-"""Rows and coordinates that joints are put together from, most of them in space."""
+"""Rows and coordinates of joints, most of them in space."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def angle(a: Triad, b: Triad) -> Turn:
     return Turn(a.first, a.second, b.first)
 
 
-# -- what the rows of a joint say of its bodies ------------------------------------------------------------------------
+# -- points and frames of a joint from its rows ------------------------------------------------------------------------
 
 
 def markers(joint: Joint) -> tuple[Marker, Marker]:

@@ -111,7 +111,7 @@ def _is_rate(e: Name | Reading) -> bool:
 
 
 def _is_angle(of: Expr) -> bool:
-    """Whether all that moves in a formula are angles and axes."""
+    """Whether all moving quantities in a formula are angles and axes."""
     turning = (
         is_turning(e.source) if isinstance(e, Reading) else e.name.rpartition(".")[2][0] in ("t", "o", "w")
         for e in moving(of)
@@ -120,7 +120,7 @@ def _is_angle(of: Expr) -> bool:
 
 
 def _degree(e: Expr) -> float:
-    """Return the degree of a formula in velocities, infinite where it is no polynomial of them."""
+    """Return the degree of a formula in velocities, infinite if it is not a polynomial in them."""
     if isinstance(e, Name | Reading):
         return float(e in moving(e) and _is_rate(e))
     if not isinstance(e, Call):

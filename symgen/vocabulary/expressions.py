@@ -1,4 +1,4 @@
-"""The expression tree: what a formula in a mechanism file becomes after the whitelisting parser.
+"""The expression tree of a formula in a mechanism file, built by the whitelisting parser.
 
 Four node kinds only. Operators are calls too, so a consumer (SymPy translation, numeric evaluation, printing) is one
 table from function name to action.
@@ -41,7 +41,7 @@ class Call(msgspec.Struct, frozen=True, tag="call"):
 
 
 class Reading(msgspec.Struct, frozen=True, tag="reading"):
-    """What a measure shows in the course of a motion: a point's coordinate, a joint's angle, or a rate of these.
+    """A quantity read during a motion: a point's coordinate, a joint's angle, or a rate of these.
 
     `name` is how a formula writes it (``arm.tip.vy``, ``motor.angle``); `order` is 0 for the value, 1 for the rate and
     2 for the second derivative with respect to time. Outputs also read what forces and drivers exert, of order 0.
@@ -55,12 +55,12 @@ class Reading(msgspec.Struct, frozen=True, tag="reading"):
 Expr = Number | Name | Call | Reading
 
 
-#: What precedes the name of a table whose slope has a slope.
+#: Prefix of the name of a table whose slope has a slope.
 SMOOTH = "~"
 
 
 def table_of(function: str) -> str | None:
-    """Return the name of the table that a function of a tree means, None where it means none."""
+    """Return the name of a table function's table, None for other functions."""
     return function.removeprefix("table:").removeprefix(SMOOTH) if function.startswith("table:") else None
 
 
@@ -90,7 +90,7 @@ FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
     "or": (2, lambda a, b: float(bool(a) or bool(b))),
     "not": (1, lambda a: float(not a)),
     "where": (3, _where),
-    # what is above 0 where `and`, `or` hold of what is above 0
+    # above 0 where `and`, `or` hold of arguments above 0
     "both": (2, min),
     "either": (2, max),
 }

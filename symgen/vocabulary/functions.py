@@ -1,4 +1,4 @@
-"""Elementary functions of formulas: the one table from which every stage knows them.
+"""Elementary functions of formulas: the one table for all stages.
 
 Each has the same name here, in files, in `math`, NumPy and SymPy.
 """
@@ -31,16 +31,16 @@ class Elementary:
     everywhere: bool = True
 
 
-#: Added to what slopes are divided by, so that it is never 0: lost beside any root that differs from 0, and so large
+#: Added to the divisors of slopes, which are then never 0: lost next to any root other than 0, and so large
 #: that slopes of slopes are finite numbers.
 _NEVER_NOTHING = 1e-100
 
 
 def steepest(g: Any, a: int, part: float = _NEVER_NOTHING) -> int:
-    """Return what a slope that is without bound at the end of a function's range is divided by: a, and never 0.
+    """Return the divisor of a slope that is unbounded at the end of a function's range: a, and never 0.
 
-    What the argument is made of hardly ever changes it there: the root of v^2 + w^2 at rest, or what is pressed
-    together where nothing touches. Infinity times such a 0 would be no number.
+    The parts of the argument hardly ever change it there: the root of v^2 + w^2 at rest, or a penetration
+    where nothing touches. Infinity times such a 0 would not be a number.
     """
     shifted: int = g.add(a, g.constant(part))
     return shifted

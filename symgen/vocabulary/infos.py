@@ -1,4 +1,4 @@
-"""What is known of emitted code beside its source: filled where it is lowered, kept as JSON, read where it runs."""
+"""Facts about emitted code besides its source: set where it is lowered, stored as JSON, read where it runs."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from typing import Any
 
 import msgspec
 
-#: What linearised functions are differentiated by: time, q, v, v', multipliers, parameters and states of the file.
+#: Variables of the derivatives of linearised functions: time, q, v, v', multipliers, parameters, states of the file.
 BY = ("t", "q", "v", "a", "lam", "p", "z")
 
 
 class Info(msgspec.Struct, frozen=True):
-    """What is known of a module or of a part of it."""
+    """Facts about a module or a part of one."""
 
     def to_dict(self) -> dict[str, Any]:
         """Return the values as JSON can express them."""
@@ -20,20 +20,20 @@ class Info(msgspec.Struct, frozen=True):
 
 
 class LinearisedInfo(Info, frozen=True):
-    """What the numbers of a descriptor form with its derivatives are: all values, then their structural nonzeros.
+    """Layout of the numbers of a descriptor form with its derivatives: all values, then their structural nonzeros.
 
     Parameters
     ----------
     sizes : tuple of (str, int)
-        Groups of values in their order, and how many there are.
+        Groups of values in their order, and their lengths.
     functions : tuple of (str, str, int)
         Coordinates of joints and outputs of the file, whose values stand behind the groups, order by order: name, unit,
-        and how many there are of value, rate and second rate. A quantity of positions has all three, one of velocities
+        and the number of value, rate and second rate. A quantity of positions has all three, one of velocities
         two, as the rate of v' is not known; one of accelerations or multipliers its value alone.
     pattern : tuple of (int, int, int)
         Value, which of `BY`, and index of each derivative.
     elements : tuple of (str, int)
-        Force and velocity that each value of the group ``elements`` is a part of the balance of; none on a tree.
+        For each value of the group ``elements``, the force and the velocity whose balance has it; none on a tree.
     """
 
     sizes: tuple[tuple[str, int], ...] = ()
@@ -43,7 +43,7 @@ class LinearisedInfo(Info, frozen=True):
 
 
 class LawInfo(Info, frozen=True, kw_only=True):
-    """What is known of an emitted law beside its source; in looped code the sizes follow with a mechanism's tables.
+    """Facts about an emitted law besides its source; in looped code the sizes follow with a mechanism's tables.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class LawInfo(Info, frozen=True, kw_only=True):
     hoisted : int
         Numbers behind the parameters, for corrections and descriptor forms.
     position_correction, velocity_correction, energy_correction : bool
-        What is corrected after each accepted step.
+        Corrections after each accepted step.
     nw : int
         Length of ``w``.
     unknowns : int

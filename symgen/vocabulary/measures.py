@@ -107,7 +107,7 @@ class Turn(msgspec.Struct, frozen=True, tag="turn"):
 class Spin(msgspec.Struct, frozen=True, tag="spin"):
     """Component of the angular velocity of `b` relative to `a` along a direction [rad/s]: a rate without a value.
 
-    What torques in space work on; as a measure its value is 0.
+    Torques in space act on it; as a measure its value is 0.
     """
 
     a: str
@@ -153,7 +153,7 @@ class FormulaMeasure(msgspec.Struct, frozen=True, tag="formula"):
     of: Expr
 
 
-#: Angles that come back to themselves in a turn, so that somebody has to count.
+#: Angles that are periodic, so that their turns must be counted.
 Turning = Turn | Bearing
 #: All angles.
 AnyAngle = Angle | Turn | Bearing
@@ -225,7 +225,7 @@ class Holonomic(msgspec.Struct, frozen=True, tag="holonomic"):
 
 
 class StiffHolonomic(Holonomic, frozen=True, kw_only=True, tag="stiff-holonomic"):
-    """One with a stiffness [N/m], which says how redundant rows share a load; the row does not give."""
+    """A row with a stiffness [N/m], by which redundant rows share a load; the row does not give."""
 
     stiffness: Expr
 
@@ -286,7 +286,7 @@ class Flexed(msgspec.Struct, frozen=True, tag="flexed"):
 
 
 class Exerted(msgspec.Struct, frozen=True, tag="exerted"):
-    """What efforts exert together: the sum of -dU/ds + F [N, N m], or with `power` of that times s' [W]."""
+    """Sum of efforts: of -dU/ds + F [N, N m], or with `power` of that times s' [W]."""
 
     efforts: tuple[Effort, ...]
     power: bool = False
@@ -294,7 +294,7 @@ class Exerted(msgspec.Struct, frozen=True, tag="exerted"):
 
 
 class Driven(msgspec.Struct, frozen=True, tag="driven"):
-    """What the driver of a row exerts along its measure: -lambda [N, N m], or with `power` that times s' [W]."""
+    """Effort of a row's driver along its measure: -lambda [N, N m], or with `power` that times s' [W]."""
 
     row: str
     measure: Measure
@@ -307,5 +307,5 @@ class Integral(msgspec.Struct, frozen=True, tag="integral"):
     of: Expr
 
 
-#: What a reading may be of.
+#: Sources of readings.
 Source = Measure | Speed | Exerted | Driven | Integral | Flexed

@@ -1,4 +1,4 @@
-"""Named scalars with their units, and how many a model has."""
+"""Named scalars with their units, and their numbers in a model."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Quantity(msgspec.Struct, frozen=True):
 
 
 class Counted:
-    """What lists coordinates, velocities and constraint rows, and says how many there are."""
+    """Base of classes with coordinates, velocities and constraint rows: their numbers."""
 
     __slots__ = ()
 

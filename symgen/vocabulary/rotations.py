@@ -13,7 +13,7 @@ Matrix = tuple[tuple[float, float, float], tuple[float, float, float], tuple[flo
 
 
 def multiply(a: EulerParameters, b: EulerParameters) -> EulerParameters:
-    """Return the orientation of a turn `b` about axes that `a` has turned already."""
+    """Return the orientation of a turn `b` about axes turned by `a`."""
     return (
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
         a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
@@ -44,17 +44,17 @@ def rotate_back(m: Matrix, v: tuple[float, ...]) -> tuple[float, float, float]:
     return x, y, z
 
 
-#: Orders of axes that Euler angles may be taken about: all twelve.
+#: All twelve sequences of axes of Euler angles.
 CONVENTIONS = tuple(a + b + c for a in "xyz" for b in "xyz" for c in "xyz" if a != b and b != c)
 
 
 class Orientation(msgspec.Struct, frozen=True):
-    """An orientation as it was written.
+    """An orientation as written.
 
     Attributes
     ----------
     kind : {"quaternion", "rotation-vector", "euler-angles", "axes", "line"}
-        How `values` are meant: Euler parameters; axis times angle [rad]; angles [rad] about the moving axes that
+        Meaning of `values`: Euler parameters; axis times angle [rad]; angles [rad] about the moving axes that
         `convention` names, in that order; the body's x axis and a vector towards its y axis, in the ground frame; two
         points that the x axis leads from and to, and a vector towards the y axis.
     """
@@ -65,7 +65,7 @@ class Orientation(msgspec.Struct, frozen=True):
 
     @property
     def is_numeric(self) -> bool:
-        """Whether it depends on no parameter."""
+        """Whether it is independent of parameters."""
         return all(isinstance(e, Number) for e in self.values)
 
 
