@@ -137,7 +137,7 @@ def versions(digest: str) -> str:
 
 
 def law_header(info: LawInfo, summary: str, reference: str, source: str, place: str = "p[{}]") -> list[str]:
-    """Return the lines of a law's docstring; `source` says what of, `place` is where parameters of the method stand."""
+    """Return the lines of a law's docstring; `source` names the origin, `place` is that of the method's parameters."""
     parameters = enumerate(info.parameters, info.parameter_offset)
     return [
         *(f"{sentence(summary)}.", reference, source),

@@ -37,7 +37,7 @@ class LaneLayout(LiteralLayout):
         self.access = access
 
     def at(self, name: str) -> str:
-        """Return where a section, or a number of the status, of the first lane begins."""
+        """Return the beginning of a section, or of a number of the status, of the first lane."""
         layout, first = self.program.layout, self.access.bases["w"]
         if name == "velocities":
             return str(layout.nq * self.access.lanes)

@@ -99,7 +99,7 @@ COUNTERS = (
     "degrees",  # columns of a tangent basis
     "dense_solves",  # evaluations by a dense factorisation
     "dense_rank",  # their smallest rank
-    "balanced",  # 1 once the energy is known that velocities are scaled to
+    "balanced",  # 1 once the target energy of velocity scaling is set
 )
 
 

@@ -229,7 +229,7 @@ Statement = Assign | Store | If | While | For | Leave | Return | Evaluate | Stat
 
 
 class Function(msgspec.Struct, frozen=True, gc=False):
-    """A function whose types are known.
+    """A function with its types.
 
     Attributes
     ----------

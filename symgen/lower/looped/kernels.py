@@ -46,7 +46,7 @@ class KernelInfo(msgspec.Struct, frozen=True):
     frames : tuple of (nq, nv, record)
         Coordinates, velocities and length of the record of each frame.
     constants, hoisted : int
-        Numbers of constants of an instance, and of numbers computed from them once a run.
+        Number of constants of an instance, and of numbers computed from them once a run.
     rows : tuple of RowShape
         Of a joint.
     coordinates, windings : int
