@@ -1,1 +1,1 @@
-"""From a mechanism to compiled code: the stages one after the other, in both shapes, and what they end in."""
+"""From a mechanism to compiled code: the stages in order, in both shapes, and the compiled models."""

@@ -1,4 +1,4 @@
-"""Where what stands in rows of bodies stands in those of a tree, by names: coordinates, velocities, turns, gauges."""
+"""Map from rows of bodies to rows of a tree, by names: coordinates, velocities, turns, gauges."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from symgen.runtime.tree_start import Carrying
 
 
 def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, compiled: CompiledModel) -> Carrying:
-    """Return where what stands in rows of bodies and of a tree."""
+    """Return the map from rows of bodies to rows of a tree."""
     assert carried.topology is not None, "it was put on a tree"
     info, own = bodies.info, compiled.info
     places = {x.name: (0, i) for i, x in enumerate((*info.coordinates, *info.velocities))}
@@ -40,7 +40,7 @@ def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel,
 
 
 def _levers(carried: Mechanism, info: ModelInfo) -> list[int | None]:
-    """Return the velocity whose length each velocity of a tree has, None for those that are no angles."""
+    """Return the velocity that gives each velocity of a tree its length, None for those that are no angles."""
     assert carried.topology is not None, "it has a tree"
     levers = list[int | None]()
     for link in carried.topology.links:

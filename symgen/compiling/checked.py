@@ -1,4 +1,4 @@
-"""Emitted functions of a compiled model in the checked language, from which printers for other targets begin."""
+"""Emitted functions of a compiled model in the checked language, the input of printers for other targets."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ if TYPE_CHECKING:
 
 _LAW = {"rhs": abi.RHS, "accept": abi.ACCEPT, "geometry": abi.MEASURE, "confirm": abi.RHS}
 _MODEL = {"masses": abi.MOVE, "move": abi.MOVE, "bodies": abi.OBSERVE, "measure": abi.MEASURE}
-#: What runs call of a law and of its model, as far as it is the same for all.
+#: Functions of a law and its model that every run calls.
 NAMES = (*_LAW, *_MODEL)
 
 
 def checked(compiled: CompiledModel, names: Container[str] = NAMES) -> dict[str, Function]:
-    """Return functions of a compiled model, as far as it has them, and both that fill the hoisted numbers.
+    """Return those functions that a compiled model has, and both that fill the hoisted numbers.
 
     Parameters
     ----------
     compiled : CompiledModel
         Straight code of one method.
     names : container of str
-        Which, of `NAMES`.
+        Names of `NAMES`.
 
     Returns
     -------
     dict of str to Function
-        By name; ``prepareModel`` and ``prepareLaw`` stand behind them.
+        By name; ``prepareModel`` and ``prepareLaw`` come last.
 
     Raises
     ------
@@ -50,7 +50,7 @@ def checked(compiled: CompiledModel, names: Container[str] = NAMES) -> dict[str,
 
 
 def read(function: Any, kind: Any) -> Function:
-    """Return an emitted function in the checked language, by the type that loops call it by."""
+    """Return an emitted function in the checked language, of the type that loops call."""
     if not hasattr(function, "read"):
         raise Foreign("been left to Python, by NUMBA_DISABLE_JIT")
     result: Function = function.read(kind.signature.arguments)

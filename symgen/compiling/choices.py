@@ -12,7 +12,7 @@ shapes differ by factors where the choice matters, and another machine changes a
 
 *Trees.* Where a loop is cut matters: `bricard` takes 899 to 1288 operations an evaluation. Trees are derived and
 counted, one joint of a loop cut at a time, until enough operations have been counted: a limit of work, not of time, so
-that the same mechanism has the same tree everywhere. What was chosen is kept beside the emitted code.
+that the same mechanism has the same tree everywhere. The choice is kept with the emitted code.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from symgen.errors import InputError
 
 
 class Taken(NamedTuple):
-    """The coordinates, or the shape of code, that are taken, and one sentence that says why."""
+    """The coordinates, or the shape of code, that are taken, and the reason in one sentence."""
 
     name: str
     reason: str
@@ -50,16 +50,16 @@ def choose_coordinates(mechanism: Mechanism, coordinates: str, shape: str) -> Ta
     Parameters
     ----------
     mechanism : Mechanism
-        What is run.
+        The mechanism.
     coordinates : str
         One of `symgen.settings.COORDINATES`.
     shape : str
-        The shape of code that was asked for, or that bodies' own coordinates would have.
+        The requested shape of code, or that of the bodies' own coordinates.
 
     Raises
     ------
     InputError
-        If joint coordinates and looped code are asked for together.
+        If both joint coordinates and looped code are requested.
     """
     if coordinates == "absolute":
         return Taken("absolute", "it was asked for")
@@ -83,12 +83,12 @@ def choose_coordinates(mechanism: Mechanism, coordinates: str, shape: str) -> Ta
 
 
 class ShapeCost(NamedTuple):
-    """What a mechanism costs for each of its coordinates; turns and their kernels make more of one in space.
+    """Cost of a mechanism for each of its coordinates; in space turns and their kernels make it higher.
 
     Attributes
     ----------
     compilation, implicit : float
-        To derive, emit and compile it straight; the same with the Jacobian for implicit integrators [s].
+        Derivation, emission and compilation as straight code; the same with the Jacobian for implicit integrators [s].
     straight, looped : float
         An evaluation in either shape [s].
     """
@@ -102,9 +102,9 @@ class ShapeCost(NamedTuple):
 #: Seconds to derive, emit and compile any mechanism straight.
 STRAIGHT_LEAST = 0.3
 EACH = {"planar": ShapeCost(0.011, 0.013, 0.8e-8, 1.8e-8), "spatial": ShapeCost(0.03, 0.036, 2.5e-8, 1.0e-7)}
-#: Seconds to derive and compile what looped code shares, where none of it is there: one figure for 1 to 4, whatever is.
+#: Seconds to derive and compile the shared looped code from an empty cache: one figure for 1 to 4, whatever is cached.
 LOOPED_LEAST = 2.2
-#: Seconds of a looped evaluation whatever the size.
+#: Seconds of a looped evaluation at any size.
 LOOPED_CALL = 1.0e-7
 #: From this many coordinates on straight code is not considered: eight seconds here, most of a minute at three times as
 #: many, for a mechanism in the plane.
@@ -114,7 +114,7 @@ LARGEST_DENSE = 400
 
 
 def straight_seconds(mechanism: Mechanism, implicit: bool = False) -> float:
-    """Return about how long the straight code of a method takes to derive and compile [s]."""
+    """Return the approximate time to derive and compile the straight code of a method [s]."""
     each = EACH[mechanism.space]
     return STRAIGHT_LEAST + (each.implicit if implicit else each.compilation) * mechanism.body_coordinates
 
@@ -125,13 +125,13 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
     Parameters
     ----------
     mechanism : Mechanism
-        What is run.
+        The mechanism.
     choice : MethodChoice
         The method with its options.
     shape : str
         One of `symgen.settings.SHAPES`.
     evaluations : float
-        Evaluations that are expected.
+        Expected number of evaluations.
 
     Raises
     ------
@@ -148,7 +148,7 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
     straight = coordinates <= LARGEST_STRAIGHT and not _looped_is_sooner(mechanism, choice, evaluations)
     if shape == "auto" and straight and coordinates <= LARGEST_DENSE:
         return faster
-    # what only looped code needs is not loaded where straight code is taken
+    # modules of looped code are not loaded where straight code is taken
     from symgen.lower.looped.law import is_loopable, refuse_dense
 
     dense = not is_loopable(choice.method, choice.options, choice.implicit)
@@ -170,7 +170,7 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
 
 
 def _looped_is_sooner(mechanism: Mechanism, choice: MethodChoice, evaluations: float) -> bool:
-    """Whether the looped shape is expected to be done sooner, from an empty cache."""
+    """Whether the looped shape is expected to finish sooner, from an empty cache."""
     each = EACH[mechanism.space]
     looped = evaluations * (LOOPED_CALL + mechanism.body_coordinates * each.looped)
     straight = looped if choice.implicit else evaluations * mechanism.body_coordinates * each.straight
@@ -198,7 +198,7 @@ def on_tree(mechanism: Mechanism) -> Mechanism:
 
 
 def _cheapest(mechanism: Mechanism, first: Topology) -> tuple[str, ...]:
-    """Return the joints that are cut, beside those that follow, for the fewest operations that were found."""
+    """Return the joints to cut, besides those that follow, for the fewest operations counted."""
     best, least = mechanism.cuts, operations(with_joint_coordinates(mechanism, first))
     counted = least
     if least > LARGE:
@@ -220,7 +220,7 @@ def _cheapest(mechanism: Mechanism, first: Topology) -> tuple[str, ...]:
 
 
 def _free(topology: Topology) -> int:
-    """Return how many bodies no joint carries."""
+    """Return the number of bodies that no joint carries."""
     return sum(not link.joint for link in topology.links)
 
 

@@ -1,4 +1,4 @@
-"""Events of a run, and what its formulas compare over the state, as functions that loops take."""
+"""Events of a run, and the comparisons of its formulas over the state, as functions for loops."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ from symgen.runtime.resets import Masses, Reset, linear_in_v
 
 Array = NDArray[np.float64]
 
-#: Which derivative of a table jumps at its points.
+#: Order of the derivative of a table that jumps at its points.
 _KINKS = {"linear": 1, "pchip": 2, "cubic": 3}
-#: Which sign the change of a switching function has where its event happens, 0 for both.
+#: Sign of the change of a switching function at its event, 0 for both.
 DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
 
 
@@ -35,7 +35,7 @@ def compile_events(
     values: Mapping[str, float],
     rtol: float | None = None,
 ) -> Watched | None:
-    """Return the switching functions of a run, None where there are none.
+    """Return the switching functions of a run, or None.
 
     Parameters
     ----------
@@ -76,14 +76,14 @@ def compile_events(
 
 
 def velocities_at(mechanism: Mechanism, compiled: CompiledModel, event: Event) -> Side:
-    """Return the velocities that an event changes, then what they are afterwards."""
+    """Return the velocities that an event changes, then their values after it."""
     formulas = [(to_text(name), name) for name, _ in event.reset]
     formulas += [(f"{to_text(name)} afterwards", value) for name, value in event.reset]
     return compile_side(mechanism, compiled, "reset", "Velocities at an event", formulas)
 
 
 def switch_of(passed: Discontinuity, rtol: float) -> Switch:
-    """Return a discontinuity as loops take it.
+    """Return a discontinuity in the form for loops.
 
     A stage of a step of which a part x is behind a kink of the k-th derivative is off by the k-th power of x, which may
     be `rtol`. Points of a table that matter less than `rtol` are left out: many of these together are a smooth curve,
@@ -99,7 +99,7 @@ def switch_of(passed: Discontinuity, rtol: float) -> Switch:
 
 
 def sizes_of_kinks(curve: Interpolation) -> tuple[float, ...]:
-    """Return how far both sides of each point of a table part within the shorter piece, over the range of values."""
+    """Return the distance of both sides of each point of a table within the shorter piece, over the range of values."""
     x, y, n = np.array(curve.x), np.array(curve.y), len(curve.x)
     gaps = np.diff(x)
     if curve.pieces:
@@ -160,7 +160,7 @@ def _carried_masses(
 
 
 def _products(mechanism: Mechanism, values: Mapping[str, float]) -> list[tuple[int, int, float]]:
-    """Return the entries of M beside its diagonal: row, column, value."""
+    """Return the off-diagonal entries of M: row, column, value."""
     entries, first = list[tuple[int, int, float]](), 0
     for body in mechanism.bodies:
         if isinstance(body, SpatialBody) and body.inertia is not None:

@@ -1,4 +1,4 @@
-"""The descriptor form with its exact derivatives, compiled on demand beside a model's modules.
+"""The descriptor form with its exact derivatives, compiled on demand next to a model's modules.
 
 The function is evaluated a few times an analysis, so it is plain Python; SymPy and Jinja2 are imported only where the
 cache has no entry.
@@ -28,7 +28,7 @@ from symgen.vocabulary.infos import BY, LinearisedInfo
 
 Array = NDArray[np.float64]
 
-#: Name of the emitted function, and what its module is called after.
+#: Name of the emitted function, and beginning of its module's name.
 NAME = "linearised"
 
 
@@ -55,18 +55,18 @@ class Evaluated:
 
 @dataclass(frozen=True)
 class DescriptorForm:
-    """The function and where its numbers belong.
+    """The function and the meaning of its numbers.
 
     Attributes
     ----------
     function : compiled function
         ``(t, y, p, w, ydot, out)``.
     places : mapping of str to (int, int)
-        Group -> first value and how many; groups of `symgen.lower.linearised`, and ``functions``.
+        Group -> first value and number of values; groups of `symgen.lower.linearised`, and ``functions``.
     widths : mapping of str to int
         Numbers of each space.
     functions : mapping of str to (int, int)
-        Quantity of the state -> its place in ``functions``, and how many of value, rate and second rate are known.
+        Quantity of the state -> its place in ``functions``, and how many of value, rate and second rate exist.
     units : mapping of str to str
         Their units.
     elements : tuple of (str, int)
@@ -85,7 +85,7 @@ class DescriptorForm:
 
     @property
     def values(self) -> int:
-        """How many values stand before the derivatives."""
+        """Number of values before the derivatives."""
         return sum(size for _, size in self.places.values())
 
     @cached_property
@@ -114,7 +114,7 @@ class DescriptorForm:
         t : float
             Time [s].
         y : Array
-            q and v, and whatever stands behind.
+            q and v, and the rest of the state.
         a : Array, shape (nv,)
             v'.
         p, w : Array
@@ -132,11 +132,11 @@ def compile_linearised(mechanism: Mechanism, compiled: CompiledModel, by: tuple[
     Parameters
     ----------
     mechanism : Mechanism
-        What is analysed, with its tree where the state is that of joints.
+        The mechanism, with its tree where the state is that of joints.
     compiled : CompiledModel
-        The model that it is evaluated beside: its ``p`` and ``w``.
+        The model whose ``p`` and ``w`` it reads.
     by : tuple of str
-        Parameters that it is differentiated by.
+        Parameters to differentiate by.
 
     Raises
     ------
@@ -148,7 +148,7 @@ def compile_linearised(mechanism: Mechanism, compiled: CompiledModel, by: tuple[
     return form
 
 
-#: Groups that say how a motion near a state grows or decays.
+#: Groups that determine whether a motion near a state grows or decays.
 GROWTH = ("motion", "balance", "accelerations", "states")
 
 
@@ -167,7 +167,7 @@ def _compiled(
     mechanism: Mechanism, compiled: CompiledModel, by: tuple[str, ...], groups: tuple[str, ...]
 ) -> DescriptorForm | None:
     of_model, around = compiled.info, beside(mechanism, compiled)
-    # outputs stand outside the digest that folders are named by
+    # the digest that names folders does not cover outputs
     reported = () if groups else [(o.name, o.unit, to_text(o.value)) for o in mechanism.outputs]
 
     def make() -> tuple[str, dict[str, Any]]:

@@ -2,7 +2,7 @@
 
     mechanism --instances--> kernels --tables--> compiled model
 
-Kernels, laws and generic code stand in one folder of the cache that all mechanisms share; what belongs to a mechanism
+Kernels, laws and generic code are in one folder of the cache that all mechanisms share; what belongs to a mechanism
 alone are tables. SymPy and Jinja2 are imported only for kernels that no mechanism has used before.
 """
 
@@ -37,7 +37,7 @@ from symgen.vocabulary.infos import LawInfo
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
 
-#: Modules beside kernels and laws.
+#: Modules other than kernels and laws.
 _MACHINE, _MODEL = "machine", "model"
 
 
@@ -60,7 +60,7 @@ def kernel_stems(elements: Sequence[Instance]) -> list[str]:
 
 @dataclass(frozen=True)
 class Needs:
-    """Modules that a mechanism needs for a method, all of them shared with other mechanisms.
+    """Modules that a mechanism needs for a method, all shared with other mechanisms.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ class Needs:
 
     @cached_property
     def elements(self) -> dict[str, Instance]:
-        """An instance of each kernel, the first one, by its module."""
+        """The first instance of each kernel, by its module."""
         elements: dict[str, Instance] = {}
         for stem, instance in zip(self.stems, self.instances, strict=True):
             elements.setdefault(stem, instance)
@@ -96,7 +96,7 @@ class Needs:
 
     @cached_property
     def forms(self) -> dict[str, str]:
-        """Module of each kernel's part of the descriptor form; empty where no implicit integrator asks for it."""
+        """Module of each kernel's part of the descriptor form; empty without an implicit integrator."""
         choice = self.choice
         if not choice.implicit:
             return {}
@@ -105,7 +105,7 @@ class Needs:
 
     @property
     def modules(self) -> tuple[str, ...]:
-        """All of them."""
+        """All modules."""
         return (_MACHINE, _MODEL, self.law, *self.elements, *self.forms.values())
 
     def missing(self, exists: Callable[[str], bool], generator: str, whole: bool = False) -> Modules:
@@ -154,7 +154,7 @@ class Needs:
         return modules
 
     def laid_out(self, metadata: Mapping[str, Mapping[str, Any]]) -> tuple[LoopedShape, IndexTables, LawInfo]:
-        """Return the mechanism's indices, its tables and what is known of the law with these, from all metadata."""
+        """Return the mechanism's indices, its tables and the law's facts for these, from all metadata."""
         choice = self.choice
         infos = {stem: msgspec.convert(metadata[stem], KernelInfo) for stem in self.elements}
         law = msgspec.convert(metadata[self.law], LoopedLawInfo)
@@ -168,14 +168,14 @@ class Needs:
 
 
 def compile_looped(mechanism: Mechanism, choice: MethodChoice, generator: str) -> LoopedModel:
-    """Return the compiled model of `mechanism` in the looped shape, what the cache has taken from there.
+    """Return the compiled model of `mechanism` in the looped shape, from the cache as far as possible.
 
     Parameters
     ----------
     mechanism : Mechanism
         A validated mechanism.
     choice : MethodChoice
-        The method with its structural options, and whether an implicit integrator asks for it.
+        The method with its structural options, and whether it is for an implicit integrator.
     generator : str
         Digest of everything that shapes emitted code.
 
@@ -220,7 +220,7 @@ def compile_looped(mechanism: Mechanism, choice: MethodChoice, generator: str) -
 
 
 def _gathered(module: ModuleType, *names: str) -> Any:
-    """Return functions by name, as a module has them, as far as this one has them."""
+    """Return those functions that this module has, by name, as a module has them."""
     return SimpleNamespace(**{name: getattr(module, name) for name in names if hasattr(module, name)})
 
 
@@ -234,11 +234,11 @@ def generate_looped(
     mechanism : Mechanism
         A validated mechanism.
     choices : sequence of MethodChoice
-        Methods with their structural options, and whether implicit integrators ask for them.
+        Methods with their structural options, and whether they are for implicit integrators.
     generator : str
         Digest of everything that shapes emitted code.
     whole : bool
-        Whether each law is one module, and kernels have names for people; see `numbered`.
+        Whether each law is one module, and kernels have readable names; see `numbered`.
 
     Returns
     -------
@@ -275,12 +275,12 @@ def generate_looped(
     }
 
 
-#: Stem of a kernel, or of its part of a descriptor form, with the digest of what it holds.
+#: Stem of a kernel, or of its part of a descriptor form, with the digest of its content.
 _STEM = re.compile(r"\b(?:form_[0-9a-f]{8}_)?((?:body|joint|force)_\w+?)_[0-9a-f]{16}\b", re.ASCII)
 
 
 def numbered(stems: Iterable[str]) -> dict[str, str]:
-    """Return names of kernels that are counted, not named by a digest: ``joint_revolute``, ``joint_revolute_2``."""
+    """Return names of kernels with numbers instead of digests: ``joint_revolute``, ``joint_revolute_2``."""
     names: dict[str, str] = {}
     for stem in stems:
         if match := _STEM.fullmatch(stem):

@@ -1,4 +1,4 @@
-"""A compiled model in the looped shape: shared functions, tables of its own, and what is computed once a run."""
+"""A compiled model in the looped shape: shared functions, own tables, and numbers computed once a run."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class LoopedModel(CompiledModel):
     Attributes
     ----------
     tables : IndexTables
-        What generic code reads.
+        Tables for the generic code.
     kernels : mapping of str to module
         By name.
     machine : module
@@ -44,7 +44,7 @@ class LoopedModel(CompiledModel):
 
     def scratch(self) -> Array:
         """Return a new scratch array ``w`` with the tables in it."""
-        # Numba stands behind these, which emitting code does without
+        # these import Numba, which emitting code does without
         from symgen.runtime.kernel_addresses import GENERIC as GENERIC_CODE
         from symgen.runtime.kernel_addresses import address
 
@@ -61,14 +61,14 @@ class LoopedModel(CompiledModel):
         ]
         addresses += [address(getattr(self.kernels[stem], name), self.machine) for stem, name in self.tables.functions]
         part.view(np.int64)[-1] = offset
-        w.view(np.int64)[-1] = offset  # read from the end, where sections of a run may stand behind the tables
+        w.view(np.int64)[-1] = offset  # read from the end, as sections of a run may follow the tables
         first = self.tables.addresses
         part.view(np.int64)[first : first + len(addresses)] = addresses
         return self.with_scales(w)
 
 
 def diagonal(shape: LoopedShape, tables: IndexTables) -> Callable[[Array, Array], int]:
-    """Return the function that puts the diagonal of M into its section."""
+    """Return the function that writes the diagonal of M to its section."""
     first, (offset, size) = shape.mass_diagonal, tables.sections["mass"]
 
     def masses(p: Array, w: Array) -> int:
@@ -81,7 +81,7 @@ def diagonal(shape: LoopedShape, tables: IndexTables) -> Callable[[Array, Array]
 def preparation(
     mechanism: Mechanism, shape: LoopedShape, tables: IndexTables, kernels: Mapping[str, ModuleType]
 ) -> Callable[[Array], int]:
-    """Return the function that fills the numbers behind the parameters in ``p``: interpreted, once a run."""
+    """Return the function that fills the numbers after the parameters in ``p``: interpreted, once a run."""
     numbers = np.frombuffer(tables.numbers, dtype=np.uint32)
     tables_by_name = {t.name: t for t in mechanism.tables}
     constant = shape.products.constant

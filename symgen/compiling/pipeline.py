@@ -1,10 +1,10 @@
-"""The one function whose lines are the stages.
+"""The pipeline, one line a stage.
 
     mechanism --formulate--> equations --lower--> program --emit--> source --load--> compiled model
 
-`generate` gives the source of everything asked for; `compile_model` puts it into the cache, or finds it there, and
-loads it. SymPy and Jinja2 are imported only when something has to be generated, and what belongs to looped
-code only where that is asked for.
+`generate` returns the requested source; `compile_model` puts it into the cache, or finds it there, and
+loads it. SymPy and Jinja2 are imported only when something has to be generated, and modules of looped
+code only where that is requested.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Generated:
-    """Emitted source with its metadata, by file stem: ``model``, one module a law, and those that laws share."""
+    """Emitted source with its metadata, by file stem: ``model``, one module a law, and the modules that laws share."""
 
     folder: str
     modules: Modules
@@ -52,7 +52,7 @@ class Generated:
 
 @dataclass(frozen=True)
 class MethodChoice:
-    """A method with its structural options, as asked for, and the shape of its code."""
+    """A method with its requested structural options, and the shape of its code."""
 
     method: Method
     options: Mapping[str, str]
@@ -65,7 +65,7 @@ class MethodChoice:
         return self.method.stem(self.options, self.implicit)
 
     def with_options(self, **options: str) -> MethodChoice:
-        """Return the same with other values of some options."""
+        """Return the choice with other values of some options."""
         return replace(self, options={**self.options, **options})
 
 
@@ -83,14 +83,14 @@ def choose_method(name: str, options: Mapping[str, str] | None = None, implicit:
 
 
 def for_coordinates(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:
-    """Return a choice as the mechanism's coordinates say it: the metric of bodies is the identity in their own."""
+    """Return a choice for the mechanism's coordinates: the metric of bodies is the identity in their own."""
     if mechanism.topology is not None or choice.options.get("weight") != "body":
         return choice
     return choice.with_options(weight="identity")
 
 
 def for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = True) -> MethodChoice:
-    """Return a choice as massless bodies need it: v' is not eliminated, where the solver is `free` to be chosen.
+    """Return a choice for massless bodies: v' is not eliminated, where the solver is `free` to be chosen.
 
     Raises
     ------
@@ -118,7 +118,7 @@ def generator_digest() -> str:
 
 
 def _sympy_version() -> str:
-    """Return SymPy's version without importing SymPy, which costs more than a whole warm run."""
+    """Return SymPy's version without the import of SymPy, which costs more than a whole warm run."""
     spec = find_spec("sympy")
     if spec is None or spec.origin is None:
         return "absent"
@@ -126,7 +126,7 @@ def _sympy_version() -> str:
 
 
 def refuse_loops(mechanism: Mechanism) -> None:
-    """Refuse looped code for what exists as straight code only.
+    """Refuse looped code for files that need straight code.
 
     Raises
     ------
@@ -156,9 +156,9 @@ def generate(
     shape : {"straight", "looped"}
         Code for this mechanism alone, or loops over tables.
     target : {"cpu", "lanes", "cuda"}
-        What the code is for; stems of modules end in ``_lanes`` or ``_cuda`` then.
+        Target of the code; stems of modules end in ``_lanes`` or ``_cuda`` then.
     whole : bool
-        Whether each law is one module, as people read it, and not modules that laws share, as the cache keeps them.
+        Whether each law is one readable module, and not modules that laws share, as in the cache.
 
     Returns
     -------
@@ -181,7 +181,7 @@ def generate(
         began = time.perf_counter()
         modules = generate_looped(mechanism, choices, generator_digest(), whole)
         return Generated(shared_folder(generator_digest()), modules, 0.0, time.perf_counter() - began)
-    # numbers that only meet where equations are solved; others have names
+    # for numbers that meet only where equations are solved; others have names
     with finite_numbers(f"mechanism '{mechanism.name}'"):
         return _generate_straight(mechanism, choices, target, whole)
 
@@ -193,7 +193,7 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
 
     began = time.perf_counter()
     folder, key = folder_of(mechanism), (id(mechanism), target)
-    # methods are often generated one after the other; whoever lowers one has the graph, which grows by it, for himself
+    # methods are often generated one after the other; each lowering takes the graph, which grows, for itself
     reference, before = _latest.pop(key, (None, None))
     if before is None or reference is None or reference() is not mechanism:
         _latest.clear()
@@ -202,7 +202,7 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
     equations, program, source, info = before
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     suffix = SUFFIXES[target]
-    named = whole and target != "lanes"  # elements of lanes have places of their own
+    named = whole and target != "lanes"  # lanes have their own places of elements
     modules[f"model{suffix}"] = emit_model(program, equations, target, whole) if named else source, info
     for choice in choices:
         law = lower_law(equations, program, choice.method, choice.options, choice.implicit)
@@ -219,7 +219,7 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
     return Generated(folder, modules, derived - began, time.perf_counter() - derived)
 
 
-#: What was derived last, of one mechanism for one target: the mechanism, and what `_without_method` gave.
+#: The last derivation, of one mechanism for one target: the mechanism, and the result of `_without_method`.
 _latest: dict[tuple[int, str], tuple[weakref.ref[Mechanism], tuple[Any, Any, str, Mapping[str, Any]]]] = {}
 
 
@@ -255,7 +255,7 @@ def compile_model(mechanism: Mechanism, choice: MethodChoice, target: str = "cpu
     choice : MethodChoice
         The method and its structural options.
     target : {"cpu", "lanes", "cuda"}
-        What the code is for.
+        Target of the code.
 
     Raises
     ------
@@ -297,7 +297,7 @@ class StraightModel(CompiledModel):
     shape, sparse = "straight", False
 
     def scratch(self) -> Array:
-        """Return a new scratch array ``w``; scales are 1 until a start finds them."""
+        """Return a new scratch array ``w``; scales are 1 until a start sets them."""
         return self.with_scales(np.zeros(max(1, self.law.nw)))
 
 
@@ -321,7 +321,7 @@ def load_compiled(
     model, law : mapping
         Their metadata.
     derive_seconds, emit_seconds : float
-        What generating them took, 0 if they were found.
+        Time of their generation, 0 if they were cached.
     shared : str
         File stem of the module that all laws share.
     """
@@ -336,7 +336,7 @@ def load_compiled(
 
 
 def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
-    """Collect the metadata of a program."""
+    """Return the metadata of a program."""
     return ModelInfo(
         name=program.name,
         digest=program.digest,
@@ -362,7 +362,7 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
 
 
 def _alone(program: ModelProgram, rows: int) -> tuple[int, ...]:
-    """Return the rows whose pivot is the same everywhere, so that ``geometry`` has nothing to say of it."""
+    """Return the rows whose pivot is the same everywhere, which ``geometry`` need not report."""
     pivots = {
         target.index
         for block in program.blocks

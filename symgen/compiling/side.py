@@ -1,4 +1,4 @@
-"""From formulas of a run to a compiled function: beside the model's modules, with a digest and an entry of its own.
+"""From formulas of a run to a compiled function: next to the model's modules, with its own digest and entry.
 
     mechanism, formulas --lower--> program --emit--> source --load--> function
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Sections of ``w`` that formulas of a run may read; they stand where a model of either shape has them.
+#: Sections of ``w`` that formulas of a run may read, at the places of a model of either shape.
 READ = ("status", "winding", "multipliers")
 
 
@@ -49,11 +49,11 @@ class Side:
     function : compiled function
         ``(t, y, p, w, ydot, out)``, of type `symgen.runtime.abi.OBSERVE`; nothing is compiled before a loop takes it.
     path : Path
-        The module that has it.
+        Its module.
     labels : tuple of str
-        What the elements of ``out`` are.
+        Names of the elements of ``out``.
     reads : frozenset of str
-        What it reads: ``t``, ``q``, ``v``, ``p``, ``ydot`` and sections of ``w``.
+        Inputs: ``t``, ``q``, ``v``, ``p``, ``ydot`` and sections of ``w``.
     """
 
     function: Any
@@ -63,7 +63,7 @@ class Side:
 
     @cached_property
     def plain(self) -> Any:
-        """The function as plain Python, which a few evaluations are cheaper by."""
+        """The function as plain Python, cheaper for a few evaluations."""
         return interpreted(self.function)
 
     @cached_property
@@ -89,7 +89,7 @@ def beside(mechanism: Mechanism, compiled: CompiledModel) -> Beside:
 
 
 def stem_of(name: str, *identity: object) -> str:
-    """Return the stem of a module by all that shapes it, the sources that emit it among that."""
+    """Return the stem of a module from all that shapes it, including the sources that emit it."""
     text = "\n".join([*map(str, identity), generator_digest()])
     return f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
 
@@ -97,7 +97,7 @@ def stem_of(name: str, *identity: object) -> str:
 def module_beside(
     mechanism: Mechanism, name: str, identity: Sequence[object], make: Callable[[], tuple[str, dict[str, Any]]]
 ) -> tuple[dict[str, Any], Path]:
-    """Return the description of a module beside a model's, by all that shapes it, and its path; emit a new one."""
+    """Return the description of a module next to a model's, from all that shapes it, and its path; emit a new one."""
     store, folder, stem = Entries(), folder_of(mechanism), stem_of(name, *identity)
     return store.description(folder, stem, make), store.path(folder, stem)
 
@@ -116,18 +116,18 @@ def compile_side(
     Parameters
     ----------
     mechanism : Mechanism
-        What they are about: names are t, parameters, and coordinates and velocities of bodies.
+        Their mechanism: names are t, parameters, and coordinates and velocities of bodies.
     compiled : CompiledModel
-        The model that the function is called beside: its ``p`` and ``w``.
+        The model whose ``p`` and ``w`` the function reads.
     name, purpose : str
-        Of the function, which its module is called after.
+        Of the function; the module has its name.
     formulas : sequence of (str, Expr)
-        What each is called, for people, and the formula.
+        Readable name of each, and the formula.
     rates : int
-        How many derivatives of all formulas along the motion follow behind their values; they take v' from ``ydot``,
+        Number of derivatives of all formulas along the motion after their values; they take v' from ``ydot``,
         as constant, and q' from the velocities.
     sizes : bool
-        Whether what rounding of each formula is a part of follows behind these.
+        Whether the size that rounding of each formula is relative to follows these.
 
     Raises
     ------
@@ -152,17 +152,17 @@ def compile_side(
 
 
 def can_integrate(compiled: CompiledModel) -> bool:
-    """Whether states of a compiled model can hold what outputs integrate: those of methods with momenta cannot."""
+    """Whether states of a compiled model can hold integrals of outputs: those of methods with momenta cannot."""
     return not hasattr(compiled.law_module, "rates")
 
 
 def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledModel:
-    """Return a compiled model whose state holds what outputs integrate; as it is where they integrate nothing.
+    """Return a compiled model whose state holds integrals of outputs; unchanged where they integrate nothing.
 
     Raises
     ------
     InputError
-        If the method integrates something else than velocities, or numbers that meet in a formula overflow.
+        If the method does not integrate velocities, or numbers that meet in a formula overflow.
     """
     formulas, info, law = integrals(mechanism), compiled.info, compiled.law_module
     if not formulas:
@@ -191,7 +191,7 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledMod
     return replace(
         compiled,
         info=msgspec.structs.replace(info, integrals=len(formulas), sections=info.sections | {"auxiliary": auxiliary}),
-        law=msgspec.structs.replace(  # the last element of w is looped code's own
+        law=msgspec.structs.replace(  # the last element of w belongs to looped code
             compiled.law, nw=sum(auxiliary) + 1, modules=tuple(dict.fromkeys((*stems.values(), *compiled.law.modules)))
         ),
         law_module=load_module(store.path(folder, stem)),
@@ -199,7 +199,7 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledMod
 
 
 def _files(law: Any) -> dict[str, Path]:
-    """Return the file that each emitted function of a law is imported from, by the function's name.
+    """Return the source file of each emitted function of a law, by the function's name.
 
     That is the law's own module; where functions were gathered from several modules, as looped code's for implicit
     integrators are, it is the one that defines the function.

@@ -1,4 +1,4 @@
-"""Programs of one mechanism as source text: straight lines, and loops for what is no formula."""
+"""Programs of one mechanism as source text: formulas as straight lines, all else as loops."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from symgen.vocabulary.infos import LawInfo
 if TYPE_CHECKING:
     from symgen.lower.side import SideProgram
 
-#: Numbers of tables that fit into the 64 KiB of a CUDA device's constant memory, some of it left for others.
+#: Most numbers of tables in the 64 KiB of a CUDA device's constant memory, with room left for others.
 MOST_CONSTANTS = 8000
-#: Numbers from which on an array is written as one text.
+#: Longest array that is not written as one text.
 _MANY_NUMBERS = 4096
 
 
@@ -30,9 +30,9 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu",
     Parameters
     ----------
     program, equations, target
-        What is emitted, and what for.
+        Program, equations and target.
     whole : bool
-        Whether it is for people, with names of the places in arrays.
+        Whether the source is for readers, with names of the places in arrays.
 
     Raises
     ------
@@ -79,7 +79,7 @@ def emit_law(
     target: str = "cpu",
     whole: bool = False,
 ) -> dict[str, str]:
-    """Return the source of the modules that one method adds beside the shared one, for a target of `TARGETS`.
+    """Return the source of the modules that one method adds to the shared one, for a target of `TARGETS`.
 
     The last one is the method's own, see `law_modules`; a `whole` one is for people, and complete but for the model.
     """
@@ -111,7 +111,7 @@ def emit_law(
     )
 
 
-#: Notation and use of the functions of a law, for headers of modules for people.
+#: Notation and use of the functions of a law, for headers of readable modules.
 _USE = """
 Constraints Phi(q, t) = 0, their rates D v = nu and D v' = gamma; M v' = f - D^T lambda; S = D M^-1 D^T.
 
@@ -132,12 +132,12 @@ def _guide(program: LawProgram, model: ModelProgram, equations: Equations) -> li
 
 
 def versions(digest: str) -> str:
-    """Return the line that says what a module was made of."""
+    """Return the line on the versions that a module was made with."""
     return f"digest {digest}, format {FORMAT}, templates {templates_digest()}"
 
 
 def law_header(info: LawInfo, summary: str, reference: str, source: str, place: str = "p[{}]") -> list[str]:
-    """Return the lines of a law's docstring; `source` says what of, `place` is where parameters of the method stand."""
+    """Return the lines of a law's docstring; `source` names the origin, `place` is that of the method's parameters."""
     parameters = enumerate(info.parameters, info.parameter_offset)
     return [
         *(f"{sentence(summary)}.", reference, source),
@@ -159,7 +159,7 @@ class LiteralLayout(PartsLayout):
         return self.program.degrees if name == "degrees" else int(getattr(self.program.layout, name))
 
     def at(self, name: str) -> str:
-        """Return the constant that says where a section begins."""
+        """Return the constant of the beginning of a section."""
         self.sections.add(name)
         return name.upper()
 
@@ -168,11 +168,11 @@ class LiteralLayout(PartsLayout):
         return f"p[{index}]"
 
     def own_parameter(self, place: int) -> str:
-        """Return the method's parameter in a place among them as an element of p."""
+        """Return the method's parameter at a place as an element of p."""
         return self.element(self.program.info.parameter_offset + place)
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
-        """Return nothing before a function's own lines, and the sections in use."""
+        """Return no lines before a function's own, and the sections in use."""
         sections, self.sections = self.sections, set()
         return [], set(), sections
 
@@ -183,7 +183,7 @@ def table_names(tables: Sequence[Interpolation], slopes: bool = True) -> list[st
 
 
 def table_codes(tables: Sequence[Interpolation], target: str = "cpu", slopes: bool = True) -> list[ModulePiece]:
-    """Return tables: their arrays with the functions that interpolate, and their slopes; see `table_names`."""
+    """Return arrays of tables with the functions that interpolate, and their slopes; see `table_names`."""
     codes = []
     for curve in tables:
         x, y = (curve.starts, sum(curve.pieces, ())) if curve.pieces else (curve.x, curve.y)
@@ -216,7 +216,7 @@ def straight(
     target: str = "cpu",
     further: Names | None = None,
 ) -> list[ModulePiece]:
-    """Return blocks as functions of straight lines; `further` names stand beside those of q, v and p of `equations`."""
+    """Return blocks as functions of straight lines; `further` names are added to those of q, v and p of `equations`."""
     names = {("q", i): f"{q.name} [{q.unit}]" for i, q in enumerate(equations.coordinates)}
     names |= {("v", i): f"{v.name} [{v.unit}]" for i, v in enumerate(equations.velocities)}
     names |= {("p", i): f"{p.name} [{p.unit}]" for i, p in enumerate(equations.parameters)}
@@ -240,7 +240,7 @@ def straight(
 
 
 def _symbols(equations: Equations, computed: Mapping[str, tuple[int, int]]) -> list[str]:
-    """Return a line with element, name and unit for everything that has an index, and one on numbers kept in p."""
+    """Return a line with element, name and unit for each index, and one on numbers kept in p."""
     nq = equations.nq
     table = [(f"y[{i}]", q.name, q.unit) for i, q in enumerate(equations.coordinates)]
     table += [(f"y[{nq + i}]", v.name, v.unit) for i, v in enumerate(equations.velocities)]
@@ -253,19 +253,19 @@ def _symbols(equations: Equations, computed: Mapping[str, tuple[int, int]]) -> l
 
 
 def emit_side(program: SideProgram) -> str:
-    """Return the source of a module with one function, straight code whatever the shape of the model's."""
+    """Return the source of a module with one function, straight code for either shape of the model."""
     codes, header = _printed(program, "out[{}]")
     return module(f"{program.blocks[0].purpose}, for model `{program.mechanism}`.", header, codes, {}, {})
 
 
 def _printed(program: SideProgram, place: str, first: int = 0) -> tuple[list[ModulePiece], list[str]]:
-    """Return the functions, and lines that say what stands in each place, from the `first` on."""
+    """Return the functions, and lines with the meaning of each place, from the `first` on."""
     codes = [*table_codes(program.tables), *straight(program.blocks, program.layout, program)]
     formulas = [f"{place.format(i)} {formula}" for i, formula in enumerate(program.formulas, first)]
     return codes, [f"format {FORMAT}, templates {templates_digest()}", "", *formulas]
 
 
-#: What a law with integrals has in place of its own: arguments, and what is called behind the law's own.
+#: Functions that a law with integrals replaces: arguments, and the call after the law's own.
 _FOLLOWED = {
     "rhs": ("t, y, p, w, iw, ydot", "integrands(t, y, p, w, ydot)"),
     "confirm": ("t, y, p, w, iw, ydot", "integrands(t, y, p, w, ydot)"),
@@ -274,7 +274,7 @@ _FOLLOWED = {
 
 
 def emit_integrals(program: SideProgram, law: Mapping[str, str], power: int) -> str:
-    """Return the source of a law's module whose right-hand side has rates of integrals behind that of the work.
+    """Return the source of a law's module whose right-hand side has rates of integrals after that of the work.
 
     Parameters
     ----------
@@ -283,7 +283,7 @@ def emit_integrals(program: SideProgram, law: Mapping[str, str], power: int) -> 
     law : mapping of str to str
         Functions of the law, each with the stem of the module in the same folder that it is imported from.
     power : int
-        Where in ``w`` a residual leaves the rate of the work.
+        Index in ``w`` where a residual leaves the rate of the work.
     """
     codes, header = _printed(program, "z[{}]' =", 1)
     exports = [name for name in law if name not in _FOLLOWED]

@@ -67,7 +67,7 @@ def _function(block: Block, access: InstanceAccess, stride: int) -> ModulePiece:
     return function(block.name, "t, y, p, w, T, at, out", purpose, body, calls=calls)
 
 
-#: Array, and what is added up to the place of its first element, of what functions of kernels read and write.
+#: Array, and the summands of the index of its first element, for inputs and outputs of functions of kernels.
 _READ = {"q": ("y", "q"), "v": ("y", "nq", "v"), "change": ("w", "change", "v")}
 _WRITTEN = {
     **{"record": ("w", "f0"), "ydot": ("out", "q"), "y": ("y", "q"), "force=": ("w", "force", "v")},
@@ -78,7 +78,7 @@ _WRITTEN = {
 
 @dataclass(frozen=True)
 class InstanceAccess(Access):
-    """How an instance's elements are written: by numbers of its table, which are read into locals first.
+    """Elements of an instance as text: by numbers of its table, which are read into locals first.
 
     Attributes
     ----------
@@ -90,7 +90,7 @@ class InstanceAccess(Access):
     used: set[str] = field(default_factory=set)
 
     def element(self, array: str, *names: str, plus: int | None = None) -> str:
-        """Return an element of an array, the names of its index noted."""
+        """Return an element of an array and note the names of its index."""
         self.used.update(name for name in names if name.isidentifier())
         return f"{array}[{' + '.join([*names, *([] if plus is None else [str(plus)])])}]"
 
@@ -144,7 +144,7 @@ class InstanceAccess(Access):
         return self.numbered([*names, *(f"u{i}" for i in range(self.info.windings)), "computed"])
 
     def numbered(self, names: list[str]) -> list[tuple[str, str]]:
-        """Return the numbers of a table, constants behind the others; records and coordinates are counted from 0."""
+        """Return the numbers of a table, constants last; records and coordinates are counted from 0."""
         result = []
         for i, name in enumerate([*names, *(f"c{i}" for i in range(self.info.constants))]):
             number = f"T[here + {i}]" if i else "T[here]"
@@ -155,7 +155,7 @@ class InstanceAccess(Access):
 
 @dataclass(frozen=True)
 class FormAccess(InstanceAccess):
-    """How the elements of a part of a descriptor form are written."""
+    """Elements of a part of a descriptor form as text."""
 
     def read(self, space: str, index: int) -> tuple[str, str]:
         """Return (local name, expression) of an input."""

@@ -15,13 +15,13 @@ from symgen.formulate.equations import Equations
 from symgen.ir.program import LANE_COUNTERS, LANES, STATUS, SUFFIXES, Block, Correction, LawProgram, ModelProgram
 from symgen.ir.program import lane_bases as bases_of
 
-#: What sines are taken of is watched where it may be larger [rad]: the reduction in `templates/parts/sine.j2` would
+#: Arguments of sines are watched where they may be larger [rad]: the reduction in `templates/parts/sine.j2` would
 #: lose digits, and from 1e15 on it is of another angle.
 FAR = 4e5
-#: Angles of coordinates up to this are in no need of that: a run that turns farther is left to single runs.
+#: Angles of coordinates up to this need no watch: a run that turns farther is left to single runs.
 TURNED = 1e5
 _BLOCKS = ("normalise", "move", "geometry_of_model", "geometry", "refactor", "spread", "measure", "rhs")
-#: What a law's docstring says of its one array.
+#: Text on the one array, for a law's docstring.
 _ABOUT = """
 All that a run has stands in one array z, since the compiler would otherwise have to make sure of too many pairs of
 arrays that they do not overlap: element i of a lane is z[{lanes}*i + lane], with y from i = 0 on, y' from {ydot}, p
@@ -37,7 +37,7 @@ class LaneLayout(LiteralLayout):
         self.access = access
 
     def at(self, name: str) -> str:
-        """Return where a section, or a number of the status, of the first lane begins."""
+        """Return the beginning of a section, or of a number of the status, of the first lane."""
         layout, first = self.program.layout, self.access.bases["w"]
         if name == "velocities":
             return str(layout.nq * self.access.lanes)
@@ -50,13 +50,13 @@ class LaneLayout(LiteralLayout):
 
 
 class Inlined(PartsLayout):
-    """Functions that are no calls, and know no mechanism."""
+    """Inlined functions that are the same for all mechanisms."""
 
     decorator = PartsLayout.decorator.replace(")", ', inline="always")')
 
 
 def emit_lanes_model(program: ModelProgram) -> str:
-    """Return the source of the module that all methods of a model share: sines that are no calls, and tables."""
+    """Return the source of the module that all methods of a model share: inlined sines, and tables."""
     parts = Parts(Inlined(), Correction())
     parts.add("sine")
     title = f"Model `{program.name}` in lanes, for {LANES} runs at once: functions that are no calls."
@@ -109,7 +109,7 @@ def _over_lanes(block: Block, access: LaneAccess, turning: Container[int]) -> Mo
     any_bad = bad[0] if len(bad) == 1 else f"({' | '.join(bad)})"
     counted = [f"z[SUSPECTS + lane] += 1.0*{any_bad}"] if bad else []
     loop = [f"    {line}" for line in (*lines.inputs, *lines.terms, *lines.outputs, *counted)]
-    # nothing is left of a factorisation that parameters decide alone
+    # a factorisation of parameters alone leaves no loop
     over = ["for lane in range(lanes):", *loop] if loop else []
     body = [*(["lanes = len(z) // NUMBERS"] if alone else []), *over, "return 0"]
     purpose = f"{block.purpose}: {block.operations} operations a lane."
@@ -119,9 +119,9 @@ def _over_lanes(block: Block, access: LaneAccess, turning: Container[int]) -> Mo
 
 
 def _watched(block: Block, turning: Container[int]) -> list[int]:
-    """Return what sines and cosines of a block are taken of that may be large: more than a few angles together.
+    """Return the arguments of sines and cosines of a block that may be large: more than a few angles together.
 
-    A frequency times the time, or times an angle, has no bound that is known beforehand.
+    A frequency times the time, or times an angle, has no bound in advance.
     """
     bounds = dict[int, float]()
     for node in block.needed:

@@ -18,7 +18,7 @@ from symgen.lower.looped.layout import GENERIC, HEAD
 from symgen.lower.record import ARGUMENTS
 
 _STATUS = {name: i for i, name in enumerate(STATUS)}
-#: How a factorisation treats pivots; see ``templates/looped/factorisation.j2``.
+#: Treatment of pivots by a factorisation; see ``templates/looped/factorisation.j2``.
 _MODES = ("RANK_FACTOR", "MASKED_FACTOR", "KEPT_FACTOR", "PLAIN_FACTOR")
 
 
@@ -29,7 +29,7 @@ def emit_machine(generator: str) -> str:
     return render("looped/machine.py.j2", {"format": FORMAT, "generator": generator, **values})
 
 
-#: Calls of generic code: name, arguments behind T, p and w, which code with which arguments, and what it does.
+#: Calls of generic code: name, arguments after T, p and w, the code with its arguments, and its purpose.
 _GENERIC = (
     ("rows_times", "x, result", ("rows_times", "x", "result", "0", "0.0"), "Section `result` = D times `x`."),
     ("columns_times", "x, result", ("columns_times", "x", "result", "0", "0.0"), "`result` = D^T times `x`."),
@@ -92,7 +92,7 @@ def emit_looped_law(
 
 
 class _Size(str):
-    """The name of a size, which can be added to another one."""
+    """The name of a size; sizes can be added."""
 
     def __add__(self, other: str) -> _Size:
         return _Size(f"{self} + {other}")
@@ -111,21 +111,21 @@ class TableLayout(PartsLayout):
         return _Size(self.at(name))
 
     def at(self, name: str) -> str:
-        """Return the name of a size or of where a section begins, noted where it is one."""
+        """Return the name of a size, or of the beginning of a section, and note the latter."""
         if name.islower() and name not in ("t", "y", "p", "w", "ydot"):
             self.names.add(name)
         return name
 
     def own_parameter(self, place: int) -> str:
-        """Return the method's parameter in a place among them."""
+        """Return the method's parameter at a place."""
         return f"p[{self.at('method_parameters')} + {place}]"
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
-        """Return the lines that read what has been noted, what they call, and the law's own sections among it."""
+        """Return the lines that read the noted names, their calls, and the law's own sections among the names."""
         return self.read() if self.names else ([], set(), set())
 
     def read(self) -> tuple[list[str], set[str], set[str]]:
-        """Return the same where the tables are wanted in any case."""
+        """Return the same, and read the tables in any case."""
         scratch = sorted((n for n in self.names if n[0] == "x" and n[1:].isdigit()), key=lambda name: int(name[1:]))
         named = sorted(self.names.difference(scratch), key=lambda n: (HEAD.index(n) if n in HEAD else len(HEAD), n))
         lines = [f"{name} = np.int64(T[{name.upper()}])" for name in named]
@@ -177,15 +177,15 @@ def _assigned(graph: Graph, statement: data.Assignment, access: LoopAccess) -> l
 
 
 class LoopAccess(Access):
-    """How the general element of a section, and numbers, are written; notes which names that takes."""
+    """The general element of a section, and numbers, as text; notes the names in use."""
 
     def __init__(self) -> None:
         self.layout = TableLayout()
         self.status: set[str] = set()
-        self.functions: set[str] = set()  # what is called
+        self.functions: set[str] = set()  # called functions
 
     def read(self, space: str, index: int) -> tuple[str, str]:
-        """Return (local name, expression) of an input: the expression twice, as it is written where it is used."""
+        """Return (local name, expression) of an input: the expression twice, as it is written at its use."""
         text = self.write(Target(space, index))
         return text, text
 

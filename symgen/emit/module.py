@@ -1,4 +1,4 @@
-"""Modules of emitted code: printed functions that say what they need, and the imports and constants that follow."""
+"""Modules of emitted code: printed functions with their needs, and the imports and constants that follow."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from symgen.files import templates_folder
 
 
 class Platform(NamedTuple):
-    """What depends on the target in every module.
+    """The parts of every module that depend on the target.
 
     Attributes
     ----------
     decorator : str
-        What precedes every emitted function. On CUDA, Numba's defaults are the options used elsewhere: divisions by 0
+        Line before every emitted function. On CUDA, Numba's defaults are the options used elsewhere: divisions by 0
         give infinity, multiply-add may be contracted, nothing else is fast or inexact.
     numba : str
-        What is imported from Numba.
+        Import from Numba.
     words : str
-        What docstrings say of it.
+        Its description in docstrings.
     """
 
     decorator: str
@@ -51,13 +51,13 @@ class ModulePiece:
     Parameters
     ----------
     name, text : str
-        What it is called, and its source.
+        Its name and source.
     calls : frozenset of str
-        Emitted functions and constants that it names.
+        Emitted functions and constants in it.
     sections : frozenset of str
-        Sections of ``w`` whose offsets it names.
+        Sections of ``w`` whose offsets it uses.
     libraries : frozenset of str
-        ``math`` and ``numpy`` where it names them.
+        ``math`` and ``numpy`` where it uses them.
     also : tuple of str
         Further names that it defines.
     """
@@ -89,7 +89,7 @@ def _environment() -> jinja2.Environment:
 
 
 def literal(value: float) -> str:
-    """Return a number as Python reads it: 1e4 and the like as people write them."""
+    """Return a number as Python text, with short exponents such as 1e4."""
     _, digits, exponent = Decimal(repr(value)).normalize().as_tuple()
     short = f"{digits[0]}e{exponent}" if len(digits) == 1 and value > 0.0 else repr(value)
     return min(repr(value), short, key=len)
@@ -101,7 +101,7 @@ def render(template: str, values: Mapping[str, Any]) -> str:
     Raises
     ------
     jinja2.UndefinedError
-        If it asks for something that it is not given.
+        If a value of the template is missing.
     """
     return _environment().get_template(template).render(values)
 
@@ -110,7 +110,7 @@ def render(template: str, values: Mapping[str, Any]) -> str:
 def templates_digest() -> str:
     """Return the digest of the templates of code for one mechanism, for the emitted header.
 
-    Those of curves, which few mechanisms have, are not among them.
+    The templates of curves, which few mechanisms have, are left out.
     """
     digest = hashlib.sha256()
     for path in sorted((templates_folder() / "parts").glob("*.j2")):
@@ -139,17 +139,17 @@ def function(
 
 
 def sentence(text: str) -> str:
-    """Return a text with a capital at its beginning, unless it begins with a symbol such as v'."""
+    """Return a text with a capital first letter, unless it begins with a symbol such as v'."""
     return text[0].upper() + text[1:] if text[:2].isalpha() else text
 
 
 def _listed(names: Sequence[str]) -> str:
-    """Return names as they are imported, in brackets where they take more than a line."""
+    """Return names for an import, in brackets where they take more than a line."""
     text = ", ".join(names)
     return text if len(text) < 100 else f"(\n{fill(text, 110, initial_indent='    ', subsequent_indent='    ')},\n)"
 
 
-#: Where a name that a module does not define itself comes from: the stem of a sibling, and its name there.
+#: Source of each name that a module does not define itself: the stem of a sibling, and the name there.
 Origins = Mapping[str, tuple[str, str]]
 
 
@@ -171,11 +171,11 @@ def module(
     header : sequence of str
         Further lines.
     codes : sequence of ModulePiece
-        What it defines, in this order.
+        Its definitions, in this order.
     origins : mapping of str to (str, str)
         Names that other modules of the folder define; those that are called are imported.
     offsets : mapping of str to (int, str)
-        Number and meaning of constants that pieces name: where sections of ``w`` begin, as a rule.
+        Number and meaning of constants in the pieces: usually where sections of ``w`` begin.
     numba : {"njit", "cuda"}
         What is imported from Numba.
     exports : collection of str

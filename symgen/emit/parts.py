@@ -14,14 +14,14 @@ from symgen.ir.program import COUNTERS, STATUS, Correction, LawCode
 
 
 class PartsLayout:
-    """How a shape or target writes sizes, sections and parameters in functions with loops; here, that it has none.
+    """Text of sizes, sections and parameters in functions with loops, for a shape or target; the default has none.
 
     Attributes
     ----------
     turning : str
         Arguments of ``normalise``, empty in the plane.
     decorator : str
-        What precedes each function.
+        Line before each function.
     parameters : sequence of str
         Parameters of the method.
     """
@@ -35,26 +35,26 @@ class PartsLayout:
         raise KeyError(name)
 
     def at(self, name: str) -> str:
-        """Return where a section of ``w`` begins."""
+        """Return the beginning of a section of ``w``."""
         raise KeyError(name)
 
     def own_parameter(self, place: int) -> str:
-        """Return the method's parameter in a place among them."""
+        """Return the method's parameter at a place."""
         raise KeyError(place)
 
     def parameter(self, name: str) -> str:
-        """Return a parameter of the method, or what is taken where it has none."""
+        """Return a parameter of the method, or the default."""
         if name in self.parameters:
             return self.own_parameter(self.parameters.index(name))
         return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
-        """Return lines before a function's own, and the names and sections that were used since the last one."""
+        """Return lines before a function's own, and the names and sections used since the last function."""
         return [], set(), set()
 
 
 class _Names:
-    """Names by which a template asks for what its layout gives another text: ``at.change``, ``size.nq``."""
+    """Names in a template whose text depends on the layout: ``at.change``, ``size.nq``."""
 
     def __init__(self, text: Callable[[str], Any]) -> None:
         self._text = text
@@ -64,7 +64,7 @@ class _Names:
 
 
 class Parts:
-    """Prints templates of ``templates/parts``; each of their functions says what it calls."""
+    """Prints templates of ``templates/parts``; each of their functions lists its calls."""
 
     def __init__(self, layout: PartsLayout, correction: Correction) -> None:
         self.layout = layout
@@ -113,13 +113,13 @@ class Parts:
 
 
 def accept_kind(correction: Correction) -> str:
-    """Return how accepted states are treated: ``measured``, ``augmented``, ``balanced`` or ``corrected``."""
+    """Return the treatment of accepted states: ``measured``, ``augmented``, ``balanced`` or ``corrected``."""
     if not correction.any:
         return "measured"
     return "augmented" if correction.metric == "augmented" else "balanced" if correction.energy else "corrected"
 
 
-#: Parts of laws, each a module, in an order in which each needs earlier ones only: how its stem begins, and what it is.
+#: Parts of laws, each a module that needs earlier ones only: the beginning of its stem, and its description.
 ROLES = {
     "preparation": ("prepare", "Numbers that depend on parameters alone"),
     "iteration": ("iterate", "One iteration, and its end"),
@@ -130,7 +130,7 @@ ROLES = {
     "confirmation": ("confirm", "Second evaluation without rows that come out doubtful"),
     "form": ("form", "Descriptor form"),
 }
-#: What a law's module hands on.
+#: Functions that a law's module exports.
 _EXPORTS = ("prepare", "rhs", "confirm", "rates", "accept", "geometry", "spread", "residual", "tangent")
 
 
@@ -149,9 +149,9 @@ def law_modules(
     places: Places | None = None,
     **keys: Any,
 ) -> dict[str, str]:
-    """Return the modules of a law: one for each of its parts, and last the law's own, which gathers their functions.
+    """Return the modules of a law: one for each part, and last the law's own, which gathers their functions.
 
-    A part is named by a digest of what it holds, so that equal parts are one module, whoever asks for them. With
+    A part is named by a digest of its content, so that equal parts of all laws are one module. With
     `places` there is one module, the law's own, which holds the same functions.
 
     Parameters
@@ -159,21 +159,21 @@ def law_modules(
     law : LawCode
         The law.
     layout : PartsLayout
-        How its functions with loops are written.
+        Text of sizes and sections in its functions with loops.
     printed : sequence of (str, Code)
-        Its functions that are formulas, each with its role, one of `ROLES`.
+        Its functions of formulas, each with its role, one of `ROLES`.
     flagged : bool
-        Whether one of these says that a pivot is suspicious.
+        Whether one of these flags suspicious pivots.
     what, versions : str
-        Whose parts they are, and what they were made of, for docstrings.
+        Owner of the parts, and the versions they were made with, for docstrings.
     shared_names : mapping of str to (str, str)
         As for `module`: names of the modules that all laws share.
     title, header, stem : str, sequence of str, str
         Of the law's own module.
     suffix : str
-        How all stems end.
+        End of all stems.
     places : Places, optional
-        Names of the elements of arrays, for people.
+        Names of the elements of arrays, for readers.
     **keys
         As for `module`.
     """
@@ -193,7 +193,7 @@ def law_modules(
         digest = hashlib.sha256(module("", [], codes, origins, **keys).encode()).hexdigest()[:16]
         name = "_".join((label, *([kinds[role]] if role in kinds else ()), digest)) + suffix
         modules[name] = module(f"{about}, {what}.", [versions], codes, origins, **keys)
-        if role == "acceleration":  # what closes dependent coordinates first is the law's `rhs`
+        if role == "acceleration":  # the law's `rhs` closes dependent coordinates first
             origins["accelerate"] = (name, "rhs")
         origins |= {each: (name, each) for code in codes for each in code.names}
         exported |= {each for code in codes for each in code.names}
@@ -202,7 +202,7 @@ def law_modules(
 
 
 def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: bool) -> list[tuple[str, ModulePiece]]:
-    """Return the functions of a law that are no formulas, with their roles, in the order of their text."""
+    """Return the functions of a law with loops, with their roles, in the order of their text."""
     form, parts = law.form, Parts(layout, law.correction)
     if "refactor" in names:
         parts.add("metric", "metric")

@@ -1,4 +1,4 @@
-"""Prints blocks as straight-line Python that Numba compiles. The only place that knows the syntax of an operation."""
+"""Prints blocks as straight-line Python that Numba compiles. The only place with the syntax of operations."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 _BINARY = {"add": ("+", 1), "sub": ("-", 1), "mul": ("*", 2), "div": ("/", 2), "pow": ("**", 4)}
 _COMPARE = {"lt": "<", "le": "<=", "gt": ">", "ge": ">="}
 _LOGIC = {"and": "&", "or": "|"}
-#: Operations that give a truth value; others, and those that are computed once a run and kept, are numbers.
+#: Operations with a truth value; others, and those computed once a run and kept, are numbers.
 _TRUTH = frozenset((*_COMPARE, *_LOGIC, "not", "defined"))
-#: Operations that give an integer where all they have are integers.
+#: Operations whose result is an integer where all operands are integers.
 _WHOLE = frozenset("add sub mul neg abs min max where".split())
 _MATH = frozenset((*ELEMENTARY, "atan2", "floor"))
-#: Arrays that functions get as arguments of their own; every other space is a section of ``w``.
+#: Arrays that are arguments of functions; every other space is a section of ``w``.
 _ARRAYS = frozenset(("p", "y", "ydot", "out", "k", "r", "j"))
-#: A term used once is written where it is used, up to this many characters.
+#: Longest text of a term used once that is written at its use.
 _INLINE = 90
 
 
@@ -40,7 +40,7 @@ class BodyLines:
 
 
 class Access(ABC):
-    """How elements are written in a target."""
+    """Text of elements in a target."""
 
     @abstractmethod
     def read(self, space: str, index: int) -> tuple[str, str]:
@@ -65,7 +65,7 @@ class Access(ABC):
 
 @dataclass(frozen=True)
 class ElementAccess(Access):
-    """How elements of arrays and scratch sections are written in a target: here, plain indexing."""
+    """Text of elements of arrays and scratch sections in a target: here, plain indexing."""
 
     layout: ModelLayout
     names: Mapping[tuple[str, int], str]
@@ -101,7 +101,7 @@ class ElementAccess(Access):
 class LaneAccess(ElementAccess):
     """Elements of `lanes` runs side by side in one array ``z``: element i stands at ``lanes*i + lane``.
 
-    `bases` say where each array of a single run begins.
+    `bases` are the beginnings of the arrays of a single run.
     """
 
     bases: Mapping[str, int]
@@ -112,7 +112,7 @@ class LaneAccess(ElementAccess):
         return f"z[{(self.bases[array] + index) * self.lanes} + lane]"
 
     def function(self, name: str) -> str:
-        """Return the name of a mathematical function: sines of lanes are no calls."""
+        """Return the name of a mathematical function: sines of lanes are inlined."""
         return {"sin": "sine", "cos": "cosine"}.get(name, f"math.{name}")
 
 
@@ -124,7 +124,7 @@ class Printer:
         self.needed = block.needed
         self.uses = Counter(a for node in self.needed for a in self.graph.nodes[node].args) + Counter(block.nodes)
         self.text: dict[int, tuple[str, int]] = {}  # node -> (expression, precedence)
-        self.functions: set[str] = set()  # what is called: math's, and others that are emitted
+        self.functions: set[str] = set()  # called functions: of math, and emitted ones
 
     def lines(self) -> BodyLines:
         """Return the lines of the block."""
@@ -158,7 +158,7 @@ class Printer:
         return BodyLines(tuple(inputs), tuple(terms), outputs, flag, frozenset(self.functions))
 
     def comment(self, target: Target) -> str:
-        """Return the name of an output as a comment, nothing where it has none."""
+        """Return the name of an output as a comment, empty where it has none."""
         note = harmless(self.access.note(target.space, target.index))
         return f"  # {note}" if note else ""
 
@@ -200,7 +200,7 @@ class Printer:
         raise AssertionError(f"no syntax for operation {op}")
 
     def factor(self, node: int) -> str:
-        """Return a node's text as a part of a power: no integer, whose powers overflow or raise what nobody catches."""
+        """Return a node's text as a part of a power: no integer, whose powers overflow or raise uncaught exceptions."""
         return f"float({self.text[node][0]})" if self.is_whole(node) else self.wrapped(node, 5)
 
     def is_whole(self, node: int) -> bool:
@@ -215,7 +215,7 @@ class Printer:
         return text if self.graph.nodes[node].op in _TRUTH else f"({text} != 0.0)"
 
     def wrapped(self, node: int, level: int) -> str:
-        """Return a node's text, in parentheses where it binds weaker than `level`."""
+        """Return a node's text, in parentheses where it binds more weakly than `level`."""
         text, own = self.text[node]
         return text if own >= level else f"({text})"
 
@@ -225,14 +225,14 @@ LONGEST = 200
 
 
 def harmless(text: object) -> str:
-    """Return a text that cannot end the comment or docstring it stands in, nor be read as an escape.
+    """Return a text that cannot end the comment or docstring around it, nor be read as an escape.
 
-    Line ends and all that is not printable become spaces, double quotes single ones, and backslashes slashes.
+    Line ends and unprintable characters become spaces, double quotes single ones, and backslashes slashes.
 
     Parameters
     ----------
     text : object
-        What a file, a method or an option says of itself.
+        Text from a file, a method or an option.
     """
     words = str(text)[: LONGEST + 1].translate(_SIGNS)
     if not words.isprintable():
@@ -242,12 +242,12 @@ def harmless(text: object) -> str:
 
 _SIGNS = str.maketrans('"\\', "'/")
 
-#: What precedes the name of a table in each of the names that are made of it: no other emitted name begins so.
+#: Prefixes of the name of a table in the emitted names: no other emitted name begins with them.
 _OF_TABLE = {"value": "table_", "slope": "slope_", "second": "second_", "x": "points_", "y": "values_"}
 
 
 def table_name(name: str, what: str = "value") -> str:
-    """Return the emitted name of a table's function, of its derivatives', or of the array of its points or values.
+    """Return the emitted name of a table's function, of its derivatives, or of the array of its points or values.
 
     The table's name follows unchanged, so that names differ wherever those of tables do.
 
@@ -256,13 +256,13 @@ def table_name(name: str, what: str = "value") -> str:
     name : str
         A checked identifier.
     what : {"value", "slope", "second", "x", "y"}
-        Which one.
+        Kind of the name.
     """
     return _OF_TABLE[what] + name
 
 
 Names = dict[tuple[str, int], str]
-#: Longest formula of parameters that stands as a name.
+#: Longest formula of parameters that serves as a name.
 LONGEST_FORMULA = 48
 #: Sections of ``w`` with an element for each row, and for each velocity.
 _OF_ROWS = ("residual", "nu", "multipliers", "mask", "pivot", "row_weight")
@@ -270,14 +270,14 @@ _OF_VELOCITIES = ("change", "mass", "gauge")
 
 
 def of_model(equations: Equations, jacobian: Sequence[JacobianEntry]) -> Names:
-    """Return the names of sections of ``w`` that all methods share, and of what is returned at outputs.
+    """Return the names of sections of ``w`` that all methods share, and of the values returned at outputs.
 
     Parameters
     ----------
     equations : Equations
         The derived equations.
     jacobian : sequence of JacobianEntry
-        Where entries of D stand.
+        Places of the entries of D.
     """
     rows, speeds = [r.name for r in equations.rows], [v.name for v in equations.velocities]
     names: Names = {(section, i): name for section in _OF_ROWS for i, name in enumerate(rows)}
@@ -291,7 +291,7 @@ def of_model(equations: Equations, jacobian: Sequence[JacobianEntry]) -> Names:
 
 
 def of_observed(equations: Equations) -> Names:
-    """Return the names of what ``observe`` writes."""
+    """Return the names of the outputs of ``observe``."""
     labels = [row.name for row in equations.rows]
     labels += [name for c in equations.joint_coordinates for name in (c.name, f"rate of {c.name}")]
     return {("out", i): name for i, name in enumerate(labels)}
@@ -299,7 +299,7 @@ def of_observed(equations: Equations) -> Names:
 
 @dataclass(frozen=True)
 class _ByName(ElementAccess):
-    """Elements written by their names, where they have some."""
+    """Elements as their names, where they have names."""
 
     def read(self, space: str, index: int) -> tuple[str, str]:
         """Return the name of an input, twice."""
@@ -308,7 +308,7 @@ class _ByName(ElementAccess):
 
 
 def of_hoisted(blocks: Sequence[Block], access: ElementAccess) -> Names:
-    """Return the formulas of numbers that depend on parameters alone, where they are short.
+    """Return the short formulas of numbers that depend on parameters alone.
 
     Parameters
     ----------

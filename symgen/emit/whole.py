@@ -1,4 +1,4 @@
-"""A method as one module that people read: the functions of its parts, with names in place of numbers of elements."""
+"""A method as one readable module: the functions of its parts, with names in place of numbers of elements."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ _ELEMENT = re.compile(r"\b(w|iw|p)\[(\d+)\]")
 
 @dataclass(frozen=True)
 class Places:
-    """Names of the elements of arrays that functions of one mechanism have by number.
+    """Names of the elements of arrays that functions of one mechanism index by number.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ class Places:
 
     @property
     def constants(self) -> dict[str, tuple[int, str]]:
-        """Number of each name, and the array that it belongs to."""
+        """Number of each name, and its array."""
         constants = {name: (first, "sections of w") for name, (first, _) in self.sections.items()}
         if "status" in self.sections:
             first = self.sections["status"][0]
@@ -100,7 +100,7 @@ class Places:
         return replace(code, text=_ELEMENT.sub(name, code.text), sections=frozenset(used))
 
     def _place(self, array: str, index: int) -> tuple[str, int] | None:
-        """Return the name of an element, and its distance from where that begins."""
+        """Return the name of an element, and its distance from the beginning of that name."""
         if array == "iw":
             return COUNTERS[index], 0
         if array == "p":
@@ -124,7 +124,7 @@ class Places:
         Parameters
         ----------
         title, header, origins, offsets, **keys
-            As for `symgen.emit.module.module`; places that functions have by number need no offset.
+            As for `symgen.emit.module.module`; places by number need no offset.
         groups : sequence of sequence of Code
             The functions, those of each part of the law together, in the order of their text.
         """
@@ -140,7 +140,7 @@ def model_name(name: str) -> str:
 
 
 def with_own_names(groups: Sequence[Sequence[ModulePiece]], origins: Origins) -> list[ModulePiece]:
-    """Return functions of several modules as those of one: where two have the same name, the earlier has another one.
+    """Return functions of several modules as those of one: of two with the same name, the earlier is renamed.
 
     A law has its own `geometry` and `spread` where its metric is not the model's, and its own `rhs` around that of
     accelerations where dependent coordinates are closed first.
@@ -164,12 +164,12 @@ def with_own_names(groups: Sequence[Sequence[ModulePiece]], origins: Origins) ->
 
 
 def _renamed(code: ModulePiece, names: Mapping[str, str]) -> ModulePiece:
-    """Return a function with other names for itself and for what it calls."""
+    """Return a function with other names for itself and its callees."""
     text = re.sub(r"\b(\w+)(?=\()", lambda match: names.get(match[0], match[0]), code.text)
     calls = frozenset(names.get(name, name) for name in code.calls)
     return replace(code, name=names.get(code.name, code.name), text=text, calls=calls)
 
 
 def absolute(source: str) -> str:
-    """Return a module that imports its siblings by their names alone, as modules in the folder of a script do."""
+    """Return a module that imports its siblings by their names alone, as in the folder of a script."""
     return re.sub(r"^from \.(?=\w)", "from ", source, flags=re.MULTILINE)

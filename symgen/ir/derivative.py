@@ -26,13 +26,13 @@ def jacobian(graph: Graph, outputs: Sequence[int], inputs: Iterable[Key]) -> lis
     outputs : sequence of int
         Nodes.
     inputs : iterable of (space, index)
-        What to differentiate with respect to; structurally zero derivatives are absent.
+        Variables of differentiation; structurally zero derivatives are absent.
 
     Notes
     -----
     At a kink of ``abs``, ``min``, ``max`` or ``sign`` the derivative is that of one side; the slope of straight
     lines is that of the one below the argument. Where a root, a power, ``asin`` or ``acos`` rises without bound it
-    is a large number, of which nothing is left where it meets arguments that do not change there.
+    is a large number, which vanishes where its arguments do not change.
     """
     variables = set(inputs)
     derivative: dict[int, Mapping[Key, int]] = {}
@@ -65,7 +65,7 @@ def _chain(
 
 
 def _chosen(g: Graph, op: str, args: tuple[int, ...], parts: list[Mapping[Key, int]]) -> Mapping[Key, int]:
-    """Return the derivatives of a choice: those of what is chosen, as the others may not exist where they are not."""
+    """Return the derivatives of a choice: those of the chosen value, as the others may not exist there."""
     if op == "where":
         condition, first, second = args[0], parts[1], parts[2]
     else:
@@ -106,7 +106,7 @@ def _partials(g: Graph, node: int, op: str, args: tuple[int, ...], payload: str)
 
 
 def _power(g: Graph, node: int, a: int, b: int) -> tuple[int, int]:
-    """Return the derivatives of a power; where nothing is raised to less than 1 it rises without bound."""
+    """Return the derivatives of a power; that of 0 raised to less than 1 rises without bound."""
     one, exponent = g.one, g.value(b)
     if exponent is not None:
         if 0.0 < exponent < 1.0:

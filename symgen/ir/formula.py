@@ -1,9 +1,9 @@
-"""Functions as formulas of a file mean them: what is undefined is not hidden by a limit, a sign or a comparison.
+"""Functions of the formulas of a file: no limit, sign or comparison hides an undefined value.
 
 The operations of a graph are those of a processor, for which ``max(1, nan)`` is 1 and ``nan < 1`` is false. A formula
-that is undefined somewhere shall be no number there, and nothing that is made of it; only what a choice leaves aside
-does not count, nor an operand of ``and`` or ``or`` where the other one decides. Operations are added where an argument
-may be undefined, and nowhere else.
+that is undefined somewhere shall be no number there, nor anything computed from it; only the value that a choice drops
+does not count, nor an operand of ``and`` or ``or`` where the other one decides. Operations are added only where an
+argument may be undefined.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ class Functions:
     Parameters
     ----------
     graph : Graph
-        Where operations are built.
+        Graph of the operations.
     """
 
     def __init__(self, graph: Graph) -> None:
         self.graph = graph
-        self._unsure: dict[int, tuple[int, int]] = {}  # condition -> where it is defined, and what is no number else
+        self._unsure: dict[int, tuple[int, int]] = {}  # condition -> where it is defined, and no number elsewhere
         self._signs: dict[int, tuple[int, bool]] = {}  # as in `_sign_of`
 
     def call(self, function: str, *args: int) -> int:
@@ -48,7 +48,7 @@ class Functions:
         return node
 
     def _carried(self, function: str, condition: int, node: int) -> int:
-        """Return a choice, or the negation of a condition, that is undefined where the condition is."""
+        """Return a choice, or the negation of a condition, undefined where the condition is."""
         if condition not in self._unsure:
             return node
         if function == "where":
@@ -68,7 +68,7 @@ class Functions:
         return node
 
     def _decided(self, function: str, a: int, b: int) -> int:
-        """Return a value above 0 where both, or either, of two are; the other may be none where one decides."""
+        """Return a value above 0 where both, or either, of two are; the other may be undefined where one decides."""
         g, smaller = self.graph, function == "both"
         decided = g.call("min" if smaller else "max", a, b)
         unsure = [x for x in (a, b) if not self._is_defined(x)]

@@ -1,9 +1,9 @@
-"""The expression graph: what is computed, apart from how it is laid out.
+"""The expression graph: computations, apart from their layout.
 
 A `Graph` holds operations on scalars, each stored once (hash-consing), so common subexpressions over everything that
 is built in one graph are shared without a separate pass. Structural zeros and ones vanish while building. Nodes are
-integers; a node's arguments always have smaller numbers, so increasing order is an evaluation order, and it depends
-on nothing but the order of construction: the same mechanism gives the same numbers in every process.
+integers; a node's arguments always have smaller numbers, so increasing order is an evaluation order. It depends
+only on the order of construction: the same mechanism gives the same numbers in every process.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from symgen.vocabulary.functions import ELEMENTARY
 
-#: Bits of what a node depends on.
+#: Bits of the dependencies of a node.
 TIME, POSITION, VELOCITY, PARAMETER, SCRATCH = 1, 2, 4, 8, 16
 
 #: Input spaces that are not scratch: every other name is a section of ``w`` or an array of the block's own.
@@ -29,7 +29,7 @@ _FOLD |= {"abs": abs, "floor": math.floor}
 
 
 class Operation(NamedTuple):
-    """One node: its operator, the nodes it acts on, and its payload (value of a constant, key of an input)."""
+    """One node: its operator, its arguments, and its payload (value of a constant, key of an input)."""
 
     op: str
     args: tuple[int, ...]
@@ -37,7 +37,7 @@ class Operation(NamedTuple):
 
 
 class Graph:
-    """Operations on scalars, shared and simplified while they are built."""
+    """Operations on scalars, shared and simplified during construction."""
 
     #: Node of the number 0 in every graph.
     ZERO = 0
@@ -50,7 +50,7 @@ class Graph:
         self.one = self.constant(1.0)
 
     def copy(self) -> Graph:
-        """Return a graph with the same nodes, to build on without changing this one."""
+        """Return an independent graph with the same nodes."""
         other = Graph()
         other.nodes, other.depends, other._index = list(self.nodes), list(self.depends), dict(self._index)
         return other
@@ -245,7 +245,7 @@ class Graph:
         return self.total(self.mul(x, y) for x, y in zip(a, b, strict=True))
 
     def inline(self, other: Graph, outputs: Sequence[int], inputs: Mapping[tuple[str, int], int]) -> list[int]:
-        """Copy what `outputs` of `other` need into this graph, its inputs replaced; return the outputs' new nodes."""
+        """Copy `outputs` of `other` with their operands into this graph, inputs replaced; return their new nodes."""
         return self.rebuilt(other, outputs, lambda node: inputs[other.key(node)])
 
     def replaced(self, outputs: Sequence[int], inputs: Mapping[tuple[str, int], int]) -> list[int]:
@@ -259,17 +259,17 @@ class Graph:
         image: Callable[[int], int],
         stops: Callable[[int], bool] | None = None,
     ) -> list[int]:
-        """Build what `outputs` of `source` need anew in this graph; return the outputs' nodes here.
+        """Build the nodes that `outputs` of `source` need anew in this graph; return the outputs' nodes here.
 
         Parameters
         ----------
         source : Graph
-            Where they stand now.
+            Graph of the outputs.
         outputs : sequence of int
             Nodes of `source`.
         image : callable
-            Gives the node here that stands for an input of `source`, or for one that `stops` names: each is asked for
-            once, in evaluation order.
+            Returns the node here for an input of `source`, or for a node that `stops` selects; called once for
+            each, in evaluation order.
         stops : callable, optional
             Whether a node is not built from its operands, so that these are not needed for it; by default only inputs.
         """
@@ -285,14 +285,14 @@ class Graph:
         return [images[o] for o in outputs]
 
     def rebuild(self, op: str, args: tuple[int, ...], payload: object = None) -> int:
-        """Return the operation `op` on `args`, simplified as if it had been built by its own method."""
+        """Return the operation `op` on `args`, simplified as by its own method."""
         builder = ARITHMETIC.get(op)
         if builder is not None:
             return int(getattr(self, builder)(*args))
         return self.call(f"table:{payload}" if op == "table" else op, *args)
 
     def needed(self, outputs: Iterable[int], stops: Callable[[int], bool] | None = None) -> list[int]:
-        """Return all nodes that `outputs` depend on, in evaluation order, none behind those that `stops` names."""
+        """Return all nodes that `outputs` depend on, in evaluation order, none behind those that `stops` selects."""
         nodes: set[int] = set()
         stack = list(outputs)
         while stack:
@@ -309,11 +309,11 @@ class Graph:
         return [payload for payload in payloads if isinstance(payload, tuple)]
 
     def operations(self, outputs: Iterable[int]) -> int:
-        """Count the arithmetic operations needed for `outputs`, shared ones once."""
+        """Return the number of arithmetic operations for `outputs`, shared ones counted once."""
         return sum(1 for n in self.needed(outputs) if self.nodes[n].op not in ("const", "input"))
 
     def tree_operations(self, outputs: Iterable[int]) -> int:
-        """Count the operations of `outputs` written out without sharing anything."""
+        """Return the number of operations of `outputs` without sharing."""
         outputs = list(outputs)
         cost: dict[int, int] = {}
         for node in self.needed(outputs):

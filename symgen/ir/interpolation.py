@@ -1,4 +1,4 @@
-"""Functions by interpolation: straight lines, or cubic pieces that are smooth where they meet."""
+"""Functions by interpolation: straight lines, or cubic pieces with smooth joins."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-#: Coefficients c of a piece: c0 + c1 u + c2 u^2 + c3 u^3, u being the distance from where it begins.
+#: Coefficients c of a piece: c0 + c1 u + c2 u^2 + c3 u^3, u being the distance from its beginning.
 Piece = tuple[float, float, float, float]
 
 
@@ -26,7 +26,7 @@ class Interpolation:
         Empty for straight lines, which are constant beyond their ends. Else the straight piece that ends at the first
         point, the cubic ones between points, and the straight one that begins at the last point.
     period : float
-        Distance after which it repeats itself; 0: it does not.
+        Period; 0 if it is not periodic.
     """
 
     name: str
@@ -37,15 +37,15 @@ class Interpolation:
 
     @property
     def starts(self) -> tuple[float, ...]:
-        """Where pieces begin, from which the distance u is counted; the first one ends at the first point.
+        """Beginnings of pieces, from which the distance u is counted; the first piece ends at the first point.
 
-        The last one begins behind the last point, which so has the derivatives of the curve before it.
+        The last piece begins after the last point, which so has the derivatives of the curve before it.
         """
         return (self.x[0], *self.x[:-1], math.nextafter(self.x[-1], math.inf))
 
     @property
     def numbers(self) -> int:
-        """How many numbers it is made of where it is evaluated."""
+        """Number of stored numbers for its evaluation."""
         return 5 * len(self.pieces) if self.pieces else 2 * len(self.x)
 
     def value(self, x: float, order: int = 0) -> float:
@@ -86,7 +86,7 @@ def cubic_slopes(x: Sequence[float], y: Sequence[float]) -> list[float]:
 
 
 def periodic_slopes(x: Sequence[float], y: Sequence[float]) -> list[float]:
-    """Return the slopes at the points of the cubic spline that goes on smoothly from its end to its beginning.
+    """Return the slopes at the points of the cubic spline that is smooth from its end to its beginning.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def pchip_slopes(x: Sequence[float], y: Sequence[float], periodic: bool = False)
     x, y : sequence of float
         Two points or more.
     periodic : bool
-        Whether the function goes on from its end to its beginning.
+        Whether the function continues from its end to its beginning.
     """
     h, d = _parts(x, y)
     if len(x) == 2 and not periodic:

@@ -1,4 +1,4 @@
-"""Thresholds and limits that emitted code decides by, each in one place."""
+"""Thresholds and limits of emitted code, each in one place."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ SUSPICIOUS = 1e-6
 SKIP = 1e-12
 #: A pivot of D D^T (rows scaled) below this is near a singular position and is reported.
 WARN = 1e-4
-#: What divides 0 where a row is skipped, so that no pivot of 0 does; pivots that count are larger in all units.
+#: Divisor of 0 where a row is skipped, in place of a pivot of 0; pivots that count are larger in all units.
 TINY = 1e-300
 
-#: What templates decide by, under the names by which they ask for it.
+#: Thresholds of templates, by their names there.
 NUMBERS: dict[str, float] = {
     "skip": SKIP,
     "warn": WARN,
     # corrections
-    "stalled": 0.5,  # an iteration that leaves more than this part of a violation gains nothing any more,
+    "stalled": 0.5,  # an iteration that leaves more than this part of a violation has stalled,
     "slack": 1e4,  # if the violation is within so many tolerances: then it is rounding
     "tighter": 1e-2,  # part of the tolerance of violations near a singular position
     "falling": 0.9,  # the same part for mass-orthogonal projections, which converge linearly
     "most_projections": 20,
-    # the free part of the kinetic energy, over what it was, beyond which velocities are not scaled to the balance
+    # bounds of the free part of the kinetic energy, over its former value, for scaling velocities to the balance
     "least_energy": 0.25,
     "most_energy": 4.0,
     # iterated laws
     "most_iterations": 30,
     "floor": 1e-6,  # a change of v', relative to v', below which an iteration may end because it stalls
-    "tolerance": 1e-13,  # where a method has no such parameter
+    "tolerance": 1e-13,  # default where a method has no such parameter
     # partitions of coordinates
     "poor": 0.3,  # part of the best determinant since the choice, below which another partition is chosen
     "exchange": 1.01,  # least growth of the determinant by an exchange of columns

@@ -1,7 +1,7 @@
-"""The program: everything that the emitter needs, and nothing about how it is printed.
+"""The program: everything that the emitter needs, independent of printing.
 
-A block is a named piece of computation with declared outputs. Where its elements live (``y``, ``ydot``, ``p`` or a
-section of the scratch array ``w``) is said by symbolic targets; the emitter's layout turns them into element access.
+A block is a named piece of computation with declared outputs. Symbolic targets name the place of its elements (``y``,
+``ydot``, ``p`` or a section of the scratch array ``w``); the emitter's layout turns them into element access.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ Info = TypeVar("Info")
 #: Format of the emitted modules: changes when their functions, signatures or sections do.
 FORMAT = 3
 
-#: What code is emitted for, and what the names of its modules end in.
+#: Targets of emitted code, and the ends of their modules' names.
 SUFFIXES = {"cpu": "", "lanes": "_lanes", "cuda": "_cuda"}
 TARGETS = tuple(SUFFIXES)
-#: Runs that code for ``lanes`` works on at once: a vector of the widest registers, or two of the next.
+#: Simultaneous runs of code for ``lanes``: a vector of the widest registers, or two of the next.
 LANES = 8
-#: What code for ``lanes`` counts behind ``w``, in this order: evaluations with suspicious pivots, corrections that
-#: failed, their iterations; and what it needs for these.
+#: Counters of code for ``lanes`` after ``w``, in this order: evaluations with suspicious pivots, corrections that
+#: failed, their iterations; and auxiliary numbers for these.
 LANE_COUNTERS = ("suspects", "failures", "iterations", "last", "open")
 
 
 def lane_bases(ny: int, n_p: int, nw: int) -> dict[str, int]:
-    """Return where the arrays of a run begin in the one array of lanes, in elements of a lane.
+    """Return the beginnings of the arrays of a run in the one array of lanes, in elements of a lane.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def lane_bases(ny: int, n_p: int, nw: int) -> dict[str, int]:
     dict
         By the names of the arrays; ``spare`` for `LANE_COUNTERS`, ``numbers`` for the length of all.
     """
-    room = -(-ny // 4) * 4  # so that loops over all elements of a state leave no rest behind unrolled vectors
+    room = -(-ny // 4) * 4  # so that loops over all elements of a state leave no remainder after unrolled vectors
     spare = 2 * room + n_p + nw
     places = {"y": 0, "ydot": room, "p": 2 * room, "w": 2 * room + n_p}
     return {**places, "spare": spare, "numbers": spare + len(LANE_COUNTERS)}
@@ -73,7 +73,7 @@ STATUS = (
     "power",  # of forces without potential and of drivers, by `residual`
 )
 
-#: Sections of ``w`` that functions of every model and law share, and what they are as long as.
+#: Sections of ``w`` that functions of every model and law share, and their lengths.
 SECTIONS = (
     *((name, "m") for name in ("multipliers", "mask", "saved", "residual", "nu", "pivot")),
     *((name, "nv") for name in ("change", "mass", "gauge")),
@@ -83,7 +83,7 @@ SECTIONS = (
 #: Sections of ``w`` that a start settles; all others are written before they are read.
 SETTLED = ("status", "winding", "mask", "saved", "pivot", "gauge", "row_weight", "mass", "mass_entry")
 
-#: Those numbers of the status that a start finds, and that are 1 before.
+#: Numbers of the status that a start computes, and that are 1 before.
 SCALES = ("length_scale", "speed_scale", "mean_mass")
 
 #: Integers in ``iw``, in this order.
@@ -93,30 +93,30 @@ COUNTERS = (
     "light",  # of these, those where D D^T found full rank: light bodies, not redundant rows
     "iterations",  # iterations of corrections
     "failures",  # corrections that did not converge
-    "probing",  # 1 while a state between steps is measured: nothing is kept of it
+    "probing",  # 1 while a state between steps is measured: nothing is kept
     "law_iterations",  # iterations of an iterated law
     "partitions",  # choices of a partition
     "degrees",  # columns of a tangent basis
     "dense_solves",  # evaluations by a dense factorisation
-    "dense_rank",  # smallest rank found by them
-    "balanced",  # 1 once the energy is known that velocities are scaled to
+    "dense_rank",  # their smallest rank
+    "balanced",  # 1 once the target energy of velocity scaling is set
 )
 
 
 @dataclass(frozen=True)
 class Target:
-    """Where an output goes: element `index` of array or scratch section `space`."""
+    """Place of an output: element `index` of array or scratch section `space`."""
 
     space: str
     index: int
 
 
-#: A table's function and its derivatives. Nothing takes a third one: formulas of state have one, those of time two.
+#: A table's function and its derivatives. No third one is needed: formulas of state have one, those of time two.
 DERIVATIVES = ("value", "slope", "second")
 
 
 def of_table(payload: object) -> tuple[str, str]:
-    """Return the name in the payload of a table's operation, and which of `DERIVATIVES` is meant."""
+    """Return the name in the payload of a table's operation, and its item of `DERIVATIVES`."""
     name = str(payload).rstrip("'")
     return name.removeprefix(SMOOTH), DERIVATIVES[len(str(payload)) - len(name)]
 
@@ -130,11 +130,11 @@ class Block:
     name : str
         Name of the emitted function.
     purpose : str
-        One line: what the function computes.
+        Purpose of the function, in one line.
     graph : Graph
         Holds the nodes.
     outputs : tuple of (Target, int)
-        What is written, in order.
+        Outputs, in order.
     flag : int or None
         Node whose truth the function returns; None: it returns 0.
     arguments : tuple of str
@@ -153,7 +153,7 @@ class Block:
 
     @property
     def nodes(self) -> tuple[int, ...]:
-        """All nodes that the block ends in."""
+        """All end nodes of the block."""
         return tuple(n for _, n in self.outputs) + (() if self.flag is None else (self.flag,))
 
     @cached_property
@@ -163,7 +163,7 @@ class Block:
 
     @property
     def tables(self) -> tuple[tuple[str, str], ...]:
-        """Tables that are read, by name, and for which of `DERIVATIVES`."""
+        """Tables that are read, by name, with their items of `DERIVATIVES`."""
         operations = (self.graph.nodes[n] for n in self.needed)
         return tuple(dict.fromkeys(of_table(o.payload) for o in operations if o.op == "table"))
 
@@ -174,7 +174,7 @@ class Block:
 
     @property
     def tree_operations(self) -> int:
-        """Operations if nothing were shared."""
+        """Operations without sharing."""
         return self.graph.tree_operations(self.nodes)
 
 
@@ -200,7 +200,7 @@ class ModelLayout:
         return max((offset + size for offset, size in self.sections.values()), default=0)
 
     def offset(self, section: str) -> int:
-        """Return where a section of ``w`` begins."""
+        """Return the beginning of a section of ``w``."""
         return self.sections[section][0]
 
 
@@ -216,14 +216,14 @@ class JacobianEntry:
 
 @dataclass(frozen=True)
 class ModelProgram:
-    """What every method of a model shares: module ``model`` of the emitted folder."""
+    """Program that every method of a model shares: module ``model`` of the emitted folder."""
 
     name: str
     digest: str
     layout: ModelLayout
     blocks: tuple[Block, ...]
     jacobian: tuple[JacobianEntry, ...]
-    hoisted: int  # numbers kept behind the parameters in p
+    hoisted: int  # numbers after the parameters in p
     order: tuple[int, ...]  # elimination order of the rows
     fill: int  # entries of L that are zero in D D^T
     tables: tuple[Interpolation, ...] = ()
@@ -231,7 +231,7 @@ class ModelProgram:
 
 @dataclass(frozen=True)
 class ElementProgram(Generic[Info]):
-    """What elements of one kind share in looped code: the module `stem`, and what tables need to know of it."""
+    """Shared program of elements of one kind in looped code: the module `stem`, and its facts for the tables."""
 
     stem: str
     label: str
@@ -242,7 +242,7 @@ class ElementProgram(Generic[Info]):
 
 @dataclass(frozen=True)
 class Correction:
-    """What is done to the state after each accepted step.
+    """Correction of the state after each accepted step.
 
     Parameters
     ----------
@@ -255,7 +255,7 @@ class Correction:
         much as the body's length; ``independent`` keeps the independent coordinates, ``augmented`` is the metric of M
         reached by iterations with M + a D^T D.
     share : str
-        Parameter of the method that the correction is multiplied by; none by default.
+        Parameter of the method that multiplies the correction; none by default.
     energy : bool
         Whether the velocities that the constraints leave free are then scaled to the balance of energy. The energy of
         such a run is no measure of its error.
@@ -280,18 +280,18 @@ class Correction:
 
 @dataclass(frozen=True)
 class LawCode:
-    """What one method adds beside its functions.
+    """Facts of a method besides its functions.
 
     Parameters
     ----------
     info : LawInfo
-        What goes with the source.
+        Metadata of the source.
     form : {"direct", "iterated", "dense", "tangent"}
-        How v' is found.
+        Computation of v'.
     closed : bool
         Whether dependent coordinates are closed before every evaluation.
     correction : Correction
-        What is done to accepted states.
+        Correction of accepted states.
     """
 
     info: LawInfo
@@ -302,7 +302,7 @@ class LawCode:
 
 @dataclass(frozen=True)
 class LawProgram(LawCode):
-    """What one method adds in straight code: modules of the emitted folder beside ``model``."""
+    """Program that one method adds in straight code: modules of the emitted folder next to ``model``."""
 
     layout: ModelLayout
     blocks: tuple[Block, ...]

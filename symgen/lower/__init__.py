@@ -1,1 +1,1 @@
-"""From equations to programs: patterns, factorisations, laws, what is hoisted."""
+"""From equations to programs: patterns, factorisations, laws, hoisted numbers."""

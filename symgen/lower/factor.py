@@ -1,8 +1,8 @@
-"""Symmetric elimination on a pattern that is known while code is generated.
+"""Symmetric elimination on a pattern that is fixed when code is generated.
 
 The order is minimum degree; ties go to the row that waits for the fewest pivots before it (chains of dependent
-divisions are what a small factorisation costs), then to the smaller index: few fill-ins, and the same for ever. The
-factorisation is emitted for exactly that pattern; nothing is stored that is structurally zero.
+divisions are the cost of a small factorisation), then to the smaller index: few fill-ins, and reproducible. The
+factorisation is emitted for exactly that pattern; structural zeros are not stored.
 
 For generic code the same elimination is laid out as index lists, in time linear in the fill. Pivots that follow each
 other with the same rows below (those of one joint, as a rule) form a supernode: their columns of L have one list of
@@ -26,7 +26,7 @@ def minimum_degree(neighbours: Sequence[frozenset[int]]) -> tuple[tuple[int, ...
     Parameters
     ----------
     neighbours : sequence of frozenset
-        For each row, the other rows it has an entry with.
+        For each row, the other rows with an entry in its column.
     """
     graph = [set(n) for n in neighbours]
     level = [0] * len(graph)
@@ -99,7 +99,7 @@ def factorise(
     Parameters
     ----------
     graph : Graph
-        Where the nodes live.
+        Graph of the nodes.
     matrix : mapping of (row, column) to node
         Both triangles; structurally zero entries absent.
     order : sequence of int
@@ -148,7 +148,7 @@ def supernodes(neighbours: Sequence[frozenset[int]]) -> tuple[Supernode, ...]:
     Parameters
     ----------
     neighbours : sequence of frozenset
-        For each row, the other rows it has an entry with.
+        For each row, the other rows with an entry in its column.
     """
     order, below = minimum_degree(neighbours)
     place = {row: k for k, row in enumerate(order)}
@@ -158,7 +158,7 @@ def supernodes(neighbours: Sequence[frozenset[int]]) -> tuple[Supernode, ...]:
         columns.append(row)
         following = order[k + 1] if k + 1 < len(order) else -1
         if following in below[k] and len(below[k]) == len(below[k + 1]) + 1 and len(columns) < LARGEST:
-            continue  # the rows below the next pivot are among these: fill has seen to that
+            continue  # by fill the rows below the next pivot are among these
         nodes.append(Supernode(tuple(columns), tuple(sorted(below[k], key=place.__getitem__))))
         columns = []
     return tuple(nodes)
@@ -179,7 +179,7 @@ class Elimination:
     nodes : tuple of Supernode
         In the order of elimination.
     first : tuple of int
-        Where each panel begins.
+        Beginning of each panel.
     size : int
         Length of all panels.
     largest : int
@@ -210,19 +210,19 @@ class Elimination:
 
     @property
     def alone(self) -> tuple[int, ...]:
-        """Rows that are eliminated before all that have to do with them, in their order."""
+        """Rows that are eliminated before all their neighbours, in their order."""
         behind = {row for node in self.nodes for row in (*node.columns[1:], *node.below)}
         return tuple(sorted(self.place.keys() - behind))
 
     def target(self, a: int, b: int) -> int:
-        """Return where the entry of rows `a` and `b` stands."""
+        """Return the place of the entry of rows `a` and `b`."""
         (sa, ka), (sb, kb) = self.place[a], self.place[b]
         if (sb, kb) > (sa, ka):
             a, sa, ka, sb, kb = b, sb, kb, sa, ka
         return self.first[sb] + self.local[sb][a] * len(self.nodes[sb].columns) + kb
 
     def table(self) -> list[int]:
-        """Return the lists that generic code reads.
+        """Return the lists for generic code.
 
         The number of supernodes and of rows, where each row's diagonal entry stands, where each supernode's list begins
         (counted from here), and the lists: number of columns, number of rows below, where the panel begins, the rows of

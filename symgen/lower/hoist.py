@@ -1,4 +1,4 @@
-"""What depends on parameters alone is computed once a run, not at every evaluation."""
+"""Computation of numbers that depend on parameters alone once a run, not at every evaluation."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from symgen.ir.program import Block, Target
 
 
 class Hoister:
-    """Moves parameter-only subexpressions of one module's blocks behind the parameters in ``p``.
+    """Moves parameter-only subexpressions of one module's blocks to places after the parameters in ``p``.
 
     Parameters
     ----------
@@ -18,7 +18,7 @@ class Hoister:
     first : int
         Index in ``p`` of the first hoisted number.
     parameters : int
-        Number of a method's parameters, which stand behind the numbers that `reserve` has found.
+        Number of a method's parameters, which follow the numbers of `reserve`.
     """
 
     def __init__(self, graph: Graph, first: int, parameters: int = 0) -> None:
@@ -32,9 +32,9 @@ class Hoister:
         return self.first + self.reserved
 
     def reserve(self, ends: Sequence[int]) -> None:
-        """Give the numbers that `ends` need places before the method's parameters: call it before any block is made.
+        """Reserve places before the method's parameters for the numbers of `ends`: call it before any block is made.
 
-        So a law's own functions do not depend on how many parameters the method has, nor on what else it hoists.
+        So a law's own functions depend neither on the number of the method's parameters nor on other hoisted numbers.
         """
         for node in self.graph.needed(ends, self._moves):
             if self._moves(node):

@@ -1,4 +1,4 @@
-"""The program of a law for one mechanism: what one method adds to its model's program."""
+"""The program of a law for one mechanism: the part that one method adds to its model's program."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from symgen.vocabulary.infos import LawInfo
 
 #: Room for columns of a tangent basis beyond nv - m: dependent rows add to the degrees of freedom.
 _SPARE_DEGREES = 6
-#: Functions that leave M in w for those that are called behind them.
+#: Functions that leave M in w for later ones.
 _KEEPS_MASS = frozenset(("begin", "aim", "geometry"))
 
 
 def lower_law(
     equations: Equations, model: ModelProgram, method: Method, options: Mapping[str, str], implicit: bool = False
 ) -> LawProgram:
-    """Lower one method: its acceleration law, and its correction where the model's does not do.
+    """Lower one method: its acceleration law, and its correction where it differs from the model's.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part) -> Block:
 
 
 def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
-    """Return the outputs of a function of a law; where M changes with the position, those without the state read it."""
+    """Return the outputs of a function of a law; an M that changes is read by those without the state."""
     if scalars.mass_entries and "y" not in ARGUMENTS[part.name]:
         scalars = scalars.with_stored_mass
     outputs = [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
@@ -116,7 +116,7 @@ def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
 
 
 def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:
-    """Return where the nodes of a value go."""
+    """Return the targets of the nodes of a value."""
     e, value = scalars.equations, scalars.values[index]
     if scalars.operations[index].kind.startswith("keep"):
         return scalars.stored[place]
@@ -137,14 +137,14 @@ def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:
 def _sections(
     layout: ModelLayout, record: RecordedLaw, blocks: list[Block], degrees: int
 ) -> dict[str, tuple[int, int]]:
-    """Return the sections of ``w``: those of the model, and the law's own behind them."""
+    """Return the sections of ``w``: those of the model, and then the law's own."""
     sizes = {"one": 1, "nv": layout.nv, "m": layout.m, "degrees": degrees}
     sections, offset = dict(layout.sections), layout.nw
     for name, factors in record.sections:
         size = 1
         for factor in factors:
             size *= sizes[factor]
-        if not factors:  # as much as is written to it
+        if not factors:  # the number of its outputs
             size = sum(target.space == name for block in blocks for target, _ in block.outputs)
         sections[name] = (offset, size)
         offset += size
@@ -177,7 +177,7 @@ def _form_blocks(
     tangent: Outputs = []
     pattern: list[tuple[int, int]] = []
     derived = range(unknowns)
-    if form.form == "explicit":  # M and D are all that is needed
+    if form.form == "explicit":  # M and D are enough
         derived, keys = range(e.nq, e.nq + e.nv), keys[:unknowns]
     for i, derivatives in zip(derived, jacobian(law.graph, [rows[i][1] for i in derived], keys), strict=True):
         for space, index in sorted(derivatives):

@@ -1,8 +1,7 @@
 """The descriptor form of a mechanism with its exact derivatives, as one function in a module of its own.
 
-Analyses ask for it: equilibria, linear systems, modes. Everything is differentiated on the graph, operation by
-operation, so nothing is expanded and nothing is approximated; multipliers are inputs, so that what they add to the
-stiffness is there.
+Equilibria, linear systems and modes use it. Everything is differentiated on the graph, operation by operation, so
+nothing is expanded and nothing is approximated; multipliers are inputs, so that the stiffness includes their part.
 """
 
 from __future__ import annotations
@@ -22,9 +21,9 @@ from symgen.lower.windings import Beside, winding_order
 from symgen.vocabulary.infos import BY, LinearisedInfo
 from symgen.vocabulary.measures import Holonomic
 
-#: What is differentiated, in this order: ``motion``, q' = N v, ``balance``, M v' + D^T lambda - f, ``accelerations``,
+#: Differentiated groups, in this order: ``motion``, q' = N v, ``balance``, M v' + D^T lambda - f, ``accelerations``,
 #: D v' - gamma, ``velocities``, D v - nu, ``positions``, Phi, and ``states``, rates of the states of the file.
-#: What single forces add to the balance follows as ``elements``.
+#: Contributions of single forces to the balance follow as ``elements``.
 #: Groups that are differentiated by time as well; the third derivative of a cubic table does not exist.
 TIMED = ("motion", "balance", "velocities", "positions", "states")
 #: Name of the emitted function.
@@ -34,19 +33,19 @@ NAME = "linearised"
 def lower_linearised(
     mechanism: Mechanism, by: Sequence[str], beside: Beside, groups: Sequence[str] = ()
 ) -> tuple[SideProgram, LinearisedInfo]:
-    """Lower the descriptor form with its derivatives; return one function, and what its numbers are.
+    """Lower the descriptor form with its derivatives; return one function, and the meaning of its numbers.
 
     Parameters
     ----------
     mechanism : Mechanism
         A validated mechanism, with or without a tree.
     by : sequence of str
-        Parameters that it is differentiated by, beside t, q, v, v' and lambda; what follows from them by formulas of
-        the description follows them here too.
+        Parameters of differentiation besides t, q, v, v' and lambda; parameters that follow from them by formulas of
+        the description follow them here too.
     beside : Beside
-        What may be read of the compiled model.
+        Readable parts of the compiled model.
     groups : sequence of str
-        Groups that are wanted, with derivatives by state, v' and multipliers alone; by default everything.
+        Selected groups, with derivatives by state, v' and multipliers alone; by default everything.
 
     Raises
     ------
@@ -116,7 +115,7 @@ def _followed(
     names: Sequence[str],
     by: Sequence[str],
 ) -> dict[Key, int]:
-    """Return derivatives by `by`: those by parameters that follow are parts of those by what they follow."""
+    """Return derivatives by `by`, with the chain rule for parameters that follow from others."""
     places: dict[Key, Mapping[str, int]] = {("p", names.index(name)): bases for name, bases in following.items()}
     followed = {key: slope for key, slope in slopes.items() if key[0] != "p" or names[key[1]] in by}
     for key, bases in places.items():
@@ -144,7 +143,7 @@ def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:
     needed = [*e.q_rates, *e.forces, *(n for block in e.mass for row in block.entries for n in row)]
     needed += [n for row in e.rows for n in (row.nu, row.gamma, *([] if row.phi is None else [row.phi]))]
     needed += [n for row in e.rows for _, n in row.entries]
-    # equations count turns in the order of straight code, the model beside which they are read maybe in another one
+    # equations count turns in the order of straight code, the compiled model maybe in another one
     turning = winding_order(model.mechanism, "straight")
     keys = {key: g.input(*key) for key in e.graph.keys(needed)}
     keys |= {key: g.input("winding", model.place_of_turn(turning[key[1]])) for key in keys if key[0] == "winding"}
@@ -190,7 +189,7 @@ def _functions(model: SideModel) -> tuple[list[tuple[str, str, int]], list[int]]
         for joint in model.mechanism.joints
         for label, measure in joint.coordinates
     ]
-    if model.tree is not None:  # where bodies are carried their coordinates are quantities of the state as well
+    if model.tree is not None:  # coordinates of carried bodies are quantities of the state as well
         named += [
             (f"{b.name}.{c}", "", model.names[f"{b.name}.{c}"])
             for b in model.mechanism.bodies

@@ -1,6 +1,6 @@
 """Changes of position in space: coordinates follow a change of v through N, Euler parameters keep their length.
 
-Planar coordinates change as velocities do, so planar modules have none of this.
+Planar coordinates change as velocities do, so planar modules need no such functions.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ _ROUNDING = 1e-13
 
 
 def manifold_blocks(hoister: Hoister, equations: Equations) -> tuple[Block, ...]:
-    """Return ``move``, ``turn`` and ``normalise``; none where q changes as v does.
+    """Return ``move``, ``turn`` and ``normalise``; no blocks where q changes as v does.
 
     Notes
     -----
     ``move`` applies the section ``change`` to y: q + N dv, Euler parameters brought back to length 1. ``turn`` does
-    the same by the exponential of the rotation vector, as Lie group integrators want it.
+    the same by the exponential of the rotation vector, for Lie group integrators.
     """
     if not equations.spins:
         return ()

@@ -1,4 +1,4 @@
-"""The program of a model: what every method of it shares."""
+"""The program of a model, shared by all its methods."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from symgen.lower.scalar_values import Outputs, to_status
 
 
 def lower_model(equations: Equations, digest: str) -> ModelProgram:
-    """Lower what all methods share: geometry with the rank-deciding factorisation, corrections, measures, observation.
+    """Lower the shared functions: geometry with the rank-deciding factorisation, corrections, measures, observation.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
     sizes = {"m": m, "nv": equations.nv, "jacobian": sum(e.slot is not None for e in scalars.jacobian)}
     for name, size in (
         ("status", len(STATUS)),
-        ("winding", len(equations.windings)),  # right behind the status: both are kept with every output
+        ("winding", len(equations.windings)),  # right after the status: both are kept with every output
         *((name, sizes[size]) for name, size in SECTIONS),
         *((name, len(scalars.stored[name])) for name in ("lower", "reciprocal")),
         ("mass_entry", len(scalars.mass_entries)),
@@ -103,7 +103,7 @@ def measure(hoister: Hoister, scalars: ScalarNodes) -> Block:
 
 
 def observe(hoister: Hoister, scalars: ScalarNodes) -> Block:
-    """Return the block of what is reported at outputs only."""
+    """Return the block of quantities reported at outputs only."""
     g, e = hoister.graph, scalars.equations
     changes = scalars.product(scalars.rows, scalars.section("rates.v", e.nv))
     left = [g.sub(n, row.gamma) for n, row in zip(changes, e.rows, strict=True)]

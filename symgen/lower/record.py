@@ -1,6 +1,6 @@
-"""The functions of a law, its correction and its descriptor form as formulas, before anything is laid out.
+"""The functions of a law, its correction and its descriptor form as formulas, before layout.
 
-Code for one mechanism (`symgen.lower.law`) and loops for all (`symgen.lower.looped.law`) are two ways to lay it out.
+Code for one mechanism (`symgen.lower.law`) and loops for all (`symgen.lower.looped.law`) are two layouts of them.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from symgen.methods._formula import Factor, FormulaStep, Scalar, System, Value, 
 
 #: Groups of equations of a descriptor form: kinematic, dynamic, then up to three rows for each constraint.
 EQUATIONS = ("q", "v", "first", "second", "third")
-#: Levels with equations behind those of a stage, and how many times m these are.
+#: Levels with equations after those of a stage, and their number in multiples of m.
 BEHIND = {"projected": 2, "explicit": 1}
 #: Arguments of the functions of a law.
 ARGUMENTS = {
@@ -36,14 +36,14 @@ class Part:
     name, purpose : str
         Of the emitted function.
     outputs : tuple of (str, int)
-        Where values go: a section of ``w``, ``status.NAME``, ``rates.q``, ``rates.v`` or ``rates.work`` of the state,
-        a group of `EQUATIONS`; and which operation gives them.
+        Target of each value: a section of ``w``, ``status.NAME``, ``rates.q``, ``rates.v`` or ``rates.work`` of the
+        state, a group of `EQUATIONS`; and its operation.
     flag : int, optional
-        The operation that says whether a pivot was suspicious.
+        The operation that flags suspicious pivots.
     role : {"acceleration", "iteration", "metric", "form"}
-        What the function is a part of.
+        Part of the law.
     velocities : int, optional
-        The operation that gives v where the state holds something else.
+        The operation that computes v where the state does not hold it.
     """
 
     name: str
@@ -61,13 +61,13 @@ class RecordedLaw:
     Parameters
     ----------
     operations : tuple of FormulaStep
-        What was asked for, in that order.
+        Recorded operations, in order.
     parts : tuple of Part
         The functions, in the order of their text.
     sections : tuple of (str, tuple of str)
-        Sections of ``w`` of the law's own, and the sizes that are multiplied; none: as much as is written to it.
+        The law's own sections of ``w``, and the sizes to multiply; none: the number of its outputs.
     form : str
-        How v' is found: ``direct``, ``iterated``, ``dense`` or ``tangent``; of a descriptor form its level.
+        Computation of v': ``direct``, ``iterated``, ``dense`` or ``tangent``; of a descriptor form its level.
     """
 
     operations: tuple[FormulaStep, ...]
@@ -77,9 +77,9 @@ class RecordedLaw:
 
 
 def record_law(method: Method, options: Mapping[str, str], driven: bool = False) -> RecordedLaw:
-    """Record what a method asks for: its acceleration law, and its correction where the model's does not do.
+    """Record a method: its acceleration law, and its correction where it differs from the model's.
 
-    `driven` says that drivers prescribe coordinates of a tree: their power is work.
+    `driven`: drivers prescribe coordinates of a tree, and their power is work.
     """
     recording = _Law(driven)
     recording.law(method.law(recording.system, options))
@@ -89,7 +89,7 @@ def record_law(method: Method, options: Mapping[str, str], driven: bool = False)
         recording.share = correction.share
         getattr(recording, f"{correction.metric}_metric")()
     if correction.energy:
-        recording.sections["balance"] = ("one",)  # the energy that velocities are scaled to
+        recording.sections["balance"] = ("one",)  # the target energy of the scaling of velocities
     return recording.record()
 
 
@@ -132,7 +132,7 @@ class _Law:
         position: Vector | None = None,
         velocities: Vector | None = None,
     ) -> list[tuple[str, Value]]:
-        """Return the rates of the state; forces do work at `velocities` where these are not the state's."""
+        """Return the rates of the state; forces do work at `velocities` where these differ from the state's."""
         s = self.system
         work = self.work(acceleration, multipliers, velocities)
         return [("rates.q", position or s.q_rates), ("rates.v", acceleration), ("rates.work", work)]
@@ -146,10 +146,10 @@ class _Law:
         return power - multipliers.dot(s.nu)
 
     def iterated(self, law: Iteration) -> None:
-        """Add what an iterated law is put together from: ``begin``, ``iterate`` and ``finish``."""
+        """Add the parts of an iterated law: ``begin``, ``iterate`` and ``finish``."""
         s, self.form = self.system, "iterated"
         first, change = law.state[0], law.increment
-        # in the metric of M, beside a motion at the mechanism's speed
+        # in the metric of M, relative to a motion at the mechanism's speed
         speed, length = s.scale("speed_scale"), s.scale("length_scale")
         usual = speed if law.rates is not None else speed * speed / length
         least = s.scale("mean_mass") * usual * usual
@@ -162,7 +162,7 @@ class _Law:
         else:
             rates = law.rates
             finish = self.rates(rates.velocity, rates.multipliers, rates.position, rates.velocities)
-            # what is integrated is not v: v' and lambda for results come from a law of their own
+            # the integrated quantity is not v: v' and lambda for results have their own law
             observed = multiplier_law(s, s.gamma)
             outputs = [*self.rates(observed.acceleration, observed.multipliers), ("multipliers", observed.multipliers)]
             self.add("rates", "q', v' and multipliers for results", *outputs)
@@ -189,7 +189,7 @@ class _Law:
             self.add("expand", "D as a dense matrix", ("dense", self.system.stored_constraints()))
 
     def tangent(self) -> None:
-        """Add what a law on a tangent basis is put together from."""
+        """Add the parts of a law on a tangent basis."""
         s, self.form = self.system, "tangent"
         self.expanded()
         basis = ("nv", "degrees")
@@ -208,7 +208,7 @@ class _Law:
         self.add("finish", "q', power and multipliers", *finish)
 
     def dense(self, law: Dense) -> None:
-        """Add what a law on an orthogonal factorisation of D^T is put together from."""
+        """Add the parts of a law on an orthogonal factorisation of D^T."""
         s, self.form = self.system, "dense"
         self.expanded()
         self.sections |= {name: ("m",) for name in ("row_length", "row_chosen", "row_corner", "row_factor")}
@@ -228,7 +228,7 @@ class _Law:
         self.add(name, purpose, *outputs)
 
     def metric_apart(self, matrix: str, factor: Factor) -> None:
-        """Add ``refactor``, which the law's own ``geometry`` calls behind that of the model."""
+        """Add ``refactor``, which the law's own ``geometry`` calls after that of the model."""
         purpose = f"the factorisation of {matrix} from D, without the rows that depend on others"
         self.metric("refactor", purpose, ("law_", factor))
 
@@ -277,7 +277,7 @@ class _Law:
         """Add the mass-orthogonal projection by iterations with M + a D^T D (Bayo and Ledesma 1996).
 
         ``(M + a D^T D) dv = -M delta - D^T (a r + lambda)``, ``delta += dv``, ``lambda += a r`` with the residual r of
-        positions or velocities after the change; delta and lambda are kept in sections of their own. The block raises
+        positions or velocities after the change; delta and lambda are kept in their own sections. The block raises
         lambda before it solves, so lambda begins at -a r.
         """
         s = self.system
@@ -301,7 +301,7 @@ def _change(s: System, factor: Factor) -> Vector:
 
 
 def record_model() -> RecordedLaw:
-    """Record what all methods share: geometry with the factor that decides rank, and x = -G D^T (D G D^T)^-1 r.
+    """Record the shared functions: geometry with the factor that decides rank, and x = -G D^T (D G D^T)^-1 r.
 
     G makes rows of one unit: 1 for translations, 1 / l^2 for rotations, l being the length of the body.
     """
@@ -323,14 +323,14 @@ def record_form(method: Method, options: Mapping[str, str], kind: str = "whole",
     Unknowns of a stage are k = (q', v', lambda), and for stabilised index 2 also eta. The equations are ``q' - N (v -
     D^T eta)``, ``M v' + D^T lambda - f``, and the constraints at the level of the method: ``D v' - g - e lambda``
     (acceleration); ``Phi``, with ``D v - nu`` in nonholonomic rows (position); both (stabilised); or ``Phi`` with
-    levels behind the equations, both others for projections (projected), that of velocities (explicit).
+    levels after the equations, both others for projections (projected), that of velocities (explicit).
 
     Parameters
     ----------
     method, options : Method, mapping
         The method with its structural options, complete.
     kind : {"whole", "body", "joint", "force"}
-        Whether all equations are meant, or what an element of that kind adds to them.
+        All equations, or the contribution of an element of that kind.
     driven : bool
         Whether drivers prescribe coordinates of a tree.
 
@@ -374,7 +374,7 @@ def record_form(method: Method, options: Mapping[str, str], kind: str = "whole",
 
 
 def _constraints(s: System, form: Descriptor, accelerations: Vector, multipliers: Vector) -> list[Vector]:
-    """Return the equations of constraints in groups of m, and rows behind the equations that projections need."""
+    """Return the equations of constraints in groups of m, and the rows after the equations for projections."""
     velocity = s.D @ s.v - s.nu
     if form.level == "position":
         return [s.holonomic_or(velocity)]

@@ -1,4 +1,4 @@
-"""The tape of a formula, operation by operation: what straight and looped layout have in common."""
+"""The tape of a formula, operation by operation: the common part of straight and looped layout."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Nodes = tuple[int, ...]
 
 
 class Replay:
-    """Carries out operations of a tape in a graph.
+    """Evaluates operations of a tape in a graph.
 
     A vector is a tuple of nodes: one an element, or one for the general element of a loop. A scalar is a node. Kinds of
     operations are methods of subclasses, called ``_on_<kind>``; arithmetic is here.
@@ -21,7 +21,7 @@ class Replay:
     Parameters
     ----------
     graph : Graph
-        Where nodes are made.
+        Graph of the nodes.
     operations : tuple of FormulaStep
         The tape.
     parameters : sequence of str
@@ -32,7 +32,7 @@ class Replay:
     mask : tuple of int
         Numbers added to the pivots of S: 0, or infinite in rows that the runtime leaves out.
     at : int
-        The operation that is being carried out.
+        The current operation.
     """
 
     mask: Nodes
@@ -42,7 +42,7 @@ class Replay:
         self.values: dict[int, Any] = {}
 
     def run(self, indices: Iterable[int]) -> None:
-        """Carry out operations that have not been carried out yet, in their order."""
+        """Evaluate the remaining operations, in order."""
         for index in indices:
             if index not in self.values:
                 operation, self.at = self.operations[index], index

@@ -17,8 +17,8 @@ from symgen.methods._formula import FormulaStep
 class ScalarNodes(OfMass):
     """The operations of formulas on nodes of a mechanism's graph.
 
-    What they name is in `symgen.lower.scalar_values`, which says what this is made of; here are factorisations, and
-    what they say of rank.
+    Named values and attributes are those of `symgen.lower.scalar_values`; here are factorisations, and
+    the decision on rank.
     """
 
     def _on_weighted_body(self, operation: FormulaStep, rank: FactorNodes) -> FactorNodes:
@@ -35,7 +35,7 @@ class ScalarNodes(OfMass):
         return self._masked_factor(self.mass_gram(self.rows))
 
     def _on_compliant(self, operation: FormulaStep, compliance: int) -> FactorNodes:
-        """Return the factor of S + e: what is added to a diagonal entry is added to its pivot."""
+        """Return the factor of S + e: a term of a diagonal entry is a term of its pivot."""
         g = self.graph
 
         def reciprocal(row: int, pivot: int, _: int) -> int:
@@ -73,7 +73,7 @@ class ScalarNodes(OfMass):
         return factorise(self.graph, self.gram(self.rows, self.gauge), self.order, reciprocal)
 
     def _decided(self, row: int, pivot: int, diagonal: int) -> int:
-        """Return 1 where a pivot of D G D^T says that its row is kept, else 0; a row eliminated alone always is."""
+        """Return 1 where the pivot of D G D^T keeps its row, else 0; a row eliminated alone is always kept."""
         g = self.graph
         if self._certain(row, pivot, diagonal):
             return g.one
@@ -82,7 +82,7 @@ class ScalarNodes(OfMass):
         return g.call("step", pivot, g.add(g.mul(g.constant(SKIP), usual), self.mask[row]))
 
     def _certain(self, row: int, pivot: int, diagonal: int) -> bool:
-        """Whether a row is kept whatever the position: it is eliminated alone, and cannot vanish."""
+        """Whether a row is kept in every position: it is eliminated alone, and cannot vanish."""
         return pivot == diagonal and self.equations.rows[row].size is None
 
     def _usual(self, row: int, diagonal: int) -> int:
@@ -102,7 +102,7 @@ class ScalarNodes(OfMass):
         return g.div(g.one, pivot) if keep == g.one else g.div(keep, g.call("max", pivot, g.constant(TINY)))
 
     def _weighted(self, matrix: Mapping[tuple[int, int], int], keep: Callable[[int], int]) -> FactorNodes:
-        """Return the factor of D W D^T, of the rows for which `keep` gives 1."""
+        """Return the factor of D W D^T, of the rows with `keep` 1."""
 
         def reciprocal(row: int, pivot: int, _: int) -> int:
             return self._masked_reciprocal(keep(row), pivot)
@@ -114,7 +114,7 @@ class ScalarNodes(OfMass):
         return self._weighted(matrix, lambda row: self._decided(row, rank.pivots[row], rank.diagonal[row]))
 
     def _weighted_apart(self, rank: FactorNodes, gram: Callable[[Rows], dict[tuple[int, int], int]]) -> FactorNodes:
-        """Return the same from what ``geometry`` left in w."""
+        """Return the same from the values that ``geometry`` left in w."""
         g, stored = self.graph, self._keep_factor(rank, "lower", "reciprocal")
 
         def keep(row: int) -> int:
@@ -131,7 +131,7 @@ class ScalarNodes(OfMass):
         return self._weighted_apart(rank, self.gram)
 
     def _on_weighted_dependent(self, operation: FormulaStep, rank: FactorNodes) -> FactorNodes:
-        """Return the factor of D P D^T in the function that decides rank: what every stage needs is not read back."""
+        """Return the factor of D P D^T in the function that decides rank: every stage needs it, none reads it back."""
         dependent = self._on_gauged(operation, self.section("dependent", self.equations.nv))
         return self._weighted_beside(rank, self.gram(self.rows, [{j: node} for j, node in enumerate(dependent)]))
 
@@ -139,7 +139,7 @@ class ScalarNodes(OfMass):
         """Return det(D P D^T) / det(D G D^T): squared cosines between tangent space and independent coordinates."""
         g, quality = self.graph, self.graph.one
         for i in factor.order:
-            decided = g.mul(rank.pivots[i], rank.reciprocal[i])  # 0 for rows that D D^T skips: they say nothing
+            decided = g.mul(rank.pivots[i], rank.reciprocal[i])  # 0 for rows that D D^T skips: they do not count
             ratio = g.mul(factor.pivots[i], rank.reciprocal[i])
             quality = g.mul(quality, g.add(ratio, g.sub(g.one, decided)))
         return quality
@@ -170,7 +170,7 @@ class ScalarNodes(OfMass):
         return tuple(factor.solve(self.graph, right))
 
     def _on_geometry(self, operation: FormulaStep, rank: FactorNodes) -> Outputs:
-        """Return Phi as the residual, its norm, nu, the variable entries of D, relative pivots, and what they decide.
+        """Return Phi as the residual, its norm, nu, the variable entries of D, relative pivots, and their decisions.
 
         A relative pivot is the squared sine of the angle between a row and those eliminated before it.
         """
@@ -205,7 +205,7 @@ class ScalarNodes(OfMass):
         return outputs
 
     def violation(self, level: str, residuals: Sequence[int]) -> Outputs:
-        """Return the norm of Phi or of D v - nu, and what is judged: rows that are no lengths times the mechanism's."""
+        """Return the norm of Phi or of D v - nu, and the judged one: rows that are no lengths times the mechanism's."""
         g = self.graph
         length = g.input("status", STATUS.index("length_scale"))
         units = (row.unit for row in self.equations.rows)

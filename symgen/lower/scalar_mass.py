@@ -17,20 +17,20 @@ from symgen.methods._formula import FormulaStep
 
 
 class OfMass(NodeValues):
-    """Operations with M, its inverse and its root, and the diagonal matrix that rank is decided with."""
+    """Operations with M, its inverse and its root, and the diagonal matrix for rank decisions."""
 
     @cached_property
     def mass_entries(self) -> tuple[int, ...]:
-        """Entries of M that change with the position, each once; none where bodies have coordinates of their own."""
+        """Entries of M that change with the position, each once; empty where bodies have their own coordinates."""
         g = self.graph
         nodes = (n for block in self.equations.mass for row in block.entries for n in row)
         return tuple(dict.fromkeys(n for n in nodes if g.depends[n] & ~PARAMETER))
 
     @cached_property
     def with_stored_mass(self) -> Self:
-        """The same tape with M as the section ``mass_entry`` holds it, for functions that are not given the state.
+        """The same tape with M from the section ``mass_entry``, for functions without the state.
 
-        M is replaced before anything is made of it: products with it do not keep its entries together.
+        M is replaced before it is used: products with it do not keep its entries together.
         """
         other = self._with_mass(_replaced(self.equations.mass, self.mass_entries, self.graph, "mass_entry"))
         other.values, other.stored, other.flags = {}, {}, []
@@ -66,11 +66,11 @@ class OfMass(NodeValues):
 
     @cached_property
     def mass_factor(self) -> FactorNodes:
-        """The factor of an M that changes, from the leaves of the tree inwards: nothing is filled in."""
+        """The factor of an M that changes, from the leaves of the tree inwards, without fill."""
         return self.factorised(self.mass_matrix)
 
     def factorised(self, matrix: Mapping[tuple[int, int], int]) -> FactorNodes:
-        """Return the factor of a matrix of the velocities, eliminated so that little is filled in."""
+        """Return the factor of a matrix of the velocities, in an elimination order of low fill."""
         near: list[set[int]] = [set() for _ in range(self.equations.nv)]
         for i, j in matrix:
             if i != j:
@@ -80,7 +80,7 @@ class OfMass(NodeValues):
 
     @cached_property
     def coupled(self) -> Sequence[Mapping[int, int]]:
-        """For each velocity those that M^-1 couples it with."""
+        """For each velocity, those that M^-1 couples it with."""
         if not self.mass_entries:
             return self.inverse_mass
         coupled: list[Mapping[int, int]] = [{} for _ in range(self.equations.nv)]
@@ -106,7 +106,7 @@ class OfMass(NodeValues):
         return halves, [[g.mul(reciprocal[k], x) for k, x in enumerate(half)] for half in halves]
 
     def _half(self, index: int) -> list[int]:
-        """Return L^-1 of a value of the tape; of sums and of D^T y from what is known of their parts."""
+        """Return L^-1 of a value of the tape; of sums and of D^T y from that of their parts."""
         g, operation = self.graph, self.operations[index]
         parts = operation.operands
         if operation.kind in ("add", "sub") and operation.size == "nv":
@@ -158,7 +158,7 @@ class OfMass(NodeValues):
 
     def _on_product(self, operation: FormulaStep, matrix: Rows, x: Nodes) -> Nodes:
         solved = self.operations[operation.operands[1]]
-        if self.mass_entries and matrix is self.rows and solved.kind == "minv":  # D M^-1 u from what S is made of
+        if self.mass_entries and matrix is self.rows and solved.kind == "minv":  # D M^-1 u from the parts of S
             half = self._half(solved.operands[0])
             return tuple(self.graph.dot(scaled, half) for scaled in self.row_halves[1])
         return super()._on_product(operation, matrix, x)
@@ -189,7 +189,7 @@ class OfMass(NodeValues):
 
     @cached_property
     def gauge(self) -> list[dict[int, int]]:
-        """Rows of the diagonal matrix that rank is decided with: 1 for translations, 1 / l^2 for rotations."""
+        """Rows of the diagonal matrix for rank decisions: 1 for translations, 1 / l^2 for rotations."""
         units = (v.unit for v in self.equations.velocities)
         return [{j: self.graph.input("gauge", j) if u == "rad/s" else self.graph.one} for j, u in enumerate(units)]
 
@@ -232,6 +232,6 @@ def _entries(g: Graph, block: MassBlock, places: Sequence[int]) -> dict[tuple[in
 
 
 def _replaced(mass: tuple[MassBlock, ...], entries: Nodes, graph: Graph, section: str) -> tuple[MassBlock, ...]:
-    """Return a matrix with entries as a section holds them."""
+    """Return a matrix with its entries from a section."""
     places = {node: graph.input(section, k) for k, node in enumerate(entries)}
     return tuple(MassBlock(b.columns, tuple(tuple(places.get(n, n) for n in row) for row in b.entries)) for b in mass)

@@ -1,4 +1,4 @@
-"""What formulas name, as nodes of the graph of one mechanism: vectors, D row by row, what functions keep for others."""
+"""Names of formulas as nodes of the graph of one mechanism: vectors, D row by row, values kept for other functions."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Weight = Sequence[Mapping[int, int]]
 
 
 class NodeValues(Replay):
-    """What formulas name, as nodes of a mechanism's graph, which is copied.
+    """Names of formulas as nodes of a mechanism's graph, which is copied.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class NodeValues(Replay):
         }
         self.equations, self.places = equations, self.places if places is None else dict(places)
         for i in range(len(self.parameters)):
-            g.input("parameter", i)  # so that nodes are numbered alike, whatever a formula asks for first
+            g.input("parameter", i)  # so that the numbers of nodes do not depend on the first use in a formula
         self.mask = tuple(g.input("mask", i) for i in range(e.m))
         self.rows: Rows = tuple(row.entries for row in e.rows)
         self.phi = tuple(g.zero if r.phi is None else r.phi for r in e.rows)
@@ -61,11 +61,11 @@ class NodeValues(Replay):
         return other
 
     def size(self, name: str) -> int:
-        """Return the length that ``nq``, ``nv`` or ``m`` stands for."""
+        """Return the value of ``nq``, ``nv`` or ``m``."""
         return {"nq": self.equations.nq, "nv": self.equations.nv, "m": self.equations.m}[name]
 
     def section(self, name: str, size: int) -> Nodes:
-        """Return a section of ``w``, or of what stands for it, as inputs."""
+        """Return a section of ``w``, or of its substitute, as inputs."""
         space, first = self.places.get(name, (name, 0))
         return tuple(self.graph.input(space, first + i) for i in range(size))
 
@@ -204,7 +204,7 @@ class NodeValues(Replay):
     def symmetric(
         self, neighbours: Sequence[frozenset[int]], entry: Callable[[int, int], int]
     ) -> dict[tuple[int, int], int]:
-        """Return a symmetric matrix of a pattern as nodes, each worked out once; zeros beside its diagonal vanish."""
+        """Return a symmetric matrix of a pattern as nodes, each computed once; off-diagonal zeros vanish."""
         result: dict[tuple[int, int], int] = {}
         for i, near in enumerate(neighbours):
             for j in (i, *(n for n in sorted(near) if n > i)):
@@ -213,10 +213,10 @@ class NodeValues(Replay):
                     result[i, j] = result[j, i] = node
         return result
 
-    # -- what is kept --------------------------------------------------------------------------------------------------
+    # -- kept values ---------------------------------------------------------------------------------------------------
 
     def _keep(self, section: str, x: Iterable[int]) -> Iterator[int]:
-        """Note what one function writes into a section, and yield it as others read it, literals as they are."""
+        """Note the values that a function writes to a section, and yield them as inputs, literals unchanged."""
         written = self.stored.setdefault(section, [])
         for node in x:
             if self.graph.value(node) is None:

@@ -1,7 +1,7 @@
-"""Functions of the state that belong to no model: formulas of a run, in a module of their own.
+"""Functions of the state outside the model: formulas of a run, in their own module.
 
-What a run asks for beside its model (switching functions of events, quantities of a user) is lowered apart, so that
-asking for it leaves the modules of the model as they are.
+Further functions of a run (switching functions of events, quantities of a user) are lowered apart, so that they leave
+the modules of the model unchanged.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from symgen.vocabulary.quantities import Quantity
 
 @dataclass(frozen=True)
 class SideProgram:
-    """Functions of formulas; `formulas` are what their outputs are, for people."""
+    """Functions of formulas; `formulas` are readable names of their outputs."""
 
     mechanism: str
     blocks: tuple[Block, ...]
@@ -40,19 +40,19 @@ class SideProgram:
 
     @property
     def reads(self) -> tuple[str, ...]:
-        """What the function reads: ``t``, ``q``, ``v``, ``p``, ``ydot`` and sections of ``w``."""
+        """Inputs of the function: ``t``, ``q``, ``v``, ``p``, ``ydot`` and sections of ``w``."""
         first = self.blocks[0]
         return tuple(sorted({space for space, _ in first.graph.keys(first.nodes)}))
 
 
 @dataclass
 class SideModel(ModelNodes):
-    """The names of a mechanism as nodes; angles whose turns are counted are those that the model remembers.
+    """The names of a mechanism as nodes; counted turns of angles are those of the model.
 
     Parameters
     ----------
     beside : Beside
-        What they may read of the compiled model.
+        Readable parts of the compiled model.
     """
 
     beside: Beside = field(kw_only=True)
@@ -69,27 +69,27 @@ class SideModel(ModelNodes):
             self.names[f"{body}.{ACCELERATIONS[speed]}"] = rates[f"{body}.{speed}"]
 
     def reading(self, r: Reading) -> int:
-        """Return the node of what is read: a measure, or what is exerted along measures."""
+        """Return the node of a reading: a measure, or the effort along measures."""
         g, source = self.graph, r.source
         if isinstance(source, Exerted):
             exerted = exertions(self, source)
             return g.total(g.mul(e.total, e.rate) if source.power else e.total for e in exerted)
         if isinstance(source, Integral):
             own = len(self.mechanism.states)
-            return g.input("z", 1 + own + integrals(self.mechanism)[source])  # behind the work and states
+            return g.input("z", 1 + own + integrals(self.mechanism)[source])  # after the work and states
         if isinstance(source, Driven):
             place = self.beside.rows.get(source.row)
-            # a row that repeats another one is left out: the other one carries all
+            # a row that repeats another one is left out: the other one carries the whole effort
             effort = g.zero if place is None else g.neg(g.input("multipliers", place))
             return g.mul(effort, self.motion(source.measure).rate(g, self.velocities)) if source.power else effort
         return super().reading(r)
 
     def place_of_turn(self, m: Measure) -> int:
-        """Return where the section ``winding`` remembers an angle."""
+        """Return the place of an angle in the section ``winding``."""
         return self._places[m]
 
     def rates(self, nodes: Sequence[int]) -> list[int]:
-        """Return the derivatives of `nodes` along the motion: q' = N v, and v' as ``ydot`` has it."""
+        """Return the derivatives of `nodes` along the motion: q' = N v, and v' from ``ydot``."""
         g = self.graph
         rates = {("t", 0): g.one}
         rates |= {("q", i): rate for i, rate in enumerate(self.q_rates())}
@@ -101,7 +101,7 @@ class SideModel(ModelNodes):
         ]
 
     def sizes(self, nodes: Sequence[int]) -> list[int]:
-        """Return what rounding of `nodes` is a part of: a difference's terms, and what the state makes of the value.
+        """Return the sizes that rounding of `nodes` is relative to: terms of differences, and effects of the state.
 
         Coordinates and velocities count with at least the mechanism's length and speed: they are rounded where others
         are as large.
@@ -125,7 +125,7 @@ class SideModel(ModelNodes):
 def moved(
     source: Graph, nodes: Sequence[int], renamed: Callable[[Key], Key] = lambda key: key
 ) -> tuple[Graph, list[int]]:
-    """Return a graph of its own for some nodes, inputs renamed."""
+    """Return a separate graph for some nodes, inputs renamed."""
     graph = Graph()
     return graph, graph.inline(source, nodes, {key: graph.input(*renamed(key)) for key in source.keys(nodes)})
 
@@ -144,17 +144,17 @@ def lower_side(
     Parameters
     ----------
     mechanism : Mechanism
-        What they are about.
+        Their mechanism.
     name, purpose : str
         Of the function.
     formulas : sequence of (str, Expr)
-        What each is called, for people, and the formula.
+        Readable name of each, and the formula.
     beside : Beside
-        What they may read of the compiled model.
+        Readable parts of the compiled model.
     rates : int
-        How many derivatives of all formulas along the motion follow behind their values; v' counts as constant.
+        Number of derivatives of all formulas along the motion after their values; v' counts as constant.
     sizes : bool
-        Whether sizes of what they add up follow behind that, see `SideModel.sizes`.
+        Whether their sizes follow, see `SideModel.sizes`.
 
     Raises
     ------
@@ -177,9 +177,9 @@ def lower_side(
 
 
 def lower_integrands(mechanism: Mechanism, beside: Beside) -> SideProgram:
-    """Lower the integrands of a mechanism's outputs: their values are rates of auxiliary states behind the work.
+    """Lower the integrands of a mechanism's outputs: their values are rates of auxiliary states after the work.
 
-    ``integrands(t, y, p, w, ydot)`` sets them behind a right-hand side, ``accumulate(t, y, k, p, w)`` behind a
+    ``integrands(t, y, p, w, ydot)`` sets them after a right-hand side, ``accumulate(t, y, k, p, w)`` after a
     residual, with v' and lambda among its unknowns, in the section ``auxiliary``.
 
     Raises
@@ -194,7 +194,7 @@ def lower_integrands(mechanism: Mechanism, beside: Beside) -> SideProgram:
     first, work = len(coordinates) + len(velocities), len(coordinates) + len(velocities) + len(mechanism.states)
 
     def unknown(key: Key) -> Key:
-        """Return where a residual has v' and lambda."""
+        """Return the places of v' and lambda in a residual."""
         return {"ydot": ("k", key[1]), "multipliers": ("k", first + key[1])}.get(key[0], key)
 
     graph, images = moved(model.graph, nodes)
@@ -209,7 +209,7 @@ def lower_integrands(mechanism: Mechanism, beside: Beside) -> SideProgram:
 
 
 def side_program(mechanism: Mechanism, blocks: tuple[Block, ...], beside: Beside, labels: Sequence[str]) -> SideProgram:
-    """Return blocks as the program of a module of its own; `labels` say what the outputs are."""
+    """Return blocks as the program of a separate module; `labels` name the outputs."""
     coordinates, velocities = quantities(mechanism)
     used = {table for block in blocks for table, _ in block.tables}
     return SideProgram(

@@ -1,4 +1,4 @@
-"""Which angle each element of the section ``winding`` remembers, in each shape of code; what else formulas read."""
+"""Angles of the elements of the section ``winding``, in each shape of code; other inputs of formulas."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from symgen.vocabulary.measures import FormulaMeasure, FormulaSpeed, Holonomic, 
 
 @dataclass(frozen=True)
 class Beside:
-    """What formulas of a run may read of the model that they are evaluated beside.
+    """Parts of a compiled model that formulas of a run may read.
 
     Attributes
     ----------
     turning : tuple of Measure
         Angles whose turns it counts, from `winding_order`.
     sections : mapping of str to (int, int)
-        Sections of its ``w``: where they begin, and their sizes.
+        Sections of its ``w``: beginnings and sizes.
     rows : mapping of str to int
-        Where the multiplier of each row stands.
+        Place of the multiplier of each row.
     """
 
     turning: tuple[Measure, ...]
@@ -47,7 +47,7 @@ def turns(measures: Iterable[Any]) -> tuple[Measure, ...]:
 
 
 def measures_of(element: Joint | Force) -> list[Any]:
-    """Return the measures of an element in the order in which they are derived."""
+    """Return the measures of an element in the order of derivation."""
     if isinstance(element, Joint):
         return [*_held(element), *(m for _, m in element.coordinates)]
     return [m for e in element.efforts for m in (e.measure, *(r.source for r in readings(e.magnitude)))]
@@ -61,7 +61,7 @@ def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
     mechanism : Mechanism
         A validated mechanism.
     shape : {"straight", "looped"}
-        Straight code derives the rows of all joints first and what is reported last, looped code goes element by
+        Straight code derives the rows of all joints first and reported quantities last, looped code derives element by
         element.
     """
     if mechanism.space == "planar":

@@ -1,8 +1,8 @@
 """Long straight functions divided into blocks, after the optimiser and before machine code is made.
 
 The time that compilers spend on one block grows faster than its length: they look at pairs of its instructions. A block
-ends here where nothing is lost by it: inputs are read again in every block that wants them, which spares their way
-through the stack, and a product that one sum wants stands beside that sum, so that the two are contracted as before.
+ends here where nothing is lost: inputs are read again in every block that uses them, which spares their way
+through the stack, and a product used by one sum is put next to that sum, so that the two are contracted as before.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ _NAME = re.compile(r'%(?:"[^"]*"|[-\w.$]+)')
 _DEFINED = re.compile(r'\s+%(?:"[^"]*"|[-\w.$]+) = (\w+)')
 _COMMUTATIVE = frozenset(("fadd", "fmul"))
 _PURE = _COMMUTATIVE | {"fsub", "fdiv", "fneg"}
-#: Ends a block without an instruction: what it jumps to is never reached, which the compiler cannot know.
+#: End of a block without an instruction: its jump target is never reached, which the compiler cannot know.
 _END = 'callbr void asm sideeffect "", "!i"() memory(none) nounwind to label %{next} [label %.never]'
 
 
@@ -28,13 +28,13 @@ class Instruction(NamedTuple):
     Attributes
     ----------
     text : str
-        As LLVM writes it.
+        Text in LLVM's language.
     own : str
-        The name of its result, empty if it has none.
+        Name of its result, or empty.
     does : str
-        What gives the result: ``fadd``, ``load``.
+        Operation: ``fadd``, ``load``.
     names : tuple of str
-        What it wants, and labels.
+        Operands and labels.
     """
 
     text: str
@@ -44,13 +44,13 @@ class Instruction(NamedTuple):
 
     @classmethod
     def of(cls, text: str) -> Instruction:
-        """Take a line of a function apart."""
+        """Parse a line of a function."""
         names = tuple(_NAME.findall(text))
         defined = _DEFINED.match(text)
         return cls(text, names[0], defined[1], names[1:]) if defined else cls(text, "", "", names)
 
     def renamed(self, new: Callable[[str], str]) -> Instruction:
-        """Return the line with other names for what it wants."""
+        """Return the line with other names of operands."""
         names = tuple(map(new, self.names))
         if names == self.names:
             return self
@@ -59,12 +59,12 @@ class Instruction(NamedTuple):
         return Instruction(head + equals + _NAME.sub(lambda match: next(instead), rest), self.own, self.does, names)
 
     def called(self, name: str) -> Instruction:
-        """Return the line with another name for its result."""
+        """Return the line with another name of its result."""
         return Instruction(f"  {name} = {self.text.partition(' = ')[2]}", name, self.does, self.names)
 
 
 def split(module: str, symbol: str, longest: int) -> str | None:
-    """Return a module with a function in blocks, None if it needs none or is not straight.
+    """Return a module with a function in blocks, None if it needs no blocks or is not straight.
 
     Parameters
     ----------
@@ -73,10 +73,10 @@ def split(module: str, symbol: str, longest: int) -> str | None:
     symbol : str
         The function.
     longest : int
-        Number of instructions up to which the function stays one block.
+        Most instructions of a function that stays one block.
     """
     lines = module.splitlines()
-    heads = f'"{symbol}"(', f"@{symbol}("  # LLVM leaves out quotes where a name does without
+    heads = f'"{symbol}"(', f"@{symbol}("  # LLVM leaves out quotes where a name needs none
     matches = (i for i, line in enumerate(lines) if line.startswith("define ") and any(head in line for head in heads))
     first = next(matches, None)
     if first is None:
@@ -90,9 +90,9 @@ def split(module: str, symbol: str, longest: int) -> str | None:
 
 
 def _without_repetitions(body: list[str]) -> list[Instruction]:
-    """Return instructions without those that repeat an earlier one, as compilers see it that look at a whole block.
+    """Return instructions without those that repeat an earlier one, like compilers that see a whole block.
 
-    It matters because a product that two sums want is not contracted with either.
+    It matters because a product used by two sums is not contracted with either.
     """
     instructions = list[Instruction]()
     first: dict[str, str] = {}  # operation -> its name
@@ -115,17 +115,17 @@ def _without_repetitions(body: list[str]) -> list[Instruction]:
 
 
 class _Blocks:
-    """Moves reads and single-use products of one straight body to where they are wanted, and ends blocks between.
+    """Moves reads and single-use products of one straight body to their uses, and ends blocks between.
 
-    After the first store nothing is read again: what it wrote might be what is read.
+    After the first store nothing is read again: it might read what the store wrote.
     """
 
     def __init__(self, lines: list[Instruction], longest: int) -> None:
         self.longest = longest
         self.lines: list[Instruction] = []
-        self.held: dict[str, Instruction] = {}  # instructions that are printed where they are wanted
+        self.held: dict[str, Instruction] = {}  # instructions that are printed at their use
         self.here: dict[str, str] = {}  # their names in this block
-        self.loaded: dict[str, str] = {}  # those that hold for all blocks from here on
+        self.loaded: dict[str, str] = {}  # names valid in all blocks from here on
         self.block = self.length = 0
         self.reads = {line.names[0] for line in lines if line.does == "load"}  # addresses
         uses = Counter(name for line in lines for name in line.names)
@@ -138,7 +138,7 @@ class _Blocks:
                 stored = True
                 self._read_all()
             self._put(line)
-            if self.length >= self.longest and line is not lines[-1]:  # which leaves the function
+            if self.length >= self.longest and line is not lines[-1]:  # the last line leaves the function
                 self._end()
         if self.block:
             self.lines += [Instruction.of(".never:"), Instruction.of("  unreachable")]
@@ -148,13 +148,13 @@ class _Blocks:
         return "@llvm." in line.text or "double @" in line.text or "@symgen.sines" in line.text
 
     def _waits(self, line: Instruction, once: bool, stored: bool) -> bool:
-        """Whether an instruction is printed where it is wanted."""
+        """Whether an instruction is printed at its use."""
         if line.does in ("fmul", "fneg"):
             return once
         return not stored and (line.does == "load" or (line.does == "getelementptr" and line.own in self.reads))
 
     def _put(self, line: Instruction) -> None:
-        """Print an instruction behind those it waits for."""
+        """Print an instruction after its operands."""
         if not self.held.keys().isdisjoint(line.names):
             line = line.renamed(lambda name: self._name(name) if name in self.held else name)
         self.lines.append(line)

@@ -1,7 +1,7 @@
 """Functions of `symgen.native.language` as C99: the emitted code of a mechanism for other programs.
 
-Numbers are of the type ``real``, functions of the C library are called by ``M(sin)``, so that a text serves 64 and 32
-bits. Operations stand in the order of the source. Integers of emitted code are indices and counters, far below 2^31.
+Numbers have the type ``real``, functions of the C library are called by ``M(sin)``, so that a text serves 64 and 32
+bits. Operations have the order of the source. Integers of emitted code are indices and counters, far below 2^31.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Any
 from symgen.native import language as lang
 from symgen.native.printing import FunctionPrinter, ordered
 
-#: Functions that printed ones call beside the C library, by name.
+#: Functions outside the C library that printed ones call, by name.
 HELPERS = {
     "least": "static real least(real a, real b) { return b < a ? b : a; }",
     "greatest": "static real greatest(real a, real b) { return b > a ? b : a; }",
@@ -42,21 +42,21 @@ _LIBRARY = (
     "printf memcpy memset div labs atoi atof system time clock signal index double_t float_t"
 )
 _OWN = ("real", "M", "I", "EOF", "NULL", "NAN", "SMALL", "LARGE")
-#: Words that are no names: keywords, names of the library, and names of the files' own.
+#: Reserved words: keywords, names of the library, and the files' own names.
 RESERVED = frozenset((*_KEYWORDS.split(), *_LIBRARY.split(), *HELPERS, *_OWN))
 
 _CALLED = {"floordiv": "floored", "mod": "rest", "min": "least", "max": "greatest", "abs": "fabs"}
 _CALLED |= {"math.fabs": "fabs", "pow": "pow"}
 _OF_INTEGERS = {"min": "least_of_integers", "max": "greatest_of_integers", "floordiv": "floored_quotient", "abs": "abs"}
 _TYPES = {"float": "real", "int": "int", "bool": "int"}
-#: Characters of a line at most; C's compilers need not take lines of more than 4095.
+#: Most characters of a line; C's compilers need not take lines of more than 4095.
 _WIDTH = 120
-#: Statements of a function at most: the time that compilers spend on one function grows faster than its length.
+#: Most statements of a function: the time that compilers spend on one function grows faster than its length.
 _LONGEST = 600
 
 
 def c_functions(functions: Mapping[str, lang.Function]) -> str:
-    """Return the text of functions and of all that they call, each once, callees first, after their helpers.
+    """Return the text of functions and their callees, each once, callees first, after their helpers.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def c_functions(functions: Mapping[str, lang.Function]) -> str:
 
 
 def broken(line: str) -> str:
-    """Return a line of C as lines that are not too long, broken at spaces."""
+    """Return a line of C as lines of allowed length, broken at spaces."""
     lines = []
     while len(line) > _WIDTH and (at := line.rfind(" ", 0, _WIDTH)) > 0:
         lines.append(line[:at])
@@ -91,7 +91,7 @@ def c_number(value: float) -> str:
 
 
 def _visited(value: object) -> Iterator[Any]:
-    """Yield statements and expressions, those of functions that are called left out."""
+    """Yield statements and expressions, without those of called functions."""
     if isinstance(value, tuple):
         for each in value:
             yield from _visited(each)
@@ -102,7 +102,7 @@ def _visited(value: object) -> Iterator[Any]:
 
 
 def _written(function: lang.Function, of_called: Mapping[object, frozenset[str]]) -> frozenset[str]:
-    """Return the arrays that a function changes, itself or by those that it calls."""
+    """Return the arrays that a function or its callees change."""
     arrays = set[str]()
     for value in _visited(function.body):
         if isinstance(value, lang.Store):
@@ -173,7 +173,7 @@ class _Printer(FunctionPrinter):
         ]
 
     def _in_parts(self, own: str, parts: Sequence[tuple[lang.Statement, ...]]) -> list[str]:
-        """Return functions of parts, and the function that calls them; values that parts share are arrays' elements."""
+        """Return functions of parts, and the function that calls them; shared values are elements of arrays."""
         f, names = self.function, [_names(part) for part in parts]
         arguments = {p.name: p for p in f.parameters}
         sizes = Counter[str]()
@@ -198,7 +198,7 @@ class _Printer(FunctionPrinter):
         return [*lines, *calls, *self.lines(parts[-1]), "}"]
 
     def word(self, name: str) -> str:
-        """Return the name of a variable, or the element of an array that it shares with other parts."""
+        """Return the name of a variable, or the array element in which parts share it."""
         return self.shared.get(name) or super().word(name)
 
     def _parameter(self, parameter: lang.FunctionParameter) -> str:
@@ -208,21 +208,21 @@ class _Printer(FunctionPrinter):
         return f"{'' if parameter.name in self.written else 'const '}{kind} *restrict {name}"
 
     def literal(self, value: float | int | bool) -> tuple[str, int]:
-        """Return a number and how strongly its text binds."""
+        """Return a number and the precedence of its text."""
         text = str(int(value)) if isinstance(value, int) else c_number(value)
         return text, 14 if text.startswith("-") else 20
 
     def defined(self, s: lang.Assign) -> str:
-        """Return the words before the name of a variable that is assigned once, where it is assigned."""
+        """Return the words before the name of a variable that is assigned once, at its assignment."""
         return "" if s.name in self.shared else f"const {_TYPES[self.function.variables[s.name]]} "
 
     def loop_head(self, s: lang.For, counter: str) -> str:
-        """Return the head of a loop whose counter has a name of its own."""
+        """Return the head of a loop whose counter has its own name."""
         first, last, sign = self.value(s.start), self.value(s.stop), "<" if s.step > 0 else ">"
         return f"for (int {counter} = {first}, end = {last}; {counter} {sign} end; {counter} += {s.step}) {{"
 
     def called(self, e: lang.ScalarOperation) -> str:
-        """Return the name of the function that an operation is."""
+        """Return the name of an operation's function."""
         if e.type == "int" and e.arguments[0].type == "int":
             return _OF_INTEGERS[e.name]
         name = _CALLED.get(e.name, e.name.removeprefix("math."))

@@ -1,8 +1,8 @@
-"""Calls of compiled functions from Python: arguments taken apart at every call, or laid out in memory beforehand.
+"""Calls of compiled functions from Python: arguments unpacked at every call, or laid out in memory in advance.
 
 A compiled function takes a number as it is, an array as the address of its elements and its lengths, another function
-as its address. A call takes its arguments apart every time: tens of microseconds for records of arrays and functions.
-Where they are the same at every call but for some numbers, a trampoline loads them from slots of eight bytes and calls
+as its address. A call unpacks its arguments every time: tens of microseconds for records of arrays and functions.
+Where only some numbers differ between calls, a trampoline loads them from slots of eight bytes and calls
 the function whose address precedes them.
 """
 
@@ -19,8 +19,8 @@ import numpy as np
 from symgen.native import types
 from symgen.native.machine import load
 
-#: Slots before the arguments: address of the function, its result; then memory that is copied before: to where, from
-#: where, how many bytes.
+#: Slots before the arguments: address of the function, its result; then memory to copy before: destination, source,
+#: number of bytes.
 FUNCTION, RESULT, COPY, SOURCE, BYTES, FIRST = range(6)
 _SLOTS = {types.float64: "double", types.int64: "i64", types.boolean: "i1"}
 _C: dict[Any, Any] = {"double": ctypes.c_double, "i64": ctypes.c_int64, "i1": ctypes.c_bool, "ptr": ctypes.c_void_p}
@@ -29,7 +29,7 @@ _NUMBERS = {dtype: number for number, dtype in _DTYPES.items()}
 
 
 def slots(kind: types.Kind) -> Iterator[str]:
-    """Yield LLVM's types of the slots that an argument takes."""
+    """Yield LLVM's types of the slots of an argument."""
     if isinstance(kind, types.RecordType):
         for part in kind:
             yield from slots(part)
@@ -73,7 +73,7 @@ def kind_of(value: Any) -> types.Kind:
     Raises
     ------
     TypeError
-        If compiled functions take no such argument.
+        If compiled functions cannot take the argument.
     """
     if isinstance(value, float):
         return types.float64
@@ -89,7 +89,7 @@ def kind_of(value: Any) -> types.Kind:
 
 
 def caller(address: int, signature: types.Signature) -> Callable[..., Any]:
-    """Return a function of Python that calls a compiled one; the interpreter's lock is not held meanwhile."""
+    """Return a Python function that calls a compiled one without the interpreter's lock."""
     expected = signature.arguments
     kinds = [_C[slot] for kind in expected for slot in slots(kind)]
     returned = None if signature.result is types.void else _C[_SLOTS[signature.result]]
@@ -109,9 +109,9 @@ def trampoline(signature: types.Signature, object_file: Callable[[str, str], byt
     Parameters
     ----------
     signature : Signature
-        That of the function; its result is a number of eight bytes.
+        Signature of the function; its result is a number of eight bytes.
     object_file : callable
-        Gives the object file of a module in LLVM's language with the function of a name.
+        Returns the object file of a module in LLVM's language with a named function.
     """
     kinds = tuple(slot for kind in signature.arguments for slot in slots(kind))
     return _trampoline(_SLOTS[signature.result], kinds, object_file)

@@ -1,4 +1,4 @@
-"""How machine code is made, as environment variables name it."""
+"""Route to machine code, selected by environment variables."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ _COMPILERS = ("source", "explain", "libm")
 
 
 def compiler() -> str:
-    """Return the way to machine code that the environment names.
+    """Return the route to machine code that the environment selects.
 
     Raises
     ------
     InputError
-        If there is none of that name.
+        If the name is unknown.
     """
     name = os.environ.get(COMPILER) or _COMPILERS[0]
     if name not in _COMPILERS:

@@ -20,23 +20,23 @@ _FORMS = {
 
 
 class NotInLines(SymgenError):
-    """A formula has no form in another language."""
+    """A formula without a form in another language."""
 
 
 @dataclass(frozen=True)
 class Dialect:
-    """How a language writes lines.
+    """Syntax of lines in a language.
 
     Attributes
     ----------
     declaration : str
-        A line that gives a value a name.
+        A line that names a value.
     number : callable
         The text of a number.
     undefined : str
-        The text of what is no number.
+        The text of an undefined number.
     forms : mapping of str to str
-        Functions of formulas, beside arithmetic.
+        Functions of formulas besides arithmetic.
     """
 
     declaration: str
@@ -92,7 +92,7 @@ class LineValue:
 
 
 class FormulaLines:
-    """Numbers of `symgen.describe.start` that write down how they are worked out.
+    """Numbers of `symgen.describe.start` that record their computation.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ class FormulaLines:
         return self.let(function, *arguments)
 
     def above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
-        """Return `x`; a value that is not above the limit becomes a start that is not finite."""
+        """Return `x`; a value not above the limit makes the start not finite."""
         return self._line(f"{self.result(x)} > {self.result(limit)} ? {self.result(x)} : {self.dialect.undefined}")
 
     def result(self, value: Any) -> str:
@@ -131,7 +131,7 @@ class FormulaLines:
         return f"({number})" if number.startswith("-") else number
 
     def lines_of(self, results: Iterable[str]) -> list[str]:
-        """Return the lines that some results need."""
+        """Return the lines for some results."""
         needed, lines = set(_NAMES.findall(" ".join(results))), list[str]()
         for k in reversed(range(len(self.lines))):
             if f"a{k}" in needed:

@@ -1,6 +1,6 @@
 """Functions of `symgen.native.language` as JavaScript: the emitted code of a mechanism for a page.
 
-Numbers of both languages are the same 64 bits; operations stand in the order of the source. Integers of emitted code
+Numbers of both languages are the same 64 bits; operations have the order of the source. Integers of emitted code
 are indices and counters, far below 2^53. Arrays are ``Float64Array``, of integers too.
 """
 
@@ -13,7 +13,7 @@ from typing import ClassVar
 from symgen.native import language as lang
 from symgen.native.printing import FunctionPrinter, ordered
 
-#: What printed functions call beside ``Math``. Sines and cosines of browsers are rounded wrongly once in thirty times,
+#: Helpers of printed functions. Sines and cosines of browsers are rounded wrongly once in thirty times,
 #: those of C libraries once in a thousand: here the first terms of their series have twice the digits.
 HELPERS = """\
 const copysign = (x, y) => (y < 0 || Object.is(y, -0) ? -Math.abs(x) : Math.abs(x));
@@ -65,7 +65,7 @@ function quarter(x, k, otherwise) {
 const sine = (x) => (x === 0 ? x : quarter(x, 0, Math.sin));
 const cosine = (x) => quarter(x, 1, Math.cos);
 """
-#: Words that may not be names; emitted code has none of them today.
+#: Reserved words; emitted code uses none of them today.
 RESERVED = frozenset(
     "arguments await break case catch class const debugger default delete enum eval export extends function implements "
     "in instanceof interface let new package private protected public static super switch this throw typeof undefined "
@@ -79,12 +79,12 @@ _CALLED |= {"math.fabs": "Math.abs", "math.copysign": "copysign", "math.pow": "M
 
 
 def javascript(functions: Mapping[str, lang.Function]) -> str:
-    """Return the text of functions and of all that they call, each once, callees first.
+    """Return the text of functions and their callees, each once, callees first.
 
     Parameters
     ----------
     functions : mapping of str to Function
-        What the text shall define, by the names that it shall have there.
+        Functions to define, by their names in the text.
     """
     order, names = ordered(functions, RESERVED)
     return "\n".join(_Printer(function, names).text() for function in order)
@@ -111,7 +111,7 @@ class _Printer(FunctionPrinter):
         return "\n".join([*tables, head, *lines, "}"])
 
     def literal(self, value: float | int | bool) -> tuple[str, int]:
-        """Return a number and how strongly its text binds."""
+        """Return a number and the precedence of its text."""
         if isinstance(value, bool):
             return ("true" if value else "false"), 20
         if isinstance(value, float) and not math.isfinite(value):
@@ -120,16 +120,16 @@ class _Printer(FunctionPrinter):
         return text, 14 if text.startswith("-") else 20
 
     def defined(self, s: lang.Assign) -> str:
-        """Return what precedes the name of a variable that is assigned once, where it is assigned."""
+        """Return the words before the name of a variable that is assigned once, at its assignment."""
         return "const "
 
     def loop_head(self, s: lang.For, counter: str) -> str:
-        """Return the head of a loop whose counter has a name of its own."""
+        """Return the head of a loop whose counter has its own name."""
         first, last, sign = self.value(s.start), self.value(s.stop), "<" if s.step > 0 else ">"
         return f"for (let {counter} = {first}, end = {last}; {counter} {sign} end; {counter} += {s.step}) {{"
 
     def called(self, e: lang.ScalarOperation) -> str:
-        """Return the name of the function that an operation is."""
+        """Return the name of an operation's function."""
         return _CALLED.get(e.name, f"Math.{e.name.removeprefix('math.')}")
 
     def converted(self, kind: str, value: lang.Expression) -> tuple[str, int]:

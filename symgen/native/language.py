@@ -2,8 +2,8 @@
 
 A value is a ``float`` (64 bits), an ``int`` (64 bits, signed) or a ``bool``; arrays are one-dimensional and contiguous.
 Tables of looped code hold ``unsigned`` numbers of 32 bits, which become ``int`` where they are read.
-Nothing here knows Python's syntax or a target: `symgen.native.read` makes these values, `symgen.native.llvm` prints
-them.
+It depends neither on Python's syntax nor on a target: `symgen.native.read` makes these values, `symgen.native.llvm`
+prints them.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ FUNCTIONS = {
 
 
 class FunctionParameter(msgspec.Struct, frozen=True, gc=False):
-    """An argument of a function: a number, an array of numbers, or of loops a function by its address."""
+    """An argument of a function: a number, an array of numbers, or, for loops, a function by its address."""
 
     name: str
     type: Scalar
@@ -41,7 +41,7 @@ class Constant(msgspec.Struct, frozen=True, gc=False):
 
 
 class Variable(msgspec.Struct, frozen=True, gc=False):
-    """A local variable or a number that is an argument."""
+    """A local variable, or an argument that is a number."""
 
     type: Scalar
     name: str
@@ -58,9 +58,9 @@ class ArrayElement(msgspec.Struct, frozen=True, gc=False):
 class ScalarOperation(msgspec.Struct, frozen=True, gc=False):
     """An operation on values: arithmetic, a comparison, a mathematical function or a conversion.
 
-    Arithmetic: ``add sub mul div floordiv mod pow neg abs min max``; on booleans ``and or not``, without skipping what
-    stands right; comparisons: ``lt le gt ge eq ne``; conversions: ``float``, ``int``, ``bool``, ``unsigned``;
-    ``low`` is what 32 bits hold of an integer, ``bits`` the integer that stands in the place of a float; functions are
+    Arithmetic: ``add sub mul div floordiv mod pow neg abs min max``; on booleans ``and or not``, without skipping the
+    right operand; comparisons: ``lt le gt ge eq ne``; conversions: ``float``, ``int``, ``bool``, ``unsigned``;
+    ``low`` is the lower 32 bits of an integer, ``bits`` the integer in the place of a float; functions are
     called ``math.sin`` and the like. Arguments of arithmetic and comparisons have one type.
     """
 
@@ -79,7 +79,7 @@ class Logic(msgspec.Struct, frozen=True, gc=False):
 
 
 class Choice(msgspec.Struct, frozen=True, gc=False):
-    """One of two values, of which only that one is evaluated."""
+    """One of two values; the other one is not evaluated."""
 
     type: Scalar
     test: Expression
@@ -88,7 +88,7 @@ class Choice(msgspec.Struct, frozen=True, gc=False):
 
 
 class FunctionCall(msgspec.Struct, frozen=True, gc=False):
-    """A call of another function; arrays are handed on by name."""
+    """A call of another function; arrays are passed by name."""
 
     type: Scalar
     function: Function
@@ -104,7 +104,7 @@ class ArrayLength(msgspec.Struct, frozen=True, gc=False):
 
 
 class Invoke(msgspec.Struct, frozen=True, gc=False):
-    """A call of a function that is known by its address, a name or a number; arrays are handed on by name."""
+    """A call of a function by its address, a name or a number; arrays are passed by name."""
 
     type: Scalar
     function: Expression | str
@@ -112,7 +112,7 @@ class Invoke(msgspec.Struct, frozen=True, gc=False):
 
 
 class Insert(msgspec.Struct, frozen=True, gc=False):
-    """What a function gives that is written in LLVM's language: a piece of a compiler, by its name in machine code.
+    """Result of a function in LLVM's language: a piece of a compiler, by its name in machine code.
 
     Attributes
     ----------
@@ -121,7 +121,7 @@ class Insert(msgspec.Struct, frozen=True, gc=False):
     symbol, text : str
         Name and definition of the function, which takes numbers, and arrays as addresses.
     nothing : bool
-        Whether it gives nothing.
+        Whether it has no result.
     """
 
     type: Scalar
@@ -137,14 +137,14 @@ Expression = (
 
 
 class Assign(msgspec.Struct, frozen=True, gc=False):
-    """Give a variable a value."""
+    """Assignment to a variable."""
 
     name: str
     value: Expression
 
 
 class Store(msgspec.Struct, frozen=True, gc=False):
-    """Give an element of an array a value."""
+    """Assignment to an element of an array."""
 
     array: str
     index: Expression
@@ -152,7 +152,7 @@ class Store(msgspec.Struct, frozen=True, gc=False):
 
 
 class If(msgspec.Struct, frozen=True, gc=False):
-    """Statements of which one list is executed."""
+    """Two lists of statements, one of which is executed."""
 
     test: Expression
     then: tuple[Statement, ...]
@@ -160,7 +160,7 @@ class If(msgspec.Struct, frozen=True, gc=False):
 
 
 class While(msgspec.Struct, frozen=True, gc=False):
-    """Statements repeated for as long as a test holds."""
+    """Statements repeated while a test holds."""
 
     test: Expression
     body: tuple[Statement, ...]
@@ -184,16 +184,16 @@ class Leave(msgspec.Struct, frozen=True, gc=False):
 
 
 class StatementBlock(msgspec.Struct, frozen=True, gc=False):
-    """Statements that may be left before their end: those of a function that was copied into its caller."""
+    """Statements that may be left before their end: those of a function copied into its caller."""
 
     number: int
     body: tuple[Statement, ...]
 
 
 class ArrayView(msgspec.Struct, frozen=True, gc=False):
-    """Give a name to elements of an array from one on: so many rows, or what stands behind some of its indices.
+    """A name for elements of an array from one on: some rows, or the subarray at some indices.
 
-    Where the type is ``unsigned``, what stands there are numbers of that kind.
+    Where the type is ``unsigned``, the elements are numbers of that kind.
     """
 
     name: str
@@ -205,7 +205,7 @@ class ArrayView(msgspec.Struct, frozen=True, gc=False):
 
 
 class Pick(msgspec.Struct, frozen=True, gc=False):
-    """Give a name to one of two arrays of one dimension."""
+    """A name for one of two arrays of one dimension."""
 
     name: str
     test: Expression
@@ -220,7 +220,7 @@ class Return(msgspec.Struct, frozen=True, gc=False):
 
 
 class Evaluate(msgspec.Struct, frozen=True, gc=False):
-    """A call whose result is not wanted."""
+    """A call whose result is not used."""
 
     call: FunctionCall | Invoke | Insert
 
@@ -229,7 +229,7 @@ Statement = Assign | Store | If | While | For | Leave | Return | Evaluate | Stat
 
 
 class Function(msgspec.Struct, frozen=True, gc=False):
-    """A function whose types are known.
+    """A function with its types.
 
     Attributes
     ----------
@@ -240,19 +240,19 @@ class Function(msgspec.Struct, frozen=True, gc=False):
     returned : {"float", "int"}
         Type of the result.
     body : tuple of Statement
-        What is done.
+        Statements.
     variables : dict of str to {"float", "int", "bool"}
         Local variables.
     fixed : frozenset of str
-        Variables that are assigned once, by a statement of the body itself: names of values, which need no memory.
+        Variables assigned once, by a statement of the body itself: names of values, which need no memory.
     tables : dict of str to tuple of float
         Constant arrays that the function reads.
     called : tuple of Function
         Functions that it calls, each once, in the order of their first call.
     source : object
-        What this was read from.
+        Origin.
     inlined : bool
-        Whether it is no call: whoever calls it has its statements instead.
+        Whether callers have its statements instead of a call.
     """
 
     name: str
@@ -268,5 +268,5 @@ class Function(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def key(self) -> object:
-        """What tells one function from another without comparing their bodies."""
+        """Identity of the function without a comparison of bodies."""
         return self.source, self.parameters

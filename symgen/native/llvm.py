@@ -12,7 +12,7 @@ from symgen.native import language as lang
 from symgen.native import sines
 from symgen.native.llvm_values import INTRINSICS, TYPES, ValuePrinter, called, literal, slot
 
-#: The argument of functions for several runs at once that says how many there are.
+#: The argument for the number of runs, in functions for several runs at once.
 COUNT_OF_LANES = "lanes"
 
 
@@ -27,12 +27,12 @@ def module(
     Parameters
     ----------
     function : Function
-        What is defined.
+        The function.
     symbol : Callable
-        Gives the name of a function in machine code.
+        Returns the name of a function in machine code.
     inlined : Callable
-        Whether the body of a function that is called is in the module too, for the compiler to copy. Any other one has
-        to be in memory under its symbol when the module is loaded: LLVM calls address 0 for a symbol that nobody has.
+        Whether the body of a callee is in the module too, for the compiler to copy. Any other callee has to be in
+        memory under its symbol when the module is loaded: LLVM calls address 0 for an undefined symbol.
     together : bool
         Whether sines and cosines of several angles are taken together (`symgen.native.sines`).
     """
@@ -49,7 +49,7 @@ def module(
 
 
 def loop_module(function: lang.Function, symbol: str) -> str:
-    """Return the text of a module that defines a loop, with the parts that it calls.
+    """Return the text of a module that defines a loop, with its called parts.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def loop_module(function: lang.Function, symbol: str) -> str:
     """
     names: dict[int, str] = {id(function): symbol}
     functions = [function]
-    for each in functions:  # those that it calls follow
+    for each in functions:  # callees follow
         for part in each.called:
             if id(part) not in names:
                 names[id(part)] = f"{symbol}.{len(names)}.{part.name}"
@@ -79,7 +79,7 @@ def loop_module(function: lang.Function, symbol: str) -> str:
 def reached(
     function: lang.Function, inlined: Callable[[lang.Function], bool]
 ) -> tuple[list[lang.Function], list[lang.Function]]:
-    """Return functions whose bodies belong into a module, and those of which it has to know the symbol alone."""
+    """Return functions whose bodies belong in a module, and those of which it needs only the symbol."""
     functions, declared, waiting = {function.key: function}, dict[object, lang.Function](), list(function.called)
     while waiting:
         each = waiting.pop(0)
@@ -92,16 +92,16 @@ def reached(
 
 
 def is_copied(function: lang.Function) -> bool:
-    """Whether a function has no machine code of its own where it is called.
+    """Whether a function has no machine code of its own at its call.
 
-    That is one which is handed tables of looped code or the number of lanes, and one which is no call.
+    Such functions take tables of looped code or the number of lanes, or are inlined.
     """
     handed_on = any(p.type == "unsigned" or p.name == COUNT_OF_LANES for p in function.parameters)
     return function.inlined or (handed_on and all(is_copied(f) for f in function.called))
 
 
 def declarations(texts: Iterable[str]) -> list[str]:
-    """Return declarations of the mathematical functions that texts call."""
+    """Return declarations of the mathematical functions in texts."""
     text = "\n".join(texts)
     lines = []
     for name, count in {**lang.FUNCTIONS, "round": 1}.items():
@@ -118,7 +118,7 @@ def head(function: lang.Function, name: str, named: bool = True) -> str:
 
 
 def taken(parameter: lang.FunctionParameter) -> list[tuple[str, str]]:
-    """Return LLVM's types of what a parameter takes, and its names."""
+    """Return LLVM's types of a parameter, and its names."""
     if parameter.address:
         return [("ptr", parameter.name)]
     if not parameter.array:
@@ -137,7 +137,7 @@ class FunctionPrinter(ValuePrinter):
         groups = sines.groups(function) if together else {}
         self.before = {id(function.body[i]): calls for i, calls in groups.items()}
         self.leaving: list[tuple[str, str]] = []  # labels after `continue` and `break`, innermost last
-        self.blocks: dict[int, str] = {}  # labels behind blocks
+        self.blocks: dict[int, str] = {}  # labels after blocks
 
     def text(self) -> str:
         """Return the definition."""
@@ -157,7 +157,7 @@ class FunctionPrinter(ValuePrinter):
         return "\n".join([*tables, begin, ".entry:", *self.slots, *self.lines, "}"])
 
     def take_arguments(self) -> None:
-        """Give arguments their names."""
+        """Name the arguments."""
         for p in self.function.parameters:
             if p.array:
                 own, *lengths = (f'%"{name}"' for _, name in taken(p))
@@ -170,7 +170,7 @@ class FunctionPrinter(ValuePrinter):
     # -- statements
 
     def statements(self, statements: tuple[lang.Statement, ...]) -> bool:
-        """Print statements; return whether what follows them can be reached."""
+        """Print statements; return whether the following ones can be reached."""
         for statement in statements:
             for angles in self.before.get(id(statement), ()):
                 self.take_sines(angles)
@@ -208,7 +208,7 @@ class FunctionPrinter(ValuePrinter):
         return True
 
     def view(self, statement: lang.ArrayView) -> None:
-        """Give a part of an array a name."""
+        """Name a part of an array."""
         data, first = self.base(statement.array), self.value(statement.first)
         if statement.size is None:
             lengths = self.views[statement.array][1][statement.indices :]
@@ -228,13 +228,13 @@ class FunctionPrinter(ValuePrinter):
         self.begin(end)
 
     def pick(self, statement: lang.Pick) -> None:
-        """Give one of two arrays a name."""
+        """Name one of two arrays."""
         test, (a, m), (b, n) = self.value(statement.test), self.views[statement.chosen], self.views[statement.otherwise]
         data = self.put(f"select i1 {test}, ptr {a}, ptr {b}")
         self.views[statement.name] = data, (self.put(f"select i1 {test}, i64 {m[0]}, i64 {n[0]}"),)
 
     def assign(self, name: str, value: str) -> None:
-        """Give a variable a value."""
+        """Print an assignment to a variable."""
         if name in self.function.fixed:
             self.values[name] = value
         else:
@@ -269,7 +269,7 @@ class FunctionPrinter(ValuePrinter):
         self.begin(end)
 
     def count_through(self, statement: lang.For) -> None:
-        """Print a loop over a range, whose counter is its own: the body may assign the variable."""
+        """Print a loop over a range with its own counter, as the body may assign the variable."""
         test, body, step, end = self.labels("test", "body", "step", "end")
         counter = f"%.counter{self.count}"
         self.slots.append(f"  {counter} = alloca i64")

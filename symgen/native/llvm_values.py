@@ -16,7 +16,7 @@ COMPARED = {
     "int": {"lt": "slt", "le": "sle", "gt": "sgt", "ge": "sge", "eq": "eq", "ne": "ne"},
     "bool": {"lt": "ult", "le": "ule", "gt": "ugt", "ge": "uge", "eq": "eq", "ne": "ne"},
 }
-#: Functions that LLVM knows itself, by its names for them.
+#: Intrinsic functions of LLVM, by its names.
 INTRINSICS = {name: name for name in ("sin", "cos", "exp", "log", "fabs", "copysign", "pow")} | {"round": "rint"}
 
 
@@ -31,17 +31,17 @@ class ValuePrinter:
     Attributes
     ----------
     sines : dict
-        Sines and cosines that are known: by their names and angles.
+        Computed sines and cosines, by their names and angles.
     lines, slots : list of str
-        What has been printed, and the memory that it needs.
+        Printed lines, and the memory that they need.
     values : dict of str to str
         Values of variables that need no memory.
     flag : str
-        What operations on floats may be.
+        Flag of operations on floats.
     inserted : dict of str to str
-        Functions written in LLVM's language that are called, by their names.
+        Called functions in LLVM's language, by their names.
     label : str
-        Of the block that is being printed.
+        Of the current block.
     views : dict of str to tuple
         Address and lengths of arrays.
     small : set of str
@@ -86,7 +86,7 @@ class ValuePrinter:
         self.lines.append(f"  br i1 {test}, label %{yes}, label %{no}")
 
     def value(self, e: lang.Expression) -> str:
-        """Print what an expression needs and return its value."""
+        """Print the instructions of an expression and return its value."""
         if isinstance(e, lang.Constant):
             return literal(e.value) if e.type == "float" else str(int(e.value))
         if isinstance(e, lang.Variable):
@@ -160,7 +160,7 @@ class ValuePrinter:
         return self.function_of_math({"abs": "fabs"}.get(name, name).removeprefix("math."), values)
 
     def least(self, kind: lang.Scalar, name: str, values: list[str]) -> str:
-        """Print the least or greatest of two values: as in Python, the first where they do not compare."""
+        """Print the least or greatest of two values; as in Python, the first where they do not compare."""
         sign = COMPARED[kind]["lt" if name == "min" else "gt"]
         compare = f"fcmp{self.flag}" if kind == "float" else "icmp"
         test = self.put(f"{compare} {sign} {TYPES[kind]} {values[1]}, {values[0]}")
@@ -177,7 +177,7 @@ class ValuePrinter:
         return result
 
     def divided(self, name: str, value: str, divisor: str) -> str:
-        """Print quotient or rest of a division by a positive constant, rounded downwards."""
+        """Print quotient or remainder of a division by a positive constant, rounded down."""
         rest = self.put(f"srem i64 {value}, {divisor}")
         below = self.put(f"icmp slt i64 {rest}, 0")
         if name == "mod":
@@ -186,7 +186,7 @@ class ValuePrinter:
         return self.put(f"select i1 {below}, i64 {self.put(f'sub i64 {quotient}, 1')}, i64 {quotient}")
 
     def quotient(self, value: str, divisor: str, *, rest_wanted: bool) -> str:
-        """Print quotient or rest of a division by any integer, rounded downwards; those by 0 are 0."""
+        """Print quotient or remainder of a division by any integer, rounded down; those by 0 are 0."""
         none = self.put(f"icmp eq i64 {divisor}, 0")
         divisor = self.put(f"select i1 {none}, i64 1, i64 {divisor}")
         quotient, rest = self.put(f"sdiv i64 {value}, {divisor}"), self.put(f"srem i64 {value}, {divisor}")
@@ -216,7 +216,7 @@ class ValuePrinter:
         return self.put(f"fptosi double {value} to i64") if name in ("floor", "ceil", "round") else value
 
     def take_sines(self, angles: tuple[lang.Expression, ...]) -> None:
-        """Print sines and cosines of several angles; the first fills the vector up."""
+        """Print sines and cosines of several angles; copies of the first fill the vector."""
         values = [self.value(angle) for angle in angles]
         n = sines.width(len(values))
         vector = "undef"
@@ -240,7 +240,7 @@ class ValuePrinter:
         return self.called(self.put(f"inttoptr i64 {self.value(e.function)} to ptr"), e.type, e.arguments)
 
     def insert(self, e: lang.Insert) -> str:
-        """Print a call of a function written in LLVM's language, which takes arrays as addresses alone."""
+        """Print a call of a function in LLVM's language, which takes arrays as mere addresses."""
         self.inserted[e.symbol] = e.text
         parts = [self.handed(argument)[0] for argument in e.arguments]
         text = f'@"{e.symbol}"({", ".join(parts)})'
@@ -296,5 +296,5 @@ def slot(name: str) -> str:
 
 
 def literal(value: float | int | bool) -> str:
-    """Return a float as LLVM writes it, to the last bit."""
+    """Return a float in LLVM's notation, to the last bit."""
     return f"0x{struct.pack('>d', float(value)).hex()}"

@@ -1,7 +1,7 @@
-"""What expressions in the source of loops are: numbers as in emitted functions, or records, arrays and functions.
+"""Expressions in the source of loops: numbers as in emitted functions, or records, arrays and functions.
 
-Where an expression needs statements, those of a function that is copied to where it is called for instance, they wait
-for being put before the statement that it stands in; what was worked out before them keeps its value.
+Where an expression needs statements, for instance those of a function copied into its caller, they are put before the
+statement of the expression; values computed before them do not change.
 """
 
 from __future__ import annotations
@@ -17,18 +17,18 @@ from symgen.native.read_values import Foreign, number
 
 
 class LoopValues(Reader):
-    """Reads expressions, where there are records and arrays of several dimensions.
+    """Reads expressions with records and arrays of several dimensions.
 
     Parameters
     ----------
     function : MachineFunction
-        What the Python function is called through.
+        Wrapper of the Python function.
     tree : FunctionDef
         Its syntax tree.
     arguments : dict of str to object
-        What arguments are that are no numbers.
+        Values of arguments other than numbers.
     parameters : tuple of Parameter
-        What all of them take.
+        Parameters of all arguments.
     """
 
     def __init__(
@@ -44,7 +44,7 @@ class LoopValues(Reader):
         self.count = 0
 
     def named(self, value: Value, node: ast.AST) -> Value:
-        """Return a value that later statements do not change: a number is given a name."""
+        """Return a value that later statements do not change: a number gets a name."""
         if not isinstance(value, EXPRESSIONS) or isinstance(value, lang.Constant):
             return value
         name = self.fresh("")
@@ -53,7 +53,7 @@ class LoopValues(Reader):
         return lang.Variable(value.type, name)
 
     def fresh(self, name: str) -> str:
-        """Return a name that is no name of Python's."""
+        """Return a name that is no Python name."""
         self.count += 1
         return f"{name}..{self.count}"
 
@@ -66,7 +66,7 @@ class LoopValues(Reader):
         return number
 
     def value(self, node: ast.expr) -> Value:
-        """Return the value of an expression, which may be a record, an array or a function as well."""
+        """Return the value of an expression: a number, a record, an array or a function."""
         if isinstance(node, ast.Tuple):
             return Record(tuple(self.named(v, node) for v in self.several(node.elts)))
         if isinstance(node, ast.Name) and node.id in self.bound:
@@ -76,7 +76,7 @@ class LoopValues(Reader):
         return super().expression(node)
 
     def several(self, nodes: list[ast.expr]) -> list[Value]:
-        """Return values in their order: what a later one needs to have been done does not change an earlier one."""
+        """Return values in their order: statements of a later one do not change an earlier one."""
         values: list[Value] = []
         for node in nodes:
             before = len(self.pending)
@@ -98,7 +98,7 @@ class LoopValues(Reader):
         return values
 
     def attribute(self, node: ast.Attribute) -> Value:
-        """Return a field of a record, a number of a module, or what NumPy calls the shape."""
+        """Return a field of a record, a number of a module, or a shape in the sense of NumPy."""
         if isinstance(node.value, ast.Name) and node.value.id not in self.bound:
             module = self.globals.get(node.value.id)
             if isinstance(module, python.ModuleType) and node.value.id not in self.variables:
@@ -128,7 +128,7 @@ class LoopValues(Reader):
         return super().element(node)
 
     def behind(self, array: Array, node: ast.Subscript, count: int) -> Array:
-        """Return what stands behind some indices, as an array of fewer dimensions."""
+        """Return the subarray at some indices, an array of fewer dimensions."""
         nodes = list(node.slice.elts) if isinstance(node.slice, ast.Tuple) else [node.slice]
         indices = [*self.numbers_of(nodes), *(lang.Constant("int", 0),) * (array.rank - count)]
         name = self.array(array.type, array.rank - count)
@@ -136,7 +136,7 @@ class LoopValues(Reader):
         return Array(name, array.type, array.rank - count)
 
     def at(self, array: Array, indices: list[lang.Expression], node: ast.AST) -> lang.Expression:
-        """Return where an element stands."""
+        """Return the place of an element."""
         if len(indices) != array.rank or any(
             i.type != "int" or (isinstance(i, lang.Constant) and i.value < 0) for i in indices
         ):
@@ -162,7 +162,7 @@ class LoopValues(Reader):
         return Array(name, array.type, array.rank)
 
     def owner(self, node: ast.expr) -> Value:
-        """Return the array that something is an element of; None for a table of the module."""
+        """Return the array of an element; None for a table of the module."""
         if isinstance(node, ast.Name) and node.id not in self.bound:
             return None
         return self.value(node)
@@ -203,7 +203,7 @@ class LoopValues(Reader):
         """Return one comparison or several in a row."""
         values = self.numbers_of([node.left, *node.comparators])
         if len(values) > 2:
-            values = [self.named(v, node) for v in values]  # none is worked out twice
+            values = [self.named(v, node) for v in values]  # none is computed twice
         tests: lang.Expression | None = None
         for sign, left, right in zip(node.ops, values, values[1:], strict=False):
             test = self.compared(sign, left, right, node)
@@ -212,7 +212,7 @@ class LoopValues(Reader):
         return tests
 
     def logic(self, node: ast.BoolOp) -> lang.Expression:
-        """Return ``and`` or ``or`` of booleans; what is known to be true or false decides what is read at all."""
+        """Return ``and`` or ``or`` of booleans; constant operands decide which others are read."""
         deciding = isinstance(node.op, ast.Or)
         tests: list[lang.Expression] = []
         for value_node in node.values:
@@ -252,7 +252,7 @@ class LoopValues(Reader):
         return last
 
     def choice(self, node: ast.IfExp) -> Value:
-        """Return one of two values, of which only that one is worked out."""
+        """Return one of two values; the other one is not computed."""
         test = self.truth(node.test)
         if isinstance(test, lang.Constant):
             return self.value(node.body if test.value else node.orelse)

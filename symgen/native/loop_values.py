@@ -1,6 +1,6 @@
-"""What stands in the source of loops beside numbers: arrays, functions that are known by their address, and records.
+"""Values in the source of loops other than numbers: arrays, functions by their address, and records.
 
-Records exist while the source is read and leave nothing but names of arrays, numbers and addresses.
+Records exist only while the source is read and leave names of arrays, numbers and addresses.
 """
 
 from __future__ import annotations
@@ -37,27 +37,27 @@ class Array(NamedTuple):
 
 
 class Address(NamedTuple):
-    """A function that is known by its address, by its name in the function; and how it is called."""
+    """A function by its address: its name in the calling function, and its signature."""
 
     name: str
     signature: Any
 
 
 class Record(NamedTuple):
-    """A tuple, with the names of its fields where it has such."""
+    """A tuple, with the names of its fields if any."""
 
     values: tuple[Any, ...]
     fields: tuple[str, ...] = ()
 
 
-#: What a name may stand for: a number, an array, a function, or a record of such.
+#: Value of a name: a number, an array, a function, or a record of such.
 Value = Any
-#: What is left out where a function is copied that gives nothing.
+#: Result of a copied function without a result.
 NOTHING = Record(())
 
 
 def laid_out(name: str, kind: Any) -> tuple[Value, list[lang.FunctionParameter]]:
-    """Return the kind of an argument, and the parameters that it takes.
+    """Return the value of an argument, and its parameters.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def laid_out(name: str, kind: Any) -> tuple[Value, list[lang.FunctionParameter]]
     Raises
     ------
     Foreign
-        If it is none of the types of loops.
+        If it is not one of the types of loops.
     """
     if kind in SCALARS:
         return lang.Variable(SCALARS[kind], name), [lang.FunctionParameter(name, SCALARS[kind])]
@@ -95,19 +95,19 @@ def leaves(value: Value) -> Iterator[Value]:
 
 
 def handed_on(kinds: Sequence[Any], values: Sequence[Value]) -> tuple[lang.Expression | str, ...]:
-    """Return what values of some types are handed on as."""
+    """Return the passed form of values of some types."""
     if len(kinds) != len(values):
         raise Foreign("a function with other arguments")
     return tuple(x for kind, value in zip(kinds, values, strict=True) for x in handed(kind, value))
 
 
 def handed(kind: Any, value: Value) -> Iterator[lang.Expression | str]:
-    """Yield what a value of a type is handed on as: numbers, and names of arrays and functions.
+    """Yield the passed form of a value of a type: numbers, and names of arrays and functions.
 
     Raises
     ------
     Foreign
-        If it is none of the type.
+        If it is not of the type.
     """
     if isinstance(value, Record) and isinstance(kind, types.RecordType) and len(kind) == len(value.values):
         for part, item in zip(kind, value.values, strict=True):
@@ -125,7 +125,7 @@ def handed(kind: Any, value: Value) -> Iterator[lang.Expression | str]:
 
 
 def renamed(name: str, value: Value) -> tuple[Value, list[lang.FunctionParameter]]:
-    """Return a value as a function sees it that it is handed to, and the parameters that it takes."""
+    """Return a value in the callee that takes it, and its parameters."""
     if isinstance(value, Record):
         parts = [renamed(f"{name}.{i}", part) for i, part in enumerate(value.values)]
         return Record(tuple(v for v, _ in parts), value.fields), [p for _, ps in parts for p in ps]

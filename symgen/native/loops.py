@@ -1,11 +1,11 @@
 """From the source of the runtime's loops to the checked language of `symgen.native.language`.
 
-A loop is written in Python with records of arrays and numbers, functions that are known by their address, and parts
-that are copied into it (`symgen.runtime.loop_instances`). All of that is known before anything runs: records, tuples
-and views of arrays exist while the source is read and leave nothing but names of arrays, numbers and addresses.
-Everything else in a loop is what emitted functions have, read by the same rules.
+A loop is written in Python with records of arrays and numbers, functions by their address, and parts
+that are copied into it (`symgen.runtime.loop_instances`). All of these are fixed before anything runs: records, tuples
+and views of arrays exist only while the source is read and leave names of arrays, numbers and addresses.
+The rest of a loop is as in emitted functions, read by the same rules.
 
-What is not in this language is `Foreign`: only Numba compiles such a loop.
+Code outside this language is `Foreign`: only Numba compiles such a loop.
 """
 
 from __future__ import annotations
@@ -46,12 +46,12 @@ def read_loop(function: Any, arguments: tuple[types.Kind, ...]) -> lang.Function
     function : MachineFunction
         Its Python function is the loop.
     arguments : tuple of types
-        Those of its arguments (`symgen.native.types`).
+        Types of its arguments (`symgen.native.types`).
 
     Raises
     ------
     Foreign
-        If it is not in the language.
+        If it is outside the language.
     """
     names = function.py_func.__code__.co_varnames
     pairs = [laid_out(name, kind) for name, kind in zip(names, arguments, strict=False)]
@@ -60,7 +60,7 @@ def read_loop(function: Any, arguments: tuple[types.Kind, ...]) -> lang.Function
 
 
 class _Copied(NamedTuple):
-    """A function that is being copied into another: where it ends, and the variable for what it returns."""
+    """A function while it is copied into another: its end, and the variable of its result."""
 
     block: int
     result: str
@@ -74,11 +74,11 @@ class LoopReader(LoopValues):
     function : MachineFunction
         Its Python function is the loop.
     arguments : tuple
-        What the arguments are.
+        Values of the arguments.
     parameters : tuple of Parameter
-        What they take.
+        Their parameters.
     shared : dict
-        Called parts read so far, by what they are called with.
+        Called parts read so far, by their arguments.
     """
 
     def __init__(
@@ -101,7 +101,7 @@ class LoopReader(LoopValues):
     def function(self) -> lang.Function:
         """Return the function."""
         statements = self.statements(body_of(self.tree))
-        if not returns(statements):  # nothing is returned: a 0 that nobody asks for
+        if not returns(statements):  # no result: an unused 0
             self.returned.add("int")
             statements = (*statements, lang.Return(lang.Constant("int", 0)))
         if len(self.returned) != 1:
@@ -111,7 +111,7 @@ class LoopReader(LoopValues):
     # -- statements
 
     def statement(self, node: ast.stmt) -> list[lang.Statement]:
-        """Return the effect of a statement, behind what it needs to have been done."""
+        """Return the translation of a statement, after the statements that it needs."""
         outer, self.pending = self.pending, []
         statements = self._statement(node)
         statements, self.pending = [*self.pending, *statements], outer
@@ -137,7 +137,7 @@ class LoopReader(LoopValues):
         return super().statement(node)
 
     def repeat(self, node: ast.While) -> lang.Statement:
-        """Return a loop with a test, which may need statements of its own."""
+        """Return a loop with a test, which may need its own statements."""
         outer, self.pending = self.pending, []
         self.depth += 1
         test = self.truth(node.test)
@@ -159,7 +159,7 @@ class LoopReader(LoopValues):
         return statements
 
     def end(self, node: ast.Return) -> list[lang.Statement]:
-        """Return the end of the function, or of one that is copied into it."""
+        """Return the end of the function, or of one copied into it."""
         if not self.copies:
             value = lang.Constant("int", 0) if node.value is None else self.expression(node.value)
             self.returned.add(value.type)
@@ -177,7 +177,7 @@ class LoopReader(LoopValues):
         return [*statements, lang.Leave("block", copied.block)]
 
     def assignment(self, node: ast.Assign) -> list[lang.Statement]:
-        """Return the statements of an assignment; all values are worked out before the first of them is stored."""
+        """Return the statements of an assignment; all values are computed before the first one is stored."""
         value = self.value(node.value)
         if len(node.targets) > 1:
             value = self.named(value, node)
@@ -235,7 +235,7 @@ class LoopReader(LoopValues):
             if len(called._fields) != len(arguments):
                 raise Foreign("a record with other fields", node)
             return Record(tuple(self.named(v, node) for v in arguments), called._fields)
-        called = getattr(called, "compiled", called)  # of functions that are interpreted as well
+        called = getattr(called, "compiled", called)  # also of interpreted functions
         plain = getattr(called, "py_func", None)
         if not isinstance(plain, python.FunctionType):
             raise Foreign("a call", node)
@@ -260,7 +260,7 @@ class LoopReader(LoopValues):
         return self.bound[node.id] if node.id in self.bound else self.globals.get(node.id)
 
     def argument(self, node: ast.expr) -> list[Value]:
-        """Return one argument of a call, or those of a tuple."""
+        """Return one argument of a call, or the elements of a tuple."""
         if not isinstance(node, ast.Starred):
             return self.several([node])
         value = self.value(node.value)
@@ -269,16 +269,16 @@ class LoopReader(LoopValues):
         return list(value.values)
 
     def invoke(self, called: Address, arguments: list[Value], node: ast.Call) -> lang.Expression:
-        """Return the result of a function that is known by its address."""
+        """Return the result of a function by its address."""
         result = SCALARS.get(called.signature.result)
         if result is None:
             raise Foreign("a function with other results", node)
         return lang.Invoke(result, called.name, handed_on(called.signature.arguments, arguments))
 
     def insert(self, called: Piece, arguments: list[Value], node: ast.Call) -> Value:
-        """Return the result of a function that is written in LLVM's language."""
+        """Return the result of a function in LLVM's language."""
         if called.name == "bare" and len(arguments) == 1:
-            return arguments[0]  # nothing counts references here
+            return arguments[0]  # no reference counting here
         if called.name == "part" and len(arguments) == 3 and isinstance(arguments[0], Array):
             source, first, size = arguments
             view = self.array(source.type)
@@ -298,7 +298,7 @@ class LoopReader(LoopValues):
         return lang.Insert(SCALARS.get(called.result, "int"), symbol, text, handed_on(kinds, arguments), nothing)
 
     def call_part(self, called: Any, arguments: list[Value], node: ast.Call) -> lang.Expression:
-        """Return the result of a part that is called."""
+        """Return the result of a called part."""
         tree = tree_of(called)
         if len(tree.args.args) != len(arguments):
             raise Foreign(f"the function '{called.__name__}'", node)
@@ -308,12 +308,12 @@ class LoopReader(LoopValues):
         if key not in self.shared:
             reader = LoopReader(called, inside, parameters, self.shared)
             self.shared[key] = reader.function()
-        function = self.called[called, parameters] = self.shared[key]  # type: ignore[index]  # what tells it from others
+        function = self.called[called, parameters] = self.shared[key]  # type: ignore[index]  # its identity
         leaf_arguments = (v.name if isinstance(v, Array | Address) else v for v in leaves(Record(tuple(arguments))))
         return lang.FunctionCall(function.returned, function, tuple(leaf_arguments))
 
     def copy(self, called: Any, arguments: list[Value], node: ast.Call) -> Value:
-        """Return the result of a part whose code is copied to where it is called."""
+        """Return the result of a part whose code is copied to its call."""
         tree = tree_of(called)
         if len(tree.args.args) != len(arguments) or len(self.copies) > 20:
             raise Foreign(f"the function '{called.__name__}'", node)
@@ -349,6 +349,6 @@ class LoopReader(LoopValues):
 
 
 def _ends_once(body: list[ast.stmt]) -> bool:
-    """Whether a function has no return but at its end."""
+    """Whether a function returns at its end only."""
     returns = [x for statement in body for x in ast.walk(statement) if isinstance(x, ast.Return)]
     return not returns or (len(returns) == 1 and returns[0] is body[-1])

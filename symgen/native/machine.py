@@ -1,7 +1,7 @@
-"""Text for LLVM to machine code, and machine code into this process.
+"""From text for LLVM to machine code in this process.
 
-Symbols of one object file may be used by others that are loaded later: functions are compiled one by one, and what is
-called is in memory already.
+Object files that are loaded later may use the symbols of earlier ones: functions are compiled one by one, callees
+first.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from typing import Any
 
 import llvmlite.binding as llvm
 
-#: Straight functions of more instructions are compiled in blocks, which takes time that grows no faster than they do.
-#: Below, nothing is saved by it, and the code of one block is some five parts in a hundred faster.
+#: Straight functions of more instructions are compiled in blocks, in time that grows no faster than their length.
+#: Below, blocks save nothing, and the code of one block is some 5 % faster.
 LARGEST_BLOCK = 4000
-#: One thread at a time makes machine code or puts it into memory.
+#: Lock by which one thread at a time makes or loads machine code.
 lock = threading.RLock()
 
 
@@ -32,23 +32,23 @@ def _host() -> tuple[str, str, str]:
 
 @functools.cache
 def vector_width() -> int:
-    """Return how many floating-point numbers a vector of this processor holds."""
+    """Return the number of floating-point numbers in a vector of this processor."""
     _, name, features = _host()
     wide = {"+avx512f": 8, "+avx": 4}
-    named = {"haswell": 4, "broadwell": 4, "znver1": 4, "znver2": 4, "znver3": 4}  # without their features
+    named = {"haswell": 4, "broadwell": 4, "znver1": 4, "znver2": 4, "znver3": 4}  # if features are missing
     return next((n for feature, n in wide.items() if feature in features.split(",")), named.get(name, 2))
 
 
 @functools.cache
 def processor() -> str:
-    """Return the features of this processor that machine code depends on."""
+    """Return the features of this processor that affect machine code."""
     return repr(_host())
 
 
 def _machine(level: int) -> Any:
     """Return the compiler of machine code, with the passes of a level of optimisation."""
     triple, name, features = _host()
-    # addresses are those of this process: code for x86 need not be moved again
+    # addresses are those of this process: code for x86 need not be relocated
     relocation = "static" if triple.startswith(("x86", "i386", "i686")) else "default"
     options = {"cpu": name, "features": features, "reloc": relocation, "codemodel": "jitdefault", "jit": True}
     return llvm.Target.from_triple(triple).create_target_machine(opt=level, **options)
@@ -73,9 +73,9 @@ def compiled(text: str, symbol: str, vectors: bool = True) -> bytes:
     text : str
         The module.
     symbol : str
-        Its function, which is divided into blocks if it is long.
+        Its function, divided into blocks if it is long.
     vectors : bool
-        Whether operations may be taken together in vectors, which takes the compiler a third of its time.
+        Whether operations may be joined to vectors, which takes a third of the compiler's time.
     """
     from symgen.native.blocks import split
 
@@ -84,14 +84,14 @@ def compiled(text: str, symbol: str, vectors: bool = True) -> bytes:
     divided = split(str(module), symbol, LARGEST_BLOCK)
     if divided is not None:
         module = llvm.parse_assembly(divided)
-        machine = _machine(1)  # without the passes of which the time grows with the square of a block's length
+        machine = _machine(1)  # without the passes whose time grows with the square of a block's length
     return bytes(machine.emit_object(module))
 
 
 def optimised(text: str, vectors: bool = True) -> Any:
     """Return a module after the passes of the highest level.
 
-    Of these, straight code needs few to become what all make of it: instructions in their plainest form, operands in
+    For straight code a few of these give the result of all: instructions in their plainest form, operands in
     the order that decides which product a sum is contracted with.
     """
     module = llvm.parse_assembly(text)
@@ -114,7 +114,7 @@ def optimised(text: str, vectors: bool = True) -> Any:
 def load(code: bytes, symbol: str) -> int:
     """Put machine code into memory and return the address of a symbol.
 
-    What it calls must be in memory before: LLVM ends the process where a symbol is missing.
+    Its callees must be in memory before: LLVM ends the process where a symbol is missing.
     """
     engine = _engine()
     engine.add_object_file(llvm.ObjectFileRef.from_data(code))

@@ -1,11 +1,11 @@
 """Straight functions as text for LLVM that evaluates them at eight nodes of one run at once.
 
-Time and state have a value a node, parameters and scratch are shared: element i of the state stands at ``8 i + node``
+Time and state have one value per node, parameters and scratch are shared: element i of the state is at ``8 i + node``
 of its array. The same operations as for one node are done on vectors of eight numbers, which processors with shorter
-vectors take in several parts: how many nodes there are depends on none. Nothing is written to the scratch array.
+vectors process in several parts: the number of nodes is the same for all. Nothing is written to the scratch array.
 
-What has no form in vectors, tables of data and functions of the C library, is called node by node. Sines and cosines
-are of the coefficients of `symgen.native.sines`, for angles that are not large: the function returns 2 where one is.
+Functions without a form in vectors, tables of data and those of the C library, are called node by node. Sines and
+cosines use the coefficients of `symgen.native.sines`, for angles that are not large: the function returns 2 for others.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from symgen.native.llvm_values import COMPARED, FLOATS, INTS, TYPES, ValuePrinte
 from symgen.native.read_values import Foreign
 from symgen.native.types import NODES
 
-#: What the function returns, added up: a pivot is suspicious at a node; an angle is too large for the sines here.
+#: Summands of the function's result: a pivot is suspicious at a node; an angle is too large for the sines here.
 SUSPICIOUS, FAR = 1, 2
-#: Arrays of a right-hand side with a value a node, those that are shared, and those that are left alone.
+#: Arrays of a right-hand side with one value per node, shared ones, and those that are not read.
 _OWN, _SHARED, _WRITTEN = ("y",), ("p", "w"), ("ydot",)
 #: Mathematical functions with a form in vectors, by LLVM's names.
 _VECTORS = {
@@ -50,7 +50,7 @@ def module(
     Raises
     ------
     Foreign
-        If the function is more than straight code.
+        If the function is not straight code.
     """
     printer = NodesPrinter(function, symbol, name)
     texts = [printer.text()]
@@ -73,19 +73,19 @@ class NodesPrinter(ValuePrinter):
     Attributes
     ----------
     declared : set of str
-        Declarations of the functions on vectors that it calls.
+        Declarations of the called functions on vectors.
     """
 
     def __init__(self, function: lang.Function, symbol: Callable[[lang.Function], str], name: str) -> None:
         super().__init__(function, symbol)
         self.name = name
         self.declared: set[str] = set()
-        self.vectors: set[str] = {"t"}  # variables with a value a node
+        self.vectors: set[str] = {"t"}  # variables with one value per node
         self.equal: dict[tuple[str, str], str] = {}  # vectors of equal numbers
         self.far = ""
         self.stored: dict[tuple[str, int], tuple[str, bool]] = {}  # elements written so far: value, whether a vector
-        self.functions: list[lang.Function] = [function]  # those whose statements stand here
-        self.calls: dict[object, lang.Function] = {}  # those that are called
+        self.functions: list[lang.Function] = [function]  # functions whose statements are here
+        self.calls: dict[object, lang.Function] = {}  # called functions
 
     def text(self) -> str:
         """Return the definition.
@@ -93,7 +93,7 @@ class NodesPrinter(ValuePrinter):
         Raises
         ------
         Foreign
-            If the function is more than straight code.
+            If the function is not straight code.
         """
         arrays = (*("t", *_OWN), *_SHARED, *_WRITTEN)
         own = ", ".join(f'ptr noalias %"{a}", i64 %"{a}.n"' for a in arrays)
@@ -109,7 +109,7 @@ class NodesPrinter(ValuePrinter):
         return "\n".join([*tables, f'define i64 @"{self.name}"({own}) nounwind {{', ".entry:", *self.lines, "}"])
 
     def statements(self, function: lang.Function) -> lang.Expression:
-        """Print the statements of a function up to its result, which is returned."""
+        """Print the statements of a function up to its result and return that."""
         for statement in function.body:
             if isinstance(statement, lang.Assign):
                 self.assign(statement.name, statement.value)
@@ -124,7 +124,7 @@ class NodesPrinter(ValuePrinter):
         raise Foreign("code without a result")
 
     def assign(self, name: str, value: lang.Expression) -> None:
-        """Print what gives a variable a value."""
+        """Print an assignment to a variable."""
         if isinstance(value, lang.FunctionCall) and "y" in value.arguments:
             text, vector = self.inline(value)
         else:
@@ -149,7 +149,7 @@ class NodesPrinter(ValuePrinter):
         return text, vector
 
     def store(self, statement: lang.Store) -> None:
-        """Print the rate of an element of the state; what goes to the scratch array belongs to no node."""
+        """Print the rate of an element of the state; values for the scratch array belong to no node."""
         if statement.array not in (*_WRITTEN, *_SHARED):
             raise Foreign(f"an element of '{statement.array}' in straight code")
         index, vector = self.at(statement.index), self.is_vector(statement.value)
@@ -188,12 +188,12 @@ class NodesPrinter(ValuePrinter):
         return super().call(e)
 
     def is_vector(self, e: lang.Expression | str) -> bool:
-        """Whether an expression has a value a node.
+        """Whether an expression has one value per node.
 
         Raises
         ------
         Foreign
-            If it is handed an array that has.
+            If it takes an array with one value per node.
         """
         if isinstance(e, str):
             if e not in _SHARED:
@@ -218,7 +218,7 @@ class NodesPrinter(ValuePrinter):
         return False
 
     def plain(self, e: lang.Expression) -> str:
-        """Print an expression and return its value, a vector where it has a value a node."""
+        """Print an expression and return its value, a vector where it has one value per node."""
         return self.wide(e) if self.is_vector(e) else self.value(e)
 
     def value(self, e: lang.Expression) -> str:
@@ -279,7 +279,7 @@ class NodesPrinter(ValuePrinter):
         )
 
     def operated(self, kind: lang.Scalar, name: str, first: lang.Scalar, values: list[str]) -> str:
-        """Print an operation whose arguments are printed, which are of type `first`."""
+        """Print an operation on printed arguments of type `first`."""
         flag = self.flag if first == "float" else ""
         if name in COMPARED["float"]:
             compare = "fcmp" if first == "float" else "icmp"
@@ -310,11 +310,11 @@ class NodesPrinter(ValuePrinter):
         return self.put(f"fptosi {_kind('float')} {value} to {_kind('int')}") if kind == "int" else value
 
     def chosen(self, test: str, one: str, other: str, kind: lang.Scalar) -> str:
-        """Print a choice of each node between two values."""
+        """Print a choice between two values at each node."""
         return self.put(f"select {_kind('bool')} {test}, {_kind(kind)} {one}, {_kind(kind)} {other}")
 
     def of_vectors(self, name: str, returned: str, *values: tuple[str, lang.Scalar]) -> str:
-        """Print a call of a function on vectors that LLVM knows."""
+        """Print a call of an intrinsic function on vectors."""
         full = f"@llvm.{name}.v{NODES}{'i1' if values[0][1] == 'bool' else 'f64'}"
         self.declared.add(f"declare {returned} {full}({', '.join(_kind(k) for _, k in values)})")
         return self.put(f"call {returned} {full}({', '.join(f'{_kind(k)} {v}' for v, k in values)})")
@@ -330,7 +330,7 @@ class NodesPrinter(ValuePrinter):
         return result
 
     def sine(self, name: str, angle: lang.Expression) -> str:
-        """Print the sine or cosine of an angle; both are at hand then."""
+        """Print the sine or cosine of an angle; both are kept."""
         if (name, angle) not in self.sines:
             value = self.wide(angle)
             size = self.of_vectors("fabs", _kind("float"), (value, "float"))
@@ -342,9 +342,9 @@ class NodesPrinter(ValuePrinter):
         return self.sines[name, angle]
 
     def sine_and_cosine(self, x: str) -> tuple[str, str]:
-        """Print sine and cosine of angles that are not far: fdlibm's polynomials of the rest of a quarter of a turn.
+        """Print sine and cosine of angles that are not far: fdlibm's polynomials of the remainder of a quarter turn.
 
-        Here operations may be contracted, and polynomials are summed in pairs: what follows waits for them.
+        Here operations may be contracted, and polynomials are summed in pairs, as later operations wait for them.
         """
 
         def number(value: float) -> str:
@@ -385,7 +385,7 @@ class NodesPrinter(ValuePrinter):
     def node_by_node(
         self, kind: lang.Scalar, arguments: tuple[lang.Expression | str, ...], call: Callable[[list[str]], str]
     ) -> str:
-        """Print a function that is called for each node."""
+        """Print a function call for each node."""
         numbers = [a for a in arguments if not isinstance(a, str)]
         vectors, result = [(self.wide(a), a.type) for a in numbers], "poison"
         for node in range(NODES):
@@ -394,7 +394,7 @@ class NodesPrinter(ValuePrinter):
         return result
 
     def called_at(self, e: lang.FunctionCall, values: list[str]) -> str:
-        """Print the call of another emitted function with numbers that are printed."""
+        """Print the call of another emitted function with printed numbers."""
         self.calls[e.function.key] = e.function
         left = iter(values)
         parts = [
@@ -414,5 +414,5 @@ _CONVERTED: dict[str, dict[str, str]] = {
 
 
 def _kind(kind: lang.Scalar) -> str:
-    """Return the type of a value a node."""
+    """Return the type of one value per node."""
     return f"<{NODES} x {TYPES[kind]}>"

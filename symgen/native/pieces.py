@@ -1,6 +1,6 @@
-"""Functions of the runtime that are written in LLVM's language, such as arithmetic in vectors.
+"""Functions of the runtime in LLVM's language, such as arithmetic in vectors.
 
-A `Piece` stands in a loop like any function. Machine code has a function that LLVM copies into its caller, written with
+A loop calls a `Piece` like any function. In machine code LLVM copies a function into its caller, written with
 llvmlite when a loop is compiled; plain Python and CUDA have the plain form.
 """
 
@@ -27,7 +27,7 @@ class Piece:
         Type of the result.
     writers : str
         Module with a function of the same name that takes a builder and the arguments, arrays as addresses, and
-        writes the instructions; empty where readers of loops know the piece themselves.
+        writes the instructions; empty where readers of loops handle the piece themselves.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""Functions of `symgen.native.language` as text of languages with braces: what JavaScript and C share."""
+"""Functions of `symgen.native.language` as text of languages with braces: the common part of JavaScript and C."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from symgen.native import language as lang
 
-#: How strongly binary operators bind, as C and JavaScript have it. Signs that differ stand in the printers.
+#: Precedence of binary operators in C and JavaScript. Signs that differ are in the printers.
 _SIGNS = {"add": ("+", 12), "sub": ("-", 12), "mul": ("*", 13), "div": ("/", 13), "and": ("&&", 5), "or": ("||", 4)}
 _SIGNS |= {"lt": ("<", 10), "le": ("<=", 10), "gt": (">", 10), "ge": (">=", 10), "eq": ("==", 9), "ne": ("!=", 9)}
 
@@ -16,14 +16,14 @@ _SIGNS |= {"lt": ("<", 10), "le": ("<=", 10), "gt": (">", 10), "ge": (">=", 10),
 def ordered(
     functions: Mapping[str, lang.Function], reserved: Collection[str]
 ) -> tuple[list[lang.Function], dict[object, str]]:
-    """Return functions and all that they call, callees first, and the names of functions and of their tables.
+    """Return functions and their callees, callees first, and the names of functions and of their tables.
 
     Parameters
     ----------
     functions : mapping of str to Function
         Functions by their names in the text.
     reserved : collection of str
-        Words that are no names.
+        Reserved words.
     """
     names: dict[object, str] = {function.key: name for name, function in functions.items()}
     order, defined = list[lang.Function](), set[object]()
@@ -53,7 +53,7 @@ def _free(name: str, taken: Iterable[str]) -> str:
 
 
 def word(name: str, reserved: Collection[str]) -> str:
-    """Return the name of a variable; names that the reader made have dots."""
+    """Return the name of a variable; names from the reader have dots."""
     name = name.replace(".", "_") if not name[0].isdigit() else f"held{name.replace('.', '_')}"
     return f"{name}_" if name in reserved else name
 
@@ -69,9 +69,9 @@ class FunctionPrinter(ABC):
         Names of functions and tables, as `ordered` returns them.
     """
 
-    #: Words that are no names of variables.
+    #: Reserved words.
     reserved: ClassVar[Collection[str]] = ()
-    #: Binary operators that differ from those of C, with how strongly they bind.
+    #: Binary operators that differ from those of C, with their precedence.
     signs: ClassVar[Mapping[str, tuple[str, int]]] = {}
 
     def __init__(self, function: lang.Function, names: Mapping[object, str]) -> None:
@@ -84,19 +84,19 @@ class FunctionPrinter(ABC):
 
     @abstractmethod
     def literal(self, value: float | int | bool) -> tuple[str, int]:
-        """Return a number and how strongly its text binds."""
+        """Return a number and the precedence of its text."""
 
     @abstractmethod
     def defined(self, s: lang.Assign) -> str:
-        """Return the words before the name of a variable that is assigned once, where it is assigned."""
+        """Return the words before the name of a variable that is assigned once, at its assignment."""
 
     @abstractmethod
     def loop_head(self, s: lang.For, counter: str) -> str:
-        """Return the head of a loop whose counter has a name of its own."""
+        """Return the head of a loop whose counter has its own name."""
 
     @abstractmethod
     def called(self, e: lang.ScalarOperation) -> str:
-        """Return the name of the function that an operation is."""
+        """Return the name of an operation's function."""
 
     @abstractmethod
     def converted(self, kind: str, value: lang.Expression) -> tuple[str, int]:
@@ -134,12 +134,12 @@ class FunctionPrinter(ABC):
         return [self.loop_head(s, counter), f"{self.word(s.name)} = {counter};", *self.lines(s.body), "}"]
 
     def value(self, e: lang.Expression, level: int = 0) -> str:
-        """Return an expression, in parentheses where it binds weaker than `level`."""
+        """Return an expression, in parentheses where it binds more weakly than `level`."""
         text, own = self.expression(e)
         return text if own >= level else f"({text})"
 
     def expression(self, e: lang.Expression) -> tuple[str, int]:
-        """Return an expression and how strongly it binds."""
+        """Return an expression and its precedence."""
         if isinstance(e, lang.Constant):
             return self.literal(e.value)
         if isinstance(e, lang.Variable):
@@ -161,7 +161,7 @@ class FunctionPrinter(ABC):
     def binary(self, name: str, first: lang.Expression, second: lang.Expression) -> tuple[str, int]:
         """Return a binary operation by its sign."""
         sign, own = self.signs.get(name) or _SIGNS[name]
-        room = "" if sign in "*/" else " "  # a sign may stand behind + and -
+        room = "" if sign in "*/" else " "  # a sign may follow + and -
         return f"{self.value(first, own)}{room}{sign}{room}{self.value(second, own + 1)}", own
 
     def operation(self, e: lang.ScalarOperation) -> tuple[str, int]:

@@ -1,7 +1,7 @@
 """From the source of an emitted function to the checked language of `symgen.native.language`.
 
-Types are those that Numba would infer, for functions in which they are plain to see: a variable has one type, every
-path ends with ``return``, callees are functions of the same kind. Whatever else occurs is `Foreign`: only Numba
+Types are those that Numba would infer, for functions with plain types: a variable has one type, every
+path ends with ``return``, callees are functions of the same kind. Everything else is `Foreign`: only Numba
 compiles such a function.
 """
 
@@ -32,7 +32,7 @@ def read(function: Any, kinds: tuple[Kind, ...], reading: tuple[object, ...] = (
     Raises
     ------
     Foreign
-        If it is not in the language.
+        If it is outside the language.
     """
     tree = tree_of(function)
     if function in reading:
@@ -52,7 +52,7 @@ def tree_of(function: Any) -> ast.FunctionDef:
     Raises
     ------
     Foreign
-        If its source cannot be had.
+        If its source is not available.
     """
     tree: ast.FunctionDef | None = function.tree() if hasattr(function, "tree") else None
     if tree is None:
@@ -78,7 +78,7 @@ class Reader(TableValues):
     ) -> None:
         super().__init__(function, parameters)
         self.source, self.tree, self.reading = function, tree, reading
-        self.assigned: dict[str, int] = {}  # how often; assignments below the body itself count twice
+        self.assigned: dict[str, int] = {}  # number of assignments; those below the body itself count twice
         self.returned: set[lang.Scalar] = set()
         self.loops = 0
 
@@ -90,7 +90,7 @@ class Reader(TableValues):
         """Return the function."""
         statements = self.statements(body_of(self.tree))
         if not self.returned and any(p.type == "unsigned" for p in self.parameters):
-            # looped code calls functions that return nothing: a 0 that nobody asks for
+            # looped code calls functions without a result: an unused 0
             self.returned.add("int")
             statements = (*statements, lang.Return(lang.Constant("int", 0)))
         if not returns(statements) or len(self.returned) != 1:
@@ -100,7 +100,7 @@ class Reader(TableValues):
         return self.typed_function(statements)
 
     def typed_function(self, statements: tuple[lang.Statement, ...]) -> lang.Function:
-        """Return the function that does what has been read, its results being of one type."""
+        """Return the function of the translated statements, with results of one type."""
         (returned,) = self.returned
         fixed = {name for name, count in self.assigned.items() if count == 1 and name in self.variables}
         return lang.Function(
@@ -166,7 +166,7 @@ class Reader(TableValues):
         raise Foreign(f"a statement '{type(node).__name__}'", node)
 
     def assignment(self, node: ast.Assign) -> list[lang.Statement]:
-        """Return the statements of an assignment; all values are worked out before the first of them is stored."""
+        """Return the statements of an assignment; all values are computed before the first one is stored."""
         first, statements = node.targets[0], list[lang.Statement]()
         self.note_signs(node)
         if isinstance(first, ast.Tuple) and isinstance(node.value, ast.Tuple) and len(node.targets) == 1:
@@ -187,9 +187,9 @@ class Reader(TableValues):
         return statements + [self.store(target, value) for target in node.targets]
 
     def pieces(self, node: ast.Assign) -> list[lang.Statement]:
-        """Return how names are given the values of a function that returns several; empty for any other assignment.
+        """Return the assignments of the values of a function that returns several; empty for any other assignment.
 
-        The function's statements stand here instead, under names that are none of Python's.
+        The function's statements replace the call, under names that are no Python names.
         """
         target, call = node.targets[0], node.value
         if not isinstance(target, ast.Tuple) or not isinstance(call, ast.Call):
@@ -202,7 +202,7 @@ class Reader(TableValues):
         own = {x.arg for x in tree.args.args} | {
             n.id for s in body for n in ast.walk(s) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
         }
-        names = {name: f"{tree.name}.{name}" for name in own}  # none of Python's
+        names = {name: f"{tree.name}.{name}" for name in own}  # no Python names
         inside = Renamed(names)
         others = {n.id for s in tree.body for n in ast.walk(s) if isinstance(n, ast.Name)} - own
         if others:
@@ -222,7 +222,7 @@ class Reader(TableValues):
     def named_as(
         self, name: str, value: lang.Expression, before: list[lang.Statement], node: ast.AST
     ) -> lang.Expression:
-        """Return a value under a name, which is no name of Python's, so that what follows does not change it."""
+        """Return a value under a name that is no Python name, so that later statements do not change it."""
         self.give(name, value.type, node)
         before.append(lang.Assign(name, value))
         return lang.Variable(value.type, name)
@@ -243,7 +243,7 @@ class Reader(TableValues):
         raise Foreign("a target of an assignment", target)
 
     def give(self, name: str, kind: lang.Scalar, node: ast.AST) -> None:
-        """Note that a variable is given a value of a type."""
+        """Note the type of a value assigned to a variable."""
         if name in self.arrays or self.numbers.get(name, kind) != kind or self.variables.get(name, kind) != kind:
             raise Foreign(f"variable '{name}' has two types", node)
         self.variables[name] = kind
@@ -287,12 +287,12 @@ class Renamed(ast.NodeTransformer):
 
 
 def is_inlined(function: Any) -> bool:
-    """Whether a function is declared to be no call."""
+    """Whether a function is declared as inlined."""
     return bool(getattr(function, "inlined", False))
 
 
 def _loaded(target: ast.expr) -> ast.expr:
-    """Return the target of an assignment as something that is read."""
+    """Return the target of an assignment as an expression to read."""
     if isinstance(target, ast.Name):
         return ast.copy_location(ast.Name(target.id, ast.Load()), target)
     if isinstance(target, ast.Subscript):

@@ -1,9 +1,9 @@
-"""What looped code has beside code of one mechanism: tables of unsigned numbers, and calls by addresses in them.
+"""Features of looped code only: tables of unsigned numbers, and calls by addresses in them.
 
-Tables stand at the end of an array of floats, as unsigned numbers of 32 bits. Here they become integers of 64 bits
-where they are read: sums and products of places have the bits that they have where Numba counts without sign. What
-could differ, such as a difference of two of them, is `Foreign`. Functions that Numba has written in LLVM's language,
-which find tables and call what is in them, are known by their names (`symgen/templates/looped/machine.py.j2`).
+Tables are at the end of an array of floats, as unsigned numbers of 32 bits. Here they become integers of 64 bits
+where they are read: sums and products of places have the same bits as Numba's unsigned ones. Operations that
+could differ, such as a difference of two places, are `Foreign`. Numba's functions in LLVM's language, which find
+tables and call functions in them, are recognised by their names (`symgen/templates/looped/machine.py.j2`).
 """
 
 from __future__ import annotations
@@ -23,21 +23,21 @@ _ELEMENTS: dict[Any, lang.Scalar] = {types.float64: "float", types.int64: "int",
 
 
 class Written(NamedTuple):
-    """A function of an emitted module that Numba has written in LLVM's language (``numba.extending.intrinsic``)."""
+    """A function of an emitted module in LLVM's language by Numba (``numba.extending.intrinsic``)."""
 
     name: str
     define: Callable[..., Any]
 
 
 class TableValues(ValueReader):
-    """Reads expressions in which there are tables.
+    """Reads expressions with tables.
 
     Attributes
     ----------
     depth : int
-        How many choices and loops stand around what is read.
+        Number of choices and loops around the current statement.
     unsigned : dict of str to bool
-        Local integers, and whether Numba counts them without sign.
+        Local integers, and whether they are unsigned in Numba.
     """
 
     def __init__(self, function: Any, parameters: tuple[lang.FunctionParameter, ...]) -> None:
@@ -47,7 +47,7 @@ class TableValues(ValueReader):
 
     @abstractmethod
     def give(self, name: str, kind: lang.Scalar, node: ast.AST) -> None:
-        """Note that a variable is given a value of a type."""
+        """Note the type of a value assigned to a variable."""
 
     def name(self, node: ast.Name) -> Any:
         """Return a variable, an argument, or a number of the module."""
@@ -79,7 +79,7 @@ class TableValues(ValueReader):
         return super().call(node)
 
     def is_unsigned(self, node: ast.expr) -> bool:
-        """Whether Numba counts an integer without sign."""
+        """Whether an integer is unsigned in Numba."""
         if isinstance(node, ast.Subscript):
             return isinstance(node.value, ast.Name) and self.arrays.get(node.value.id) == "unsigned"
         if isinstance(node, ast.Name):
@@ -91,7 +91,7 @@ class TableValues(ValueReader):
         return isinstance(node, ast.Call) and self.of_module(node.func) is np.uint32
 
     def note_signs(self, node: ast.Assign) -> None:
-        """Note whether Numba counts the integers without sign that are given names."""
+        """Note whether integers that get names are unsigned in Numba."""
         for target in node.targets:
             if not isinstance(target, ast.Tuple) or not isinstance(node.value, ast.Tuple):
                 self.note_sign(target, node.value)
@@ -100,14 +100,14 @@ class TableValues(ValueReader):
                 self.note_sign(each, value)
 
     def note_sign(self, target: ast.expr, value: ast.expr) -> None:
-        """Note whether Numba counts a local integer without sign: of two kinds it would make a third one."""
+        """Note whether a local integer is unsigned in Numba, which would mix both kinds to a third one."""
         if isinstance(target, ast.Name):
             unsigned = self.is_unsigned(value)
             if self.unsigned.setdefault(target.id, unsigned) != unsigned:
                 raise Foreign(f"variable '{target.id}' has two types", target)
 
     def of_module(self, node: ast.expr) -> Any:
-        """Return what a name stands for that is none of the function, or one of NumPy; None for all else."""
+        """Return the meaning of a name of the module or of NumPy; None for all else."""
         if isinstance(node, ast.Name):
             return None if node.id in self.locals else self.globals.get(node.id)
         if isinstance(node, ast.Attribute) and self.of_module(node.value) is np:
@@ -115,7 +115,7 @@ class TableValues(ValueReader):
         return None
 
     def piece(self, called: Written, node: ast.Call) -> lang.Expression:
-        """Return the result of a function that is written in LLVM's language."""
+        """Return the result of a function in LLVM's language."""
         if called.name == "_compiled_bits" and len(node.args) == 1:
             return lang.ScalarOperation("int", "bits", (as_type("float", self.expression(node.args[0])),))
         if called.name not in ("_compiled_kernel", "_compiled_code"):
@@ -127,7 +127,7 @@ class TableValues(ValueReader):
         return lang.Invoke("int", address, tuple(others))
 
     def handed(self, kind: Any, node: ast.expr) -> lang.Expression | str:
-        """Return what an argument of a function is handed on as that is known by its address."""
+        """Return the passed form of an argument of a function called by its address."""
         if not isinstance(kind, types.ArrayType):
             return as_type(_ELEMENTS[kind], self.expression(node))
         if not isinstance(node, ast.Name) or self.arrays.get(node.id) != _ELEMENTS[kind.dtype]:
@@ -135,7 +135,7 @@ class TableValues(ValueReader):
         return node.id
 
     def view(self, node: ast.Assign) -> list[lang.Statement]:
-        """Return how an array of tables comes to its name; empty for any other assignment."""
+        """Return the statements that name an array of tables; empty for any other assignment."""
         value = node.value
         if not isinstance(value, ast.Call) or getattr(self.of_module(value.func), "name", "") != "_compiled_tables":
             return []
@@ -146,7 +146,7 @@ class TableValues(ValueReader):
         if name in self.arrays or name in self.variables or name in self.numbers:
             raise Foreign(f"variable '{name}' has two types", node)
         self.arrays[name] = "unsigned"
-        count, start = lang.ArrayLength(owner), f"{name}.start"  # no name of Python's
+        count, start = lang.ArrayLength(owner), f"{name}.start"  # no Python name
         self.give(start, "int", node)
         last = lang.ArrayElement("float", owner, lang.ScalarOperation("int", "sub", (count, lang.Constant("int", 1))))
         first = lang.Variable("int", start)
@@ -160,5 +160,5 @@ class TableValues(ValueReader):
 
 
 def _integer(value: Any) -> Any:
-    """Return a number of a table as an integer, anything else as it is."""
+    """Return a number of a table as an integer, anything else unchanged."""
     return as_type("int", value) if getattr(value, "type", None) == "unsigned" else value

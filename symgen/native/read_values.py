@@ -27,7 +27,7 @@ Kind = tuple[lang.Scalar, bool]  # type of a number or of an array's elements, a
 
 
 class Foreign(Exception):
-    """Something that the language does not have, and where."""
+    """Code outside the language, and its place."""
 
     def __init__(self, what: str, node: ast.AST | None = None) -> None:
         super().__init__(what + (f" (line {node.lineno})" if isinstance(node, ast.stmt | ast.expr) else ""))
@@ -41,11 +41,11 @@ class ValueReader(ABC):
     globals, locals : mapping, frozenset
         Names of the module, and of the function itself.
     parameters : tuple of Parameter
-        Arguments: by name those that are arrays are in `arrays`, the others in `numbers`.
+        Arguments; by name, arrays are in `arrays`, the others in `numbers`.
     variables : dict
-        Types of the local variables that have been given a value so far.
+        Types of the local variables assigned so far.
     tables, called : dict
-        Constant arrays and functions that have been met.
+        Constant arrays and functions read so far.
     """
 
     def __init__(self, function: Any, parameters: tuple[lang.FunctionParameter, ...]) -> None:
@@ -183,7 +183,7 @@ class ValueReader(ABC):
         return lang.Choice(kind, test, as_type(kind, chosen), as_type(kind, otherwise))
 
     def truth(self, node: ast.expr) -> lang.Expression:
-        """Return whether an expression counts as true."""
+        """Return the truth value of an expression."""
         return truth_of(self.expression(node))
 
     def call(self, node: ast.Call) -> lang.Expression:
@@ -218,7 +218,7 @@ class ValueReader(ABC):
         return lang.FunctionCall(self.called[key].returned, self.called[key], arguments)
 
     def call_builtin(self, name: str, values: list[lang.Expression], node: ast.Call) -> lang.Expression:
-        """Return the result of a function of Python."""
+        """Return the result of a built-in function."""
         if name in ("min", "max") and len(values) > 1:
             first = values[0]
             for value in values[1:]:
@@ -242,13 +242,13 @@ class ValueReader(ABC):
         return lang.ArrayLength(node.id)
 
     def builtin(self, node: ast.expr) -> str | None:
-        """Return the name of a function of Python, None for anything else."""
+        """Return the name of a built-in function, None for anything else."""
         if isinstance(node, ast.Name) and node.id not in self.globals and hasattr(builtins, node.id):
             return None if node.id in self.variables or node.id in self.numbers else node.id
         return None
 
     def of_math(self, node: ast.Attribute) -> bool:
-        """Whether something is an attribute of the module ``math``."""
+        """Whether an expression is an attribute of the module ``math``."""
         return isinstance(node.value, ast.Name) and self.globals.get(node.value.id) is math
 
     _expressions: Mapping[type, str] = {
@@ -287,7 +287,7 @@ def _table(value: object, node: ast.AST) -> tuple[float, ...]:
 def _power(base: lang.Expression, exponent: lang.Expression, node: ast.AST) -> lang.Expression:
     """Return a power: of a float by a literal integer, or by a float."""
     if isinstance(exponent, lang.Constant) and exponent.type == "int":
-        if base.type == "float" and 0 <= exponent.value <= _LARGEST_EXPONENT:  # negative ones raise exceptions of 0
+        if base.type == "float" and 0 <= exponent.value <= _LARGEST_EXPONENT:  # negative powers of 0 raise exceptions
             return lang.ScalarOperation("float", "pow", (base, exponent))
     elif exponent.type == "float":
         return lang.ScalarOperation("float", "pow", (as_type("float", base), exponent))
@@ -309,5 +309,5 @@ def as_type(kind: lang.Scalar, value: lang.Expression) -> lang.Expression:
 
 
 def truth_of(value: lang.Expression) -> lang.Expression:
-    """Return whether a value counts as true."""
+    """Return the truth value of a value."""
     return value if value.type == "bool" else lang.ScalarOperation("bool", "bool", (value,))

@@ -1,9 +1,9 @@
 """Sines and cosines of several angles at once, in vectors: in the plane they are a third of a right-hand side.
 
-Straight code that wants sines of three angles or more, all known before the first of them is wanted, gets them from one
-call. What is called is fdlibm's: angles are reduced by multiples of pi/2 in three parts (Cody and Waite), and two
-polynomials follow. Results are within one unit of the last place (`tests/native/test_sines.py`), as those of the C
-library are, but not always the same; nothing is contracted, so every processor gives the same bits. Angles of more
+Straight code with sines of three angles or more, all computed before the first sine is used, gets them from one
+call. The algorithm is fdlibm's: angles are reduced by multiples of pi/2 in three parts (Cody and Waite), and two
+polynomials follow. Results are within one unit of the last place (`tests/native/test_sines.py`), like those of the C
+library, but not always the same; nothing is contracted, so every processor gives the same bits. Angles of more
 than 65,000 turns, infinities and nan are left to the C library, all of a call together.
 """
 
@@ -14,17 +14,17 @@ from collections.abc import Iterator
 
 from symgen.native import language as lang
 
-#: Fewer angles take as long one by one: their calls overlap with each other, and with what stands around them.
+#: Fewer angles take as long one by one: their calls overlap with each other, and with the code around them.
 FEWEST = 3
-#: Angles of a call at most.
+#: Most angles of a call.
 MOST = 8
 NAMES = ("math.sin", "math.cos")
 #: Angles from here on [rad] are left to the C library; below, multiples of the parts of pi/2 are exact.
 FAR = 4e5
-#: Added and taken away again, this leaves the nearest whole number, which the last bits of the sum hold as well.
+#: Added and subtracted again, this leaves the nearest integer, which the last bits of the sum hold as well.
 ROUND = 6755399441055744.0
 TWO_OVER_PI = 6.36619772367581382433e-01
-#: pi/2 in parts of 33 bits, and what is left.
+#: pi/2 in parts of 33 bits, and the remainder.
 HALF_PI = (1.57079632673412561417, 6.07710050630396597660e-11, 2.02226624879595063154e-21)
 SINE = (
     *(-1.66666666666666324348e-01, 8.33333333332248946124e-03, -1.98412698298579493134e-04),
@@ -37,21 +37,21 @@ COSINE = (
 
 
 def groups(function: lang.Function) -> dict[int, list[tuple[lang.Expression, ...]]]:
-    """Return which angles are taken together.
+    """Return the groups of angles with a common call.
 
     Parameters
     ----------
     function : Function
-        Any; only its statements before the first choice or loop are looked at.
+        Any function; only its statements before the first choice or loop count.
 
     Returns
     -------
     dict of int to list of tuple of Expression
-        By the index of the statement before which they are known and wanted: the angles of each call.
+        Angles of each call, by the index of the statement before which they are computed and used.
     """
     straight = _straight(function)
     since: dict[str, int] = {p.name: 0 for p in function.parameters if not p.array and p.name not in function.variables}
-    wanted: dict[lang.Expression, int] = {}  # by the statement that wants it first
+    wanted: dict[lang.Expression, int] = {}  # first statement that uses it
     for i, statement in enumerate(straight):
         for angle in filter(is_simple, _angles(_value(statement))):
             wanted.setdefault(angle, i)
@@ -89,7 +89,7 @@ def _value(statement: lang.Statement) -> lang.Expression:
 
 
 def _angles(e: lang.Expression | str) -> Iterator[lang.Expression]:
-    """Give the arguments of sines and cosines in what is always evaluated, innermost first."""
+    """Yield the arguments of sines and cosines that are always evaluated, innermost first."""
     if isinstance(e, lang.ScalarOperation | lang.FunctionCall):
         for argument in e.arguments:
             yield from _angles(argument)
@@ -98,14 +98,14 @@ def _angles(e: lang.Expression | str) -> Iterator[lang.Expression]:
 
 
 def is_simple(e: lang.Expression) -> bool:
-    """Whether a value is a sum or product of variables and numbers: other angles are taken one by one."""
+    """Whether a value is a sum or product of variables and numbers: other angles are processed one by one."""
     if isinstance(e, lang.ScalarOperation):
         return e.name in ("add", "sub", "mul", "neg") and all(map(is_simple, e.arguments))
     return isinstance(e, lang.Constant | lang.Variable)
 
 
 def _ready(e: lang.Expression, since: dict[str, int]) -> int | None:
-    """Return the index of the statement before which a simple value is known, None if a variable of it changes."""
+    """Return the index of the statement before which a simple value is computed, None if a variable of it changes."""
     if isinstance(e, lang.Constant):
         return 0
     if isinstance(e, lang.Variable):
@@ -116,12 +116,12 @@ def _ready(e: lang.Expression, since: dict[str, int]) -> int | None:
 
 
 def width(count: int) -> int:
-    """Return how many angles the function for `count` of them takes."""
+    """Return the number of angles that the function for `count` of them takes."""
     return 4 if count <= 4 else MOST
 
 
 def kind(n: int) -> str:
-    """Return the result of the function for `n` angles: sines and cosines."""
+    """Return the result type of the function for `n` angles: sines and cosines."""
     return f"{{<{n} x double>, <{n} x double>}}"
 
 
@@ -155,7 +155,7 @@ class _Writer:
         return f"<{', '.join([f'double 0x{bits}'] * self.n)}>"
 
     def integer(self, value: int) -> str:
-        """Return a vector of equal whole numbers."""
+        """Return a vector of equal integers."""
         return f"<{', '.join([f'i64 {value}'] * self.n)}>"
 
     def add(self, a: str, b: str) -> str:
@@ -171,22 +171,22 @@ class _Writer:
         return self.put(f"fmul {self.float} {a}, {b}")
 
     def polynomial(self, coefficients: tuple[float, ...], x: str) -> str:
-        """Write a polynomial after Horner."""
+        """Write a polynomial by Horner's rule."""
         value = self.number(coefficients[-1])
         for coefficient in reversed(coefficients[:-1]):
             value = self.add(self.mul(value, x), self.number(coefficient))
         return value
 
     def bits(self, value: str) -> str:
-        """Write the bits of numbers as whole numbers."""
+        """Write the bits of numbers as integers."""
         return self.put(f"bitcast {self.float} {value} to {self.whole}")
 
     def logic(self, operation: str, a: str, b: str) -> str:
-        """Write an operation on whole numbers."""
+        """Write an operation on integers."""
         return self.put(f"{operation} {self.whole} {a}, {b}")
 
     def turned(self, value: str, quarter: str) -> str:
-        """Write numbers with the sign changed where a number of quarters of a turn is 2 or 3 modulo 4."""
+        """Write numbers with the sign changed where a number of quarter turns is 2 or 3 modulo 4."""
         sign = self.logic("shl", self.logic("and", quarter, self.integer(2)), self.integer(62))
         changed = self.logic("xor", self.bits(value), sign)
         return self.put(f"bitcast {self.whole} {changed} to {self.float}")
@@ -198,7 +198,7 @@ class _Writer:
         self.lines.append(f"  ret {kind(self.n)} {pair}")
 
     def near(self) -> None:
-        """Write what is done with angles that are not far."""
+        """Write the code for angles that are not far."""
         shifted = self.add(self.mul("%x", self.number(TWO_OVER_PI)), self.number(ROUND))
         turns = self.sub(shifted, self.number(ROUND))
         first, second, last = (self.mul(turns, self.number(part)) for part in HALF_PI)
@@ -227,7 +227,7 @@ class _Writer:
         self.returned(self.turned(chosen, quarter), self.turned(other, self.logic("add", quarter, self.integer(1))))
 
     def far(self) -> None:
-        """Write what is done where an angle is far or no number."""
+        """Write the code for an angle that is far or no number."""
         vectors = {"sin": "undef", "cos": "undef"}
         for i in range(self.n):
             angle = self.put(f"extractelement {self.float} %x, i32 {i}")

@@ -1,4 +1,4 @@
-"""Types of what compiled functions take and return.
+"""Types of arguments and results of compiled functions.
 
 `float64`, `int64`, `uint32` and `boolean` are numbers, and `void` is the result of a function without one.
 ``float64[::1]`` is a contiguous array of one dimension, ``float64[:, ::1]`` one of two; ``int64(float64, int64)`` is a
@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-#: Nodes of a step that are evaluated at once, a vector of numbers: all points of the step but its start.
+#: Number of nodes of a step evaluated at once, as a vector: all points of the step but its start.
 NODES = 8
 
 
@@ -66,14 +66,14 @@ class FunctionType:
 
 @dataclass(frozen=True)
 class RecordType:
-    """A tuple, with the class of named ones."""
+    """A tuple, with its class if it is a named tuple."""
 
     parts: tuple[Kind, ...]
     constructor: Any = tuple
 
     @property
     def fields(self) -> tuple[str, ...]:
-        """Names of its parts, empty where they have none."""
+        """Names of its parts, or empty."""
         return getattr(self.constructor, "_fields", ())
 
     def __iter__(self) -> Iterator[Kind]:

@@ -1,8 +1,8 @@
 """Functions of emitted modules, compiled from their text.
 
 An emitted module is one that Numba could compile: it imports ``njit``, and looped code some of Numba's internals. Here
-`imported` gives these imports another meaning, so that a run loads no Numba; with ``NUMBA_DISABLE_JIT=1`` the functions
-stay those of Python.
+`imported` replaces these imports, so that a run loads no Numba; with ``NUMBA_DISABLE_JIT=1`` the functions
+remain Python functions.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ if TYPE_CHECKING:
     from symgen.native.read import Kind
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
-#: Functions of up to so many statements are copied into those that call them, if LLVM thinks that good.
+#: Most statements of functions that are copied into their callers, if LLVM's heuristics agree.
 _SHORT = 60
 
 
 class Origin(NamedTuple):
-    """Where a function comes from: digest of all sources it depends on, and the text of its file as it was loaded.
+    """Origin of a function: digest of all sources it depends on, and the text of its file as it was loaded.
 
-    The loaded text counts: whether its file is still there, or still the same, says how full a cache is.
+    The loaded text counts, as the file may have been removed or changed.
     """
 
     stamp: str
@@ -45,7 +45,7 @@ class EmittedFunction(MachineFunction):
     origin: Origin
 
     def tree(self) -> ast.FunctionDef | None:
-        """Return the syntax tree of the function, None where its source cannot be had."""
+        """Return the syntax tree of the function, None where its source is not available."""
         return syntax_tree(_lines(self.origin.content), self.py_func)
 
     def read(self, arguments: Arguments) -> Function:
@@ -73,7 +73,7 @@ class EmittedFunction(MachineFunction):
 
 
 class NodesFunction(EmittedFunction):
-    """A right-hand side at the nodes of a step: `symgen.native.nodes` of one at a single node.
+    """A right-hand side at the nodes of a step, by `symgen.native.nodes` from one at a single node.
 
     Parameters
     ----------
@@ -102,13 +102,13 @@ class NodesFunction(EmittedFunction):
 
 
 def plain(function: _Function) -> _Function:
-    """Compile a function of symgen's own like emitted ones: on numbers and flat arrays whose types are plain to see.
+    """Compile a function of symgen like emitted ones: on numbers and flat arrays of plain types.
 
     Parameters
     ----------
     function : plain function
-        In the language of `symgen.native`, decorated by nothing else; functions that it calls are of the same kind, in
-        the same module.
+        In the language of `symgen.native`, without other decorators; its callees are of the same kind, in the same
+        module.
 
     Returns
     -------
@@ -123,7 +123,7 @@ def plain(function: _Function) -> _Function:
 
 
 def imported(name: str, *arguments: Any) -> Any:
-    """Import for emitted modules, to which Numba's decorators mean functions that are compiled here."""
+    """Import for emitted modules; Numba's decorators are replaced by those of this module."""
     names = arguments[2] if len(arguments) > 2 else ()
     if name.partition(".")[0] != "numba" or "cuda" in names:
         return builtins.__import__(name, *arguments)
@@ -147,12 +147,12 @@ _INSTEAD = SimpleNamespace(
 
 
 def _together() -> bool:
-    """Whether sines and cosines of several angles are taken together."""
+    """Whether sines and cosines of several angles have a common call."""
     return compiler() != "libm"
 
 
 def _compiled(own: EmittedFunction, function: Function, text: str, symbol: str) -> CacheEntry:
-    """Return the machine code of a module, and what its function calls."""
+    """Return the machine code of a module, and the callees of its function."""
     from symgen.native.llvm import is_copied
     from symgen.native.machine import compiled
 
@@ -178,7 +178,7 @@ def _symbol(function: Function) -> str:
 def _is_short(function: Function) -> bool:
     from symgen.native.language import ArrayView
 
-    # of looped code there is machine code already: loops and starts call its functions
+    # looped code has machine code already, as loops and starts call its functions
     return len(function.body) <= _SHORT and not any(isinstance(statement, ArrayView) for statement in function.body)
 
 

@@ -1,9 +1,9 @@
-"""What the cache holds: emitted modules, one folder for each model, and files that check themselves.
+"""Content of the cache: emitted modules, one folder for each model, and self-checking files.
 
-An emitted module is a pair of ``X.py`` and ``X.json``. The Python file is written first, and its description last,
-which checks itself by a digest of both and of the place where they belong. A kill at any moment therefore leaves a
-valid pair or something that does not count, a bit that was changed anywhere makes a miss, and two processes that write
-the same pair do not disturb each other.
+An emitted module is a pair of ``X.py`` and ``X.json``. The Python file is written first, then its description, which
+checks itself by a digest of both and of their place. A kill at any moment therefore leaves a valid pair or a pair that
+does not count, a changed bit anywhere makes a miss, and two processes that write the same pair do not disturb each
+other.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ from symgen.store.identity import digest
 from symgen.store.paths import ENVIRONMENT_VARIABLE, abandon, cache_location, cache_root, private_folder
 
 _STEM = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
-#: Modules by their stems: source, and what describes it; and the latter alone.
+#: Modules by their stems: source and description; and descriptions alone.
 Modules = Mapping[str, tuple[str, Mapping[str, Any]]]
 Described = dict[str, dict[str, Any]]
 
 
 def cached(place: str, name: str, key: str, make: Callable[[], bytes]) -> bytes:
-    """Return data that follow from a key, from the cache or made anew and kept there.
+    """Return data determined by a key, from the cache or made anew and kept there.
 
     Parameters
     ----------
     place, name : str
         Folder below the cache folder, and the beginning of the file's name.
     key : str
-        Text that holds everything the data depend on.
+        Text with everything the data depend on.
     make : callable
         Makes the data.
     """
@@ -51,7 +51,7 @@ def cached(place: str, name: str, key: str, make: Callable[[], bytes]) -> bytes:
 
 
 def plain_name(name: str, length: int = 60) -> str:
-    """Return the end of a name in characters that file systems know."""
+    """Return the end of a name in characters valid in file systems."""
     return re.sub(r"[^0-9A-Za-z_.-]", "_", name)[-length:]
 
 
@@ -63,7 +63,7 @@ def folder_name(name: str, digest: str, number: int) -> str:
     name : str
         The model's name: letters, digits, ``_`` and ``-``, at most 64.
     digest : str
-        Hexadecimal digest of all that the modules are made from, of which 16 digits are taken.
+        Hexadecimal digest of all inputs of the modules, of which 16 digits are used.
     number : int
         Number of the emitted format.
     """
@@ -97,10 +97,10 @@ class Entries:
         return self.root / upkeep.MODELS / _checked(folder) / f"{stem}.py"
 
     def get(self, folder: str, stem: str) -> dict[str, Any] | None:
-        """Return the description of an entry, None where there is no whole one, and note that it was used.
+        """Return the description of an entry, None if it is not complete, and note its use.
 
-        Of one that is not whole the description alone is removed: another process may have written the new Python file
-        just now and be about to describe it, and a Python file without description does not count anyway.
+        Of an incomplete one only the description is removed: another process may have just written the new Python file
+        and be about to describe it, and a Python file without description does not count anyway.
         """
         path = self.path(folder, stem)
         text = private.read(path.with_suffix(".json"), _key(path, private.read_own(path)))
@@ -108,10 +108,10 @@ class Entries:
         return metadata
 
     def put(self, folder: str, stem: str, source: str, metadata: Mapping[str, Any]) -> None:
-        """Write an entry, over whatever is there.
+        """Write or overwrite an entry.
 
         Where the cache folder cannot be written, e.g. because the disk is full, a temporary one takes its place for
-        the rest of the process, and what the model's folder held moves there too.
+        the rest of the process, and the content of the model's folder moves there too.
 
         Parameters
         ----------
@@ -120,7 +120,7 @@ class Entries:
         source : str
             The emitted module.
         metadata : mapping
-            Whatever JSON can express, without nan and infinity.
+            JSON data, without nan and infinity.
 
         Raises
         ------
@@ -151,10 +151,10 @@ class Entries:
 
     @contextmanager
     def building(self, folder: str) -> Iterator[None]:
-        """Hold a model's folder while its modules are being made; a second process waits here.
+        """Lock a model's folder while its modules are made; a second process waits here.
 
-        Ask `get` again inside: the process that was first may have made the entry. Where files cannot be locked there
-        is no waiting; both then do the work and write the same. Not to be nested for one folder.
+        Call `get` again inside: the first process may have made the entry. Where files cannot be locked, no process
+        waits; both then do the work and write the same. Not to be nested for one folder.
         """
         lock = upkeep.folder_lock(self.root, _checked(folder))
         try:
@@ -168,7 +168,7 @@ class Entries:
             lock.release()
 
     def description(self, folder: str, stem: str, make: Callable[[], tuple[str, dict[str, Any]]]) -> dict[str, Any]:
-        """Return the description of one module as `descriptions` does; `make` returns its source and description."""
+        """Return the description of one module, like `descriptions`; `make` returns its source and description."""
         return self.descriptions(folder, (stem,), lambda _: {stem: make()})[stem]
 
     def descriptions(
@@ -183,8 +183,8 @@ class Entries:
         stems : iterable of str
             The modules.
         make : callable
-            Takes a function that tells which of them exist; returns the others, and modules that they need, as `put`
-            takes them.
+            Takes a function that tests whether a module exists; returns the others, and modules that they need, in
+            the form for `put`.
         """
         stems = tuple(stems)
         described = self._whole(folder, stems)
@@ -198,7 +198,7 @@ class Entries:
         return described
 
     def _whole(self, folder: str, stems: Iterable[str]) -> Described:
-        """Return the descriptions of those modules that exist with all modules of their own."""
+        """Return the descriptions of those modules that exist with all their own modules."""
         described = {stem: metadata for stem in stems if (metadata := self.get(folder, stem)) is not None}
         return {
             stem: metadata
@@ -208,7 +208,7 @@ class Entries:
 
 
 def _key(path: Path, content: bytes | None) -> str:
-    """Return the key of the description of a module of some content at its place."""
+    """Return the key of the description of a module with some content at its place."""
     return digest(path.parent.name, path.stem, content or b"")
 
 

@@ -16,8 +16,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-#: Sources of symgen by what depends on them: the text of emitted code and what is kept beside it, loops and the helpers
-#: that they call, the compiler, rows of sweeps, and cells of studies, whose run times are kept as well.
+#: Sources of symgen by their dependents: the text of emitted code and its metadata, loops and their helpers,
+#: the compiler, rows of sweeps, and cells of studies, whose run times are kept as well.
 SOURCES: Mapping[str, tuple[str, ...]] = {
     "code": ("describe", "vocabulary", "formulate", "ir", "lower", "emit", "methods", "compiling"),
     "loops": ("runtime", "integrators"),
@@ -33,7 +33,7 @@ TEMPLATES = ("looped", "parts", "curves")
 
 
 def digest(*parts: str | bytes) -> str:
-    """Return the SHA-256 of the parts in hexadecimal; where one part ends and the next begins matters."""
+    """Return the SHA-256 of the parts in hexadecimal; boundaries of parts matter."""
     result = hashlib.sha256()
     for part in parts:
         data = part.encode() if isinstance(part, str) else part
@@ -64,7 +64,7 @@ def source_stamp(function: Any) -> str:
 
 
 def content(path: str) -> bytes:
-    """Return the content of a source file, or of a cell of a notebook, which is no file; empty where there is none."""
+    """Return the content of a source file, or of a cell of a notebook, which is no file; empty if missing."""
     try:
         return Path(path).read_bytes()
     except OSError:
@@ -72,7 +72,7 @@ def content(path: str) -> bytes:
 
 
 def _reached(function: Any, functions: dict[int, Any]) -> Iterable[Any]:
-    """Give a function and those compiled functions that it names, by themselves or in a module, and so on."""
+    """Return a function and, recursively, the compiled functions that it names, directly or in a module."""
     functions[id(function)] = function
     for name in function.__code__.co_names:
         value = function.__globals__.get(name)
@@ -85,13 +85,13 @@ def _reached(function: Any, functions: dict[int, Any]) -> Iterable[Any]:
 
 
 def _near(module: types.ModuleType, function: Any) -> bool:
-    """Whether a module belongs to the function's package; what is installed is covered by versions in the key."""
+    """Whether a module belongs to the function's package; versions in the key cover installed packages."""
     return module.__name__.partition(".")[0] == str(function.__module__).partition(".")[0]
 
 
 @functools.cache
 def file_digest(path: str) -> str:
-    """Return the digest of what a file held when it was first asked for, at the latest when it was loaded."""
+    """Return the digest of a file's content at the first request, at the latest when it was loaded."""
     return digest(content(path))
 
 
@@ -108,7 +108,7 @@ def sources_digest(*places: str) -> str:
 
 
 def _sources(place: str) -> Iterator[str]:
-    """Yield a source file, or those below a folder in an order of their own; twice as fast as ``rglob``."""
+    """Yield a source file, or those below a folder in a fixed order; twice as fast as ``rglob``."""
     if place.endswith((".py", ".j2")):
         yield place
         return

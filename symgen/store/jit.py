@@ -1,4 +1,4 @@
-"""Functions that are compiled from their source when they are first called, in a cache that survives crashes.
+"""Functions compiled from their source at the first call, in a cache that survives crashes.
 
 `jit` compiles functions of the runtime, which take records of arrays, numbers and functions; `symgen.store.emitted`
 compiles those of emitted modules. An entry of the cache is one self-checking file for each function and types of its
@@ -42,7 +42,7 @@ _NUMBERS = {"float": types.float64, "int": types.int64, "bool": types.boolean}
 
 
 class CacheEntry(NamedTuple):
-    """Machine code in the cache: type of the result, functions called with types of their arguments, object file."""
+    """Machine code in the cache: type of the result, callees with types of their arguments, object file."""
 
     returned: str
     called: tuple[tuple[str, tuple[Kind, ...]], ...]
@@ -57,14 +57,14 @@ class MachineCode(NamedTuple):
 
 
 class MachineFunction(ABC):
-    """A function that has machine code once it is called, or its address wanted.
+    """A function whose machine code is made when it is called, or its address requested.
 
     Parameters
     ----------
     function : function
         The Python function.
     inlined : bool
-        Whether compiled code that calls it has its statements instead.
+        Whether compiled callers have its statements instead of a call.
     contracted : bool
         Whether multiplication and addition may be fused.
 
@@ -85,7 +85,7 @@ class MachineFunction(ABC):
 
     @abstractmethod
     def tree(self) -> ast.FunctionDef | None:
-        """Return the syntax tree of the function, None where its source cannot be had."""
+        """Return the syntax tree of the function, None where its source is not available."""
 
     @abstractmethod
     def identity(self) -> str:
@@ -133,13 +133,13 @@ class MachineFunction(ABC):
         return str(self.__qualname__)  # pickled by name, as functions are: another process compiles or loads its own
 
     def key(self, arguments: Arguments) -> str:
-        """Return all that the machine code for arguments of some types depends on."""
+        """Return the key of the machine code for arguments of some types, with all that it depends on."""
         return "\n".join(
             (self.identity(), repr(arguments), processor(), _environment(), sources_digest(*SOURCES["compiler"]))
         )
 
     def symbol(self, arguments: Arguments) -> str:
-        """Return the name in machine code, which holds a digest of all that the machine code depends on."""
+        """Return the name in machine code, with a digest of all that the machine code depends on."""
         return self._symbol(self.key(arguments))
 
     def _symbol(self, key: str) -> str:
@@ -147,7 +147,7 @@ class MachineFunction(ABC):
         return f"_ZN6symgen{len(name)}{name}E"  # as of a function in a namespace
 
     def _loaded(self, arguments: Arguments) -> MachineCode:
-        """Put machine code into memory, from the cache or made anew, behind all that it calls."""
+        """Put machine code into memory, from the cache or made anew, after its callees."""
         key = self.key(arguments)
         symbol = self._symbol(key)
         with CompilationClock() as clock:
@@ -185,9 +185,9 @@ class RuntimeFunction(MachineFunction):
     function, inlined, contracted
         As for `MachineFunction`.
     signature : Signature, optional
-        Types of a loop; by default they are those of the arguments it is called with.
+        Types of a loop; by default those of the arguments of a call.
     once : bool
-        Whether it is called about once a run: then it is compiled in less time, without operations in vectors.
+        Whether it is called about once a run: then it is compiled faster, without operations in vectors.
     """
 
     def __init__(
@@ -214,7 +214,7 @@ class RuntimeFunction(MachineFunction):
         return self.caller(self.signature.arguments)
 
     def tree(self) -> ast.FunctionDef | None:
-        """Return the syntax tree of the function, None where its source cannot be had."""
+        """Return the syntax tree of the function, None where its source is not available."""
         return syntax_tree(_lines(self.py_func.__code__.co_filename), self.py_func)
 
     def identity(self) -> str:
@@ -238,14 +238,14 @@ class RuntimeFunction(MachineFunction):
 def jit(
     signature: types.Signature | None = None, *, once: bool = False, contracted: bool = True
 ) -> Callable[[_Function], _Function]:
-    """Return a decorator that compiles a function of the runtime when it is first called, through the cache.
+    """Return a decorator that compiles a function of the runtime at its first call, through the cache.
 
     Parameters
     ----------
     signature : Signature, optional
-        Types of a loop, which is called from Python; without, the function is one that loops call.
+        Types of a loop, which is called from Python; None for a function that loops call.
     once : bool
-        Whether the function is called about once a run: then it is compiled in less time.
+        Whether the function is called about once a run: then it is compiled faster.
     contracted : bool
         Whether multiplication and addition may be fused.
 
@@ -280,7 +280,7 @@ def object_file(text: str, symbol: str) -> bytes:
     Parameters
     ----------
     text : str
-        The module; everything of it that matters on this processor.
+        The module, with everything that matters on this processor.
     symbol : str
         Its function.
     """
@@ -292,7 +292,7 @@ def object_file(text: str, symbol: str) -> bytes:
 
 
 def arguments_of(kinds: tuple[Kind, ...]) -> Arguments:
-    """Return arguments in types of the language of emitted functions as types of compiled functions."""
+    """Return the types of compiled functions for types of arguments in the language of emitted functions."""
     numbers = {**_NUMBERS, "unsigned": types.uint32}
     return tuple(types.ArrayType(numbers[kind], 1) if array else numbers[kind] for kind, array in kinds)
 
@@ -319,12 +319,12 @@ def _is_flat(kind: types.Kind) -> TypeGuard[types.ArrayType]:
 
 @functools.cache
 def _environment() -> str:
-    """Return everything outside a function that its machine code depends on, apart from the processor."""
+    """Return all dependencies of machine code outside a function, apart from the processor."""
     return "\n".join((_FORMAT, llvmlite.__version__))
 
 
 def _meaning(value: Any) -> str:
-    """Return the meaning of a global name: which function it is, or the number."""
+    """Return the meaning of a global name: the identity of a function, or the number."""
     function = getattr(value, "py_func", value)
     if hasattr(function, "__qualname__"):
         return f"{function.__module__}.{function.__qualname__}"
@@ -332,16 +332,16 @@ def _meaning(value: Any) -> str:
 
 
 def syntax_tree(lines: Sequence[str], function: Any) -> ast.FunctionDef | None:
-    """Return the syntax tree of a function that begins at a line's first column, None where there is none.
+    """Return the syntax tree of a function that begins in the first column, or None.
 
     Parameters
     ----------
     lines : sequence of str
         Of its file.
     function : function
-        As it was loaded from there.
+        The function loaded from there.
     """
-    first = function.__code__.co_firstlineno - 1  # of its decorators, if there are some
+    first = function.__code__.co_firstlineno - 1  # of its decorators, if any
     begin = next((i for i in range(first, len(lines)) if lines[i].startswith("def ")), len(lines))
     rest = range(begin + 1, len(lines))
     end = next((i for i in rest if lines[i][:1].strip() and not lines[i].startswith(")")), len(lines))

@@ -2,7 +2,7 @@
 
 The name is the same in every process: ``symgen_generated.<folder>.<stem>``. The package exists in memory only; an
 emitted module may import its siblings (``from .model import geometry``), and these are loaded from the same folder
-first. Content alone counts: nothing here looks at a file's time, and no byte code is written beside the modules.
+first. Only content counts: a file's time is ignored, and no byte code is written next to the modules.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _lock = threading.RLock()
 
 @dataclass(frozen=True)
 class _Source:
-    """An emitted file that was read: where, its content and the digest of that, its code, the siblings it imports."""
+    """An emitted file that was read: its place, content and digest, its code, the siblings it imports."""
 
     path: Path
     content: bytes
@@ -43,15 +43,15 @@ class _Source:
     siblings: tuple[str, ...]
 
 
-#: What has been read in this process, by place and content: a model is loaded again for every run.
+#: Files read in this process, by place and content: a model is loaded again for every run.
 _sources: dict[tuple[Path, str], _Source] = {}
 
 
 def load_module(path: str | Path, qualified_name: str | None = None) -> ModuleType:
-    """Load an emitted module, from the cache or from any folder, and let its functions use the cache.
+    """Load an emitted module, from the cache or from any folder; its functions use the cache.
 
     Loading the same content again gives the same module. If other content is already loaded under the name, the new
-    module goes into a package of its own whose name holds a digest.
+    module goes into its own package, with a digest in the name.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def load_module(path: str | Path, qualified_name: str | None = None) -> ModuleTy
 
 
 def _closure(path: Path) -> Iterator[_Source]:
-    """Give the file and all siblings it needs, those first that are needed by others."""
+    """Return the file and all siblings it needs, each after those it needs."""
     visited: set[Path] = set()
 
     def visit(file: Path) -> Iterator[_Source]:
@@ -117,7 +117,7 @@ def _read(path: Path) -> _Source:
 
 
 def _code(path: Path, content: bytes, digest: str) -> CodeType:
-    """Translate to byte code, which for a long module takes longer than everything else that loading does."""
+    """Translate to byte code, which for a long module takes longer than the rest of loading."""
 
     def translate() -> bytes:
         try:
@@ -131,7 +131,7 @@ def _code(path: Path, content: bytes, digest: str) -> CodeType:
 
 
 def _siblings(code: CodeType) -> Iterator[str]:
-    """Give the names in ``from .name import ...`` and ``from . import name`` at the top of a module."""
+    """Yield the names in ``from .name import ...`` and ``from . import name`` at the top of a module."""
     constants: list[object] = []
     for instruction in dis.get_instructions(code):
         if instruction.opname == "LOAD_CONST":
@@ -145,7 +145,7 @@ def _siblings(code: CodeType) -> Iterator[str]:
 
 
 def _stamp(name: str, sources: dict[str, _Source]) -> str:
-    """Digest a module together with everything it imports, since machine code contains what it calls."""
+    """Return the digest of a module and everything it imports, since machine code contains its callees."""
     reached: set[str] = set()
     waiting = [name]
     while waiting:
@@ -161,7 +161,7 @@ def _taken(name: str, stamp: str) -> bool:
 
 
 def _register_package(name: str) -> None:
-    """Make a package, and those around it, in memory: with an empty path nothing is imported that was not read here."""
+    """Make a package, and those around it, in memory: with an empty path only modules read here can be imported."""
     parent, _, last = name.rpartition(".")
     if name in sys.modules:
         return
@@ -202,5 +202,5 @@ def _execute(name: str, source: _Source, stamp: str) -> ModuleType:
 
 
 def interpreted(function: Any) -> Any:
-    """Return the plain Python form of an emitted function: what runs once a run is not worth compiling."""
+    """Return the plain Python form of an emitted function: one call a run is not worth compilation."""
     return getattr(function, "py_func", function)

@@ -1,4 +1,4 @@
-"""Where the cache is: the user's cache folder, the folder named by ``SYMGEN_CACHE_DIR``, or a temporary one."""
+"""Location of the cache: the user's cache folder, the folder named by ``SYMGEN_CACHE_DIR``, or a temporary one."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ class CacheLocation:
     Attributes
     ----------
     path : Path
-        Folder that exists, belongs to the user and can be written.
+        Existing folder that belongs to the user and can be written.
     persistent : bool
         False if `path` is a temporary folder that is removed when the process ends.
     reason : str
-        Why the wanted folder is not used, as a sentence; empty if it is used.
+        Sentence on why the configured folder is not used; empty if it is used.
     """
 
     path: Path
@@ -43,12 +43,12 @@ class CacheLocation:
     reason: str = ""
 
 
-# By process and wish: a forked child must not share its parent's temporary folder, which the parent removes.
+# By process and configuration: a forked child must not share its parent's temporary folder, which the parent removes.
 _locations: dict[tuple[int, str | None], CacheLocation] = {}
 
 
 def cache_location() -> CacheLocation:
-    """Return the cache folder with the reason for it; the folder is made when it is missing.
+    """Return the cache folder with the reason for it; a missing folder is made.
 
     Returns
     -------
@@ -66,19 +66,19 @@ def _key() -> tuple[int, str | None]:
 
 
 def abandon(root: Path, reason: str) -> Path:
-    """Return a temporary folder to use from now on in place of a cache folder that turned out to be unusable.
+    """Return a temporary folder that replaces an unusable cache folder from now on.
 
     Parameters
     ----------
     root : Path
         The folder; if it is the cache folder of this process, `cache_location` gives the new one afterwards.
     reason : str
-        What is wrong with it, as a sentence.
+        The problem, as a sentence.
 
     Raises
     ------
     SymgenError
-        If there is no temporary folder either.
+        If no temporary folder can be made either.
     """
     location = _temporary(reason)
     key = _key()
@@ -93,19 +93,19 @@ def cache_root() -> Path:
 
 
 def is_ours(status: os.stat_result, *, private: bool = False) -> bool:
-    """Say whether a file or folder belongs to the user and nobody else can change it.
+    """Return whether a file or folder belongs to the user and nobody else can change it.
 
     Parameters
     ----------
     status : os.stat_result
-        What ``stat`` says about it.
+        Result of ``stat``.
     private : bool, default False
         Require that nobody else can read it either.
 
     Returns
     -------
     bool
-        Always True where the system knows no owners (Windows).
+        Always True on systems without owners (Windows).
     """
     if not hasattr(os, "geteuid"):
         return True
@@ -114,7 +114,7 @@ def is_ours(status: os.stat_result, *, private: bool = False) -> bool:
 
 
 def private_folder(path: Path) -> bool:
-    """Make a folder that only the user can enter, and say whether it is one.
+    """Make a folder that only the user can enter; return whether it is one.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def private_folder(path: Path) -> bool:
             pass
         try:
             _make(path)
-        except FileNotFoundError:  # another process, clearing the cache, removed the parent that was just made
+        except FileNotFoundError:  # another process cleared the cache and removed the new parent
             continue
         except OSError:
             return False
@@ -156,7 +156,7 @@ def _locate(wish: str | None) -> CacheLocation:
 
 
 def _refusal(path: Path) -> str:
-    """Make `path` if it is missing; return why it must not be used, or nothing."""
+    """Make `path` if it is missing; return the reason against its use, or nothing."""
     try:
         if not path.exists():
             _make(path)
@@ -166,7 +166,7 @@ def _refusal(path: Path) -> str:
             return f"the cache folder '{path}' is not a folder"
         if not is_ours(status):
             return f"the cache folder '{path}' belongs to, or can be changed by, somebody else"
-        # Access rights lie on read-only file systems and for the superuser, so really write.
+        # Access rights are wrong on read-only file systems and for the superuser, so write a file.
         tempfile.TemporaryFile(dir=path).close()
     except OSError as error:
         return f"the cache folder '{path}' cannot be written: {error.strerror or error}"

@@ -1,4 +1,4 @@
-"""Files that only we read back: they carry a digest of their content and are opened only if they are the user's own.
+"""Files for this package only: they carry a digest of their content and are opened only if they are the user's own.
 
 Cached machine code and byte code are as powerful as programs, and unpickling a foreign file runs it. Such data are
 therefore read only from a regular file that belongs to the user, in a folder nobody else can enter, and only after the
@@ -21,9 +21,9 @@ TEMPORARY = ".tmp-"
 _MAGIC = b"symgen private 1\n"
 _HEAD = len(_MAGIC) + hashlib.sha256().digest_size
 _ATTEMPTS = 100
-# Names that do not exist everywhere; without them the flags are simply not set.
+# Names that do not exist on every system; without them the flags are not set.
 _ANY = getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
-# A pipe in a file's place must be seen for one, not waited for.
+# A pipe in a file's place must be recognised, not waited for.
 _READ = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | _ANY
 _WRITE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | _ANY
 
@@ -36,7 +36,7 @@ def read(path: Path, key: str) -> bytes | None:
     path : Path
         File written by `write`.
     key : str
-        The same text as given to `write`: a file renamed or copied to another key's place is a miss.
+        The same text as for `write`: a file renamed or copied to another key's place is a miss.
 
     Returns
     -------
@@ -72,7 +72,7 @@ def read_own(path: Path) -> bytes | None:
             return None
         descriptor = os.open(path, _READ)
         with open(descriptor, "rb") as file:
-            # Ask about what was opened, not about the name, which may stand for something else by now.
+            # Check the opened file, not the name, which may refer to another file by now.
             status = os.fstat(descriptor)
             return file.read() if stat.S_ISREG(status.st_mode) and is_ours(status) else None
     except OSError:
@@ -80,16 +80,16 @@ def read_own(path: Path) -> bytes | None:
 
 
 def write(path: Path, key: str, data: bytes) -> int:
-    """Write data for a key so that a reader finds all of it or the former content; return the size of the file.
+    """Write data for a key so that a reader gets all of them or the former content; return the size of the file.
 
     Parameters
     ----------
     path : Path
-        File to be written; its folder is made when missing.
+        File to write; a missing folder is made.
     key : str
         Text without which the file cannot be read back.
     data : bytes
-        What to keep.
+        Data to keep.
 
     Raises
     ------
@@ -106,14 +106,14 @@ def write_own(path: Path, content: bytes) -> None:
     Parameters
     ----------
     path : Path
-        File to be written; its folder is made when missing.
+        File to write; a missing folder is made.
     content : bytes
-        All of the new content.
+        The whole new content.
 
     Raises
     ------
     OSError
-        If it cannot be written or the folder is not the user's own; nothing is left behind then.
+        If it cannot be written or the folder is not the user's own; no file remains then.
     """
     for attempt in range(_ATTEMPTS):
         if not private_folder(path.parent):
@@ -129,13 +129,13 @@ def write_own(path: Path, content: bytes) -> None:
                 remove(sibling)
                 raise
             return
-        except FileNotFoundError:  # somebody cleared the cache meanwhile
+        except FileNotFoundError:  # another process cleared the cache meanwhile
             if attempt == _ATTEMPTS - 1:
                 raise
 
 
 def remove(path: Path) -> bool:
-    """Remove a file; False if it could not be removed or was not there."""
+    """Remove a file; False if it could not be removed or did not exist."""
     try:
         path.unlink()
     except OSError:
@@ -144,7 +144,7 @@ def remove(path: Path) -> bool:
 
 
 def touch(path: Path) -> None:
-    """Note that a file was used, for the removal of what was not used for longest."""
+    """Note the use of a file, for the removal of the least recently used files."""
     try:
         os.utime(path)
     except OSError:

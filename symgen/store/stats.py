@@ -1,4 +1,4 @@
-"""How often compiled code was in the cache, and what compiling and loading cost."""
+"""Numbers of cache hits and misses of compiled code, and times of compilation and loading."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import ClassVar, Self, TypedDict
 
 
 class CacheStats(TypedDict):
-    """Counters of this process since it started; take the difference of two for one run.
+    """Counters of this process since its start; the difference of two is that of a run.
 
     `compile_seconds` holds translation and writing to the cache, `load_seconds` reading from it. Functions that are
     compiled or loaded while another one is being compiled are counted in `hits` and `misses`, and their seconds belong
@@ -31,19 +31,19 @@ def cache_stats() -> CacheStats:
 
 
 def seconds_in_cache() -> float:
-    """Return the seconds that this process has spent compiling or loading compiled code."""
+    """Return the seconds of this process in compilation or loading of compiled code."""
     return counters["compile_seconds"] + counters["load_seconds"]
 
 
 class CompilationClock:
-    """Counts one function that is compiled or loaded, and adds the time unless an outer clock is running.
+    """Counts the compilation or loading of one function, and adds the time unless an outer clock is running.
 
     Attributes
     ----------
     loaded : bool
-        Set inside where the cache had the function.
+        Set inside if the function was cached.
     seconds : float
-        Time spent inside, known at the end.
+        Time spent inside, set at the end.
     """
 
     _here: ClassVar[threading.local] = threading.local()

@@ -1,10 +1,9 @@
-"""Size of the cache, and removal: of everything, or of what was not used for longest.
+"""Size of the cache, and removal of everything, or of the least recently used entries.
 
-The cache is pruned once a day, and where one process has written a share of the limit since it last was.
+The cache is pruned once a day, and when one process has written a share of the limit since the last time.
 
-Only files that this package writes are ever removed, told by folder and by name, so that a cache folder that was
-pointed at something else by mistake loses nothing. A file that another process removes or writes meanwhile is left to
-it.
+Only files that this package writes are removed, recognised by folder and name, so that another folder set as cache by
+mistake loses nothing. A file that another process removes or writes meanwhile is left to it.
 """
 
 from __future__ import annotations
@@ -33,17 +32,17 @@ MODEL_FOLDER = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}_[0-9a-f]{16}_(0|[1-9]
 
 _PRUNED = "pruned"
 _DAY = 86400.0
-#: Share of the limit that one process writes between two prunings.
+#: Share of the limit that one process may write between two prunings.
 _SHARE = 0.1
-# A temporary file older than this was left by a process that was killed.
+# Age from which a temporary file is one of a killed process.
 _ABANDONED = 3600.0
-#: Bytes written by this process into each cache folder since it pruned it.
+#: Bytes written by this process into each cache folder since the last pruning.
 _written = Counter[Path]()
 
 
 @dataclass(frozen=True)
 class CacheInfo:
-    """What a cache holds.
+    """Content of a cache.
 
     Attributes
     ----------
@@ -61,7 +60,7 @@ class CacheInfo:
 
 
 class _Item(NamedTuple):
-    """When files were last used that are removed together, in this order, and their size."""
+    """Files that are removed together, in this order: time of their last use, and size."""
 
     used: float
     files: tuple[Path, ...]
@@ -69,7 +68,7 @@ class _Item(NamedTuple):
 
 
 def info(root: Path) -> CacheInfo:
-    """Count the entries of a cache folder."""
+    """Return the size and the numbers of entries of a cache folder."""
     models = [item for folder in _model_folders(root) for item in _items(folder)]
     compiled = {folder: list(_items(folder)) for folder in _compiled_folders(root)}
     native = sum(len(items) for folder, items in compiled.items() if NATIVE in (folder.name, folder.parent.name))
@@ -78,16 +77,16 @@ def info(root: Path) -> CacheInfo:
 
 
 def clear(root: Path) -> None:
-    """Remove all that symgen wrote, except the folders of models that another process is making now.
+    """Remove all files of symgen, except the folders of models that another process is making now.
 
-    The cache folder and the locks, which are empty files, stay: two processes must not hold a lock by the same name on
+    The cache folder and the locks, which are empty files, stay: two processes must not hold a lock of the same name on
     different files.
     """
     for folder in _model_folders(root):
         lock = folder_lock(root, folder.name)
         try:
             lock.acquire(timeout=0)
-        except (OSError, NotImplementedError):  # Timeout is an OSError: somebody is at work there
+        except (OSError, NotImplementedError):  # Timeout is an OSError: another process is at work there
             continue
         try:
             _reduce([folder], 0, 0.0)
@@ -100,12 +99,12 @@ def clear(root: Path) -> None:
 
 
 def prune(root: Path, limit: int) -> None:
-    """Remove what was not used for longest until so many bytes are left, and what killed processes left behind."""
+    """Remove the least recently used entries down to a number of bytes, and remains of killed processes."""
     _reduce([*_model_folders(root), *_compiled_folders(root)], limit, _ABANDONED)
 
 
 def _reduce(folders: list[Path], limit: int, age: float) -> None:
-    """Remove entries of folders down to a size, temporary files of an age, and folders that are empty."""
+    """Remove entries of folders down to a size, temporary files of an age, and empty folders."""
     items = sorted(item for folder in folders for item in _items(folder))
     excess = sum(item.bytes for item in items) - limit
     for item in items:
@@ -123,7 +122,7 @@ def _reduce(folders: list[Path], limit: int, age: float) -> None:
 
 
 def note_written(root: Path, size: int) -> None:
-    """Note that so many bytes were written into a cache folder, and prune it where that is due."""
+    """Add to the bytes written into a cache folder, and prune it if due."""
     _written[root] += size
     pruned = root / LOCKS / _PRUNED
     with suppress(OSError):
@@ -149,7 +148,7 @@ def _model_folders(root: Path) -> Iterator[Path]:
 
 
 def _compiled_folders(root: Path) -> Iterator[Path]:
-    """Yield the folders of machine code and byte code, those below before the folder that they are in."""
+    """Yield the folders of machine code and byte code, subfolders before their parents."""
     for name in (NATIVE, BYTECODE):
         yield from (path for path in _listing(root / name) if path.is_dir() and not path.is_symlink())
         yield root / name
@@ -168,7 +167,7 @@ def _items(folder: Path) -> Iterator[_Item]:
 
 
 def _listing(folder: Path) -> list[Path]:
-    """List a folder that is ours; another one is empty to us."""
+    """Return the content of a folder that is the user's own; another one counts as empty."""
     try:
         return sorted(folder.iterdir()) if folder.is_dir() and private_folder(folder) else []
     except OSError:

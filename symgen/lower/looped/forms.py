@@ -1,4 +1,4 @@
-"""What an element adds to a method's descriptor form: kernels of its residual and of its Jacobian.
+"""Contribution of an element to a method's descriptor form: kernels of its residual and of its Jacobian.
 
 ``F(t, y, k) = 0`` of a mechanism (`symgen.lower.record.record_form`) is a sum over its elements. A body gives ``q' - N
 v`` and ``M v' - f``; a force gives ``-f``; a joint gives ``D^T lambda`` to its bodies, ``N D^T eta`` where the form is
@@ -31,14 +31,14 @@ UNKNOWNS = ("k_q", "k_v", "k_first", "k_second", "q", "v")
 
 
 class FormInfo(msgspec.Struct, frozen=True):
-    """What tables need to know of an element's part of a descriptor form.
+    """Facts about an element's part of a descriptor form for the tables.
 
     Parameters
     ----------
     entries : tuple of (str, int, str, int)
         Group and index, within the element, of the equation and of the unknown of each number that ``tangent`` writes.
     functions : dict
-        Operations of each function that does something.
+        Operations of each function that is not empty.
     """
 
     entries: tuple[tuple[str, int, str, int], ...]
@@ -92,7 +92,7 @@ def lower_form(
     g = scalars.graph
     groups = [(group, scalars.values[index]) for group, index in part.outputs]
     rows = [(group, i, n) for group, nodes in groups if group in EQUATIONS for i, n in enumerate(nodes) if n != g.zero]
-    explicit = record.form == "explicit"  # M and D are all that is needed
+    explicit = record.form == "explicit"  # M and D are enough
     last = len(EQUATIONS) - BEHIND.get(record.form, 0)
     counted = [row for row in rows if (row[0] == "v" if explicit else row[0] in EQUATIONS[:last])]
     sizes = {"k_q": e.nq, "k_v": e.nv, "k_first": e.m, "k_second": e.m, "q": e.nq, "v": e.nv}

@@ -1,4 +1,4 @@
-"""Bodies, joints and forces as instances of kernels: what is special about a kind apart from what is a number.
+"""Bodies, joints and forces as instances of kernels: structure apart from numbers.
 
 Every element of a mechanism is rewritten as the only one of an abstract mechanism: bodies become ``f0``, ``f1``, ...,
 numbers and formulas of parameters become the parameters ``k0``, ``k1``, .... Elements with equal abstract mechanisms
@@ -23,10 +23,10 @@ from symgen.vocabulary.measures import GROUND, Direction, Effort, Marker, Measur
 
 #: Fields of the vocabulary's structs that hold the name of a body.
 _BODY_FIELDS = frozenset(("body", "a", "b"))
-#: Fields that are names for people; of a unit only counts whether it is that of an angle.
+#: Fields with names for readers; of a unit it matters only whether it is that of an angle.
 _LABELS = frozenset(("label",))
 _UNITS = (0.0, 1.0, -1.0)
-#: What a mechanism says that is no part of its equations, so that it gives no kernel another name.
+#: Parts of a mechanism outside its equations, which do not change the names of kernels.
 _BESIDE = frozenset("defaults holds events outputs seats cuts topology shapes given states rotors beams".split())
 
 
@@ -37,19 +37,19 @@ class Instance:
     Parameters
     ----------
     kind : {"body", "joint", "force"}
-        What the element is.
+        Kind of element.
     name, label : str
-        The element's name, and the name of its kind for people.
+        The element's name, and the readable name of its kind.
     frames : tuple of str
-        Bodies in the places of ``f0``, ``f1``, ....
+        Bodies for ``f0``, ``f1``, ....
     constants : tuple of Expr
-        Formulas of parameters in the places of ``k0``, ``k1``, ....
+        Formulas of parameters for ``k0``, ``k1``, ....
     abstract : Mechanism
         The abstract mechanism with this element only.
     key : bytes
         Its canonical text: equal where the kernel is the same.
     angles : tuple of Measure
-        Measures whose turns are counted, in the order in which they are derived; equal ones are one angle.
+        Measures whose turns are counted, in the order of derivation; equal ones are one angle.
     """
 
     kind: str
@@ -90,7 +90,7 @@ class _Rewriting:
         self.begin()
 
     def begin(self) -> None:
-        """Let another element begin."""
+        """Begin another element."""
         self.frames: dict[str, str] = {}
         self.constants: list[Expr] = []
         self.used_tables: dict[str, Any] = {}
@@ -147,7 +147,7 @@ class _Rewriting:
         return Instance(kind, name, label, tuple(self.frames), tuple(self.constants), abstract, key)
 
     def frame(self, body: Any, alias: str) -> Any:
-        """Return a body of which only the frame matters; its markers are relative to the centre of mass already."""
+        """Return a body as a mere frame; its markers are relative to the centre of mass already."""
         inertia: Any = None
         if body.inertia is not None:
             unit = (ONE, ONE, ONE, ZERO, ZERO, ZERO)
@@ -202,16 +202,16 @@ class _Rewriting:
         return Direction(alias, tuple(self.constant(e) for e in vector))
 
     def coefficient(self, e: Expr) -> Expr:
-        """Return a coefficient of a sum: 0, 1 and -1 as they are."""
+        """Return a coefficient of a sum; 0, 1 and -1 are unchanged."""
         literal = self.literal(e)
         return Number(literal) if literal in _UNITS and literal is not None else self.formula(e)
 
     def literal(self, e: Expr) -> float | None:
-        """Return the number that a formula of parameters is after simplification; None where it depends on them."""
+        """Return the value of a formula of parameters after simplification; None where it depends on them."""
         return e.value if isinstance(e, Number) else self.formulas.graph.value(self.formulas.expression(e))
 
     def constant(self, e: Expr) -> Expr:
-        """Return the abstract parameter that stands for a formula of parameters."""
+        """Return the abstract parameter for a formula of parameters."""
         self.constants.append(e)
         return Name(f"k{len(self.constants) - 1}")
 

@@ -1,4 +1,4 @@
-"""From an element's equations to its kernel: functions over all instances, and what tables need to know of them."""
+"""From an element's equations to its kernel: functions over all instances, and their facts for the tables."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ Outputs = list[tuple[Target, int]]
 
 
 class RowShape(msgspec.Struct, frozen=True):
-    """A row of a joint: (frame, velocity of the frame) of D's nonzero entries, whether Phi and nu are there.
+    """A row of a joint: (frame, velocity of the frame) of D's nonzero entries, and whether it has Phi and nu.
 
-    `angular` says that it is an angle or a number, not a length.
+    `angular` means that it is an angle or a number, not a length.
 
     `constant` holds for each entry its literal value, or None.
     """
@@ -37,7 +37,7 @@ class RowShape(msgspec.Struct, frozen=True):
 
 
 class KernelInfo(msgspec.Struct, frozen=True):
-    """What tables need to know of a kernel.
+    """Facts about a kernel for the tables.
 
     Parameters
     ----------
@@ -46,19 +46,19 @@ class KernelInfo(msgspec.Struct, frozen=True):
     frames : tuple of (nq, nv, record)
         Coordinates, velocities and length of the record of each frame.
     constants, hoisted : int
-        Constants of an instance, and numbers that are computed from them once a run.
+        Number of constants of an instance, and of numbers computed from them once a run.
     rows : tuple of RowShape
         Of a joint.
     coordinates, windings : int
         Reported coordinates of a joint, and angles whose turns are counted.
     spins : tuple of (int, int)
-        Of a body with Euler parameters: where these begin in its coordinates, and its angular velocity in its speeds.
+        Of a body with Euler parameters: first of them in its coordinates, first angular velocity in its speeds.
     mass : tuple of tuple of int
         Of a body: the velocities of each block of M.
     massless : tuple of int
         Velocities whose mass is the literal 0.
     functions : dict
-        Operations of each function that does something.
+        Operations of each function that is not empty.
     """
 
     kind: str
@@ -75,7 +75,7 @@ class KernelInfo(msgspec.Struct, frozen=True):
 
     @property
     def computed(self) -> int:
-        """Numbers of an instance that are computed once a run: hoisted ones, then M and M^-1 of its larger blocks."""
+        """Size of an instance's numbers computed once a run: hoisted ones, then M and M^-1 of its larger blocks."""
         return self.hoisted + sum(2 * len(b) ** 2 for b in self.mass if len(b) > 1)
 
     def row_blocks(self, row: int) -> tuple[int, ...]:
@@ -179,7 +179,7 @@ class _Kernel:
             n = len(b.columns)
             for k, j in enumerate(b.columns):
                 outputs.append((Target("mass_diagonal", j), moved(b.entries[k][k])))
-                # a massless body has no inverse: methods that would use it are refused for it
+                # a massless body has no inverse: methods that use it are refused
                 massless = system.graph.value(b.entries[k][k]) == 0.0
                 inverse = system.graph.zero if massless else system.inverse_mass[j].get(j, system.graph.zero)
                 outputs.append((Target("inverse_mass", j), moved(inverse)))
@@ -276,7 +276,7 @@ class _Kernel:
         )
 
     def slots(self) -> list[int]:
-        """Return where each entry of D stands behind the joint's first: rows by blocks, blocks as wide as the frame."""
+        """Return the offset of each entry of D from the joint's first: rows by blocks, blocks as wide as the frame."""
         slots, first = [], 0
         for shape in self.rows():
             base = {}

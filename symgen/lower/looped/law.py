@@ -18,14 +18,14 @@ from symgen.vocabulary.infos import LawInfo
 
 
 class LoopedLawInfo(LawInfo, frozen=True, kw_only=True):
-    """What tables need to know of a law, beside what is known of every one.
+    """Facts about a law for the tables, besides those of every law.
 
     Parameters
     ----------
     sections : tuple of (name, size)
-        Sections of ``w`` of its own.
+        Its own sections of ``w``.
     vectors : int
-        Scratch vectors.
+        Number of scratch vectors.
     augmented : bool
         Whether M + a D^T D is factorised.
     positions : bool
@@ -40,12 +40,12 @@ class LoopedLawInfo(LawInfo, frozen=True, kw_only=True):
 
 @dataclass(frozen=True)
 class LoopedLaw(LawCode):
-    """What a method adds in the looped shape.
+    """Functions that a method adds in the looped shape.
 
     Parameters
     ----------
     functions : tuple of LoopedFunction
-        ``rhs``, or what it is put together from, and ``refactor`` and ``spread`` where the metric of the correction is
+        ``rhs``, or its parts, and ``refactor`` and ``spread`` where the metric of the correction is
         not the identity.
     """
 
@@ -54,12 +54,12 @@ class LoopedLaw(LawCode):
 
 
 def refuse_dense(method: Method, options: Mapping[str, str], implicit: bool) -> None:
-    """Refuse what has no looped shape.
+    """Refuse a method without a looped shape.
 
     Raises
     ------
     InputError
-        Saying in one sentence why.
+        With the reason in one sentence.
     """
     expected = "a method whose cost grows linearly with the mechanism"
     if options.get("solver") == "dense":
@@ -77,7 +77,7 @@ def refuse_dense(method: Method, options: Mapping[str, str], implicit: bool) -> 
 
 #: Functions of laws that can be loops.
 _FUNCTIONS = ("rhs", "begin", "iterate", "finish", "refactor", "spread")
-#: What a joint knows of itself, beside arithmetic: no masses, no forces, nothing of other joints.
+#: Operations on one joint, besides arithmetic: no masses, no forces, nothing of other joints.
 _OF_A_JOINT = frozenset(ARITHMETIC) | {"constant", "min", "dot", "constraints", "product", "holonomic_or", "parameter"}
 _OF_A_JOINT |= {"status", "section", "zeros", "gamma", "nu", "phi", "v"}
 

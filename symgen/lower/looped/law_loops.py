@@ -29,13 +29,13 @@ from symgen.methods._formula import FormulaStep, needed
 
 #: Functions of a law in which the kernels of an evaluation are called first.
 _EVALUATE = ("rhs", "begin")
-#: Scratch vectors that generic code has for itself.
+#: Number of scratch vectors reserved for generic code.
 _FIRST_VECTOR = 2
 
 
 @dataclass(frozen=True)
 class _Factor:
-    """A factorisation L D L^T: which matrix, the section that holds it, and its penalties or its compliance."""
+    """A factorisation L D L^T: its matrix, its section, and its penalties or its compliance."""
 
     matrix: str
     section: str
@@ -60,7 +60,7 @@ class Loops(Replay):
         self.mask = self._leaf("mask", "m")
 
     def function(self, positions: bool) -> LoopedFunction:
-        """Return the function; `positions` says whether an evaluation needs Phi."""
+        """Return the function; `positions`: whether an evaluation needs Phi."""
         part, ends = self.part, self.ends
         if part.name in _EVALUATE:
             self._number((STATE, STATUS.index("power")), self.graph.zero)
@@ -69,7 +69,7 @@ class Loops(Replay):
         indices = self.needed
         uses = Counter(i for index in indices for i in self._operands(index)) + Counter(end for _, end in ends)
         reads = {str(self.operations[i].payload[0]) for i in indices if self.operations[i].kind in _PLACES}
-        # results of operations that can be left where they are wanted
+        # results of operations that can stay at their targets
         self.goal = {end: place for place, end in reversed(ends) if place not in reads and "." not in place}
         for index in indices:
             self.run([index])
@@ -77,11 +77,11 @@ class Loops(Replay):
         self._assign(ends)
         return LoopedFunction(part, self.graph, tuple(self.statements), self.sections, self.vectors, self.flagged)
 
-    # -- what is computed where ----------------------------------------------------------------------------------------
+    # -- places of results ---------------------------------------------------------------------------------------------
 
     @property
     def ends(self) -> list[tuple[str, int]]:
-        """Outputs: of what is kept the operand, unless it stands in a place of its own already."""
+        """Outputs: of kept values the operand, unless it has its own place already."""
         ends = []
         for place, index in self.part.outputs:
             operation = self.operations[index]
@@ -97,7 +97,7 @@ class Loops(Replay):
         return needed((end for _, end in self.ends), self._operands)
 
     def _operands(self, index: int) -> tuple[int, ...]:
-        """Return operands, none where the function reads what another one has kept."""
+        """Return operands, none where the function reads a value kept by another one."""
         operation = self.operations[index]
         stored = operation.kind.startswith("keep") and self.operations[operation.operands[0]].kind not in _SIMPLE
         return () if stored else operation.operands
@@ -118,7 +118,7 @@ class Loops(Replay):
         return (self.graph.input(section, 0),)
 
     def _new(self, index: int, size: str) -> str:
-        """Return the section that an operation's result goes to: where it is wanted, or a scratch vector."""
+        """Return the section for an operation's result: its target, or a scratch vector."""
         goal = self.goal.pop(index, "")
         if not goal:
             goal = f"x{self.vectors}"
@@ -127,7 +127,7 @@ class Loops(Replay):
         return goal
 
     def _place(self, node: int, size: str, index: int = -1) -> str:
-        """Return the section that holds a vector, computed first if it does not stand in one."""
+        """Return the section of a vector, computed first if it has none."""
         payload = self.graph.nodes[node].payload
         if isinstance(payload, tuple) and payload[0] not in _NO_SECTIONS:
             return payload[0]
@@ -166,7 +166,7 @@ class Loops(Replay):
         return super().each(function, *operands)
 
     def _assign(self, ends: list[tuple[str, int]]) -> None:
-        """Write the outputs; a vector that reads a section which is written before it is computed first."""
+        """Write the outputs; a vector that reads a section written before it is computed first."""
         vectors: list[tuple[str, str, int]] = []
         for place, index in ends:
             value, size = self.values[index], self.operations[index].size
@@ -201,10 +201,10 @@ class Loops(Replay):
         return self.graph.input(STATE, STATUS.index("power"))
 
     def _nothing(self, operation: FormulaStep, *operands: Any) -> None:
-        """Leave what is done elsewhere: D and its factorisation stand in their places when a function begins."""
+        """Do nothing: D and its factorisation are in their places when a function begins."""
 
     _on_flag = _on_rank = _on_constraints = _on_stored_constraints = _on_keep_constraints = _nothing
-    #: Of a root of M^-1 only products with its transposed are formed, beside another one.
+    #: Of a root of M^-1 only products with its transposed are formed, next to another one.
     _on_times_transposed = _nothing
 
     def _on_dot(self, operation: FormulaStep, a: Nodes, b: Nodes) -> int:
@@ -266,7 +266,7 @@ class Loops(Replay):
             return right
         target = self._new(self.at, operation.size)
         self._loop(operation.size, target, right[0])
-        half = self._make(factor, target)  # while numbers of the factor are at hand they are used
+        half = self._make(factor, target)  # use numbers of the factor while they are at hand
         self._call("solve_rest" if half else "solve", "T", "p", "w", factor.table, factor.section, target)
         return self._leaf(target, operation.size)
 
@@ -286,7 +286,7 @@ class Loops(Replay):
         self._call("gram", "T", "p", "w", "0" if factor.matrix == "identity" else "1", factor.section)
         masked, compliant = factor.matrix == "schur", factor.matrix == "compliant"
         mode = "MASKED_FACTOR" if masked or compliant else "KEPT_FACTOR"
-        if compliant:  # the mask is added to pivots: what is added to a diagonal entry is added to its pivot
+        if compliant:  # the mask is added to pivots: a term of a diagonal entry is a term of its pivot
             compliance = self._local(factor.weight)
             self._loop("m", "mask", self.graph.add(self.mask[0], compliance))
         result = "suspicious" if masked else ""
@@ -296,7 +296,7 @@ class Loops(Replay):
         self.flagged = self.flagged or masked
         return bool(target)
 
-    # -- what is kept --------------------------------------------------------------------------------------------------
+    # -- kept values ---------------------------------------------------------------------------------------------------
 
     def _on_keep(self, operation: FormulaStep, x: Nodes | None) -> Nodes:
         return self._leaf(str(operation.payload[0]), operation.size) if x is None else x
@@ -306,7 +306,7 @@ class Loops(Replay):
         return _Factor(matrix, f"{matrix}_lower", stored=True)
 
 
-#: Kinds of operations that stand in a place already, and those that need not be kept.
+#: Kinds of operations with a place already, and those that need not be kept.
 _PLACES = ("quantity", "section")
 _SIMPLE = (*_PLACES, "zeros", "constraints")
 _NO_SECTIONS = (VELOCITIES, RATES, WORK, LOCAL, PARAMETER, STATE, "q_rates")

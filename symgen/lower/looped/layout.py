@@ -1,7 +1,7 @@
-"""Where things stand in the looped shape: the numbers at the head of the tables, sections of ``w`` and parts of ``p``.
+"""Layout of the looped shape: the numbers at the head of the tables, sections of ``w`` and parts of ``p``.
 
-Generic code knows no size: it reads sizes and offsets from the head of the tables, which stand at the
-end of ``w`` as unsigned 32-bit numbers; the last element of ``w`` says, as an integer, where they begin.
+Generic code contains no size: it reads sizes and offsets from the head of the tables, which are at the
+end of ``w`` as unsigned 32-bit numbers; the last element of ``w`` is their beginning, as an integer.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ SECTIONS = (
     ("stage", "unknowns"),  # k of the descriptor form
 )
 
-#: Lists of kernels that are called one after the other, and the functions of kernels that each calls, by kind.
+#: Lists of kernels that are called in turn, and the functions of kernels that each calls, by kind.
 STAGES: dict[str, tuple[tuple[str, str], ...]] = {
     "frames": (("body", "frame"),),
     "speeds": (("body", "speeds"),),
@@ -34,13 +34,13 @@ STAGES: dict[str, tuple[tuple[str, str], ...]] = {
     "slopes": (("body", "tangent"), ("joint", "tangent"), ("force", "tangent")),
 }
 
-#: Numbers at the head of the tables: sizes, parts of ``p``, sections of ``w``, then where tables begin.
+#: Numbers at the head of the tables: sizes, parts of ``p``, sections of ``w``, then the beginnings of tables.
 HEAD = (
     *("nq", "nv", "m"),
     *("method_parameters", "mass_diagonal", "inverse_mass", "gram_base"),
     *(name for name, _ in SECTIONS),
     "unknowns",  # length of k
-    "equations",  # length of F with the rows behind it
+    "equations",  # length of F with the rows after it
     "vectors",  # scratch vectors of a law, each as long as the longer of v and lambda
     "vector_size",
     *STAGES,

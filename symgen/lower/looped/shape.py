@@ -1,4 +1,4 @@
-"""A mechanism as instances of kernels: which bodies, rows and entries belong to whom, and patterns of its matrices.
+"""A mechanism as instances of kernels: owners of bodies, rows and entries, and patterns of its matrices.
 
 Everything here takes time linear in the size of the mechanism: instances are grouped by kernel, and no operation of a
 single instance is ever built.
@@ -35,12 +35,12 @@ class RowBlock:
 
 @dataclass(frozen=True)
 class ProductTerms:
-    """What D W D^T is made of.
+    """Products that make up D W D^T.
 
     Parameters
     ----------
     constant : tuple of (target, velocity, product)
-        Products of two literals, which are summed once a run.
+        Products of two literals, summed once a run.
     runs : mapping of int to list of int
         By length of the runs of neighbouring entries: slot in D W, slot in D, target. Under 0 the products of two
         entries a, b of D W with two x, z of D: their slots, then the targets of ax, az, bx, bz.
@@ -166,7 +166,7 @@ class LoopedShape:
 
     @property
     def hoisted(self) -> int:
-        """Numbers behind the parameters in ``p``."""
+        """Number of numbers after the parameters in ``p``."""
         return self.gram_base + 2 * self.gram.size - self.parameters
 
     @property
@@ -190,7 +190,7 @@ class LoopedShape:
 
     @cached_property
     def turning(self) -> frozenset[int]:
-        """Angular velocities; products of constant entries of theirs are weighed by a number that a start finds."""
+        """Angular velocities; products of their constant entries are weighed by a number that a start computes."""
         of_spins = {first + k for _, first in self.spins for k in range(3)}
         plane = {v + 2 for v, width in self.width.items() if width == 3 and self.nq == self.nv}
         return frozenset(of_spins | plane)
@@ -271,7 +271,7 @@ class LoopedShape:
         return Elimination.of([frozenset(n - {j}) for j, n in enumerate(near)])
 
     def sizes(self, augmented: bool) -> dict[str, int]:
-        """Return the sizes that sections are given in."""
+        """Return the sizes by which sections are defined."""
         eliminations = [self.gram, *((self.augmented,) if augmented else ())]
         return {
             "one": 1,

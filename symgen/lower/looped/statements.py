@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from symgen.ir.graph import Graph
 from symgen.lower.record import Part
 
-#: Spaces of a graph's inputs that are no sections of ``w``: parts of the state and its rates, and numbers.
+#: Spaces of a graph's inputs other than sections of ``w``: parts of the state and its rates, and numbers.
 VELOCITIES, RATES, WORK = "v", "rates.v", "rates.work"
 LOCAL, PARAMETER, STATE = "local", "parameter", "status"
-#: Local numbers that values are added up in.
+#: Local numbers that hold sums.
 SUM = "sum"
 
 
@@ -21,11 +21,11 @@ class Assignment:
     Parameters
     ----------
     outputs : tuple of (str, int, int)
-        Space, index and node of each, one after the other; of what goes into `SUM` the sum over all elements is meant.
+        Space, index and node of each, in order; `SUM` takes the sum over all elements.
     size : {"", "nq", "nv", "m"}
-        Of the loop; empty where there is none.
+        Of the loop; empty without a loop.
     driven : bool
-        Whether the loop is passed over where no row is driven.
+        Whether the loop is skipped where no row is driven.
     """
 
     outputs: tuple[tuple[str, int, int], ...]
@@ -52,11 +52,11 @@ class LoopedFunction:
     Parameters
     ----------
     part : Part
-        What is laid out.
+        The part of the law.
     graph : Graph
         Its inputs are the general element of sections, and numbers.
     statements : tuple of Statement
-        In their order.
+        Statements in order.
     sections : dict
         Sections of ``w`` that are read or written, with their sizes.
     vectors : int

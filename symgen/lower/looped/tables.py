@@ -16,14 +16,14 @@ from symgen.lower.record import BEHIND
 
 @dataclass(frozen=True)
 class IndexTables:
-    """What generic code reads: numbers, and which functions of kernels their addresses are wanted of.
+    """Tables for generic code: numbers, and the functions of kernels whose addresses they hold.
 
     Parameters
     ----------
     numbers : array of uint32
-        The tables, room for addresses left.
+        The tables, with room for addresses.
     functions : tuple of (module, function)
-        Functions whose addresses stand from `addresses` on, as 64-bit numbers.
+        Functions whose addresses begin at `addresses`, as 64-bit numbers.
     addresses : int
         Index of the first address, in 64-bit numbers from the beginning of the tables: generic code, then functions.
     sections : mapping
@@ -31,9 +31,9 @@ class IndexTables:
     nw : int
         Length of ``w``.
     groups : tuple of (module, function ``prepare`` or not, index of its table)
-        In the order in which numbers are prepared.
+        In the order of preparation.
     unknowns : int
-        Unknowns of a stage of the descriptor form; 0 where there is none.
+        Unknowns of a stage of the descriptor form; 0 without one.
     tangent : tuple of (int, int)
         Equation and unknown of each number that ``tangent`` writes.
     """
@@ -57,9 +57,9 @@ class Builder:
     shape : LoopedShape
         The mechanism.
     law : LoopedLawInfo
-        Says which sections the law adds, whose offsets stand behind the head, and which stages it calls.
+        The law's own sections, whose offsets follow the head, and the stages that it calls.
     level : str
-        Of the descriptor form for implicit integrators; empty where there is none.
+        Of the descriptor form for implicit integrators; empty without one.
     parts : mapping of str to (str, FormInfo)
         The parts of that form: module and metadata by the module of an element's kernel.
     """
@@ -145,11 +145,11 @@ class Builder:
         return IndexTables(numbers, self.functions, self.addresses, sections, offset, groups, self.unknowns, tangent)
 
     def begin(self, name: str) -> None:
-        """Let a table begin here."""
+        """Begin a table here."""
         self.head[name] = len(self.numbers)
 
     def group(self, group: KernelGroup) -> int:
-        """Write the table of a kernel's instances; return where it begins."""
+        """Write the table of a kernel's instances; return its beginning."""
         shape, info, at = self.shape, group.info, len(self.numbers)
         self.numbers.append(len(group.members))
         constants, computed = shape.first_constant, shape.first_computed
@@ -170,7 +170,7 @@ class Builder:
         return at
 
     def part(self, group: KernelGroup, info: FormInfo) -> int:
-        """Write the table of a group's part of the descriptor form; return where it begins."""
+        """Write the table of a group's part of the descriptor form; return its beginning."""
         shape, at = self.shape, len(self.numbers)
         self.numbers.append(len(group.members))
         owners = [[(f, i) for f, sizes in enumerate(group.info.frames) for i in range(sizes[s])] for s in (0, 1)]
@@ -194,7 +194,7 @@ class Builder:
         return at
 
     def stage(self, name: str, stage: Sequence[tuple[str, str]], places: Mapping[str, int]) -> None:
-        """Write the list of kernels of a stage: how many, then address and table of each."""
+        """Write the list of kernels of a stage: their number, then address and table of each."""
         self.begin(name)
         calls = [
             (self.addresses + len(GENERIC) + self.functions.index(key), places[key[0]])
@@ -207,7 +207,7 @@ class Builder:
             self.numbers += [address, place]
 
     def matrices(self) -> None:
-        """Write the tables of D, of D W D^T, of M and, where wanted, of M + a D^T D."""
+        """Write the tables of D, of D W D^T, of M and, where needed, of M + a D^T D."""
         shape = self.shape
         self.rows()
         self.begin("jacobian_columns")
@@ -233,7 +233,7 @@ class Builder:
             self.head |= {"augmented_terms": 0, "augmented_factor": 0, "augmented_size": 0}
 
     def rows(self) -> None:
-        """Write the rows of D by the widths of their blocks: how many blocks, their width (0: not alike), then rows."""
+        """Write the rows of D by the widths of their blocks: number of blocks, width (0: not alike), then rows."""
         shape, classes = self.shape, dict[tuple[int, ...], list[list[RowBlock]]]()
         position = 0
         for row in range(shape.m):
@@ -254,9 +254,9 @@ class Builder:
                     self.numbers += [b.first] if alike else [b.first, b.width]
 
     def mass_blocks(self) -> None:
-        """Write where the blocks of M are that are larger than one entry, and which blocks of D they act on."""
+        """Write the places of blocks of M larger than one entry, and the blocks of D that they act on."""
         shape = self.shape
-        large: list[tuple[int, int, int]] = []  # size, first velocity, place in p of M, that of M^-1 behind it
+        large: list[tuple[int, int, int]] = []  # size, first velocity, place in p of M, followed by M^-1
         for k, (instance, stem) in enumerate(zip(shape.instances, shape.stems, strict=True)):
             info = shape.infos[stem]
             first = shape.first_computed + shape.computed_of[k] + info.hoisted
