@@ -52,7 +52,7 @@ class Level:
     values : tuple of float
         What is varied: one number, or two for a plane.
     mechanism : Mechanism
-        What moves.
+        The mechanism.
     parameters : mapping
         Values that differ from the mechanism's own.
     until, step : float

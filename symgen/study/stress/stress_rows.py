@@ -12,7 +12,7 @@ from symgen.result.contract import finite
 from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, counts, false_success
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 
-#: Units of columns that have one.
+#: Units of columns.
 UNITS = {
     **{"step": "s", "until": "s", "error": "m", "reference_error": "m"},
     **{"position_violation_max": "m", "velocity_violation_max": "m/s", "energy_drift_max": "J"},

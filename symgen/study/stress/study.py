@@ -109,7 +109,7 @@ def stress(
     Raises
     ------
     InputError
-        If a name is wrong; nothing has been run then.
+        If a name is wrong; raised before any run.
     """
     common = Settings(
         max_violation=max_violation,
