@@ -131,7 +131,7 @@ def by_steps(
     import scipy.integrate
 
     scale = np.maximum(np.abs(y), 1.0) if scale is None else scale
-    make: Any = getattr(scipy.integrate, scheme.name)  # SciPy's types know neither arrays nor infinity as tolerances
+    make: Any = getattr(scipy.integrate, scheme.name)  # SciPy's types lack arrays and infinity as tolerances
     compares = compares_state(equations.mechanism) and scheme.step is None
     longest = min(longest_of(equations, times), float(times[-1]) / LOOKED_AT if compares and len(times) else np.inf)
     rate = limited(equations, scheme.most)
@@ -154,7 +154,7 @@ def by_steps(
                     solver = make(rate, first, y, t, **more, **begin)
             elif t > first:
                 solver.t_bound, solver.status = t, "running"
-                # the step before an output is cut short; going on with it would waste evaluations
+                # the step before an output is cut short; continuing with it would waste evaluations
                 solver.h_abs = max(solver.h_abs, usual)
             while solver is not None and solver.status == "running":
                 before, at, state = solver.h_abs, float(solver.t), solver.y
@@ -195,7 +195,7 @@ def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: S
     """Return q at `times` from a multistep solver: its history forbids changes on the way, so outputs are projected."""
     from scipy.integrate import solve_ivp
 
-    solve: Any = solve_ivp  # SciPy's types do not know arrays of tolerances
+    solve: Any = solve_ivp  # SciPy's types lack arrays of tolerances
     scale, compares = np.maximum(np.abs(y), 1.0), compares_state(equations.mechanism)
     bound, rate = longest_of(equations, times), limited(equations, scheme.most)
     more: dict[str, Any] = {"rtol": scheme.rtol, "atol": scheme.rtol * scale, "dense_output": compares}
@@ -224,7 +224,7 @@ def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: S
 
 @contextmanager
 def finite_at(t: float) -> Iterator[None]:
-    """Say where evaluations fail."""
+    """Raise `CollapsedError` with the time where evaluations fail."""
     try:
         yield
     except FAILURES as error:
@@ -232,7 +232,7 @@ def finite_at(t: float) -> Iterator[None]:
 
 
 def limited(equations: IndependentEquations, most: float) -> Callable[[float, Array], Array]:
-    """Return the rates of equations as a function that is evaluated so many times at most."""
+    """Return the rates of equations as a function with a limit of evaluations."""
     calls = 0
 
     def rate(t: float, y: Array) -> Array:
@@ -248,10 +248,10 @@ def limited(equations: IndependentEquations, most: float) -> Callable[[float, Ar
 def unseen_in(
     equations: IndependentEquations, motion: Callable[[float], Array], first: float, last: float, scale: Array
 ) -> float:
-    """Return how far a step's end is from where the integral of the rates along it leads, over `scale`.
+    """Return the distance of a step's end from the integral of the rates along it, over `scale`.
 
     A force that acts between two values of the state, and only there, may lie between all evaluations of a step, where
-    no estimate of a solver sees it.
+    no error estimate sees it.
     """
     nodes, weights = np.polynomial.legendre.leggauss(LOOKS)
     half, middle = 0.5 * (last - first), 0.5 * (last + first)
@@ -282,7 +282,7 @@ Integrate = Callable[[float, Array, Array], Array]
 
 
 def longest_of(equations: IndependentEquations, times: Array) -> float:
-    """Return the longest step of a reference at some times that sees what formulas of the time do [s]."""
+    """Return the longest step of a reference that resolves the formulas of the time [s]."""
     return longest_step(equations.mechanism, float(times[-1]))[0] if len(times) and times[-1] > 0.0 else np.inf
 
 
@@ -297,7 +297,7 @@ def in_parts(
     Parameters
     ----------
     equations : IndependentEquations
-        What is integrated: whose formulas count.
+        Integrated equations with their formulas.
     y : Array
         The state at the time 0.
     times : Array
@@ -322,15 +322,15 @@ def in_parts(
     return motion
 
 
-#: Decay of so many e-foldings over the motion is left to Radau.
+#: Radau integrates motions with a decay of more e-foldings.
 STIFF_FOLDINGS = 3e4
 
 
 def is_stiff(equations: CompiledEquations, y: Array, until: float) -> bool:
     """Whether something decays over a motion by more than `STIFF_FOLDINGS`.
 
-    What conserves energy has modes in pairs, one that grows for each that decays, and is not stiff however long it
-    lasts; what counts is by how much decay exceeds growth.
+    A conservative system has modes in pairs, one growing for each decaying, and is not stiff over any length; the
+    excess of decay over growth counts.
     """
     falling, growing = fastest_modes(equations, y)
     return (falling - growing) * until > STIFF_FOLDINGS
