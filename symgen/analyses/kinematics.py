@@ -47,7 +47,7 @@ class Kinematics(MotionTables):
     Attributes
     ----------
     mechanism : str
-        What moves.
+        Name of the mechanism.
     t : Array, shape (k,)
         Times [s]: those asked for, or as far as the motion goes.
     q, v, a : Labelled
@@ -97,7 +97,7 @@ class Kinematics(MotionTables):
 
     @property
     def title(self) -> str:
-        """What stands above a plot."""
+        """Title of a plot."""
         return f"{self.mechanism}, kinematics" + (f" ({self.ended})" if self.ended else "")
 
     @property

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-#: Values that are shown at most.
+#: Largest number of values shown.
 MOST = 40
 
 
