@@ -204,7 +204,7 @@ class _Search:
         return moving[np.argsort(-moving.real, kind="stable")]
 
     def on_axis(self, *values: float) -> int:
-        """Return how many eigenvalues are on the axis at all of some values."""
+        """Return the number of eigenvalues on the axis at all of some values."""
         return int(min(np.count_nonzero(self.sides(self.eigenvalues(value)) == 0.0) for value in values))
 
     def with_bends(self, values: Sequence[float]) -> list[float]:

@@ -102,7 +102,7 @@ class StateTangent:
 
     @property
     def sizes(self) -> Array:
-        """What counts as large of s, u and z, shape (size,)."""
+        """Scales of s, u and z, shape (size,)."""
         return np.append(np.repeat([1.0, self.rate], [self.positions, self.velocities]), self.subject.extents(self.y))
 
     def sizes_of(self, names: Sequence[str]) -> Array:

@@ -80,7 +80,7 @@ class DenseStatics:
 
     @property
     def lengths(self) -> Array:
-        """What changes of coordinates are compared with, shape (nq,)."""
+        """Scales of changes of coordinates, shape (nq,)."""
         return self.subject.lengths
 
     @property

@@ -129,7 +129,7 @@ def named_states(
 
 
 def _rank(x: StateTangent, names: Sequence[str]) -> int:
-    """Return how many of some states do not depend on each other."""
+    """Return the number of independent states among some."""
     rows = x.changes_of(names)[:, : x.size] * x.sizes / x.sizes_of(names)[:, np.newaxis]
     return int(np.linalg.matrix_rank(rows, tol=1e-9 * np.abs(rows).max(initial=1e-300)))
 
@@ -218,7 +218,7 @@ def system(x: StateTangent, names: Sequence[str]) -> tuple[Array, Array, Array, 
     rest : Array, shape (n, size)
         What of the states' rates does not follow from the states.
     size : float
-        What it is compared with.
+        Scale of `rest`.
     """
     n, sizes = x.size, x.sizes_of(names)[:, np.newaxis]
     states, rates = x.changes_of(names) / sizes, x.changes_of(names, rates=True) / sizes
@@ -316,7 +316,7 @@ def _later(subject: Subject, x: StateTangent) -> StateTangent:
     end = x.t + APART / speed
     large: Any = np.concatenate(
         [subject.lengths, speed * subject.spans, subject.extents(x.y)]
-    )  # SciPy's types do not know arrays of tolerances
+    )  # SciPy's types lack arrays of tolerances
     run = solve_ivp(slope, (x.t, end), x.y[followed], "Radau", rtol=1e-8, atol=1e-10 * large)
     if not run.success:
         raise AnalysisError(f"the motion cannot be followed beyond t = {run.t[-1]:.4g} s: {run.message}")

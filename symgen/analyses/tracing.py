@@ -153,7 +153,7 @@ class Tracer:
     # -- the loop ------------------------------------------------------------------------------------------------------
 
     def run(self) -> Traced:
-        """Follow the motion through all times, or as far as it goes."""
+        """Follow the motion through all times, or to its end."""
         info, k = self.info, len(self.times)
         rows = f.Followed(np.empty((k, info.ny)), np.empty((k, info.nv)), np.empty((k, abi.N_STATUS + info.windings)))
         ended = ""
@@ -331,7 +331,7 @@ class Tracer:
         return Passage(float(t), kind, tuple(names), tuple(name for name in drivers if kinds[name] == DRIVER))
 
     def _reason(self, code: int) -> str:
-        """Return why the motion does not go on, in a sentence."""
+        """Return the reason why the motion ends, in a sentence."""
         t, sine, slope, least = self.clock[f.TIME], self.clock[f.SINE], self.clock[f.SLOPE], self.course.least
         if code == f.UNDEFINED:
             return f"a formula is not finite after t = {t:.9g} s"

@@ -142,7 +142,7 @@ def shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
 
 
 def _kind(coordinate: str) -> str:
-    """Return what a coordinate is compared with: lengths with lengths, angles with a radian."""
+    """Return the scale of a coordinate: a length for lengths, a radian for angles."""
     return "m" if coordinate.rpartition(".")[2] in ("x", "y", "z", "displacement") else "rad"
 
 
