@@ -180,7 +180,7 @@ def rest_of(subject: Subject) -> Settled:
     Raises
     ------
     AnalysisError
-        If none is found.
+        If no equilibrium is found.
     """
     y = subject.y.copy()
     y[subject.nq : subject.nq + subject.nv] = 0.0
@@ -203,7 +203,7 @@ def scanned_rests(subject: Subject, name: str, values: Array) -> tuple[Equilibri
     Raises
     ------
     AnalysisError
-        If none is found.
+        If no equilibrium is found.
     """
     unit = subject.unit(name)
     if len(values) < 2:

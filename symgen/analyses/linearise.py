@@ -128,7 +128,7 @@ def linear_system(subject: Subject, y: Array, states: Sequence[str] = (), instan
     Raises
     ------
     InputError
-        If a name means nothing, or the motion is not steady.
+        If a name is not valid, or the motion is not steady.
     """
     x = tangent(subject, y)
     names = named_states(subject, x, states, instantaneous, "linearise")

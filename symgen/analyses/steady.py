@@ -1,4 +1,4 @@
-"""Motions that stay what they are, at rest or steady in their states, and which quantities the states are.
+"""Motions at rest or steady in their states, and the choice of these states.
 
 A linear system with constant matrices exists about a state where the states do not change, and where their rates
 depend on nothing else. Turning wheels, a heading, a distance travelled may change meanwhile: they are cyclic. Both is
@@ -56,7 +56,7 @@ def at_rest(subject: Subject, x: StateTangent) -> bool:
         return False
     massive = heavy > 0.0  # what has no mass follows
     quick = carried[massive] / heavy[massive]
-    # at a singular position, forces along what rows do not hold there balance only as well as a search makes them
+    # at a singular position, forces along directions that rows leave free balance only to the accuracy of a search
     rounding = TOLERANCE if subject.lost(rows) > 0 else ROUNDED
     limit = STILL * quick + rounding * quick.max(initial=0.0)
     v, a = np.abs(x.speeds / spans)[massive], np.abs(x.a / spans)[massive]
@@ -102,14 +102,14 @@ def named_states(
     Raises
     ------
     InputError
-        If a name means nothing, or the motion is not steady.
+        If a name is not valid, or the motion is not steady.
     """
     if not x.size and not states:
         return ()
     resting, soon = at_rest(subject, x), None
     if states:
         requested = tuple(dict.fromkeys(states))
-        # what determines all needs no more rates, also where Euler parameters are in it, whose rates have no names
+        # a determining set needs no more rates, also with Euler parameters, whose rates have no names
         names = requested if _rank(x, requested) == x.size else _with_rates(subject, states)
         if _rank(x, names) < len(names):
             raise InputError("states", "states that do not depend on each other", ", ".join(names))
@@ -155,7 +155,7 @@ def _with_rates(subject: Subject, names: Sequence[str]) -> tuple[str, ...]:
     Raises
     ------
     InputError
-        If a name means nothing.
+        If a name is not valid.
     """
     quantities = quantities_of(subject)
     own = {q.name for q in subject.compiled.info.coordinates}

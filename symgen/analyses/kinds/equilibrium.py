@@ -38,7 +38,7 @@ def equilibrium(model: Analysed, settings: Settings | None = None, **changes: Un
     Raises
     ------
     AnalysisError
-        If none is found.
+        If no equilibrium is found.
     """
     from symgen.analyses.places import rest_from
 
@@ -65,7 +65,7 @@ def equilibria(
     Raises
     ------
     AnalysisError
-        If none is found.
+        If no equilibrium is found.
     """
     from symgen.analyses.places import scanned
 
@@ -90,7 +90,7 @@ def steady(
     Raises
     ------
     AnalysisError
-        If none is found.
+        If no equilibrium is found.
     """
     from symgen.analyses.places import steady_from
 
