@@ -90,7 +90,7 @@ def steady(
     Raises
     ------
     AnalysisError
-        If no equilibrium is found.
+        If no steady motion is found.
     """
     from symgen.analyses.places import steady_from
 
