@@ -1,1 +1,1 @@
-"""What is asked of a mechanism beside its motion: equilibria, modes, state space, inverse dynamics, kinematics."""
+"""Analyses besides motion: equilibria, modes, state space, inverse dynamics, kinematics."""

@@ -1,9 +1,9 @@
 """Efforts of actuators along a recorded motion: drivers, joints, forces and inputs as inputs of a mechanism of its own.
 
-What prescribes a motion is not what has to exert it: drivers leave, those among the actuators become efforts along
+Drivers prescribe a motion, actuators exert it: drivers are removed, those among the actuators become efforts along
 their coordinates, and everything else stays. The emitted right-hand side is evaluated without efforts and with an
-effort of 1 of each actuator; accelerations and multipliers are linear in efforts, so that a small problem of least
-squares at every time has the efforts of the motion as its solution.
+effort of 1 of each actuator; accelerations and multipliers are linear in efforts, so that a small least-squares problem
+at every time yields the efforts of the motion.
 """
 
 from __future__ import annotations
@@ -43,12 +43,12 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 WHERE = "actuators"
-#: Ends the names of inputs that stand for efforts: no name of a file.
+#: Suffix of the inputs that represent efforts: not valid in names of a file.
 _MARK = "~effort"
 #: Singular values of what efforts do to accelerations, each by its own size, below this part of the largest one
 #: count as zero; so does what an effort does below this part of the largest that one does, or of what is without any.
 CUTOFF, SILENT = 1e-9, 1e-13
-#: Accelerations that no effort gives are said from this part of the largest one on.
+#: Accelerations that no effort produces are reported from this part of the largest one on.
 MISSING = 1e-6
 #: Two evaluations with efforts of 1 and 2 show whether accelerations are linear in an input.
 LINEAR = 1e-9
@@ -65,9 +65,9 @@ class Actuator:
     unit : str
         Of the effort; empty for an input.
     parameter : str
-        The input that stands for it.
+        The input that represents it.
     rate : Expr or None
-        Rate of what it works along, None for an input.
+        Rate of the coordinate along which it works, None for an input.
     """
 
     name: str
@@ -82,7 +82,7 @@ class Actuator:
 
 
 def actuated(mechanism: Mechanism, names: Sequence[str]) -> tuple[Mechanism, tuple[Actuator, ...]]:
-    """Return a mechanism whose drivers have left and whose actuators are inputs, and these.
+    """Return a mechanism without drivers and with actuators as inputs, and these actuators.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def actuated(mechanism: Mechanism, names: Sequence[str]) -> tuple[Mechanism, tup
     Raises
     ------
     InputError
-        If a name is none of these, stands twice, or means what another one does.
+        If a name is none of these, is repeated, or means the same as another one.
     """
     whole = instantaneous(mechanism)
     if not names:
@@ -126,13 +126,13 @@ def actuated(mechanism: Mechanism, names: Sequence[str]) -> tuple[Mechanism, tup
 
 
 def _rate(name: str, effort: Effort) -> Expr:
-    """Return the power of an effort of 1 as a formula: the rate of what it works along."""
+    """Return the power of an effort of 1 as a formula: the rate of the coordinate along which it works."""
     alone = msgspec.structs.replace(effort, magnitude=Number(1.0), potential=ZERO)
     return Reading(f"{name}.rate", Exerted((alone,), power=True))
 
 
 def _of_force(force: Force, name: str) -> tuple[Force, list[Actuator]]:
-    """Return a force with efforts as inputs, all of them or the one that `name` ends in, and what they are."""
+    """Return a force with efforts as inputs, all of them or the one that `name` ends in, and their actuators."""
     labels = [effort.label for effort in force.efforts]
     label = name.removeprefix(f"{force.name}.") if name != force.name else ""
     if label and label not in labels:
@@ -172,7 +172,7 @@ def _of_joint(mechanism: Mechanism, name: str) -> tuple[Effort, str]:
 
 @dataclass(frozen=True)
 class Balanced:
-    """A motion with what its actuators exert; arrays have one row a time.
+    """A motion with the efforts of its actuators; arrays have one row a time.
 
     Attributes
     ----------
@@ -181,11 +181,11 @@ class Balanced:
     efforts : Array, shape (k, n)
         Of the actuators.
     rates : Array, shape (k, r)
-        Of what those work along that have a rate.
+        Of the actuators that have one.
     missing : Array, shape (k,)
-        Largest acceleration that no effort gives [m/s^2], angles by the bodies' lengths.
+        Largest acceleration that no effort produces [m/s^2], angles by the bodies' lengths.
     notes : list of str
-        What is not unique, and what no effort gives, in sentences.
+        Sentences on efforts that are not unique and accelerations that no effort produces.
     """
 
     motion: PrescribedMotion

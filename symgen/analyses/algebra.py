@@ -1,4 +1,4 @@
-"""The little linear algebra that analyses share: dependent rows are decided once, the same way everywhere."""
+"""Linear algebra that analyses share: the same decision on dependent rows everywhere."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-#: Forces and violations that are to be undone -> the step and the change of what rows exert.
+#: Forces and violations to be removed -> the step and the change of the multipliers.
 Solver = Callable[[Array, Array], tuple[Array, Array]]
 
 #: Singular values of D below this fraction of the largest one count as zero.
@@ -33,7 +33,7 @@ RANK, UNSOLVED = 1e-13, 1e-6
 
 
 def split(d: Array, loads: Array | None = None) -> tuple[Array, Array, Array]:
-    """Return an orthonormal basis of the directions that rows leave free, their pseudo-inverse, and what depends.
+    """Return an orthonormal basis of the rows' null space, their pseudo-inverse, and their dependencies.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def split(d: Array, loads: Array | None = None) -> tuple[Array, Array, Array]:
 
 
 def apart(info: ModelInfo, a: Array, b: Array) -> Array:
-    """Return differences of coordinates, whole turns left out, of Euler parameters from the nearer sign."""
+    """Return differences of coordinates, without whole turns, of Euler parameters with the nearer sign."""
     gaps = a[: info.nq] - b[: info.nq]
     turns = np.array([q.unit == "rad" for q in info.coordinates], dtype=np.bool_)
     gaps[turns] -= 2.0 * np.pi * np.round(gaps[turns] / (2.0 * np.pi))
@@ -178,7 +178,7 @@ def eigenvalues_of(a: Array, sizes: Array | None = None) -> tuple[Complex, Compl
 
 
 def ranking(values: Array | Complex) -> NDArray[np.int64]:
-    """Return the order by decreasing real part, then by decreasing imaginary part; what rounding parts is one."""
+    """Return the order by decreasing real, then decreasing imaginary part; values apart by rounding count as equal."""
     numbers = np.asarray(values, dtype=np.complex128)
     grain = 1e-12 * np.abs(numbers).max(initial=0.0) or 1.0
     return np.asarray(np.lexsort((-numbers.imag, -np.round(numbers.real / grain))), dtype=np.int64)
@@ -190,7 +190,7 @@ def in_order(values: Array | Complex) -> Complex:
 
 
 def largest(matrix: Any) -> float:
-    """Return the largest size of an element of a dense or sparse matrix, 0 of an empty one."""
+    """Return the largest magnitude of an element of a dense or sparse matrix, 0 of an empty one."""
     return float(abs(matrix).max()) if matrix.shape[0] else 0.0
 
 

@@ -1,4 +1,4 @@
-"""Mode shapes as motions that pages and films play: a state, and a small share of a shape that comes and goes."""
+"""Mode shapes as motions for pages and films: a state, and a small share of a shape that oscillates."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ def mode_recording(
     modes : Modes
         About a state of rest.
     number : int
-        Which of its shapes, from 1 on.
+        Number of the shape, from 1 on.
     parameters : mapping of str to float, optional
         Parameters that differ from the described ones.
 
     Raises
     ------
     InputError
-        If there is no such mode, or shapes have other columns than coordinates of bodies.
+        If the mode does not exist, or shapes have other columns than coordinates of bodies.
     """
     names = _names(mechanism)
     if not set(names) <= set(modes.names):
@@ -73,7 +73,7 @@ def mode_recording(
 
 
 def mode_page(mechanism: Mechanism, modes: Modes, number: int, parameters: Mapping[str, float] | None = None) -> Page:
-    """Return the page of a mode, with the state that it is about drawn faintly behind; see `mode_recording`."""
+    """Return the page of a mode, with its reference state drawn faintly behind; see `mode_recording`."""
     recording = mode_recording(mechanism, modes, number, parameters)
     still = replace(
         recording, q=np.tile([modes.about[n] for n in _names(mechanism)], (2, 1)), t=recording.t[[0, -1]], groups=()

@@ -40,7 +40,7 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> Settled:
         If a name is no coordinate of the tree's joints, something depends on it, or a body on a ball joint turns at
         the start, whose turning no coordinate counts.
     AnalysisError
-        If there is no such motion.
+        If no such motion exists.
     """
     names = [q.name for q in subject.compiled.info.coordinates]
     for name in cyclic:
@@ -117,7 +117,7 @@ def _ways(free: Array, units: Array, named: Sequence[int]) -> tuple[Array, dict[
     Parameters
     ----------
     free, units : Array, shapes (k, nq + 1) and (nq + 1,)
-        Independent ways, of coordinates and of time, and what they are in.
+        Independent ways, of coordinates and of time, and their units.
     named : sequence of int
         Coordinates that come first.
 

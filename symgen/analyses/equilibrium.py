@@ -1,4 +1,4 @@
-"""Equilibria: positions where forces balance, whether a mechanism stays there, and all of them over a range.
+"""Equilibria: positions where forces balance, their stability, and all of them over a range.
 
 Time stands still, so drivers hold what they drive where it is. Rows that depend on others are left out of the search
 and share the load afterwards, by the smallest multipliers.
@@ -53,7 +53,7 @@ class Equilibrium:
         forces that follow a body let it flutter, the real parts. In a steady motion the stiffness is that at constant
         speeds: no frequencies where one of these is free to change.
     residual : float
-        Largest force that is not balanced [N, N m].
+        Largest unbalanced force [N, N m].
     iterations : int
         Steps of Newton's method.
     multipliers : dict of str to float
@@ -65,7 +65,7 @@ class Equilibrium:
     lam : Array, shape (m,)
         The multipliers.
     notes : tuple of str
-        Forces that have no derivative there: what is said of stability and frequencies leaves that out.
+        Forces that have no derivative there: stability and frequencies ignore that.
     """
 
     q: dict[str, float]
@@ -122,7 +122,7 @@ def judged(rest: Settled) -> Equilibrium:
 
 
 def not_unique(mechanism: Mechanism, info: ModelInfo, share: Array) -> tuple[str, ...]:
-    """Return the joints whose reactions are not determined, by the share of each row in what exerts nothing."""
+    """Return the joints whose reactions are not determined, by the share of each row in the dependencies."""
     joints = {row.joint for row, x in zip(info.rows, share, strict=True) if x > 1e-8}
     joints |= {name.partition(".")[0] for pair in info.dropped_rows for name in pair.split(" = ")}
     return tuple(j.name for j in mechanism.joints if j.name in joints)
@@ -144,7 +144,7 @@ def stability_in_motion(eigenvalues: Complex) -> str:
 
 
 def reduced_squares(mass: Any, stiffness: Any, basis: Array) -> Array | Complex:
-    """Return the squares of frequencies along what is free, in increasing order; massless directions have none.
+    """Return the squares of frequencies along the free directions, in increasing order; massless ones have none.
 
     They are complex numbers where one of them is none, and 0 where they are rounding.
 
@@ -153,13 +153,13 @@ def reduced_squares(mass: Any, stiffness: Any, basis: Array) -> Array | Complex:
     mass, stiffness : Array or sparse, shape (nv, nv)
         M and K; along what is free K is symmetric where forces have a potential.
     basis : Array, shape (nv, n)
-        The directions that are free.
+        The free directions.
     """
     if not basis.shape[1]:
         return np.zeros(0)
     heavy, vectors = np.linalg.eigh(symmetric(basis.T @ (mass @ basis)))
     light = heavy <= 1e-13 * heavy.max()
-    if light.any():  # what has no mass follows the rest
+    if light.any():  # massless directions follow the rest
         a, b = basis @ vectors[:, ~light], basis @ vectors[:, light]
         by_light = b.T @ (stiffness @ np.hstack([b, a]))
         basis = a - b @ np.linalg.lstsq(by_light[:, : b.shape[1]], by_light[:, b.shape[1] :], rcond=1e-13)[0]
@@ -180,7 +180,7 @@ def rest_of(subject: Subject) -> Settled:
     Raises
     ------
     AnalysisError
-        If none is found.
+        If no equilibrium is found.
     """
     y = subject.y.copy()
     y[subject.nq : subject.nq + subject.nv] = 0.0
@@ -203,7 +203,7 @@ def scanned_rests(subject: Subject, name: str, values: Array) -> tuple[Equilibri
     Raises
     ------
     AnalysisError
-        If none is found.
+        If no equilibrium is found.
     """
     unit = subject.unit(name)
     if len(values) < 2:

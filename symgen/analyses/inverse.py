@@ -42,7 +42,7 @@ class Inverse(Tables):
     Attributes
     ----------
     mechanism : str
-        What moves.
+        Name of the mechanism.
     t : Array, shape (k,)
         Times [s].
     efforts : Labelled
@@ -50,17 +50,17 @@ class Inverse(Tables):
     rates, power : Labelled
         Rate of what each works along, and their product [W]; inputs have none.
     missing : Array, shape (k,)
-        Largest acceleration that no effort gives [m/s^2], angles by the bodies' lengths.
+        Largest acceleration that no effort produces [m/s^2], angles by the bodies' lengths.
     forces : Forces
-        What reactions are worked out from.
+        Forces from which reactions are computed.
     q : Labelled
         Coordinates.
     parameters : mapping
         Values of parameters.
     ended : str
-        Why the motion ends before all times, empty where it does not.
+        Reason why the motion ends before all times, else empty.
     notes : tuple of str
-        Sentences: what was settled, what is not unique.
+        Sentences on choices made and values that are not unique.
     """
 
     mechanism: str
@@ -82,12 +82,12 @@ class Inverse(Tables):
 
     @property
     def drawn(self) -> tuple[str, ...]:
-        """What a plot shows unless it is told."""
+        """Tables of a plot by default."""
         return ("efforts", "power")
 
     @property
     def title(self) -> str:
-        """What stands above a plot."""
+        """Title of a plot."""
         return f"{self.mechanism}, inverse dynamics"
 
     @property
@@ -96,7 +96,7 @@ class Inverse(Tables):
         return not self.ended
 
     def summary(self) -> dict[str, dict[str, Any]]:
-        """Return for each effort what sizes a motor: unit, largest size and its time, root mean square, power, energy.
+        """Return the sizing values of each effort: unit, largest size and its time, root mean square, power, energy.
 
         Root mean square and energy are integrals over the times by the trapezoidal rule; `too_few` says where these are
         too few for that.
@@ -186,7 +186,7 @@ def inverse(
 
 
 def _with_recorded(settings: Settings, mechanism: Mechanism, record: Recorded, names: Sequence[str]) -> Settings:
-    """Return settings with the parameters and inputs that a motion was recorded with, where others are not given."""
+    """Return settings with the parameters and inputs of a recording, unless others are set."""
     for name, words in record.inputs.items():
         own = (*settings.inputs, *settings.parameters, *names)
         if name in mechanism.inputs and name not in own and are_words_of_data(words):
@@ -200,7 +200,7 @@ def _with_recorded(settings: Settings, mechanism: Mechanism, record: Recorded, n
 
 
 def _of_drivers(moved: Kinematics, names: Sequence[str]) -> Inverse:
-    """Return the efforts of drivers that hold all freedom: minus the multipliers of their rows."""
+    """Return the efforts of drivers that prescribe all freedom: minus the multipliers of their rows."""
     order = [moved.drivers.index(name) for name in names]
     values, units = moved.efforts.values[:, order], tuple(moved.efforts.units[i] for i in order)
     efforts = Labelled(values, tuple(names), units)

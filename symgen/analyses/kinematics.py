@@ -36,7 +36,7 @@ Array = NDArray[np.float64]
 
 #: Equidistant times where neither the caller nor the file says which.
 DEFAULT_TIMES = 1001
-#: Times at most.
+#: Largest number of times.
 MOST_TIMES = 100_000_000
 
 
@@ -47,27 +47,27 @@ class Kinematics(MotionTables):
     Attributes
     ----------
     mechanism : str
-        What moves.
+        Name of the mechanism.
     t : Array, shape (k,)
-        Times [s]: those asked for, or as far as the motion goes.
+        Times [s]: those requested, up to the end of the motion.
     q, v, a : Labelled
         Coordinates, velocities and accelerations.
     transmission : Labelled
-        Transmission angles of the joints asked for, see `symgen.analyses.transmission`.
+        Transmission angles of the requested joints, see `symgen.analyses.transmission`.
     passages : tuple of Passage
         Singular positions on the way.
     ended : str
-        Why the motion does not reach all times, empty where it does.
+        Reason why the motion does not reach all times, else empty.
     parameters, inputs : mapping
-        Values of parameters, and what inputs were.
+        Values of parameters, and inputs.
     notes : tuple of str
-        Sentences: what was settled on the way.
+        Sentences on choices made on the way.
     steps : int
-        Steps that were taken, at times asked for and between.
+        Steps taken, at requested times and between.
     drivers : tuple of str
         Names of the drivers.
     motion : PrescribedMotion
-        What further tables are worked out from.
+        Motion from which further tables are computed.
     """
 
     cached: ClassVar[tuple[str, ...]] = ("non_unique_reactions", "efforts")
@@ -97,7 +97,7 @@ class Kinematics(MotionTables):
 
     @property
     def title(self) -> str:
-        """What stands above a plot."""
+        """Title of a plot."""
         return f"{self.mechanism}, kinematics" + (f" ({self.ended})" if self.ended else "")
 
     @property
@@ -107,7 +107,7 @@ class Kinematics(MotionTables):
 
     @cached_property
     def efforts(self) -> Labelled:
-        """What each driver exerts along its coordinate [N m or N]: on the second body of its joint, forward.
+        """Effort of each driver along its coordinate [N m or N]: on the second body of its joint, forward.
 
         Nothing, where its row repeats another one, which carries all.
         """
@@ -219,9 +219,9 @@ def kinematics(
     times : array, optional
         Increasing, of any sign [s]; the outputs of a run of the file by default.
     transmission : sequence of str
-        Joints whose transmission angles are wanted.
+        Joints with requested transmission angles.
     where : str
-        Who asks, for messages.
+        Name of the caller, for messages.
 
     Raises
     ------

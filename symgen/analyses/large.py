@@ -30,14 +30,14 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: What of a stiffness is not symmetric is none below this part of what restores a motion; motions at random, by which
-#: it is looked for.
+#: An asymmetry of stiffness below this part of the restoring stiffness counts as zero; number of random motions that
+#: test it.
 UNEVEN, SEEN = 1e-8, 3
-#: Squares of frequencies that are said of a large mechanism at rest: those nearest to 0.
+#: Number of reported squares of frequencies of a large mechanism at rest: those nearest to 0.
 FREQUENCIES = 10
 #: Up to this many velocities stiffness and masses are reduced as dense matrices.
 DENSE = 120
-#: Steps of an iteration that looks for what falls.
+#: Steps of an iteration that searches for negative squares.
 LOOKED = 40
 
 
@@ -159,7 +159,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     mechanism, settings
         As for `settled`.
     count : int
-        How many.
+        Number of modes.
 
     Raises
     ------
@@ -173,7 +173,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     free = sparse.pattern.nv - len(sparse.active)
     if not 0 < count < free:
         raise InputError("count", f"fewer than the mechanism's {free} modes", str(count), "ask for all modes")
-    if damping.nnz and abs(damping).max() > 0.0:  # at rest nothing turns, and what is there is a damper
+    if damping.nnz and abs(damping).max() > 0.0:  # at rest nothing turns, so that only dampers remain
         raise InputError("count", "a mechanism without dampers", "one that has some", "ask for all modes")
     if _follows(stiffness, rows):
         raise InputError("count", "forces that have a potential", "one that has none", "ask for all modes")

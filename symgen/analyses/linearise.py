@@ -36,15 +36,15 @@ class LinearSystem:
     Attributes
     ----------
     A, B, C, D : Array
-        x' = A x + B u, y = C x + D u; all are changes against the state that the system is about.
+        x' = A x + B u, y = C x + D u; all are changes from the reference state.
     states, inputs, outputs : tuple of str
-        Names of x, u and y; parameters that derivatives were asked by are inputs as well, and stand behind.
+        Names of x, u and y; parameters of derivatives are inputs as well, and come last.
     about : dict of str to float
         Values of states, inputs and outputs at that state.
     t : float
         Its time [s].
     left_out : tuple of str
-        Outputs that depend on something else than the states, such as a cyclic coordinate.
+        Outputs that depend on other quantities than the states, such as a cyclic coordinate.
     parameters : tuple of str
         Those of the inputs that are parameters: constants, changed once and for all while the states stay.
     notes : tuple of str
@@ -128,7 +128,7 @@ def linear_system(subject: Subject, y: Array, states: Sequence[str] = (), instan
     Raises
     ------
     InputError
-        If a name means nothing, or the motion is not steady.
+        If a name is not valid, or the motion is not steady.
     """
     x = tangent(subject, y)
     names = named_states(subject, x, states, instantaneous, "linearise")

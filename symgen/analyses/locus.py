@@ -30,7 +30,7 @@ LEVEL = 1e-9
 PARTED, HALVINGS = 0.3819660112501051, 40
 #: A span is looked into, so often, where real parts may bend by as much as this part of what they are at its ends.
 BENT, LOOKS = 0.25, 12
-#: So far beside a crossing, as a part of its span, eigenvalues that pass are told from those that stay on the axis.
+#: Distance from a crossing, as a part of its span, that separates passing eigenvalues from those that stay on the axis.
 BESIDE = 1e-5
 
 
@@ -100,7 +100,7 @@ class Locus:
         Raises
         ------
         InputError
-            If the ending is not known, matplotlib is missing, or the file cannot be written.
+            If the suffix is not supported, matplotlib is missing, or the file cannot be written.
         """
         from matplotlib.figure import Figure
 
@@ -164,7 +164,7 @@ def locus(place: NamedPlace, over: tuple[str, Sequence[float] | Array], states: 
 def _followed(before: Sequence[Complex], now: Complex, further: float = 0.0) -> Complex:
     """Return eigenvalues in the order of the ones before, which are gone on from in straight lines.
 
-    `further` is how much of the last step this one is.
+    `further` is the ratio of this step to the last one.
     """
     from scipy.optimize import linear_sum_assignment
 
@@ -204,7 +204,7 @@ class _Search:
         return moving[np.argsort(-moving.real, kind="stable")]
 
     def on_axis(self, *values: float) -> int:
-        """Return how many eigenvalues are on the axis at all of some values."""
+        """Return the number of eigenvalues on the axis at all of some values."""
         return int(min(np.count_nonzero(self.sides(self.eigenvalues(value)) == 0.0) for value in values))
 
     def with_bends(self, values: Sequence[float]) -> list[float]:
@@ -231,7 +231,7 @@ class _Search:
         try:
             if not a < middle < b or len(self.eigenvalues(middle)) != len(self.eigenvalues(a)):
                 return []
-        except SymgenError:  # there is no such motion between
+        except SymgenError:  # no such motion exists between
             return []
         now = self.bend(a, middle, b)
         return [*self.inside(a, middle, now, looks - 1), middle, *self.inside(middle, b, now, looks - 1)]

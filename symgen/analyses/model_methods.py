@@ -1,4 +1,4 @@
-"""What a model is asked for beside its motion: methods of `symgen.api.Model` that are analyses."""
+"""Methods of `symgen.api.Model` that are analyses."""
 
 from __future__ import annotations
 

@@ -45,9 +45,9 @@ class Modes:
     omega_squared : Array
         Squares of the angular frequencies [1/s^2] in increasing order; none where something damps or turns.
     degrees_of_freedom : int
-        Velocities that are free.
+        Number of free velocities.
     names : tuple of str
-        What shapes have columns of: coordinates at rest, states in a steady motion.
+        Columns of shapes: coordinates at rest, states in a steady motion.
     shapes : Array of complex, shape (modes, names)
         One for each eigenvalue whose imaginary part is not negative, or for each of `omega_squared`; at rest
         normalised to x^H M x = 1, in a steady motion to a largest element of 1.
@@ -57,7 +57,7 @@ class Modes:
         Share of each force and joint in the work of each mode against what restores it: joints restore by what they
         carry.
     dissipation : mapping of str to Array
-        Share of each force in what damps each mode; empty where nothing does.
+        Share of each force in the damping of each mode; empty without damping.
     about : dict of str to float
         Coordinates, or states, that the modes are about.
     t : float

@@ -28,11 +28,11 @@ class Passage:
     Attributes
     ----------
     t : float
-        When it was met [s].
+        Its time [s].
     kind : str
-        ``"passed"``, or ``"dead centre"`` where no motion goes on.
+        ``"passed"``, or ``"dead centre"`` where the motion ends.
     coordinates : tuple of str
-        What could move there although all drivers hold still.
+        Coordinates that could move there although all drivers hold still.
     drivers : tuple of str
         Drivers that hold nothing there.
     """

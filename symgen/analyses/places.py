@@ -1,4 +1,4 @@
-"""From what is asked for to an answer: where an analysis is made, and the analysis there."""
+"""Places of analyses, and the analyses there."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Places that are asked for by a word; another one is a time of a run.
+#: Places selected by a word; another one is a time of a run.
 PLACES = ("equilibrium", "start", "steady")
-#: How far an equilibrium may be from the coordinates that name it [rad, or the length of the mechanism].
+#: Largest distance of an equilibrium from the coordinates that name it [rad, or the length of the mechanism].
 BESIDE = 0.1
 #: Tolerances of a run that leads to a state that is linearised about.
 FOLLOWED = {"method": "direct-correction", "integrator": "dop853", "rtol": 1e-12, "atol": 1e-14}
@@ -39,7 +39,7 @@ FOLLOWED = {"method": "direct-correction", "integrator": "dop853", "rtol": 1e-12
 
 @dataclass(frozen=True)
 class NamedPlace:
-    """What is analysed, and where.
+    """A mechanism and the place of its analysis.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class NamedPlace:
     Raises
     ------
     InputError
-        If there is no such place.
+        If the place does not exist.
     """
 
     mechanism: Mechanism
@@ -89,12 +89,12 @@ class NamedPlace:
 
 
 def arrived(place: NamedPlace) -> NamedPlace:
-    """Return the same about the start, which is the state of a run where a time is asked for.
+    """Return the same about the start, which is the state of a run if the place is a time.
 
     Raises
     ------
     AnalysisError
-        If the run fails or does not come to the time.
+        If the run fails or does not reach the time.
     """
     if isinstance(place.at, str | Mapping):
         return place
@@ -122,7 +122,7 @@ def subject_at(place: NamedPlace, by: Sequence[str] = ()) -> tuple[Subject, Arra
     InputError
         If the start is wrong.
     AnalysisError
-        If no equilibrium or steady motion is found, or the run fails or does not come to its time.
+        If no equilibrium or steady motion is found, or the run fails or does not reach its time.
     """
     place = arrived(place)
     settings = replace(place.settings, coordinates="joint") if place.at == "steady" else place.settings

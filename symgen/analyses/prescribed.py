@@ -62,7 +62,7 @@ class PrescribedRun:
     inputs : mapping
         Inputs in words, or their numbers.
     notes : tuple of str
-        What was settled on the way.
+        Choices made on the way.
     """
 
     mechanism: Mechanism
@@ -206,7 +206,7 @@ def _refuse_excess(
     """
     try:
         loose = make_ready(without(instantaneous(mechanism), drivers), replace(settings, start={}), until)
-    except (InputError, AssemblyError):  # it is not what the drivers drive that is wrong
+    except (InputError, AssemblyError):  # the error is not in the driven coordinates
         return None
     info = loose.compiled.info
     freedom = info.nv - (info.m - len(loose.start.redundant_rows))
@@ -274,14 +274,14 @@ def branch_near(plan: Plan, branch: Mapping[str, float]) -> tuple[Array, tuple[s
     near : Array, shape (nq,)
         Coordinates.
     words : tuple of str
-        Which way it is, in a sentence.
+        Description of the way, in a sentence.
 
     Raises
     ------
     InputError
         If a name is no coordinate: velocities follow from drivers.
     AssemblyError
-        If it cannot be closed at all.
+        If the mechanism cannot be closed.
     """
     mechanism, parameters, compiled = plan.mechanism, plan.parameters, compiled_for(plan.mechanism, plan.choice)
     info, rng = compiled.info, np.random.default_rng(0)

@@ -1,4 +1,4 @@
-"""The motion near a state as a linear system in as many unknowns as the mechanism is free in.
+"""The motion near a state as a linear system in independent unknowns.
 
 Near a state with q' = N v, D v = nu, M v' + D^T lambda = f and D v' = gamma let q change by N Z_q s and v by
 Z u - D^+ (D v - nu)_q N Z_q s, Z_q and Z being bases of what holonomic rows, and all rows, leave free: orthonormal ones
@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class StateTangent:
-    """How everything changes with x = (s, u, z, inputs, parameters) near a state; all matrices have as many columns.
+    """Derivatives by x = (s, u, z, inputs, parameters) at a state; all matrices have as many columns.
 
     z are the states of the file's own.
 
@@ -89,7 +89,7 @@ class StateTangent:
 
     @property
     def rate(self) -> float:
-        """The fastest that forces, or the motion, could make anything change [1/s]; 1 where nothing does."""
+        """Largest rate of change that forces, or the motion, could cause [1/s]; 1 without any."""
         e, basis, subject = self.base, np.abs(self.basis), self.subject
         heavy = np.einsum("ik,ij,jk->k", self.basis, e.by("balance", "a"), self.basis)
         stiffness = np.abs(e.by("balance", "q") @ e.by("motion", "v"))
@@ -102,7 +102,7 @@ class StateTangent:
 
     @property
     def sizes(self) -> Array:
-        """What counts as large of s, u and z, shape (size,)."""
+        """Scales of s, u and z, shape (size,)."""
         return np.append(np.repeat([1.0, self.rate], [self.positions, self.velocities]), self.subject.extents(self.y))
 
     def sizes_of(self, names: Sequence[str]) -> Array:
@@ -123,14 +123,14 @@ class StateTangent:
         return np.array(sizes)
 
     def function(self, place: int) -> tuple[float, Array]:
-        """Return the value of a quantity of the state, and how it changes."""
+        """Return the value of a quantity of the state, and its changes."""
         by = {"q": self.q, "v": self.v, "a": self.rates, "z": self.z, "lam": self.multipliers}
         changes = np.sum([self.base.by("functions", space)[place] @ x for space, x in by.items()], axis=0)
         changes[self.size :] += self.base.by("functions", "p")[place][self.subject.places]
         return float(self.base.value("functions")[place]), changes
 
     def changes_of(self, names: Sequence[str], rates: bool = False) -> Array:
-        """Return how quantities of the state, or their rates, change; shape (names, size + inputs)."""
+        """Return the changes of quantities of the state, or of their rates; shape (names, size + inputs)."""
         quantities = [self.quantity(name) for name in names]
         changes = [q.rate_changes if rates else q.changes for q in quantities]
         return np.array(changes).reshape(len(names), self.q.shape[1])
@@ -141,7 +141,7 @@ class StateTangent:
         Raises
         ------
         InputError
-            If there is none of that name; says the nearest one.
+            If the name does not exist; names the nearest one.
         """
         quantities = quantities_of(self.subject)
         if name not in quantities:
@@ -159,7 +159,7 @@ class StateTangent:
 
 @dataclass(frozen=True)
 class StateQuantity:
-    """A quantity of the state: its value and rate, and how both change with (s, u, inputs)."""
+    """A quantity of the state: its value and rate, and their changes with (s, u, inputs)."""
 
     name: str
     value: float
@@ -169,7 +169,7 @@ class StateQuantity:
 
 
 def quantities_of(subject: Subject) -> Mapping[str, tuple[str, int]]:
-    """Return the quantities of the state whose rates are known: by name where each stands.
+    """Return the positions, by name, of the quantities of the state whose rates are computed.
 
     Coordinates and velocities of the state, coordinates of joints and outputs with ``.rate`` behind the name of their
     rates.
@@ -203,7 +203,7 @@ def _solved(heavy: Array, right: Array) -> Array:
 
 
 def tangent(subject: Subject, y: Array, t: float | None = None) -> StateTangent:
-    """Return how everything changes near a state that satisfies the constraints.
+    """Return the linear system near a state that satisfies the constraints.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Steps of a search at most, and trials of one.
+#: Most steps of a search, and most trials of a step.
 MOST_STEPS, MOST_TRIALS = 300, 60
 #: Forces and violations below this fraction of what they are compared with count as zero; below this one they are
 #: rounding, and no step makes them less.
@@ -41,7 +41,7 @@ NEAR, REACH = 0.15, 1.0
 OPENED = 0.05
 #: A closing step as long as this has no way; what everything is moved by then, in lengths of the mechanism and radians.
 SINGULAR, ASTRAY = 1e6, 0.01
-#: What s is multiplied with where a step is too long, and the least part of its root that is left behind a short one.
+#: Factor of s where a step is too long, and the least part of its root that is left behind a short one.
 FASTER, SLOWER = 4.0, 0.3
 #: Most iterations of Newton's method for states of the file at rest.
 MOST_ITERATIONS = 50
@@ -67,7 +67,7 @@ class DenseStatics:
     subject : Subject
         The mechanism.
     held : sequence of (str, float)
-        Coordinates that are held at a value by a force of their own, whose multiplier stands last.
+        Coordinates held at a value by a force of their own, whose multiplier comes last.
     """
 
     subject: Subject
@@ -80,7 +80,7 @@ class DenseStatics:
 
     @property
     def lengths(self) -> Array:
-        """What changes of coordinates are compared with, shape (nq,)."""
+        """Scales of changes of coordinates, shape (nq,)."""
         return self.subject.lengths
 
     @property
@@ -206,12 +206,12 @@ def settle(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -
     y : Array
         A state; its velocities are kept.
     held : sequence of (str, float)
-        Coordinates that are held at a value by a force of their own, whose multiplier stands last.
+        Coordinates held at a value by a force of their own, whose multiplier comes last.
 
     Raises
     ------
     AnalysisError
-        If none is found.
+        If no equilibrium is found.
     """
     statics, y, lam, steps = search(DenseStatics(subject, held), y)
     return Settled(statics.subject, y, lam, steps)
@@ -227,7 +227,7 @@ def search(statics: S, y: Array) -> tuple[S, Array, Array, int]:
     Raises
     ------
     AnalysisError
-        If none is found.
+        If no equilibrium is found.
     """
     if any(force.flexures for force in statics.mechanism.forces):
         with suppress(AnalysisError):

@@ -1,4 +1,4 @@
-"""Motions that stay what they are, at rest or steady in their states, and which quantities the states are.
+"""Motions at rest or steady in their states, and the choice of these states.
 
 A linear system with constant matrices exists about a state where the states do not change, and where their rates
 depend on nothing else. Turning wheels, a heading, a distance travelled may change meanwhile: they are cyclic. Both is
@@ -56,7 +56,7 @@ def at_rest(subject: Subject, x: StateTangent) -> bool:
         return False
     massive = heavy > 0.0  # what has no mass follows
     quick = carried[massive] / heavy[massive]
-    # at a singular position, forces along what rows do not hold there balance only as well as a search makes them
+    # at a singular position, forces along directions that rows leave free balance only to the accuracy of a search
     rounding = TOLERANCE if subject.lost(rows) > 0 else ROUNDED
     limit = STILL * quick + rounding * quick.max(initial=0.0)
     v, a = np.abs(x.speeds / spans)[massive], np.abs(x.a / spans)[massive]
@@ -102,14 +102,14 @@ def named_states(
     Raises
     ------
     InputError
-        If a name means nothing, or the motion is not steady.
+        If a name is not valid, or the motion is not steady.
     """
     if not x.size and not states:
         return ()
     resting, soon = at_rest(subject, x), None
     if states:
         requested = tuple(dict.fromkeys(states))
-        # what determines all needs no more rates, also where Euler parameters are in it, whose rates have no names
+        # a determining set needs no more rates, also with Euler parameters, whose rates have no names
         names = requested if _rank(x, requested) == x.size else _with_rates(subject, states)
         if _rank(x, names) < len(names):
             raise InputError("states", "states that do not depend on each other", ", ".join(names))
@@ -129,7 +129,7 @@ def named_states(
 
 
 def _rank(x: StateTangent, names: Sequence[str]) -> int:
-    """Return how many of some states do not depend on each other."""
+    """Return the number of independent states among some."""
     rows = x.changes_of(names)[:, : x.size] * x.sizes / x.sizes_of(names)[:, np.newaxis]
     return int(np.linalg.matrix_rank(rows, tol=1e-9 * np.abs(rows).max(initial=1e-300)))
 
@@ -155,7 +155,7 @@ def _with_rates(subject: Subject, names: Sequence[str]) -> tuple[str, ...]:
     Raises
     ------
     InputError
-        If a name means nothing.
+        If a name is not valid.
     """
     quantities = quantities_of(subject)
     own = {q.name for q in subject.compiled.info.coordinates}
@@ -218,7 +218,7 @@ def system(x: StateTangent, names: Sequence[str]) -> tuple[Array, Array, Array, 
     rest : Array, shape (n, size)
         What of the states' rates does not follow from the states.
     size : float
-        What it is compared with.
+        Scale of `rest`.
     """
     n, sizes = x.size, x.sizes_of(names)[:, np.newaxis]
     states, rates = x.changes_of(names) / sizes, x.changes_of(names, rates=True) / sizes
@@ -316,7 +316,7 @@ def _later(subject: Subject, x: StateTangent) -> StateTangent:
     end = x.t + APART / speed
     large: Any = np.concatenate(
         [subject.lengths, speed * subject.spans, subject.extents(x.y)]
-    )  # SciPy's types do not know arrays of tolerances
+    )  # SciPy's types lack arrays of tolerances
     run = solve_ivp(slope, (x.t, end), x.y[followed], "Radau", rtol=1e-8, atol=1e-10 * large)
     if not run.success:
         raise AnalysisError(f"the motion cannot be followed beyond t = {run.t[-1]:.4g} s: {run.message}")

@@ -1,4 +1,4 @@
-"""What an analysis is about: a mechanism with its descriptor form, its parameters and a state to begin with."""
+"""Subject of an analysis: a mechanism with its descriptor form, its parameters and an initial state."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ LARGE = 300
 NO_ROW = 1e-11
 #: Jumps of inputs are looked for up to so far behind a time, and are at it as near as this, both parts of it.
 BEYOND, HERE = 1e-9, 1e-13
-#: What a name of a rate ends in.
+#: Suffix of the names of rates.
 RATE = ".rate"
 
 
@@ -61,7 +61,7 @@ class Yardsticks:
 
     @property
     def lengths(self) -> Array:
-        """What changes of coordinates are compared with: the mechanism's length [m], or 1; shape (nq,)."""
+        """Scales of changes of coordinates: the mechanism's length [m], or 1; shape (nq,)."""
         return self._of(tuple(q.unit for q in self.compiled.info.coordinates), "m")
 
     @property
@@ -71,7 +71,7 @@ class Yardsticks:
 
     @property
     def gaps(self) -> Array:
-        """What violations of rows are compared with: the mechanism's length [m], or 1 rad; shape (m,)."""
+        """Scales of violations of rows: the mechanism's length [m], or 1 rad; shape (m,)."""
         return self._of(tuple(row.unit for row in self.compiled.info.rows), "m")
 
     @property
@@ -115,7 +115,7 @@ class Subject(Yardsticks):
     closed : bool
         Whether the start satisfies the constraints.
     by : tuple of str
-        Parameters that the form is differentiated by beside the inputs.
+        Parameters that the form is differentiated by besides the inputs.
     inputs : tuple of str
         Those of the file: a mechanism in which formulas stand for them has switches as well.
     """
@@ -168,7 +168,7 @@ class Subject(Yardsticks):
         return len(self.compiled.info.states)
 
     def extents(self, y: Array) -> Array:
-        """Return what changes of the states of the file's own are compared with: their values, 1 where these are 0."""
+        """Return the scales of changes of the file's own states: their values, 1 where these are 0."""
         values = np.abs(y[self.compiled.info.own_states])
         return np.where(values > 0.0, values, 1.0)
 
@@ -310,7 +310,7 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
     settings : Settings
         ``parameters``, ``inputs``, ``start``, ``coordinates`` and ``shape`` count.
     by : sequence of str
-        Parameters that the form is differentiated by beside the inputs.
+        Parameters that the form is differentiated by besides the inputs.
 
     Raises
     ------

@@ -23,19 +23,19 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Beside a singular position states are known at so many times on either side, where the sine is a multiple of this.
+#: Near a singular position states are computed at so many times on either side, where the sine is a multiple of this.
 NODES, SPACING = 3, 0.05
 #: Sines below this are near a singular position; attempts to go over it, each with nearer times.
 NEAR, ATTEMPTS = 0.01, 4
 #: The state extrapolated over a singular position has to be corrected by less than this part of the sine.
 CONTINUED = 0.1
-#: A motion is followed at so many times, where those asked for are farther apart: drivers may go and come back there.
+#: A motion is followed at so many times, where the requested ones are farther apart: drivers may go and return there.
 FOLLOWED = 200
-#: Times nearer than this part of a motion are the same.
+#: Times nearer than this part of a motion are equal.
 SAME = 1e-9
 #: Times that compiled code goes through at once.
 PIECE = 500_000
-#: The shortest step beside the time that a motion takes.
+#: The shortest step, as a part of the motion's time.
 LEAST = 1e-13
 #: A row that opens by more than this in the shortest step jumps [rad, or the length of the mechanism].
 JUMP = 1e-6
@@ -69,7 +69,7 @@ def trace(run: PrescribedRun, times: Array) -> Traced:
     if not first:
         return Tracer(run, times).run()
     back = Tracer(run, times[:first][::-1]).run()
-    # copies, as compiled code takes rows that follow each other
+    # copies, as compiled code takes contiguous rows
     rows = (array[::-1].copy() for array in back[:4])
     before = Traced._make((*rows, back.passages[::-1], back.ended, back.steps))
     if first == len(times):
@@ -153,7 +153,7 @@ class Tracer:
     # -- the loop ------------------------------------------------------------------------------------------------------
 
     def run(self) -> Traced:
-        """Follow the motion through all times, or as far as it goes."""
+        """Follow the motion through all times, or to its end."""
         info, k = self.info, len(self.times)
         rows = f.Followed(np.empty((k, info.ny)), np.empty((k, info.nv)), np.empty((k, abi.N_STATUS + info.windings)))
         ended = ""
@@ -175,7 +175,7 @@ class Tracer:
                 ended = self._reason(code)
                 break
         if not ended and self.clock[f.SINE] < NEAR and np.isfinite(self.clock[f.SLOPE]):
-            self._cross(f.DONE, rows)  # the last states are beside a singular position
+            self._cross(f.DONE, rows)  # the last states are near a singular position
         n = int(self.stand.counts[f.AT])
         taken = int(self.stand.counts[f.TAKEN])
         here: Any = slice(n) if self.requested.all() else np.flatnonzero(self.requested[:n])
@@ -205,7 +205,7 @@ class Tracer:
         self.stand.counts[f.SETTLED], self.clock[f.REACH] = 0, self.span
         return True
 
-    # -- states beside a singular position -----------------------------------------------------------------------------
+    # -- states near a singular position -------------------------------------------------------------------------------
 
     def _taken(self) -> tuple[Array, ...]:
         return tuple(array.copy() for array in self.stand)
@@ -331,7 +331,7 @@ class Tracer:
         return Passage(float(t), kind, tuple(names), tuple(name for name in drivers if kinds[name] == DRIVER))
 
     def _reason(self, code: int) -> str:
-        """Return why the motion does not go on, in a sentence."""
+        """Return the reason why the motion ends, in a sentence."""
         t, sine, slope, least = self.clock[f.TIME], self.clock[f.SINE], self.clock[f.SLOPE], self.course.least
         if code == f.UNDEFINED:
             return f"a formula is not finite after t = {t:.9g} s"

@@ -106,7 +106,7 @@ class _Angle:
         return self._turned(displacement.along.body, np.array([-y, x]))
 
     def _place(self, joint: Joint) -> Array:
-        """Return where a pin is, shape (k, 2)."""
+        """Return the positions of a pin, shape (k, 2)."""
         marker = dict(self.mechanism.seats)[joint.name]
         local = np.array([evaluate(e, self.parameters, joint.name) for e in marker.point])
         if marker.body == GROUND:

@@ -1,1 +1,1 @@
-"""Studies: many runs of a mechanism against a reference, and what they say about methods."""
+"""Studies: many runs of a mechanism against a reference, and the findings about methods."""

@@ -1,9 +1,9 @@
-"""What a long study has done, kept in a file: one line of JSON a finished cell, appended and never changed.
+"""Journal of a long study, a file: one line of JSON a finished cell, appended and never changed.
 
-A cell is known by the digest of everything that determines it, so a journal may serve several studies and outlives
-changes of any of them. A line that a kill tore is dropped when the file is opened again. A line that has changed since
-it was written, told by its digest, stays and its cell is computed again. A file that is no journal is refused and left
-as it is. One process at a time writes to it.
+The key of a cell is the digest of everything that determines it, so a journal may serve several studies and survives
+changes of any of them. A line torn by a kill is dropped when the file is opened again. A line that no longer matches
+its digest stays, and its cell is computed again. A file that is no journal is refused and left unchanged. One process
+at a time writes to it.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ HEADER = json.dumps({"symgen-journal": FORM}).encode() + b"\n"
 Outcome = dict[str, Any]
 
 
-# -- what determines a cell --------------------------------------------------------------------------------------------
+# -- the key of a cell -------------------------------------------------------------------------------------------------
 
 
 def cell_key(**parts: Any) -> str:
@@ -43,12 +43,12 @@ def cell_key(**parts: Any) -> str:
     ----------
     **parts
         Numbers, texts, None, and lists or mappings of these; floats count to their last digit, the order of keys does
-        not. `identity` of a mechanism and `code_identity` give the parts for the model and for what computes the cell.
+        not. `identity` of a mechanism and `code_identity` are the parts for the model and for the computing code.
 
     Raises
     ------
     TypeError
-        If a part is something else, whose text might say less than the value.
+        If a part has another type, whose text might not determine the value.
     """
     text = json.dumps(parts, sort_keys=True, separators=(",", ":"), default=_plain)
     return hashlib.sha256(text.encode()).hexdigest()[:32]
@@ -61,7 +61,7 @@ def _plain(value: Any) -> dict[str, Any]:
 
 
 def code_identity() -> str:
-    """Return a digest of all that computes a cell: the version, the emitted form and the sources of the package."""
+    """Return a digest of the computing code: the version, the emitted form and the sources of the package."""
     from symgen.compiling.pipeline import generator_digest
     from symgen.ir.program import FORMAT
 
@@ -72,12 +72,12 @@ def code_identity() -> str:
 
 
 class Journal:
-    """Finished cells by key, in a file or, without a path, in memory alone.
+    """Finished cells by key, in a file or, without a path, in memory only.
 
     Parameters
     ----------
     path : Path or None
-        The file; made when it is missing, read when it exists.
+        The file; created when missing, read when it exists.
 
     Raises
     ------
@@ -103,11 +103,11 @@ class Journal:
         self.close()
 
     def close(self) -> None:
-        """Let go of the file; another process may use it then."""
+        """Release the file for other processes."""
         if self._file is not None:
             self._file.close()
             self._file = None
-            if self._created and not self._done and self.path is not None:  # whoever is refused leaves nothing behind
+            if self._created and not self._done and self.path is not None:  # a refused process leaves no file
                 for path in (self.path, _lock_of(self.path)):
                     with suppress(OSError):
                         path.unlink()
@@ -125,30 +125,30 @@ class Journal:
         return iter(self._done)
 
     def get(self, key: str) -> Outcome | None:
-        """Return the outcome of a finished cell, None where it is not finished."""
+        """Return the outcome of a cell, None if it is not finished."""
         return self._done.get(key)
 
     def add(self, key: str, outcome: Mapping[str, Any]) -> Outcome:
-        """Keep the outcome of a cell; it is with the operating system when this returns.
+        """Write the outcome of a cell; on return the operating system has it.
 
         Parameters
         ----------
         key : str
             From `cell_key`.
         outcome : mapping
-            What JSON can express; numbers that it cannot (nan, infinity) are refused.
+            JSON values; numbers that JSON lacks (nan, infinity) are refused.
 
         Returns
         -------
         dict
-            The outcome as it will be read again.
+            The outcome as read back.
 
         Raises
         ------
         ValueError
             If the cell is finished already: it was computed twice.
         SimulationError
-            If the file cannot be written any more, e.g. because the disk is full.
+            If writing fails, e.g. on a full disk.
         """
         if key in self._done:
             raise ValueError(f"cell {key} is in the journal already")
@@ -170,9 +170,9 @@ class Journal:
         import filelock
 
         check_name(f"journal '{path}'", path)
-        if not path.parent.is_dir():  # the lock would make it
+        if not path.parent.is_dir():  # the lock would create it
             raise InputError(f"journal '{path}'", "a file in a folder that exists", f"no folder '{path.parent}'")
-        _content(path)  # a file that is no journal gets no lock beside it
+        _content(path)  # a file that is no journal gets no lock file
         lock = filelock.FileLock(_lock_of(path))
         try:
             lock.acquire(timeout=0)
@@ -208,7 +208,7 @@ def _lock_of(path: Path) -> Path:
 
 
 def _content(path: Path) -> bytes:
-    """Return the bytes of a journal, none where there is no file yet."""
+    """Return the bytes of a journal, empty if the file does not exist."""
     if path.exists() and not path.is_file():
         raise InputError(f"journal '{path}'", "a file", "a folder, a pipe or a device")
     try:
@@ -222,7 +222,7 @@ def _content(path: Path) -> bytes:
 
 
 def _parsed(line: bytes) -> tuple[str, Outcome] | None:
-    """Return key and outcome of a line, None of one that is damaged."""
+    """Return key and outcome of a line, None of a damaged one."""
     try:
         entry = json.loads(line)
         written = entry.pop("sha256")

@@ -1,4 +1,4 @@
-"""The machine class and the versions that figures were made with: what is needed to judge run times, and no more."""
+"""Machine class and library versions of measured run times, and no further details of the machine."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ LIBRARIES = ("numpy", "llvmlite", "numba", "sympy", "scipy")
 
 
 def processor() -> str:
-    """Return the model of the processor, or its architecture where the system does not tell."""
+    """Return the model of the processor, or its architecture where the model is unavailable."""
     try:
         for line in Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines():
             label, _, value = line.partition(":")

@@ -1,6 +1,6 @@
-"""Cells of a study computed one after another or on several processes, with a journal of those that are done.
+"""Cells of a study computed one after another or on several processes, with a journal of the finished ones.
 
-Several processes suit cells whose run times are not what is measured.
+Several processes suit cells whose run times are not measured.
 """
 
 from __future__ import annotations
@@ -35,11 +35,11 @@ class Cell:
     key : str
         From `symgen.study.journal.cell_key`.
     group : str
-        Cells of one group share what is costly to compile, and are computed one after another.
+        Cells of one group share code that is costly to compile, and are computed one after another.
     task : object
-        What `compute` gets; it travels between processes.
+        Argument of `compute`; it is sent to processes.
     cost : float
-        Expected work relative to other cells, for the estimate of what is left.
+        Expected work relative to other cells, for the estimate of the remaining time.
     """
 
     key: str
@@ -50,14 +50,14 @@ class Cell:
 
 @dataclass(frozen=True)
 class Status:
-    """How far a study is.
+    """Progress of a study.
 
     Attributes
     ----------
     done, total : int
-        Cells, those found in the journal included.
+        Cells, those of the journal included.
     share : float
-        Work that is done, from 0 to 1.
+        Completed share of the work, from 0 to 1.
     seconds_left : float or None
         Estimate from the work done since the study began; None before anything was computed.
     """
@@ -98,17 +98,17 @@ def run_cells(
     progress: Callable[[Status], None] | None = None,
     patience: float = 0.0,
 ) -> tuple[dict[str, Outcome], bool]:
-    """Compute the cells that the journal does not hold yet.
+    """Compute the cells that the journal lacks.
 
     Parameters
     ----------
     cells : sequence of Cell
         Cells of the same key are computed once.
     compute : callable
-        A function of a module: task -> outcome, what JSON can express, or None for what no journal keeps. An error that
-        it raises ends the study.
+        A function of a module: task -> outcome as JSON values, or None for cells outside the journal. Its errors end
+        the study.
     journal : Journal
-        Gets each outcome as soon as it is there.
+        Receives each outcome as soon as it is computed.
     processes : int
         Processes to compute on; 1 computes in this one.
     progress : callable, optional
@@ -119,9 +119,9 @@ def run_cells(
     Returns
     -------
     outcomes : dict
-        Those of `cells` that are done, by key.
+        Outcomes of finished cells, by key.
     interrupted : bool
-        Whether a KeyboardInterrupt ended the study before all were.
+        Whether a KeyboardInterrupt ended the study early.
 
     Raises
     ------
@@ -151,7 +151,7 @@ Computed = Iterator[tuple[Cell, Outcome | None]]
 
 
 def _computed(cells: Sequence[Cell], compute: Callable[[Any], Outcome | None], processes: int, patience: float) -> Any:
-    """Yield cells as they get done: in this process, and in others as soon as one takes longer than `patience`."""
+    """Yield cells as they finish: in this process, and in others as soon as one takes longer than `patience`."""
     worthwhile = patience == 0.0
     for i, cell in enumerate(cells):
         if worthwhile and processes > 1 and len(cells) - i > 1:
@@ -166,7 +166,7 @@ def _computed(cells: Sequence[Cell], compute: Callable[[Any], Outcome | None], p
 
 
 def _spread(cells: Sequence[Cell], compute: Callable[[Any], Outcome | None], processes: int) -> Computed:
-    """Yield cells as they get done by processes, which end with this generator."""
+    """Yield cells as processes finish them; the processes end with this generator."""
     context = multiprocessing.get_context("spawn")
     ours, theirs = context.Pipe()
     pool = ProcessPoolExecutor(min(processes, len(cells)), context, _begin, (theirs, loaded_files()))

@@ -1,4 +1,4 @@
-"""Analyses with their commands, one file each: methods of models, options of the command, and what it shows.
+"""Analyses with their commands, one file each: methods of models, options of the command, and its output.
 
 The first line of a file's docstring is the line of its command in ``symgen --help``. Files import nothing heavy before
 an analysis is made, as ``symgen modes --help`` imports them; methods of every file are those of `symgen.api.Model`.
@@ -18,7 +18,7 @@ from symgen.keywords import names as names_of
 from symgen.registry import Registry
 from symgen.settings import Settings, changed
 
-#: Settings that count for analyses about a state, and for motions that drivers prescribe.
+#: Settings of analyses about a state, and of motions that drivers prescribe.
 OF_STATES, OF_MOTIONS = names_of(StateKeywords), names_of(DrivenKeywords)
 #: Those of them that count where drivers say the motion, not where it was recorded.
 OF_DRIVEN = ("start", "strict")
@@ -43,11 +43,11 @@ class Option:
         ``switch``, ``words`` (``A,B``), ``numbers`` (``A=1``, given several times), ``range`` (``A=lin(0,1,5)``),
         ``times``, ``place`` (a word or ``A=0,B=1``), or a file to write: ``plot``, ``tables``.
     metavar : str
-        What stands for a value in the help.
+        Placeholder of a value in the help.
     argument : str
         Name of the argument that takes the value; that of the option by default.
     default : str, optional
-        What is taken where it is not given.
+        Default value.
     """
 
     name: str
@@ -108,7 +108,7 @@ def check_over(over: str | None, plot: Path | None) -> None:
 
 @dataclass(frozen=True)
 class AnalysisTable:
-    """A table that a command shows.
+    """Table shown by a command.
 
     Attributes
     ----------
@@ -117,7 +117,7 @@ class AnalysisTable:
     rows : sequence of sequence of str
         Their cells.
     left : sequence of str
-        Headings of columns that are flush left, as words are.
+        Headings of left-aligned columns, such as words.
     """
 
     headings: Sequence[str]
@@ -126,7 +126,7 @@ class AnalysisTable:
 
 
 def in_notebook(items: Iterable[str | AnalysisTable], notes: Iterable[str] = ()) -> str:
-    """Return as HTML what a command shows of a result."""
+    """Return the output of a command as HTML."""
     from symgen.result.labelled import html_table
 
     lines = [*items, *(f"note: {note}" for note in notes)]
@@ -137,7 +137,7 @@ def in_notebook(items: Iterable[str | AnalysisTable], notes: Iterable[str] = ())
 
 @dataclass(frozen=True)
 class AnalysisOutput:
-    """What a command puts out.
+    """Output of a command.
 
     Attributes
     ----------
@@ -148,7 +148,7 @@ class AnalysisOutput:
     notes : iterable of str
         Sentences on standard error.
     ended : str
-        Why the analysis came to no end, empty where it did.
+        Reason why the analysis did not finish, empty if it did.
     files : mapping
         Path -> what writes it; None is a file that is not wanted.
     """

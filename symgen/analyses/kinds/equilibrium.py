@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-#: Values that are shown at most.
+#: Largest number of values shown.
 MOST = 40
 
 
@@ -38,7 +38,7 @@ def equilibrium(model: Analysed, settings: Settings | None = None, **changes: Un
     Raises
     ------
     AnalysisError
-        If none is found.
+        If no equilibrium is found.
     """
     from symgen.analyses.places import rest_from
 
@@ -65,7 +65,7 @@ def equilibria(
     Raises
     ------
     AnalysisError
-        If none is found.
+        If no equilibrium is found.
     """
     from symgen.analyses.places import scanned
 
@@ -90,7 +90,7 @@ def steady(
     Raises
     ------
     AnalysisError
-        If none is found.
+        If no steady motion is found.
     """
     from symgen.analyses.places import steady_from
 
@@ -142,7 +142,7 @@ def shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
 
 
 def _kind(coordinate: str) -> str:
-    """Return what a coordinate is compared with: lengths with lengths, angles with a radian."""
+    """Return the scale of a coordinate: a length for lengths, a radian for angles."""
     return "m" if coordinate.rpartition(".")[2] in ("x", "y", "z", "displacement") else "rad"
 
 

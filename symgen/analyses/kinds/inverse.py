@@ -46,13 +46,13 @@ def inverse(
     Parameters
     ----------
     motion : Result, Kinematics or path, optional
-        A recorded motion, or the file that one was saved to; what the drivers prescribe by default.
+        A recorded motion, or the file of one; by default the motion that the drivers prescribe.
     settings : Settings, optional
         All settings at once.
     times : array, optional
         Of a motion that drivers prescribe [s].
     actuators : sequence of str
-        What exerts the motion: drivers, joints, forces and inputs; all drivers by default.
+        Actuators of the motion: drivers, joints, forces and inputs; all drivers by default.
     weights : mapping of str to float, optional
         Of efforts that are not unique: the sum of (weight effort)^2 is smallest. 1 / N, or 1 / (N m) times the
         length of the mechanism, by default.
@@ -97,7 +97,7 @@ def command(
         raise InputError("--quantity", "--save or --plot, where quantities go", "neither")
     check_over(over, plot)
     result = inverse(load(), motion, settings, times, actuators, weights)
-    result.select(quantities)  # names that are wrong are refused before anything is shown
+    result.select(quantities)  # wrong names are refused before any output
     result.along(over or "t")
     return AnalysisOutput(
         result.to_json(),

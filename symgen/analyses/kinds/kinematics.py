@@ -42,7 +42,7 @@ def kinematics(
     settings : Settings, optional
         All settings at once.
     transmission : sequence of str
-        Pins whose transmission angles are wanted, such as ``"C"`` or ``"C(B, D)"``.
+        Pins with requested transmission angles, such as ``"C"`` or ``"C(B, D)"``.
     **changes
         Other settings are refused. Of several ways to close the mechanism that nearest to a start such as
         ``{"rocker.theta": -1.5}`` is taken.

@@ -33,7 +33,7 @@ def linearise(
     settings, at
         As for `modes`.
     states : sequence of str
-        Which quantities are the states: coordinates of bodies and joints, velocities, outputs of the file, and
+        Quantities that are the states: coordinates of bodies and joints, velocities, outputs of the file, and
         ``NAME.rate`` of any of these; rates of coordinates are added. Found by default.
     cyclic : sequence of str
         With ``at="steady"``, the coordinates of joints that turn on; found by default.

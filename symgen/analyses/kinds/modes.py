@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-#: Modes that are shown at most.
+#: Largest number of modes shown.
 MOST = 40
 
 
@@ -45,7 +45,7 @@ def modes(
     settings : Settings, optional
         As for `equilibrium`.
     at : {"equilibrium", "start", "steady"}, float or mapping
-        About what: the equilibrium that the start leads to, the start itself, the steady motion that the start
+        Place: the equilibrium that the start leads to, the start itself, the steady motion that the start
         leads to, the state at a time of a run [s], or the equilibrium with values of coordinates by name, such
         as ``{"pole.theta": 0}``.
     states, cyclic
@@ -82,7 +82,7 @@ def view_mode(
     Parameters
     ----------
     number : int
-        Which shape of `modes`, from 1 on.
+        Number of a shape of `modes`, from 1 on.
     settings : Settings, optional
         As for `modes`.
     at : {"equilibrium", "start"}, float or mapping
@@ -93,7 +93,7 @@ def view_mode(
     Raises
     ------
     InputError
-        If there is no such mode.
+        If the mode does not exist.
     AnalysisError
         If no equilibrium is found.
     """

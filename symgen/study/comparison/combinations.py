@@ -1,4 +1,4 @@
-"""What a comparison runs: every method with the integrators that suit it, at every step or tolerance."""
+"""Runs of a comparison: every method with the integrators that suit it, at every step or tolerance."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ from symgen.methods import METHODS
 from symgen.runtime.integrator import adapts
 from symgen.settings import COORDINATES, Settings
 
-#: Constant steps of a study are these multiples of the mechanism's own, unless steps are given.
+#: Default constant steps of a study, as multiples of the mechanism's own.
 STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)
-#: Relative tolerances of adaptive runs, by default; absolute ones are this fraction of them.
+#: Default relative tolerances of adaptive runs; absolute ones are this fraction of them.
 RTOLS = (1e-6, 1e-8, 1e-10)
 ATOL_SHARE = 1e-2
-#: What `compare` runs unless methods are named: the six of Marques, Souto and Flores (2017).
+#: Default methods of `compare`: the six of Marques, Souto and Flores (2017).
 DEFAULT_METHODS = (
     *("lagrange", "baumgarte", "augmented-lagrangian", "index1-augmented-lagrangian"),
     *("coordinate-partitioning", "direct-correction"),
 )
-#: And with which integrators; a method that none of them suits gets its own.
+#: Default integrators; a method that none of them suits gets its own.
 DEFAULT_INTEGRATORS = ("rk4", "dopri5", "dop853")
-#: Stands for every method or integrator.
+#: Every method or integrator.
 ALL = "all"
 
 
 @dataclass(frozen=True)
 class Combinations:
-    """What differs between the runs of a comparison; `symgen.compare` says what each of these means.
+    """Differences between the runs of a comparison; `symgen.compare` documents them.
 
     Raises
     ------
     InputError
-        If one is of the wrong kind.
+        If a value has the wrong type.
     """
 
     methods: Sequence[str] = ()
@@ -60,14 +60,14 @@ class Combinations:
         Parameters
         ----------
         base : Settings
-            What they have in common, their end among it.
+            Common settings, with the end time.
         own : float
             The mechanism's own step [s].
 
         Raises
         ------
         InputError
-            If there is no such method or integrator, or none of these solves a form of a method that is named.
+            If a method or integrator does not exist, or no selected integrator solves a form of a selected method.
         """
         left_out = self.left_out
         for state in tuple(dict.fromkeys(self.coordinates)) or COORDINATES[:1]:
@@ -86,7 +86,7 @@ class Combinations:
 
     @property
     def left_out(self) -> tuple[str, ...]:
-        """Methods of ``all`` of which no integrator that is named solves a form; none if no method would be left."""
+        """Methods of ``all`` with no form that a selected integrator solves; empty if no method would be left."""
         named = {variant_of(words)[0] for words in self.methods}
         if ALL not in named or not self.integrators:
             return ()
@@ -112,7 +112,7 @@ def variant_of(words: str) -> tuple[str, dict[str, str]]:
     Raises
     ------
     InputError
-        If it has another form.
+        If the text has another form.
     """
     method, *parts = words.split(":")
     options = dict[str, str]()
@@ -125,24 +125,24 @@ def variant_of(words: str) -> tuple[str, dict[str, str]]:
 
 
 def words_of_variant(settings: Settings, common: Settings) -> str:
-    """Return the options of a method that other runs of a study have not, such as ``alpha=5, beta=5``."""
+    """Return the options of a method that differ from other runs of a study, such as ``alpha=5, beta=5``."""
     own = (x for x in settings.options.items() if x[0].startswith("method.") and x not in common.options.items())
     return ", ".join(f"{name.removeprefix('method.')}={value}" for name, value in own)
 
 
 def _named(names: Sequence[str], default: Sequence[str], everything: Sequence[str]) -> tuple[str, ...]:
-    """Return the names asked for, each once; ``all`` stands for everything there is."""
+    """Return the selected names, each once; ``all`` selects every one."""
     wanted = [name for g in names or default for name in (everything if g == ALL else (g,))]
     return tuple(dict.fromkeys(wanted))
 
 
 def _suitable(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
-    """Return those of the integrators that solve a form of the method.
+    """Return the integrators that solve a form of the method.
 
     Raises
     ------
     InputError
-        If integrators were named and none of them does.
+        If none of the selected integrators does.
     """
     chosen, fit = METHODS.get(method, "methods"), _fitting(method, integrators)
     if fit or not integrators:
@@ -160,6 +160,6 @@ def _fitting(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
 def _options_for(
     options: Mapping[str, str | float], method: str, methods: Sequence[str], integrator: str, integrators: Sequence[str]
 ) -> dict[str, str | float]:
-    """Return the options that are meant for this method and integrator: those of others in the study are left out."""
+    """Return the options for this method and integrator, without those for others in the study."""
     others = {*(methods or METHODS.names), *(integrators or INTEGRATORS.names)} - {method, integrator}
     return {key: value for key, value in options.items() if key.partition(".")[0] not in others}

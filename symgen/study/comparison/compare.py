@@ -36,20 +36,20 @@ from symgen.study.runner import Cell, Status, run_cells
 
 __all__ = ["Progress", "Row", "Study", "Trace", "compare", "compare_all", "save_csv"]
 
-#: Output times of a study where the mechanism does not say more coarsely.
+#: Output times of a study, unless the mechanism's output step is coarser.
 OUTPUTS = 200
-#: Timed runs a row, unless told; and the seconds that they take together at least.
+#: Default number of timed runs a row, and their least total time in seconds.
 REPEAT, AT_LEAST = 3, 0.05
 #: What making the code of a method ready counts for in the progress, in rows; no process is started for what takes less
 #: than so many seconds.
 PREPARATION, PATIENCE = 10.0, 1.0
 
-#: Called with what is being done, how far it is, and how much there is in all.
+#: Called with the current activity, the progress and the total.
 Progress = Callable[[str, float, float], None]
 
-#: Largest number of coordinates for which a study compiles straight code unless told.
+#: Largest number of coordinates for which a study compiles straight code by default.
 LARGEST_STRAIGHT = 120
-#: Processes at most.
+#: Largest number of processes.
 MOST_JOBS = 4096
 #: A run, the reference with the runs that it is made of, distances, and the times of every row take so much of a run.
 COPIES = 8.0
@@ -85,15 +85,15 @@ def compare(
     model : str, path, Mechanism or Model
         What to run.
     methods, integrators : sequence of str
-        Names, or ``all``. Unless given, the six methods of the source with rk4, dopri5 and dop853. Pairs that do not
-        suit each other are left out. A method may have options of its own, ``"baumgarte:alpha=5:beta=5"``: each
-        is a line of the study.
+        Names, or ``all``. By default the six methods of the source with rk4, dopri5 and dop853. Incompatible pairs
+        are left out. A method may have options of its own, ``"baumgarte:alpha=5:beta=5"``: each is a line of the
+        study.
     steps : sequence of float
         Constant steps [s] of integrators without error estimate; multiples of the mechanism's own by default.
     rtols : sequence of float
-        Tolerances of adaptive ones.
+        Relative tolerances of adaptive integrators.
     until : float, optional
-        End time [s]; the mechanism's own by default, and no longer than it is predictable.
+        End time [s]; by default the mechanism's own, limited to the time in which its motion is predictable.
     repeat : int
         Timed runs a row, after a warm-up; the shortest counts. Short runs are repeated more often; 1 runs once.
     output_step : float, optional
@@ -101,14 +101,14 @@ def compare(
     parameters, options, start : mapping
         As for `symgen.Settings`; `start` holds values by name alone.
     progress : callable, optional
-        Called with what is being done, how far it is, and how much there is in all.
+        Called with the current activity, the progress and the total.
     jobs : int
-        Processes for what is not timed: deriving, compiling, references. With more than 1 a script needs the guard
+        Processes for untimed work: derivation, compilation, references. With more than 1 a script needs the guard
         ``if __name__ == "__main__":``.
     journal : Journal, optional
-        Keeps every row as soon as it is done, and gives those of an earlier, interrupted study.
+        Stores every finished row, and supplies the rows of an earlier, interrupted study.
     reference_by : str
-        Where the reference motion comes from: ``auto``, or one of SciPy's solvers on independently derived equations
+        Source of the reference motion: ``auto``, or one of SciPy's solvers on independently derived equations
         (``scipy-dop853``, ``scipy-radau``, ``scipy-bdf``, ``scipy-lsoda``).
     shape : str
         Shape of the code. ``auto`` is ``straight`` for all methods up to `LARGEST_STRAIGHT` coordinates, so that run
@@ -123,12 +123,12 @@ def compare(
     Returns
     -------
     Study
-        Also after an interruption (KeyboardInterrupt), with the rows that are done.
+        Also after an interruption (KeyboardInterrupt), with the finished rows.
 
     Raises
     ------
     InputError
-        If a name or number is wrong; nothing has been run then.
+        If a name or number is wrong; raised before any run.
     """
     common = Settings(
         until=until,
@@ -149,7 +149,7 @@ def compare(
 
 @dataclass(frozen=True)
 class ReferenceTask:
-    """The motion that rows are compared with; `settings` give its start."""
+    """Reference motion of the rows; `settings` define its start."""
 
     mechanism: Mechanism
     settings: Settings
@@ -157,7 +157,7 @@ class ReferenceTask:
     reference_by: str = AUTO
 
     def outcome(self) -> Outcome:
-        """Return the motion as what JSON can express, or why there is none."""
+        """Return the motion as JSON values, or the reason why there is none."""
         mechanism, settings = self.mechanism, self.settings
         compiled, start = prepare(mechanism, settings, Purpose.STATE).assembled.of_bodies
         values, state = parameter_values(mechanism, settings.parameters), compiled.info.parts(start.y)
@@ -180,13 +180,13 @@ class ReferenceTask:
 
 @dataclass(frozen=True)
 class CodeTask:
-    """The code of one method, with some integrators; its only trace is the cache."""
+    """Code of one method with some integrators; the cache holds the result."""
 
     mechanism: Mechanism
     settings: tuple[Settings, ...]
 
     def outcome(self) -> None:
-        """Compile everything that runs with these settings call, by such that are over at once."""
+        """Compile everything that runs with these settings call, by runs that end at once."""
         for settings in self.settings:
             run = prepare(self.mechanism, settings).with_spec(until=1e-9, times=np.zeros(1))
             outcome = run.integrate()
@@ -195,7 +195,7 @@ class CodeTask:
 
 
 def compute(task: ReferenceTask | CodeTask) -> Outcome | None:
-    """Compute a cell ahead of the runs, which meet what fails again and report it."""
+    """Compute a cell ahead of the runs; the runs meet a failure again and report it."""
     try:
         return task.outcome()
     except SymgenError:
@@ -204,7 +204,7 @@ def compute(task: ReferenceTask | CodeTask) -> Outcome | None:
 
 @dataclass
 class _Work:
-    """One model with everything that will be run."""
+    """One model with all of its runs."""
 
     model: Model
     common: Settings
@@ -221,7 +221,7 @@ class _Work:
 
     @cached_property
     def _parts(self) -> dict[str, Any]:
-        """What all cells of the model depend on; other machines and libraries have other run times."""
+        """Common parts of the cells' keys; run times depend on the machine and the libraries."""
         base, mechanism = self.settings[0], identity(self.model.mechanism)
         parts: dict[str, Any] = {"mechanism": mechanism, "code": code_identity(), "reference": self.reference_by}
         parts |= {"machine": machine_class(), "versions": versions(), "until": base.until, "times": self.times.tolist()}
@@ -229,13 +229,13 @@ class _Work:
 
     @cached_property
     def reference(self) -> Cell:
-        """The cell of the reference."""
+        """Cell of the reference."""
         task = ReferenceTask(self.model.mechanism, self.settings[0], self.times, self.reference_by)
         return Cell(cell_key(what="reference", **self._parts), self.model.name, task)
 
     @cached_property
     def rows(self) -> list[Cell]:
-        """The cells of the rows; their tasks are places among the settings."""
+        """Cells of the rows; their tasks are indices of the settings."""
         cells = []
         for i, settings in enumerate(self.settings):
             own = {f.name: getattr(settings, f.name) for f in fields(settings) if f.name not in self._parts}
@@ -243,18 +243,18 @@ class _Work:
         return cells
 
     def ahead(self) -> list[Cell]:
-        """Return the cells that can be computed before the runs and beside each other."""
+        """Return the cells that can be computed before the runs and in parallel."""
         groups: dict[Any, dict[str, Settings]] = {}
         for cell, settings, plan in zip(self.rows, self.settings, self.plans, strict=True):
             if cell.key not in self.journal:
                 groups.setdefault(plan.key, {}).setdefault(plan.integrator.name, settings)
         tasks = [CodeTask(self.model.mechanism, tuple(group.values())) for group in groups.values()]
         codes = [Cell(f"{self.model.name} {i}", self.model.name, task) for i, task in enumerate(tasks)]
-        # the reference comes last: it takes its time in any case, code in the cache none, so that no process is started
+        # the reference comes last: it always takes time; cached code takes none, so that no process is started
         return [*codes, self.reference] if groups else []
 
     def run(self, show: Callable[[str, float], None]) -> Study:
-        """Run all rows, one at a time: those that the journal does not hold."""
+        """Run the rows that the journal lacks, one at a time."""
 
         def motion(task: ReferenceTask) -> Outcome:
             show("reference", 0.0)
@@ -280,7 +280,7 @@ class _Work:
         return self.study(run_cells(self.rows, row, self.journal)[1])
 
     def study(self, interrupted: bool) -> Study:
-        """Return the study of the rows that are done."""
+        """Return the study of the finished rows."""
         motion = self.journal.get(self.reference.key) or {"unusable": ""}
         done = [from_entry(entry) for cell in self.rows if (entry := self.journal.get(cell.key)) is not None]
         base, why = self.settings[0], motion.get("unusable")
@@ -305,7 +305,7 @@ class _Work:
 
 
 def _reference(entry: Outcome, times: Array) -> Reference | None:
-    """Return the reference of a journal's entry, None where it says why there is none."""
+    """Return the reference of a journal's entry, None where the entry holds the reason of its absence."""
     if "unusable" in entry:
         return None
     return Reference(entry["how"], entry["estimated_error"], times, np.array(entry["q"]), entry["note"])
@@ -325,18 +325,18 @@ def compare_all(
     Parameters
     ----------
     models : sequence of str, path, Mechanism or Model
-        What to run; all of it is checked before anything is run.
+        Models to run; all are checked before the first run.
     common : Settings
-        What all runs have in common.
+        Common settings of all runs.
     runs : Combinations
-        What differs.
+        Differences between runs.
     reference_by, progress, jobs, journal
         As for `compare`.
 
     Returns
     -------
     list of Study
-        One a model, in order; after an interruption those up to the interrupted one, which comes last.
+        One a model, in order; after an interruption up to and including the interrupted one.
 
     Raises
     ------
@@ -357,11 +357,11 @@ def compare_all(
         shape = "straight" if common.shape == "auto" and small else common.shape
         base = replace(common, output_step=None, shape=shape, until=end, times=times.tolist())
         settings = list(runs.settings(base, chosen.mechanism.defaults.step))
-        plans = [make_plan(chosen.mechanism, s) for s in settings]  # refuses what is wrong before anything is run
+        plans = [make_plan(chosen.mechanism, s) for s in settings]  # raises errors before the first run
         works.append(_Work(chosen, common, end, times, settings, plans, reference_by, records))
     reached, total = 0.0, sum(w.total for w in works)
     report: Progress = progress or (lambda what, reached, of: None)
-    if jobs > 1 and cache_location().persistent:  # else what another process compiles would be lost
+    if jobs > 1 and cache_location().persistent:  # else the code that another process compiles would be lost
         cells = [cell for work in works for cell in work.ahead()]
         reached = PREPARATION * len(cells)
         total += reached
@@ -386,7 +386,7 @@ def compare_all(
 
 
 def _chosen(model: Model, common: Settings) -> Model:
-    """Return a model without events that are only recorded, others being refused, with the largest step for all."""
+    """Return a model without events that are only recorded, and with the largest step for all; refuse other events."""
     mechanism = model.mechanism
     refuse_events("compare", mechanism, common)
     plain = structs.replace(mechanism, events=()) if mechanism.events else mechanism
@@ -402,7 +402,7 @@ def _end(model: Model, until: float | None) -> float:
 
 
 def _times(model: Model, end: float, output_step: float | None) -> Array:
-    """Return the common output times: multiples of the given or the mechanism's step, at most about `OUTPUTS`."""
+    """Return the common output times: multiples of `output_step` or the mechanism's, at most about `OUTPUTS`."""
     own = model.mechanism.defaults.output_step
     size = COPIES * output_size(model.mechanism)
     if output_step is not None:

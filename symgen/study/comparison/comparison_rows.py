@@ -1,4 +1,4 @@
-"""What a comparison gave: rows, curves over time, and the study that holds them, as JSON, CSV and data frame."""
+"""Results of a comparison: rows, curves over time, and their study, as JSON, CSV and data frame."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 YARDSTICK = "lagrange"
 
 
-#: Units of columns that have one.
+#: Units of columns.
 UNITS = {
     **dict.fromkeys(("step", "run_seconds", "run_seconds_spread", "run_seconds_median"), "s"),
     **{"error": "m", "energy_drift_max": "J"},
@@ -58,13 +58,13 @@ class Row:
         Largest distance to the reference [m] over bodies, output times and points (`symgen.result.points`); None for a
         run that failed, and where there is no reference.
     below_reference : bool
-        The error is below what the reference itself may be off, so it says no more than that.
+        Whether the error is below the estimated error of the reference, which is then its only bound.
     run_seconds, run_seconds_spread, run_seconds_median : float
         Shortest of several runs after a warm-up, longest minus shortest, and median [s].
     cost_ratio, cost_ratio_spread : float or None
-        Run time over that of `lagrange` with the same integrator and step or tolerance, and what it may vary by: the
-        ratio times the sum of both runs' median less shortest time over shortest time (the longest time tells only
-        what else the machine was doing). None where one of them failed or `lagrange` was not run.
+        Run time over that of `lagrange` with the same integrator and step or tolerance, and its spread: the ratio
+        times the sum of both runs' median less shortest time over shortest time (the longest time shows only the
+        other load of the machine). None where one of them failed or `lagrange` was not run.
     evaluations, iterations : int
         Right-hand sides, and iterations of laws, corrections and implicit stages.
     position_violation_max, velocity_violation_max, acceleration_violation_max : float
@@ -76,11 +76,11 @@ class Row:
     energy_drift_max : float
         Largest energy error [J].
     warnings : tuple of str
-        Sentences: what to be careful with.
+        Warnings as sentences.
     coordinates : {"absolute", "joint"}
-        What the state was made of. Violations of joint coordinates are those of the loops.
+        Coordinates of the state. Violations of joint coordinates are those of the loops.
     variant : str
-        Options of the method that tell it from others of the study, such as ``alpha=5, beta=5``.
+        Options that distinguish the method from others of the study, such as ``alpha=5, beta=5``.
     """
 
     method: str
@@ -114,18 +114,18 @@ class Row:
 
     @property
     def label(self) -> str:
-        """The method with its variant, and the coordinates where these are not those of bodies: ``lagrange, joint``."""
+        """Method with its variant, and the coordinates unless absolute: ``lagrange, joint``."""
         parts = self.method, self.variant, "" if self.coordinates == "absolute" else self.coordinates
         return ", ".join(filter(None, parts))
 
     @property
     def setting(self) -> tuple[str, float | None, float | None]:
-        """What another method must share for run times to be comparable: integrator, step, tolerance."""
+        """Integrator, step and tolerance; run times are comparable between methods that share them."""
         return self.integrator, self.step, self.rtol
 
     @property
     def ended(self) -> bool:
-        """Whether the run came to its end."""
+        """Whether the run reached its end."""
         return self.status != FAILED
 
     def texts(self) -> list[str]:
@@ -159,12 +159,12 @@ class Trace:
     energy_error: tuple[float, ...] = ()
 
 
-#: What JSON has no numbers for.
+#: Values that are not JSON numbers.
 _NOT_FINITE = ("nan", "inf", "-inf")
 
 
 def to_entry(row: Row, trace: Trace) -> dict[str, Any]:
-    """Return a row with its curves as what JSON can express; numbers that are not finite are texts."""
+    """Return a row with its curves as JSON values; numbers that are not finite are texts."""
 
     def expressed(value: Any) -> Any:
         if isinstance(value, tuple):
@@ -191,7 +191,7 @@ def from_entry(entry: Mapping[str, Any]) -> tuple[Row, Trace]:
 
 def with_ratios(rows: Sequence[Row]) -> tuple[Row, ...]:
     """Return the rows with cost ratios, which need the rows of `YARDSTICK`."""
-    # of both coordinates the first ones asked for are the yardstick, so that ratios tell them apart
+    # with both coordinates the first requested ones are the yardstick, so that ratios distinguish them
     usable = [row for row in rows if row.method == YARDSTICK and row.ended and row.run_seconds > 0.0]
     base = {row.setting: row for row in reversed(usable)}
     rated = []
@@ -215,11 +215,11 @@ class Study:
     Attributes
     ----------
     mechanism : str
-        What was run.
+        Name of the mechanism.
     how : str
-        Where the reference comes from.
+        Source of the reference.
     estimated_error : float
-        How far the reference may be off [m]; nan where there is none.
+        Estimated error of the reference [m]; nan without a reference.
     until : float
         End time [s].
     rows : tuple of Row
@@ -229,16 +229,15 @@ class Study:
     traces : tuple of Trace
         Curves over time, one a row.
     note : str
-        What the reader of errors has to know about the reference: that its two runs part at a singular position, or
-        why there is none; empty otherwise.
+        Note on the reference: that its two runs part at a singular position, or why there is none; empty otherwise.
     title, digest : str
         Title and digest of the mechanism.
     step : float
         The mechanism's own step [s].
     parameters, options, start : mapping
-        What was changed.
+        Changed values.
     repeat : int
-        Timed runs a row, at least.
+        Least number of timed runs a row.
     """
 
     mechanism: str
@@ -288,18 +287,18 @@ class Study:
 
     @property
     def failed(self) -> bool:
-        """Whether not one run came to an end."""
+        """Whether no run reached its end."""
         return not any(row.ended for row in self.rows)
 
     @property
     def common_warnings(self) -> tuple[str, ...]:
-        """Warnings that every row has, such as those of the start, to be said once."""
+        """Warnings that every row has, such as those of the start, to be shown once."""
         first = self.rows[0].warnings if self.rows else ()
         return tuple(text for text in first if all(text in row.warnings for row in self.rows))
 
     @property
     def ratio_spreads(self) -> tuple[float, float] | None:
-        """Median and largest of what cost ratios may vary by, as fractions of them; None where there are none."""
+        """Median and largest spread of cost ratios, as fractions of the ratios; None without ratios."""
         shares = [r.cost_ratio_spread / r.cost_ratio for r in self.rows if r.cost_ratio_spread and r.cost_ratio]
         return (median(shares), max(shares)) if shares else None
 
@@ -330,16 +329,16 @@ class Study:
         Parameters
         ----------
         path : path
-            The file; its ending says the kind.
+            The file; its suffix selects the format.
         what : sequence of str
             Columns of numbers: ``error``, ``energy_drift_max``, ``evaluations``, ...
         over : str
-            Such a column too.
+            Column of numbers on the other axis.
 
         Raises
         ------
         InputError
-            If there is no such column, the ending is not known, matplotlib is missing, or the file cannot be written.
+            If a column does not exist, the suffix is not supported, matplotlib is missing, or writing fails.
         """
         return plot_rows([self], argument_path("plot", path), what, over)
 
@@ -349,12 +348,12 @@ class Study:
 
 
 def check_columns_of_rows(what: Sequence[str], over: str) -> tuple[str, ...]:
-    """Return the columns of numbers that are drawn.
+    """Return the columns of numbers to draw.
 
     Raises
     ------
     InputError
-        If there is no such column; says the nearest one.
+        If a column does not exist; names the nearest one.
     """
     numbers = [f.name for f in fields(Row) if str(f.type).startswith(("float", "int"))]
     for name in (*words("plot", what), over):
@@ -387,7 +386,7 @@ def plot_rows(studies: Sequence[Study], path: Path, what: Sequence[str], over: s
 
 
 def save_csv(studies: Sequence[Study], path: Path, units: bool = False) -> Path:
-    """Write the rows of studies to one CSV file, with the mechanism in the first column, and units if asked for."""
+    """Write the rows of studies to one CSV file, with the mechanism in the first column, and units if requested."""
     if path.suffix.lower() != ".csv":
         raise InputError("save", "a file ending in .csv", f"'{path}'")
     check_writable("save", path)

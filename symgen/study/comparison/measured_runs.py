@@ -19,27 +19,27 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Curves have no more points than this.
+#: Largest number of points of a curve.
 LONGEST = 400
 
 
 def measured(
     run: Prepared, runs: Timed, reference: Reference | None, points: Points, variant: str
 ) -> tuple[Row, Trace]:
-    """Judge and measure one run.
+    """Compare one run with the reference and measure it.
 
     Parameters
     ----------
     run : Prepared
         What was run.
     runs : Timed
-        What it gave, and how long it took.
+        Its results and run times.
     reference : Reference or None
-        What to compare with; None where there is none.
+        Reference motion; None without one.
     points : Points
-        What distances are measured between.
+        Points between which distances are measured.
     variant : str
-        Options that tell the method from others of the study.
+        Options that distinguish the method from others of the study.
     """
     plan, outcome = run.plan, run.of_bodies(runs.outcome)
     nq, count = outcome.compiled.info.nq, len(outcome.times)
@@ -90,6 +90,6 @@ def _rms(values: Array) -> float | None:
 
 
 def _digits(values: Any) -> tuple[float, ...]:
-    """Return the values that are drawn, to five digits."""
+    """Return the values to draw, rounded to five digits."""
     every = max(1, -(-len(values) // LONGEST))
     return tuple(float(f"{x:.5g}") for x in values[::every])

@@ -1,1 +1,1 @@
-"""References: motions by routes that share nothing with the emitted code."""
+"""References: motions computed without any of the emitted code."""

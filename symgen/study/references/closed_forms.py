@@ -14,7 +14,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError, SimulationError
 
 Array = NDArray[np.float64]
-#: Where a motion comes from, how far it may be off [m], and coordinates at the times.
+#: Source of a motion, its estimated error [m], and coordinates at the times.
 Closed = tuple[str, float, Array]
 Formula = Callable[[Mechanism, Mapping[str, float], Array, Array], Closed]
 
@@ -41,7 +41,7 @@ def pendulum(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, ti
     length, gravity = 1.0, 9.81
     phi0 = math.atan2(q[0], -q[1])
     k = math.sin(phi0 / 2.0)
-    # whole periods are taken off first: the functions lose digits with the size of their argument
+    # whole periods are subtracted first: the functions lose digits as their argument grows
     u = np.remainder(math.sqrt(gravity / length) * times, 4.0 * ellipk(k * k))
     _, cn, dn, _ = ellipj(u, k * k)
     phi = 2.0 * np.arcsin(k * cn / dn)
@@ -50,7 +50,7 @@ def pendulum(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, ti
 
 
 def n_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
-    """All verticals turn alike, and couplers are carried: see `parallel_cranks`."""
+    """All verticals turn alike, and couplers translate: see `parallel_cranks`."""
     return parallel_cranks([body.name for body in mechanism.bodies], times)
 
 
@@ -70,7 +70,7 @@ def parallel_cranks(names: Sequence[str], times: Array) -> Closed:
             return [y[1], factor * math.sin(y[0])]
 
         end = float(times[-1])
-        # short steps: interpolation to the output times must not be what limits the accuracy
+        # short steps: interpolation to the output times must not limit the accuracy
         solution = solve_ivp(rate, (0.0, end), [0.0, 1.0], "DOP853", times, rtol=rtol, atol=rtol, max_step=0.01)
         return np.asarray(solution.y[0], dtype=float)
 
@@ -111,7 +111,7 @@ def driven_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Ar
 def flyball_governor(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
     """Two coordinates, the angle alpha of the arms below the horizontal and the slider's height s.
 
-    H about the vertical stays, so that
+    H about the vertical is conserved, so that
     ``T = Ia alpha'^2 / 2 + ms s'^2 / 2 + H^2 / (2 I(alpha))``, solved by SciPy's Radau at two tolerances.
     """
     from scipy.integrate import solve_ivp
@@ -149,7 +149,7 @@ def flyball_governor(mechanism: Mechanism, parameters: Mapping[str, float], q: A
         return [alpha_rate, s_rate, turning / (2.0 * across), lifting / slider, momentum / whole]
 
     def slopes(t: float, y: Array) -> Array:
-        """Return d rate / d y by central differences; of the angle about the vertical nothing depends."""
+        """Return d rate / d y by central differences; nothing depends on the angle about the vertical."""
         result = np.zeros((5, 5))
         for j in range(4):
             step = np.zeros(5)

@@ -1,4 +1,4 @@
-"""The independently derived equations of a mechanism as numbers, for references.
+"""Numerical evaluation of the independently derived equations of a mechanism, for references.
 
 The formulas are those of `symgen.study.references.sympy_formulas`, their numbers come from `sympy.lambdify`, and
 accelerations from a dense solution in which dependent rows do no harm. In space the mass matrix of the rates of Euler
@@ -31,7 +31,7 @@ CUTOFF = 1e-9
 
 
 class IndependentEquations:
-    """Phi, D, nu, gamma, f and M of a mechanism as numbers, in coordinates and their rates.
+    """Numerical Phi, D, nu, gamma, f and M of a mechanism, in coordinates and their rates.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ class IndependentEquations:
         self._function = self._compile(formulas, outputs)
 
     def _weigh(self) -> None:
-        """Set M, and its inverse root by which projections are shortest; massless bodies count there as usual ones."""
+        """Set M, and its inverse root as the metric of projections; there massless bodies count as usual ones."""
         mass, tensors, self.regular = list[float](), list[Array](), True
         self._first_e = list[int]()  # where the Euler parameters of each body that turns in space begin
         for body in self.mechanism.bodies:
@@ -92,7 +92,7 @@ class IndependentEquations:
     # -- states --------------------------------------------------------------------------------------------------------
 
     def state(self, q: Array, v: Array) -> Array:
-        """Return coordinates and their rates, shape (2 n,), for velocities as results have them."""
+        """Return coordinates and their rates, shape (2 n,), for velocities as in results."""
         rates = list[Array]()
         for body in self.mechanism.bodies:
             speeds, v = np.split(v, [len(body.speeds)])
@@ -103,7 +103,7 @@ class IndependentEquations:
         return np.concatenate([q, *rates])
 
     def velocities(self, y: Array) -> Array:
-        """Return the velocities as results have them: angular velocity in body axes."""
+        """Return the velocities as in results: angular velocity in body axes."""
         speeds = list[Array]()
         for body in self.mechanism.bodies:
             i, size = self.first[body.name], len(body.coordinates)
@@ -142,9 +142,9 @@ class IndependentEquations:
     def rate(self, t: float, y: Array) -> Array:
         """Return (q', q''): of all q'' with ``D q'' = gamma`` the one nearest to M^-1 f in the metric of M (Gauss).
 
-        The stages of a step leave the constraints, where redundant rows are no longer dependent: so many directions
-        count as there were at the last projection, not those above some threshold. With massless bodies, for which
-        there is no M^-1 f, q'' and multipliers are the solution of M q'' + D^T l = f and D q'' = gamma.
+        The stages of a step leave the constraints, where redundant rows are no longer dependent: the number of
+        directions is that of the last projection, not of those above some threshold. With massless bodies, which have
+        no M^-1 f, q'' and multipliers are the solution of M q'' + D^T l = f and D q'' = gamma.
         """
         n = self.n
         q, v = y[:n], y[n:]
@@ -164,7 +164,7 @@ class IndependentEquations:
         return np.concatenate([v, root @ (free + change)])
 
     def _independent(self, d: Array) -> tuple[Array, Array, Array]:
-        """Return the singular values of a matrix of rows that count, with their vectors."""
+        """Return the singular values of the independent rows of a matrix, with their vectors."""
         u, values, w = np.linalg.svd(d, full_matrices=False)
         rank = self.rank if self.rank is not None else int(np.sum(values > CUTOFF * values.max(initial=0.0)))
         return u[:, :rank], values[:rank], w[:rank]
@@ -222,7 +222,7 @@ class IndependentEquations:
         before = [0.0] * count
 
         def begun(t: float, q: list[float], v: list[float]) -> list[float]:
-            """Return the whole turns of a start: those that rows ask for, one angle by each row, and none otherwise."""
+            """Return the whole turns of a start: those that rows require, one angle by each row, and none otherwise."""
             turns, used = [0.0] * count, set[int]()
             for row, k, factor in asking:
                 if row not in used and turns[k] == 0.0:
@@ -249,9 +249,9 @@ def _turning(e: Array) -> Array:
 
 
 def curves(table: Table) -> dict[str, Callable[[float], Any]]:
-    """Return a table's function and its derivatives by the names that SymPy prints for them.
+    """Return a table's function and its derivatives by the names that SymPy prints.
 
-    They are plain Python that Numba compiles as well.
+    They are plain Python, which Numba can compile.
     """
     x, y = np.asarray(table.x, dtype=float), np.asarray(table.y, dtype=float)
     functions = _lines(x, y) if table.interpolation == "linear" else _pieces(x, y, table.interpolation, table.periodic)

@@ -1,6 +1,6 @@
-"""The shortest of the best solutions of few linear equations, compiled: by Householder, or by Jacobi where rows depend.
+"""Minimum-norm least squares of few equations, compiled: by Householder, or by Jacobi where rows are dependent.
 
-Written out number by number: Numba takes longer for NumPy's `qr` and `lstsq` than for all else of a reference motion.
+Written out in scalars: Numba takes longer for NumPy's `qr` and `lstsq` than for the rest of a reference motion.
 References are compiled by Numba, not by the compiler of the runs that they judge.
 """
 
@@ -16,20 +16,20 @@ from symgen.study.references.independent import CUTOFF
 
 #: Decorator of functions of references.
 compiled = numba.njit(nogil=True, error_model="numpy", fastmath={"contract"})
-#: Rows depend on each other where the smallest diagonal entry of the factor is below this share of the largest.
+#: Rows are dependent where the smallest diagonal entry of the factor is below this share of the largest.
 DEPENDENT = 1e-7
-#: Rows are at right angles where their cosine is below this; after so many rounds what is left is rounding.
+#: Rows are orthogonal where their cosine is below this; after so many sweeps only rounding is left.
 RIGHT, ROUNDS = 1e-15, 40
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
 def _by_reflections(a: Any, b: Any, x: Any) -> bool:
-    """Set x to the shortest solution of A x = b by Householder's reflections of the rows of A, which are overwritten.
+    """Set x to the minimum-norm solution of A x = b by Householder reflections of the rows of A; overwrites A.
 
     Returns
     -------
     bool
-        False if rows depend on each other; x is nothing then.
+        False if rows are dependent; then x is meaningless.
     """
     m, n = a.shape
     diagonal, factors = np.empty(m), np.empty(m)
@@ -73,10 +73,10 @@ def _by_reflections(a: Any, b: Any, x: Any) -> bool:
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
 def _by_rotations(a: Any, b: Any, x: Any) -> None:
-    """Set x to the shortest of the best solutions of A x = b by Hestenes' rotations of rows; overwrites A and b.
+    """Set x to the minimum-norm least-squares solution of A x = b by Hestenes' rotations of rows; overwrites A and b.
 
-    Rows at right angles are the right singular vectors times the singular values; b turns along. Those with singular
-    values below `CUTOFF` times the largest are left out.
+    Orthogonal rows are the right singular vectors times the singular values; b is rotated along. Singular values below
+    `CUTOFF` times the largest are left out.
     """
     m, n = a.shape
     for _ in range(ROUNDS):
@@ -115,14 +115,14 @@ def _by_rotations(a: Any, b: Any, x: Any) -> None:
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
 def shortest(a: Any, b: Any, x: Any) -> None:
-    """Set x to the shortest of those for which A x is nearest to b.
+    """Set x to the minimum-norm least-squares solution of A x = b.
 
     Parameters
     ----------
     a, b : Array, shape (m, n) and (m,)
         Finite numbers.
     x : Array, shape (n,)
-        Is overwritten.
+        Overwritten.
     """
     m, n = a.shape
     if m > n or not _by_reflections(a.copy(), b, x):

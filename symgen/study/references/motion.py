@@ -35,17 +35,17 @@ Array = NDArray[np.float64]
 
 #: Tolerances of the two integrations by extrapolation, and of the two by Radau.
 FINE, COARSE = 3e-14, 3e-13
-#: The same where rounding of very stiff forces makes those unattainable.
+#: Looser tolerances where rounding of very stiff forces makes those unattainable.
 ROUGH_FINE, ROUGH_COARSE = 1e-10, 1e-9
 STIFF_FINE, STIFF_COARSE = 1e-9, 1e-8
-#: Steps below this share of the time to the next output lead nowhere.
+#: Steps below this share of the time to the next output count as collapsed.
 COLLAPSE = 1e-7
 #: Columns of the extrapolation: order 2 x 8.
 COLUMNS = 8
-#: Evaluations after which a reference of few coordinates is given up. Costs of an evaluation grow with their square;
-#: with dependent rows it needs singular values, which cost about so many times as much.
+#: Evaluation limit of a reference of few coordinates. The cost of an evaluation grows with their square; dependent rows
+#: need singular values, which cost about so many times as much.
 BUDGET, FEW, DEPENDENT = 3_000_000, 9, 20
-#: Evaluations of an integration by Radau after which it is given up, those of Jacobians included.
+#: Evaluation limit of an integration by Radau, Jacobians included.
 STIFF_BUDGET = 400_000
 
 _F8, _A, _I8, _I = types.float64, types.float64[::1], types.int64, types.int64[::1]
@@ -63,7 +63,7 @@ class CompiledEquations(IndependentEquations):
     mechanism : Mechanism
         A validated planar mechanism.
     parameters : mapping
-        Values of all its parameters, for a start; `set_parameters` gives others.
+        Initial values of all its parameters; `set_parameters` changes them.
     """
 
     def __init__(self, mechanism: Mechanism, parameters: Mapping[str, float]) -> None:
@@ -73,7 +73,7 @@ class CompiledEquations(IndependentEquations):
         self.set_parameters(parameters)
 
     def set_parameters(self, parameters: Mapping[str, float]) -> None:
-        """Take other values of the parameters; compiles nothing."""
+        """Set the values of the parameters; compiles nothing."""
         self.parameters = parameters
         self.values = np.array([parameters[p.name] for p in self.mechanism.parameters] or [0.0])
         self._weigh()
@@ -102,7 +102,7 @@ class CompiledEquations(IndependentEquations):
 
     @property
     def budget(self) -> int:
-        """Evaluations of an integration by extrapolation."""
+        """Evaluation limit of an integration by extrapolation."""
         return int(BUDGET * min(1.0, (FEW / self.n) ** 2) / (DEPENDENT if self.dependent else 1))
 
     @cached_property
@@ -115,11 +115,11 @@ class CompiledEquations(IndependentEquations):
         Parameters
         ----------
         t, y, until : float, Array, float
-            From where and how far.
+            Initial time and state, and end time.
         rtol, scale : float, Array
             Tolerance, relative to `scale` or the state, whichever is larger.
         state : Array, shape (1,)
-            Step to begin with [s]; 0 where none is known yet. Changed to the next one.
+            First step [s], or 0 to choose one; set to the next step.
         used : integer array, shape (1,)
             Evaluations so far; those of this call are added.
 
@@ -273,7 +273,7 @@ def _extrapolate(
             _rate(function, index, m, n, mass, p, t + h, now, rate)
             used[0] += count
             for e in range(size):
-                # the smoothing that keeps the expansion in even powers of the small step
+                # smoothing keeps the expansion in even powers of the small step
                 value = 0.5 * (now[e] + before[e] + small * rate[e])
                 for column in range(row):  # Neville's scheme: table[j] is T[row - 1, j] and becomes T[row, j]
                     share = count / (2.0 * (row - column))
@@ -304,7 +304,7 @@ def _extrapolate(
 
 @cache
 def _for_all(function: Any, signature: Any) -> Any:
-    """Return a function compiled for equations of any mechanism, known by their address."""
+    """Return a function compiled for equations of any mechanism, called by address."""
     return numba.njit(signature, nogil=True, error_model="numpy", fastmath={"contract"})(function.py_func)
 
 
@@ -312,7 +312,7 @@ def _for_all(function: Any, signature: Any) -> Any:
 
 
 def motion(equations: CompiledEquations, q: Array, v: Array, times: Array) -> Reference:
-    """Return the reference motion from a start that is consistent within rounding.
+    """Return the reference motion from a start consistent within rounding.
 
     Parameters
     ----------
@@ -321,7 +321,7 @@ def motion(equations: CompiledEquations, q: Array, v: Array, times: Array) -> Re
     q, v : Array, shapes (nq,), (nv,)
         The start.
     times : Array
-        Where the motion is wanted [s], increasing from 0.
+        Output times [s], increasing from 0.
 
     Raises
     ------
@@ -381,7 +381,7 @@ def _by_extrapolation(
 
 
 def _scale(y: Array, n: int) -> Array:
-    """Return the size that errors of each component are measured by: 1 m or rad, and at least 1 m/s or rad/s."""
+    """Return the error scale of each component: 1 m or rad, and at least 1 m/s or rad/s."""
     scale = np.maximum(np.abs(y), 1.0)
     scale[n:] = np.maximum(scale[n:], float(np.abs(y[n:]).max(initial=0.0)))
     return scale

@@ -1,11 +1,11 @@
-"""References: the motion as exactly as it can be had, by routes that share nothing with the emitted code.
+"""References: the motion as accurate as possible, computed without any of the emitted code.
 
-A mechanism of the catalogue with a formula, or an equation in one coordinate, gets that; every other one is integrated
-by SciPy's DOP853 at a tight tolerance from independently derived equations, projected at each output, twice with
-different tolerances and segments, the difference of the two being the estimated error. Where the motion comes near a
-singular position, constant steps lead through, and two runs whose steps fall differently have to agree before either is
-believed: small violations say nothing about the branch. Where they do not, a note of the reference names the time.
-Another of SciPy's solvers can be chosen for every mechanism: then schemes, too, are others than symgen's.
+A mechanism of the catalogue with a formula, or an equation in one coordinate, uses that. For every other one SciPy's
+DOP853 integrates independently derived equations at a tight tolerance, projected at each output, twice with different
+tolerances and segments; the difference of the two is the estimated error. Near a singular position the steps are
+constant, and two runs whose steps fall differently have to agree: small violations do not determine the branch. If they
+do not agree, a note of the reference names the time. Another of SciPy's solvers can be chosen for every mechanism: then
+the schemes, too, are not symgen's.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ Array = NDArray[np.float64]
 NEAR = 1e-2
 #: Steps of the runs, as fractions of the first one's.
 PHASES = (1.0, 0.93, 0.81, 1.11, 0.71, 0.62)
-#: Two runs that differ by less, as a share of the mechanism's size, are not doubted further.
+#: Two runs that differ by less, as a share of the mechanism's size, are accepted.
 GOOD = 1e-9
 #: Two runs through singular positions that agree by chance understate their error; it was up to five times the
 #: difference with `n-four-bar`, whose exact motion is known.
@@ -54,17 +54,16 @@ DOUBT = 5.0
 
 @dataclass(frozen=True)
 class Reference:
-    """A motion to compare with.
+    """Reference motion.
 
     Attributes
     ----------
     how, estimated_error : str, float
-        Where it comes from, in one sentence, and how far its points may be off [m].
+        Source, in one sentence, and estimated error of its points [m].
     times, q : Array, shapes (k,), (k, nq)
         Times [s] and coordinates.
     note : str
-        One sentence where two runs with different steps part at a singular position: what errors mean then. Empty
-        where there is nothing to say.
+        Meaning of errors, in one sentence, where two runs with different steps part at a singular position; else empty.
     """
 
     how: str
@@ -88,22 +87,22 @@ def reference(
     Parameters
     ----------
     mechanism : Mechanism
-        What moves.
+        The mechanism.
     parameters : mapping
         Values of all parameters.
     q, v : Array, shapes (nq,), (nv,)
         Consistent start.
     times : Array
-        Where the motion is wanted [s], increasing from 0 or later.
+        Output times [s], increasing from 0 or later.
     solver : str
         ``auto``, or one of `SOLVERS`.
     own_start : bool
-        Whether the start is the one that the mechanism describes: formulas know no other one.
+        Whether the start is the mechanism's own: formulas hold for no other.
 
     Raises
     ------
     InputError
-        If there is no such solver, or the mechanism has beam elements, of which no second derivation exists.
+        If the solver does not exist, or the mechanism has beam elements, which have no second derivation.
     SimulationError
         If the motion cannot be integrated, e.g. into a singularity.
     """
@@ -129,7 +128,7 @@ def _integrated(
     times: Array,
     solver: str,
 ) -> Reference:
-    """Integrate independently derived equations twice."""
+    """Integrate the independently derived equations twice."""
     from symgen.study.references.independent import IndependentEquations
 
     name, fine_tolerance, coarse_tolerance, goes_on = SOLVERS[solver]
@@ -159,20 +158,20 @@ def _integrated(
 
 
 def scaled_values(d: Array) -> Array:
-    """Return the singular values of rows that are scaled to length 1."""
+    """Return the singular values of the rows scaled to length 1."""
     lengths = np.linalg.norm(d, axis=1)
     return np.asarray(np.linalg.svd(d / np.where(lengths > 0.0, lengths, 1.0)[:, None], compute_uv=False))
 
 
 class SingularWatch:
-    """Keeps the steps of a run, and the smallest and the largest of the smallest singular values of D, rows scaled.
+    """Steps of a run, and the extremes of the smallest singular value of D with scaled rows.
 
     Parameters
     ----------
     equations : IndependentEquations
-        What is integrated.
+        Integrated equations.
     y : Array, shape (2 n,)
-        The start, whose rank counts: rows that depend on others for ever are no passage.
+        The start, whose rank counts: permanently dependent rows are no passage.
     """
 
     def __init__(self, equations: IndependentEquations, y: Array) -> None:
@@ -188,7 +187,7 @@ class SingularWatch:
         return scaled_values(d) if np.all(np.isfinite(d)) else np.zeros(len(d))
 
     def see(self, size: float, t: float, y: Array) -> None:
-        """Look at a step and the state behind it."""
+        """Record a step and the state at its end."""
         self.sizes.append(size)
         if self.rank:
             value = float(self._values(t, y)[self.rank - 1])
@@ -196,30 +195,30 @@ class SingularWatch:
 
     @property
     def usual_step(self) -> float:
-        """Step by which half of the time was covered, 0 of none: steps that collapsed are many but cover nothing."""
+        """Step by which half of the time was covered, 0 without steps: collapsed steps are many but cover no time."""
         ordered = np.sort(np.array(self.sizes))
         covered = np.cumsum(ordered)
         return float(ordered[int(np.searchsorted(covered, 0.5 * covered[-1]))]) if self.sizes else 0.0
 
 
 def pass_through(equations: IndependentEquations, y: Array, times: Array, step: float) -> Reference:
-    """Run with constant steps until two runs agree well; of all pairs the one that agrees best is the reference.
+    """Run with constant steps until two runs agree well; return the pair that agrees best as the reference.
 
     At an isolated singular position accelerations are not determined; an error estimate measures noise there, and steps
-    that follow it collapse. What carries a run through is a constant step with a projection after each. How well it
-    does depends on where its steps fall.
+    that follow it collapse. A constant step with a projection after each carries a run through. Its accuracy depends on
+    where the steps fall.
 
     Parameters
     ----------
     equations, y, times
-        What is integrated, from which consistent state, and where it is wanted [s].
+        Integrated equations, consistent initial state, and output times [s].
     step : float
         Step of the first run [s].
 
     Raises
     ------
     SimulationError
-        If fewer than two runs come to the end.
+        If fewer than two runs reach the end.
     """
     points, motions, failures = Points.of(equations.mechanism, equations.parameters), list[Array](), list[str]()
     longest = min(step, longest_of(equations, times) / max(PHASES))

@@ -1,10 +1,9 @@
-"""References by compiled code: two formulations of the equations with two integrators, which agree.
+"""References by compiled code: two formulations of the equations with two integrators.
 
 The second derivation of a mechanism in space (`symgen.study.references.independent`) is interpreted: too slow for the
-many motions of a stress study, and none has beam elements. What can differ at the speed of compiled code is how the
-equations are formulated and integrated. The motion is that of `direct-correction` with Runge-Kutta steps at a tight
-tolerance; its error is estimated from `index1-augmented-lagrangian`, which solves another system for the accelerations,
-with Adams steps.
+many motions of a stress study, and without beam elements. Compiled code can differ in the formulation of the equations
+and in the integrator. The motion is that of `direct-correction` with Runge-Kutta steps at a tight tolerance; its error
+is estimated from `index1-augmented-lagrangian`, which solves another system for the accelerations, with Adams steps.
 """
 
 from __future__ import annotations
@@ -36,21 +35,21 @@ ROUTES: tuple[Route, ...] = (
     ("direct-correction", "dop853", {"method.weight": "mass"}, 1e-12),
     ("index1-augmented-lagrangian", "abm", {}, 1e-11),
 )
-#: The same where decay asks explicit steps for more evaluations than they may take.
+#: Routes where decay requires more evaluations of explicit steps than the limit.
 STIFF_ROUTES: tuple[Route, ...] = (
     ("direct-correction", "radau5", {"method.weight": "mass"}, 1e-10),
     ("ggl", "radau5", {}, 1e-9),
 )
-#: The first ones where rounding of very stiff forces makes their tolerances unattainable.
+#: Explicit routes where rounding of very stiff forces makes their tolerances unattainable.
 ROUGH_ROUTES = tuple((*route[:3], rtol) for route, rtol in zip(ROUTES, (1e-9, 1e-8), strict=True))
-#: Evaluations after which a route is given up, for small mechanisms.
+#: Evaluation limit of a route, for small mechanisms.
 BUDGET, STIFF_BUDGET = 20_000_000, 300_000
-#: Evaluations that decay may ask explicit steps for, for small mechanisms; the stiff routes are taken beyond.
+#: Evaluation limit of explicit steps due to decay, for small mechanisms; the stiff routes are used beyond.
 STIFF_FROM = 6_000_000
 
 
 def fastest_decay(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> float:
-    """Return the fastest decay of the linearised motion at the start [1/s]; 0 where it cannot be told."""
+    """Return the fastest decay of the linearised motion at the start [1/s]; 0 where it cannot be computed."""
     jacobian = linearised(mechanism, compiled, start)
     if not np.all(np.isfinite(jacobian)):
         return 0.0
@@ -69,20 +68,20 @@ def two_routes(
     Parameters
     ----------
     mechanism : Mechanism
-        What moves.
+        The mechanism.
     parameters : mapping
         Values that differ from the mechanism's own.
     times : Array
-        Where the motion is wanted [s], increasing from 0.
+        Output times [s], increasing from 0.
     decay : float
         Fastest decay at the start [1/s].
     start : mapping, optional
-        Coordinates and velocities that the start keeps.
+        Prescribed coordinates and velocities of the start.
 
     Raises
     ------
     SimulationError
-        If a route does not come to its end.
+        If a route does not reach its end.
     """
     # twelve evaluations a step of dop853, which is stable up to 6.39 over the decay
     stiff = decay * float(times[-1]) * 12.0 / 6.39 > explicit_budget(mechanism, STIFF_FROM)

@@ -1,4 +1,4 @@
-"""SciPy's solvers as the schemes behind references, step by step and, where they keep a history, in one go."""
+"""SciPy's solvers as the schemes of references, step by step and, for multistep ones, in one go."""
 
 from __future__ import annotations
 
@@ -25,37 +25,37 @@ Array = NDArray[np.float64]
 
 #: Tolerances of the two integrations of the general route; the first one is the reference.
 FINE, COARSE = 3e-14, 3e-13
-#: What can be asked for -> class of `scipy.integrate`, its tolerances, and whether it goes on from a projected state.
+#: Name of a solver -> class of `scipy.integrate`, its tolerances, and whether it continues from a projected state.
 SOLVERS: Mapping[str, tuple[str, float, float, bool]] = {
     "scipy-dop853": ("DOP853", FINE, COARSE, True),
     "scipy-radau": ("Radau", 1e-11, 1e-10, True),
     "scipy-bdf": ("BDF", 1e-10, 1e-9, False),
     "scipy-lsoda": ("LSODA", 1e-12, 1e-11, False),
 }
-#: Stands for a formula where there is one, else SciPy's DOP853.
+#: A formula if one exists, else SciPy's DOP853.
 AUTO = "auto"
-#: Where a step ends, and the integral of the rates along it leads, may be so many tolerances apart; the latter is taken
-#: from so many evaluations.
+#: Largest distance between the end of a step and the integral of the rates along it, in tolerances; the integral uses
+#: so many evaluations.
 UNSEEN, LOOKS = 1e4, 16
 #: Steps are no longer than the time over this where forces compare the state, and shorter than this part of it they
 #: are not taken again.
 LOOKED_AT, SHORTEST = 200, 1e-6
 #: Steps of multistep solvers, which are all as short as one of them has to be, are not shorter than this part of it.
 FEWEST = 1e-4
-#: Evaluations after which a multistep solver is given up.
+#: Evaluation limit of a multistep solver.
 MOST_CALLS = 3_000_000
-#: Steps below this fraction of the mean one, so many in a row, do not get anywhere: a singular position.
+#: So many consecutive steps below this fraction of the mean one count as collapsed: a singular position.
 COLLAPSE, PATIENCE, MORE_PATIENCE = 1e-3, 30, 300
-#: What evaluations far off the constraints end with, and SciPy where a Jacobian is not finite.
+#: Errors of evaluations far off the constraints, and of SciPy where a Jacobian is not finite.
 FAILURES = (ArithmeticError, ValueError, np.linalg.LinAlgError)
 
 
 class OverBudgetError(SimulationError):
-    """A reference takes more evaluations than it may."""
+    """A reference exceeds its evaluation limit."""
 
 
 class CollapsedError(SimulationError):
-    """Steps became too small to get anywhere, or the state is not finite: a singular position lies ahead."""
+    """Steps became too small to advance, or the state is not finite: a singular position lies ahead."""
 
     def __init__(self, t: float, reason: str = "the state is not finite") -> None:
         super().__init__(f"the reference motion cannot be integrated beyond t = {t:.6g} s: {reason}")
@@ -63,7 +63,7 @@ class CollapsedError(SimulationError):
 
 @dataclass(frozen=True)
 class Scheme:
-    """How equations are integrated step by step.
+    """Integration of equations step by step.
 
     Parameters
     ----------
@@ -72,13 +72,13 @@ class Scheme:
     rtol : float
         Relative tolerance.
     every : int
-        Every so many-th output is projected and gone on from.
+        Every `every`-th output is projected, and the integration continues from it.
     mass_weighted : bool
         Whether projections are the shortest in the metric of M.
     step : float or None
         Constant step, with a projection after each [s].
     most : float
-        Evaluations after which it is given up, those of Jacobians included.
+        Evaluation limit, Jacobians included.
     """
 
     name: str
@@ -90,12 +90,12 @@ class Scheme:
 
 
 def check_solver(name: str) -> str:
-    """Return the name of a way to a reference.
+    """Return the checked name of a way to a reference.
 
     Raises
     ------
     InputError
-        If there is no such way; says the nearest one.
+        If the way does not exist; names the nearest one.
     """
     return one_of("reference_by", name, (AUTO, *SOLVERS))
 
@@ -110,16 +110,16 @@ def by_steps(
 ) -> Array:
     """Return q at `times`; steps end at the outputs.
 
-    Where forces compare the state, a step that has not seen all of them is taken again, half as long.
+    Where forces compare the state, a step that missed a comparison is repeated with half the length.
 
     Parameters
     ----------
     equations, y, times
-        What is integrated, from which state, and where it is wanted [s].
+        Integrated equations, initial state, and output times [s].
     scheme : Scheme
-        How.
+        Scheme of integration.
     scale : Array, optional
-        Sizes that errors are measured by; those of the state, 1 at least, unless given.
+        Error scales; by default those of the state, at least 1.
     see : callable, optional
         Called with the length of each step, and the time and the state at its end.
 
@@ -131,7 +131,7 @@ def by_steps(
     import scipy.integrate
 
     scale = np.maximum(np.abs(y), 1.0) if scale is None else scale
-    make: Any = getattr(scipy.integrate, scheme.name)  # SciPy's types know neither arrays nor infinity as tolerances
+    make: Any = getattr(scipy.integrate, scheme.name)  # SciPy's types lack arrays and infinity as tolerances
     compares = compares_state(equations.mechanism) and scheme.step is None
     longest = min(longest_of(equations, times), float(times[-1]) / LOOKED_AT if compares and len(times) else np.inf)
     rate = limited(equations, scheme.most)
@@ -154,7 +154,7 @@ def by_steps(
                     solver = make(rate, first, y, t, **more, **begin)
             elif t > first:
                 solver.t_bound, solver.status = t, "running"
-                # the step before an output is cut short; going on with it would waste evaluations
+                # the step before an output is cut short; continuing with it would waste evaluations
                 solver.h_abs = max(solver.h_abs, usual)
             while solver is not None and solver.status == "running":
                 before, at, state = solver.h_abs, float(solver.t), solver.y
@@ -195,7 +195,7 @@ def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: S
     """Return q at `times` from a multistep solver: its history forbids changes on the way, so outputs are projected."""
     from scipy.integrate import solve_ivp
 
-    solve: Any = solve_ivp  # SciPy's types do not know arrays of tolerances
+    solve: Any = solve_ivp  # SciPy's types lack arrays of tolerances
     scale, compares = np.maximum(np.abs(y), 1.0), compares_state(equations.mechanism)
     bound, rate = longest_of(equations, times), limited(equations, scheme.most)
     more: dict[str, Any] = {"rtol": scheme.rtol, "atol": scheme.rtol * scale, "dense_output": compares}
@@ -224,7 +224,7 @@ def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: S
 
 @contextmanager
 def finite_at(t: float) -> Iterator[None]:
-    """Say where evaluations fail."""
+    """Raise `CollapsedError` with the time where evaluations fail."""
     try:
         yield
     except FAILURES as error:
@@ -232,7 +232,7 @@ def finite_at(t: float) -> Iterator[None]:
 
 
 def limited(equations: IndependentEquations, most: float) -> Callable[[float, Array], Array]:
-    """Return the rates of equations as a function that is evaluated so many times at most."""
+    """Return the rates of equations as a function with a limit of evaluations."""
     calls = 0
 
     def rate(t: float, y: Array) -> Array:
@@ -248,10 +248,10 @@ def limited(equations: IndependentEquations, most: float) -> Callable[[float, Ar
 def unseen_in(
     equations: IndependentEquations, motion: Callable[[float], Array], first: float, last: float, scale: Array
 ) -> float:
-    """Return how far a step's end is from where the integral of the rates along it leads, over `scale`.
+    """Return the distance of a step's end from the integral of the rates along it, over `scale`.
 
     A force that acts between two values of the state, and only there, may lie between all evaluations of a step, where
-    no estimate of a solver sees it.
+    no error estimate sees it.
     """
     nodes, weights = np.polynomial.legendre.leggauss(LOOKS)
     half, middle = 0.5 * (last - first), 0.5 * (last + first)
@@ -282,7 +282,7 @@ Integrate = Callable[[float, Array, Array], Array]
 
 
 def longest_of(equations: IndependentEquations, times: Array) -> float:
-    """Return the longest step of a reference at some times that sees what formulas of the time do [s]."""
+    """Return the longest step of a reference that resolves the formulas of the time [s]."""
     return longest_step(equations.mechanism, float(times[-1]))[0] if len(times) and times[-1] > 0.0 else np.inf
 
 
@@ -297,7 +297,7 @@ def in_parts(
     Parameters
     ----------
     equations : IndependentEquations
-        What is integrated: whose formulas count.
+        Integrated equations with their formulas.
     y : Array
         The state at the time 0.
     times : Array
@@ -322,15 +322,15 @@ def in_parts(
     return motion
 
 
-#: Decay of so many e-foldings over the motion is left to Radau.
+#: Radau integrates motions with a decay of more e-foldings.
 STIFF_FOLDINGS = 3e4
 
 
 def is_stiff(equations: CompiledEquations, y: Array, until: float) -> bool:
     """Whether something decays over a motion by more than `STIFF_FOLDINGS`.
 
-    What conserves energy has modes in pairs, one that grows for each that decays, and is not stiff however long it
-    lasts; what counts is by how much decay exceeds growth.
+    A conservative system has modes in pairs, one growing for each decaying, and is not stiff over any length; the
+    excess of decay over growth counts.
     """
     falling, growing = fastest_modes(equations, y)
     return (falling - growing) * until > STIFF_FOLDINGS

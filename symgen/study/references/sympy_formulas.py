@@ -61,14 +61,14 @@ class ReferenceFormulas:
     mechanism : Mechanism
         A validated mechanism.
     parameters : mapping
-        What stands for each parameter: a number or a symbol.
+        Number or symbol of each parameter.
 
     Attributes
     ----------
     t, q, v
         Symbols of the time, the coordinates and their rates.
     first : dict
-        Where the coordinates of each body begin.
+        Index of the first coordinate of each body.
     angles, turns : list
         Angles that count whole turns, and the symbols of these.
     """
@@ -104,7 +104,7 @@ class ReferenceFormulas:
         return rows
 
     def forces(self) -> list[Any]:
-        """Return the generalised forces by coordinate, the terms of inertia that hold no acceleration among them."""
+        """Return the generalised forces by coordinate, with the inertia terms free of accelerations."""
         total = [sp.S.Zero] * len(self.q)
         for body in self.mechanism.bodies:
             i = self.first[body.name]
@@ -156,7 +156,7 @@ class ReferenceFormulas:
         return {i: e for i, e in entries.items() if e != 0}
 
     def _by_rates(self, speed: Any) -> dict[int, Any]:
-        """Return the coefficients of the rates in something linear in them."""
+        """Return the coefficients of the rates in an expression linear in them."""
         free = speed.free_symbols
         entries = {i: sp.diff(speed, v) for i, v in enumerate(self.v) if v in free}
         return {i: e for i, e in entries.items() if e != 0}
@@ -297,7 +297,7 @@ def angular_velocity(e: list[Any], rates: list[Any]) -> list[Any]:
 
 
 def _gyroscopic(tensor: sp.Matrix, e: list[Any], rates: list[Any]) -> list[Any]:
-    """Return dT/de - (d/dt dT/de' without e'') of the energy of turning T."""
+    """Return dT/de - (d/dt dT/de' without e'') of the rotational energy T."""
     omega = sp.Matrix(angular_velocity(e, rates))
     kinetic = (omega.T * tensor * omega)[0] / 2
     terms = []

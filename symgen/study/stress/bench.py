@@ -1,7 +1,7 @@
-"""Mechanisms to be stressed: a base model with handles that are turned at run time, one module for many cases.
+"""Stressed mechanisms: a base model with parameters that are varied at run time, one module for many cases.
 
-What compiles anew is what costs: a spring-damper, a factor on a body's mass and a factor on gravity are added as
-parameters that change nothing until they are set, and starts may change freely, since they are outside the digest.
+Compilation is the main cost: a spring-damper, a factor on a body's mass and a factor on gravity are added as parameters
+with neutral defaults, and starts may change freely, since they are outside the digest.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ STANDARD_GRAVITY = 9.81
 
 
 class NotApplicable(SymgenError):
-    """A family has no case for a base model; the text says why."""
+    """A family has no case for a base model; the text is the reason."""
 
 
 @dataclass(frozen=True)
@@ -50,9 +50,9 @@ class Level:
     label : str
         The case in words.
     values : tuple of float
-        What is varied: one number, or two for a plane.
+        Varied quantity: one number, or two for a plane.
     mechanism : Mechanism
-        What moves.
+        The mechanism.
     parameters : mapping
         Values that differ from the mechanism's own.
     until, step : float
@@ -66,13 +66,13 @@ class Level:
     pairs : tuple of (str, str) or None
         Only these methods with these integrators.
     constant_steps : bool
-        Only integrators with constant steps: the step is what is varied.
+        Only integrators with constant steps: the step is varied.
     spring_end : tuple of float or None
-        Where the body's coordinates begin and where the fixed end is [m], for a spring that is unloaded at the start.
+        Index of the first coordinate of the body, and the fixed end [m], of a spring that is unloaded at the start.
     watched : bool
-        Whether the run watches its own violations and energy; off where stability alone is asked for.
+        Whether the run watches its own violations and energy; off for tests of stability alone.
     closed : str or None
-        What has a closed form to compare with: a catalogue entry, or ``"parallelogram"``.
+        Closed form for comparison: a catalogue entry, or ``"parallelogram"``.
     family, model : str
         Names of the family and of the base model, ``-`` for a mechanism of the family's own.
     """
@@ -117,7 +117,7 @@ class Base:
         Raises
         ------
         InputError
-            If there is no such model, it is wrong, or it has beam elements.
+            If the model does not exist, is wrong, or has beam elements.
         """
         raw, _ = read_raw(model)
         base = cls(str(model), raw)
@@ -153,7 +153,7 @@ class Base:
 
     @property
     def closed(self) -> str | None:
-        """The base's own name if there is a closed form of its motion."""
+        """The base's own name if its motion has a closed form."""
         from symgen.study.references.closed_forms import closed_form
 
         return self.name if closed_form(self.mechanism) is not None else None
@@ -178,7 +178,7 @@ class Base:
             Section -> name -> table, merged into the description; keys of a table that is there are replaced, and None
             takes a key away.
         suffix : str
-            Goes after the name; mechanisms with other equations need other names.
+            Suffix of the name; mechanisms with other equations need other names.
         """
         raw = copy.deepcopy(self.raw)
         raw["mechanism"]["name"] = f"{raw['mechanism']['name']}-{suffix}"
@@ -247,13 +247,13 @@ class Base:
         return self.mechanism.space in FORCES.get("spring-damper").SPACES
 
     def need_spring(self) -> None:
-        """Say that a family has no case without a spring-damper."""
+        """Raise `NotApplicable` where no spring-damper can act."""
         if not self.has_spring:
             raise NotApplicable(f"there is no spring-damper in {self.mechanism.space} mechanisms")
 
     @property
     def spring_end(self) -> tuple[float, ...]:
-        """Where the middle body's coordinates begin, and the spring's fixed end [m]."""
+        """Index of the first coordinate of the middle body, and the spring's fixed end [m]."""
         first = 0
         for body in self.mechanism.bodies:
             if body.name == self.middle:

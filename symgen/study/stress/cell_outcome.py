@@ -1,4 +1,4 @@
-"""What became of a run of a stress study, told by its distance to an independent motion, not by its own word."""
+"""Outcome of a run of a stress study, by its distance to an independent motion, not by its own status."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ GOOD, INACCURATE, WRONG_BRANCH, SINGULAR, DIVERGED, TOO_SLOW, REFUSED, UNJUDGED 
 )
 #: Largest error of an accurate run [m].
 ACCURATE = 1e-3
-#: A reference that may be off by more than this share of `ACCURATE` judges nothing.
+#: Largest estimated error of a usable reference, as a share of `ACCURATE`.
 TRUSTED = 0.5
 #: Errors above this share of the mechanism's size are no longer those of its motion.
 LOST = 0.1
@@ -31,12 +31,12 @@ CLOSED = 1e-3
 
 @dataclass(frozen=True)
 class Run:
-    """What is known of a run, beside what it says of itself.
+    """Facts about a run, apart from its own status.
 
     Parameters
     ----------
     finished : bool
-        It reached its end.
+        Whether the run reached its end.
     errors : Array, shape (k,)
         Distance to the reference [m] at the outputs that it reached.
     sines : Array, shape (n,)
@@ -58,9 +58,9 @@ class Run:
 def classify(run: Run) -> str:
     """Return one of `OUTCOMES` for a run.
 
-    An error up to `ACCURATE` is ok. Beyond that, a run that goes on along constraints that the independent equations
-    find closed, after an error that arose near a singular position, is on a wrong branch; other finished runs are
-    inaccurate while constraints are closed or the error is below `LOST` of the size, else diverged. A run that ended
+    An error up to `ACCURATE` is ok. Beyond that, a run that keeps the constraints by the independent equations closed,
+    after an error that arose near a singular position, is on a wrong branch; other finished runs are inaccurate while
+    constraints are closed or the error is below `LOST` of the size, else diverged. A run that ended
     early is singular where the reference is near a singular position there, else diverged.
     """
     last = len(run.errors)
@@ -97,10 +97,10 @@ def _lost_near_a_singular_position(run: Run) -> bool:
 
 
 def false_success(status: str, outcome: str, error: float | None) -> bool:
-    """Whether a run says ok although its error exceeds `ACCURATE`; cells without a reference cannot say."""
+    """Whether a run says ok although its error exceeds `ACCURATE`; False without a reference."""
     return status == OK and outcome not in (UNJUDGED, TOO_SLOW, REFUSED) and (error is None or error > ACCURATE)
 
 
 def counts(outcomes: Sequence[str]) -> dict[str, int]:
-    """Return how often each outcome occurs, all of them named."""
+    """Return the number of occurrences of every outcome."""
     return {name: outcomes.count(name) for name in OUTCOMES}

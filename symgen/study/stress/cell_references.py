@@ -1,6 +1,6 @@
-"""What the runs of a case are compared with: closed forms, independent equations, or two formulations that agree.
+"""References of the cases: closed forms, independent equations, or two formulations that agree.
 
-Planar mechanisms have independent equations that are compiled, those in space two routes through compiled code.
+Planar mechanisms have compiled independent equations, spatial ones two routes through compiled code.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ CONSISTENT = 1e-8
 
 
 def reference_of(level: Level) -> Fields:
-    """Return the motion at the outputs, or why there is none."""
+    """Return the motion at the outputs, or the reason why there is none."""
     try:
         refuse_jumps(level.mechanism, level.parameters, level.until)
         return _moved(level)
@@ -95,7 +95,7 @@ def _moved(level: Level) -> Fields:
 
 
 def without_reference(motion: Mapping[str, Any]) -> str | None:
-    """Return why the outcome of a reference judges nothing, None where it does."""
+    """Return the reason why a reference is unusable, None if it is usable."""
     if motion["unusable"] is not None:
         return str(motion["unusable"])
     if motion["estimated_error"] > TRUSTED * ACCURATE:
@@ -166,7 +166,7 @@ def _sines(equations: Any, times: Array, q: Array) -> Array:
 
 
 class EmittedGeometry:
-    """Phi, D and nu of a compiled model as numbers.
+    """Numerical Phi, D and nu of a compiled model.
 
     Parameters
     ----------

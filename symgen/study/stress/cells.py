@@ -45,7 +45,7 @@ Fields = dict[str, Any]
 
 #: Limits of a run that does not watch itself.
 UNWATCHED: dict[str, Any] = {"max_violation": 1e30, "max_energy_error": 1e30}
-#: How a loop ends that stopped itself although it could have gone on.
+#: Statuses of loops that stopped although they could have continued.
 WATCHES = (abi.POSITION, abi.VELOCITY, abi.ENERGY)
 #: The search for the largest step: factor of the scan, halvings afterwards, and how far it goes down from the step.
 SCAN, HALVINGS, SMALLEST = 4.0, 7, 4096.0
@@ -53,7 +53,7 @@ SCAN, HALVINGS, SMALLEST = 4.0, 7, 4096.0
 
 @dataclass(frozen=True)
 class CellReference:
-    """Compute the motion that a case is compared with."""
+    """Compute the reference motion of a case."""
 
     level: Level
 
@@ -62,7 +62,7 @@ class CellReference:
 class RunTask:
     """Run a case with a method and an integrator; `reference` is the outcome of its `CellReference`.
 
-    `common` holds what all runs have in common: coordinates of the state, and limits of a run that watches itself.
+    `common` holds the common settings of all runs: coordinates of the state, and limits of a run that watches itself.
     """
 
     level: Level
@@ -95,7 +95,7 @@ def _not_run(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") 
 
 
 def _run(task: RunTask) -> Fields:
-    """Return the fields of a row that depend on the run; without a reference it would say nothing, and is not run."""
+    """Return the fields of a row that depend on the run; without a reference nothing is run."""
     level, method, integrator, motion = task.level, task.method, task.integrator, task.reference
     mechanism = level.mechanism
     settings = replace(
@@ -243,11 +243,11 @@ def largest(holds: Callable[[float], bool], first: float, top: float) -> float |
     Parameters
     ----------
     holds : callable
-        The condition; it need not be monotone: what is found is where it fails for the first time on the way up.
+        The condition; it need not be monotone: the result is its first failure on the way up.
     first : float
-        Where to begin; smaller ones are tried where it does not hold.
+        First number; smaller ones are tried where the condition does not hold.
     top : float
-        Nothing above this is tried.
+        Largest number tried.
 
     Returns
     -------

@@ -1,8 +1,8 @@
-"""What a cell of a stress study may cost, told from a mechanism's size and never by a clock.
+"""Cost limits of the cells of a stress study, by a mechanism's size and never by a clock.
 
-Budgets are what small mechanisms may take, and fall as mechanisms grow: with the coordinates for explicit schemes,
-with the third power of a stage's unknowns for implicit ones. That is more than sparse Newton matrices cost, and keeps
-studies of large mechanisms short.
+Budgets hold for small mechanisms, and fall as mechanisms grow: with the coordinates for explicit schemes, with the
+third power of a stage's unknowns for implicit ones. That exceeds the cost of sparse Newton matrices, and keeps studies
+of large mechanisms short.
 """
 
 from __future__ import annotations
@@ -37,26 +37,26 @@ HOPELESS = 1.5
 
 
 def explicit_budget(mechanism: Mechanism, most: int = BUDGET) -> int:
-    """Return how many evaluations of a sparse right-hand side may be made, `most` for a small mechanism."""
+    """Return the evaluation limit of a sparse right-hand side, `most` for a small mechanism."""
     return int(most * min(1.0, SMALL / mechanism.body_coordinates))
 
 
 def implicit_budget(mechanism: Mechanism, most: int = IMPLICIT_BUDGET) -> int:
-    """Return how many residuals of implicit stages may be computed, `most` for a small mechanism."""
+    """Return the limit of residuals of implicit stages, `most` for a small mechanism."""
     speeds = sum(len(body.speeds) for body in mechanism.bodies)
     unknowns = 2 * speeds + sum(len(joint.rows) for joint in mechanism.joints)
     return max(LEAST_IMPLICIT, int(most * min(1.0, (SMALL_STAGE / unknowns) ** 3)))
 
 
 def budget_of(plan: Plan, mechanism: Mechanism) -> int:
-    """Return how many evaluations a run may take."""
+    """Return the evaluation limit of a run."""
     if is_implicit(plan):
         return implicit_budget(mechanism)
     return explicit_budget(mechanism, ADAPTIVE_BUDGET if plan.spec.adaptive else BUDGET)
 
 
 def further_budget(budget: int, used: int) -> int:
-    """Return how many evaluations a run may take that stopped itself after `used`, without its watch.
+    """Return the evaluation limit, without its watch, of a run that stopped itself after `used`.
 
     Off the constraints steps may become tiny, and iterated methods need many iterations.
     """
@@ -69,7 +69,7 @@ def is_implicit(plan: Plan) -> bool:
 
 
 def predicted(plan: Plan, decay: float) -> float:
-    """Return how many evaluations a run takes at least, as far as that is known before.
+    """Return a lower bound of a run's evaluations.
 
     Parameters
     ----------
@@ -81,8 +81,8 @@ def predicted(plan: Plan, decay: float) -> float:
     Returns
     -------
     float
-        Of constant steps their number, one evaluation a stage; of an explicit adaptive run what stability asks for at
-        the start, over `HOPELESS`, as the decay may fall later; 0 where nothing is known.
+        With constant steps one evaluation a stage; for an explicit adaptive run the number that stability requires at
+        the start, over `HOPELESS`, as the decay may fall later; else 0.
     """
     stages, spec = float(plan.integrator.stages), plan.spec
     if not spec.adaptive:
@@ -92,13 +92,13 @@ def predicted(plan: Plan, decay: float) -> float:
     return decay * spec.until / plan.integrator.real_boundary * stages / HOPELESS
 
 
-# -- what is compiled --------------------------------------------------------------------------------------------------
+# -- compilation -------------------------------------------------------------------------------------------------------
 
 
 def needs_straight(method: str, integrator: str) -> bool:
     """Whether a pair has no looped shape, so that it is compiled for each mechanism anew."""
     if method == AUTO:
-        return False  # what it chooses is known only case by case
+        return False  # its choice depends on the case
     choice = choose_method(method, {}, not EXPLICIT_FORMS & set(INTEGRATORS.get(integrator).forms))
     return not is_loopable(choice.method, choice.options, choice.implicit)
 
@@ -111,7 +111,7 @@ def left_out(
     Parameters
     ----------
     mechanisms : sequence of Mechanism
-        What is made of a base model and has equations of its own, the base itself first.
+        Mechanisms made of a base model with equations of their own, the base first.
     pairs : sequence of (str, str)
         Methods with their integrators.
     seconds : float

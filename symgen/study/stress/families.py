@@ -1,4 +1,4 @@
-"""Families of stiff and extreme cases: what is varied, over which values, and the cases that these make of a base."""
+"""Families of stiff and extreme cases: the varied quantity, its values, and the cases of a base."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from symgen.study.stress.bench import DAMPING, GRAVITY, MASS, STIFFNESS, Base, L
 
 @dataclass(frozen=True)
 class Family:
-    """What is varied.
+    """Family of cases.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class Family:
 
 
 def levels_of(family: str, base: Base, quick: bool) -> list[Level]:
-    """Return the cases of a family, those of the same values once.
+    """Return the cases of a family, without repeated values.
 
     Raises
     ------
@@ -138,7 +138,7 @@ def spin_rate(base: Base, rate: float) -> Level:
 def redundancy(base: Base, count: float) -> Level | None:
     """Return the case of one or two bars more, each beside a body that is pinned at either end.
 
-    They repeat what others say, on the constraint manifold only, so that no derivation can drop them.
+    They repeat other constraints on the constraint manifold only, so that no derivation can drop them.
     """
     if base.mechanism.space not in JOINTS.get("distance").SPACES:
         raise NotApplicable(f"there is no distance joint in {base.mechanism.space} mechanisms")

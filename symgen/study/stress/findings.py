@@ -1,4 +1,4 @@
-"""What the rows of a stress study say, as plain sentences: computed, never written by hand."""
+"""Findings of a stress study as plain sentences: computed, never written by hand."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from symgen.study.stress.stress_rows import Map, map_rows, plane_rows, shares_of
 if TYPE_CHECKING:
     from symgen.study.stress.stress_rows import Stress, StressRow
 
-#: Methods that hold constraints by forces, and only as closely as these push.
+#: Methods that hold constraints by forces, and only approximately.
 YIELDING = ("penalty", "compliant-constraints", "augmented-lagrangian", "augmented-hamiltonian")
-#: Errors up to this share of a link's length are what relative tolerances leave.
+#: Errors of relative tolerances are up to this share of a link's length.
 LONG = 1e-6
 #: A run with larger violations |Phi| is within its limit, 1e-6, only because the largest coordinate is so large.
 OPEN = 1e-4
@@ -78,7 +78,7 @@ def _families(shown: Map) -> Iterator[str]:
 
 
 def _hardest(rows: Sequence[StressRow]) -> str:
-    """Return which case spoils most runs, and how."""
+    """Return the case that spoils most runs, with their outcomes."""
     cases: dict[str, list[StressRow]] = {}
     for row in rows:
         cases.setdefault(row.case if row.model == "-" else f"{row.case} on {row.model}", []).append(row)
@@ -97,7 +97,7 @@ def largest_root(alpha: float, beta: float) -> float:
 
 
 def _gains(study: Stress) -> Iterator[str]:
-    """Yield where Baumgarte's gains stop being accurate, for real roots: the end of the region on the real axis."""
+    """Yield the limit of accurate Baumgarte gains, for real roots: the end of the region on the real axis."""
     reaches: dict[str, dict[bool, list[float]]] = {}
     for row in plane_rows(study.rows, "alpha-beta"):
         if row.step is not None and row.outcome != UNJUDGED and row.values[0] >= row.values[1] * (1.0 - 1e-12):
@@ -161,7 +161,7 @@ def _trust(study: Stress) -> Iterator[str]:
 
 
 def cause(row: StressRow) -> str:
-    """Return in words why a run can say ok although its error is large."""
+    """Return the reason in words why a run can report ok although its error is large."""
     if row.outcome == WRONG_BRANCH:
         return "another branch was taken at a singular position, where constraints are closed and energy is kept"
     if row.method in YIELDING and (row.position_violation_max or 0.0) > 1e-9:
@@ -199,7 +199,7 @@ def _listed(parts: Sequence[str]) -> str:
 
 
 def _with_others(names: Sequence[str]) -> str:
-    """Return the first of some names, and how many others are alike."""
+    """Return the first of some names, and the number of the others."""
     return names[0] if len(names) == 1 else f"{names[0]} and {_many(len(names) - 1, 'other')}"
 
 

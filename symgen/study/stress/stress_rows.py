@@ -12,7 +12,7 @@ from symgen.result.contract import finite
 from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, counts, false_success
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 
-#: Units of columns that have one.
+#: Units of columns.
 UNITS = {
     **{"step": "s", "until": "s", "error": "m", "reference_error": "m"},
     **{"position_violation_max": "m", "velocity_violation_max": "m/s", "energy_drift_max": "J"},
@@ -28,27 +28,27 @@ class StressRow:
     model, family, case : str
         Base model (``-`` for a family with a mechanism of its own), family and case in words.
     values : tuple of float
-        What is varied.
+        Varied quantities.
     method, integrator : str
-        What was run; what ``auto`` chose is in `chosen`.
+        Names as run; the choice of ``auto`` is in `chosen`.
     step : float or None
         Constant step [s].
     until : float
         End [s].
     outcome : str
-        One of `symgen.study.stress.cell_outcome.OUTCOMES`: told by the distance to the reference.
+        One of `symgen.study.stress.cell_outcome.OUTCOMES`, by the distance to the reference.
     error : float or None
         Largest distance to the reference [m] at the outputs that the run reached.
     reference_error : float or None
-        How far the reference may be off [m]; None where there is none.
+        Estimated error of the reference [m]; None without one.
     status, reason
-        What the run says of itself; ``not run`` where it was refused or predicted to be too slow.
+        The run's own status; ``not run`` where it was refused or predicted to be too slow.
     evaluations : int
         Right-hand sides or residuals; the budget where it took more.
     position_violation_max, velocity_violation_max, energy_drift_max : float or None
         As of a result.
     chosen, note : str
-        What ``auto`` chose, and where a run ended early.
+        Choice of ``auto``, and the end of a run that ended early.
     watched : bool
         Whether the run watched itself; its status counts only then.
     """
@@ -76,13 +76,13 @@ class StressRow:
 
     @property
     def false_success(self) -> bool:
-        """Whether the run says ok although its error exceeds 1e-3 m."""
+        """Whether the run reports ok although its error exceeds 1e-3 m."""
         return self.watched and false_success(self.status, self.outcome, self.error)
 
 
 @dataclass(frozen=True)
 class Limit:
-    """The largest constant steps of a method on a case [s]; None where the smallest that was tried is too large."""
+    """The largest constant steps of a method on a case [s]; None where the smallest one tried is too large."""
 
     model: str
     family: str
@@ -96,7 +96,7 @@ class Limit:
 
 @dataclass(frozen=True)
 class Stress:
-    """What a stress study found.
+    """Results of a stress study.
 
     Attributes
     ----------
@@ -113,9 +113,9 @@ class Stress:
     left_out : tuple of (str, str, str, str)
         Mechanism, method, integrator and why the pair is not run at all.
     quick, interrupted : bool
-        Fewer cases were asked for; cells are missing because the study was stopped.
+        Whether fewer cases were requested; whether the study was stopped before its last cell.
     coordinates : str
-        Of the state of all runs.
+        Coordinates of the state of all runs.
     """
 
     models: tuple[str, ...]
@@ -160,7 +160,7 @@ class Stress:
 
 
 def save_csv(study: Stress, path: Path, units: bool = False) -> Path:
-    """Write the rows of a study to a CSV file, with units if asked for; it appears whole or not at all."""
+    """Write the rows of a study to a CSV file, with units if requested; it appears whole or not at all."""
     check_writable("csv", path)
     rows = [asdict(row) | {"values": " ".join(f"{x!r}" for x in row.values)} for row in study.rows]
     heading = [headed(f.name, UNITS.get(f.name, "")) if units else f.name for f in fields(StressRow)]
@@ -177,7 +177,7 @@ LETTERS = {
     "refused": "r",
     "unjudged": "u",
 }
-#: What the letters mean, one line.
+#: Legend of the letters, one line.
 LEGEND = ", ".join(f"{letter} {outcome}" for outcome, letter in LETTERS.items())
 
 
@@ -239,7 +239,7 @@ class Map:
         return cls(tuple(sorted(lines, key=lambda line: order[line[0]])), families, rows)
 
     def entry(self, line: tuple[str, str], family: str | None = None) -> Entry:
-        """Return a field; of all families together unless one is named."""
+        """Return a field of a family, by default of all families together."""
         return Entry(
             tuple(
                 row
@@ -265,7 +265,7 @@ def plane_lines(rows: Sequence[StressRow]) -> tuple[tuple[str, str, str], ...]:
 
 
 def outcomes_of_models(rows: Sequence[StressRow]) -> tuple[tuple[str, dict[str, int]], ...]:
-    """Return how often each outcome occurs on each model, planes included; ``-`` are mechanisms of families."""
+    """Return the number of each outcome on each model, planes included; ``-`` are mechanisms of families."""
     models = dict.fromkeys(row.model for row in rows)
     return tuple((model, counts([row.outcome for row in rows if row.model == model])) for model in models)
 

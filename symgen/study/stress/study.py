@@ -27,21 +27,21 @@ from symgen.study.stress.effort import BUDGET, left_out
 from symgen.study.stress.families import FAMILIES, levels_of
 from symgen.study.stress.stress_rows import Limit, Stress, StressRow
 
-#: Integrators that a method is run with, beside its own default: an explicit adaptive one and an implicit one.
+#: Integrators of each method besides its own default: an explicit adaptive one and an implicit one.
 FURTHER = ("dop853", "picard", "radau5")
-#: What is stressed unless a model is named.
+#: Default base model.
 DEFAULT_MODEL = "four-bar"
-#: Families in which the largest step of each method is looked for, by the case that comes nearest to a value.
+#: Families with a search for the largest step of each method, in the case nearest to a value.
 LIMITED = ("duration", "stiffness", "damping")
 
-#: Called with what is being done and how far it is.
+#: Called with the current activity and the progress.
 Progress = Callable[[str, Status], None]
 Motions = Sequence[tuple[CellReference, Outcome]]
 Task = TypeVar("Task", bound=CellReference | RunTask)
 
 
 def pairs(method: str, constant_steps: bool = False) -> tuple[tuple[str, str], ...]:
-    """Return a method with the integrators that it is stressed with.
+    """Return a method paired with its integrators in a study.
 
     Parameters
     ----------
@@ -86,11 +86,11 @@ def stress(
     quick : bool
         Fewer cases, and each method with its own integrator only.
     journal : Journal, optional
-        Keeps what is done; what it holds already is not computed again.
+        Stores finished cells; cells that it holds are not computed again.
     jobs : int
         Processes to compute on. With more than one, a script needs the usual ``if __name__ == "__main__":``.
     progress : callable, optional
-        Called with what is being done and how far it is.
+        Called with the current activity and the progress.
     compilation : float
         Expected seconds of compilation that a model's pairs without a looped shape may take together [s]; pairs beyond
         are left out and listed.
@@ -104,12 +104,12 @@ def stress(
     Returns
     -------
     Stress
-        Also after an interruption (KeyboardInterrupt), with the cells that are done.
+        Also after an interruption (KeyboardInterrupt), with the finished cells.
 
     Raises
     ------
     InputError
-        If a name is wrong; nothing has been run then.
+        If a name is wrong; raised before any run.
     """
     common = Settings(
         max_violation=max_violation,
@@ -217,7 +217,7 @@ class _Study:
         )
 
     def _computed(self, what: str, tasks: Sequence[Task]) -> tuple[list[tuple[Task, Outcome]], bool]:
-        """Return the tasks that are done with their outcomes, and whether the study was interrupted."""
+        """Return the finished tasks with their outcomes, and whether the study was interrupted."""
         cells = [_cell(task) for task in tasks]
         done, interrupted = run_cells(
             cells, compute, self.journal, self.jobs, lambda status: self.progress(what, status)
@@ -238,7 +238,7 @@ class _Study:
         return tuple(pair for fit in fitting for pair in (fit[:1] if self.quick else fit))
 
     def _searches(self, motions: Motions) -> Iterator[LimitTask]:
-        """Yield one case of each model and family for which largest steps are looked for, with every method."""
+        """Yield one case of each model and family with a search for largest steps, with every method."""
         cases: dict[tuple[str, str], list[tuple[Level, Outcome]]] = {}
         for task, motion in motions:
             if task.level.family in LIMITED:
