@@ -119,7 +119,7 @@ def _pushes(pen: Pen, force: Force) -> list[Mark]:
 
 
 def _components(force: Force) -> list[tuple[Effort, Component | PointSpeed | Spin]]:
-    """Return the efforts of a force or torque set by components, each with its direction."""
+    """Return the efforts of a force or torque set by components, each with its measure."""
     return [(e, m) for e in force.efforts for m in parts(e.measure) if isinstance(m, Component | PointSpeed | Spin)]
 
 

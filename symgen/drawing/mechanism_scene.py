@@ -190,7 +190,7 @@ def _shape_marks(pen: Pen, body: AnyBody, shape: Shape, colour: str) -> list[Mar
     pen : Pen
         What draws.
     body : Body or SpatialBody
-        Owner of the shape.
+        The body of the shape.
     shape : Shape
         In the body's frame.
     colour : str

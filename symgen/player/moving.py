@@ -1,4 +1,4 @@
-"""Motions as GIF or MP4, through matplotlib and Pillow, which are imported only here, and ffmpeg."""
+"""Motions as GIF or MP4, by matplotlib and Pillow, which are imported only here, and ffmpeg."""
 
 from __future__ import annotations
 
