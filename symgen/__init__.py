@@ -6,7 +6,7 @@
     result = model.simulate(method="direct-correction", integrator="rk4", until=10.0)
     result["crank.theta"], result.status, result.energy_drift_max
 
-Everything below is imported when it is first used, so that ``import symgen`` costs nothing.
+All names are imported at their first use, so that ``import symgen`` costs nothing.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from symgen.stepping.run import SteppedRun
     from symgen.study.comparison.compare import Study, compare
 
-#: Public name -> module that has it.
+#: Public name -> its module.
 _WHERE = {
     "AssemblyError": "symgen.errors",
     "InputError": "symgen.errors",

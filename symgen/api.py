@@ -46,7 +46,7 @@ def load(model: str | Path | Mechanism | Model) -> Model:
     Raises
     ------
     InputError
-        If there is no such model or the file is wrong.
+        If the model does not exist or the file is invalid.
     """
     if isinstance(model, Model):
         return model
@@ -60,7 +60,7 @@ def simulate(
     progress: Callable[[float], None] | None = None,
     **changes: Unpack[RunKeywords],
 ) -> Result:
-    """Load and run a model in one go.
+    """Load and run a model.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def simulate(
 
 
 class _OfPackage:
-    """A function of the package as a method; its module stands above this one and is imported when it is used."""
+    """A function of the package as a method; its module imports this one, so it is imported at its first use."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -106,7 +106,7 @@ class Model(Analysed, Shown):
         return self.mechanism.name
 
     def parameters(self, changed: Mapping[str, float] | None = None) -> dict[str, float]:
-        """Return all parameter values, `changed` ones replaced.
+        """Return the values of all parameters, with those of `changed` replaced.
 
         Raises
         ------
@@ -118,7 +118,7 @@ class Model(Analysed, Shown):
     def compile(
         self, method: str = "direct-correction", options: Mapping[str, str] | None = None, shape: str = "straight"
     ) -> CompiledModel:
-        """Return the emitted functions for one method, generated if the cache does not have them.
+        """Return the emitted functions for one method, from the cache or newly generated.
 
         Parameters
         ----------
@@ -139,7 +139,7 @@ class Model(Analysed, Shown):
         return compile_model(self.mechanism, choice)
 
     def initial_state(self, parameters: Mapping[str, float]) -> tuple[Array, list[float | None]]:
-        """Return q as described (not yet closed) and the given velocities, None where there is none.
+        """Return q as described (not yet closed) and the described velocities, None where not set.
 
         Parameters
         ----------
@@ -169,9 +169,9 @@ class Model(Analysed, Shown):
         strict : bool
             Refuse a start that is not consistent instead of changing it.
         held : mapping, optional
-            Values of coordinates and velocities that are kept, by name, as the setting ``start`` has them.
+            Values of coordinates and velocities to keep, by name, as in the setting ``start``.
         ask_light : bool
-            Whether the start shall say if bodies are too light for the law's solver.
+            Whether the start reports bodies that are too light for the law's solver.
 
         Raises
         ------
@@ -208,14 +208,14 @@ class Model(Analysed, Shown):
         target: str = "cpu",
         fmi: int = 2,
     ) -> Package:
-        """Write the emitted code into a folder: modules that people read, and a script that simulates the mechanism.
+        """Write the emitted code into a folder: readable modules and a script that simulates the mechanism.
 
         Parameters
         ----------
         path : path, optional
-            The folder, which is made if need be, or the FMU; by default of the mechanism's name.
+            The folder, created if missing, or the FMU; by default named after the mechanism.
         methods : str or sequence of str, optional
-            Methods, each a module; None: all that suit the mechanism, the shape and the target.
+            Methods, one module each; None: all that suit the mechanism, the shape and the target.
         options : mapping, optional
             Their structural options, e.g. ``{"direct-correction.weight": "mass"}``.
         coordinates : {"absolute", "joint", "auto"}
@@ -223,9 +223,9 @@ class Model(Analysed, Shown):
         shape : {"straight", "looped"}
             Code for this mechanism alone, or loops over tables that all mechanisms share.
         target : str
-            What the code is for, one of `symgen.targets`: ``cpu``, ``lanes``, ``cuda``, ``javascript``, ``c``, ``fmu``.
+            Target of the code, one of `symgen.targets`: ``cpu``, ``lanes``, ``cuda``, ``javascript``, ``c``, ``fmu``.
         fmi : {2, 3}
-            Version of the interface of an FMU.
+            Version of FMI of an FMU.
 
         Returns
         -------
@@ -275,7 +275,7 @@ class Model(Analysed, Shown):
         settings : Settings, optional
             All settings at once.
         progress : callable, optional
-            Called about ten times a second with the time reached.
+            Called with the time reached, about ten times a second.
         **changes
             Single settings by name, as listed above.
 
@@ -310,7 +310,7 @@ class Model(Analysed, Shown):
 
     @takes
     def start(self, settings: Settings | None = None, **changes: Unpack[RunKeywords]) -> SteppedRun:
-        """Return a run that goes on step by step, at its start.
+        """Return a run at its start, to be advanced step by step.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""Arguments of public functions, looked at where they come in: each of the wrong kind is refused in one sentence."""
+"""Checks of the arguments of public functions; errors are one sentence."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def number(where: str, value: object, *, positive: bool = False) -> float:
     where : str
         The argument, for the message.
     value : object
-        What was given.
+        The value.
     positive : bool
         Whether it must be above 0.
 

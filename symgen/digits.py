@@ -1,4 +1,4 @@
-"""Numbers as people read them: what rounding leaves of a zero is 0. Saved data, JSON and CSV keep all digits."""
+"""Numbers for display: zeros with rounding errors are shown as 0. Saved data, JSON and CSV keep all digits."""
 
 from __future__ import annotations
 
@@ -6,29 +6,29 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-#: A number below this part of the largest one beside it is what rounding leaves.
+#: A number below this fraction of the largest in its column is a rounding error.
 NOTHING = 1e-12
-#: The scale of a column of a matrix, at least, as a part of the largest number of the matrix.
+#: Smallest scale of a column of a matrix, as a fraction of the largest number of the matrix.
 BESIDE = 1e-2
-#: What numbers of these units are measured by at least, however small all of them are.
+#: Smallest scales of numbers of these units.
 OWN_SIZE = {"rad": 1.0, "deg": 1.0}
 
 
 def scale_of(values: Iterable[float], unit: str = "") -> float:
-    """Return the size that numbers of one kind are compared with: the largest finite one; of angles at least 1.
+    """Return the scale of numbers of one kind: the largest finite magnitude; for angles at least 1.
 
     Parameters
     ----------
     values : iterable of float
         A column, or all columns of one unit.
     unit : str
-        Of them.
+        Their unit.
     """
     return max([OWN_SIZE.get(unit, 0.0), *(abs(float(x)) for x in values if math.isfinite(x))])
 
 
 def cleaned(values: Any, scale: float) -> Any:
-    """Return a number, or an array, with 0 for what lies below `NOTHING` of a scale."""
+    """Return a number or an array with 0 for values below `NOTHING` of a scale."""
     return values * (abs(values) >= NOTHING * scale) + 0.0
 
 
@@ -44,7 +44,7 @@ def complex_digits(x: complex, count: int = 6) -> tuple[str, str]:
 
 
 def column(values: Sequence[float], unit: str = "", count: int = 6, least: float = 0.0) -> list[str]:
-    """Return the texts of a column of one unit, whose scale is at least a given one."""
+    """Return the texts of a column of one unit, whose scale has a lower bound."""
     scale = max(scale_of(values, unit), least)
     return [digits(x, scale, count) for x in values]
 

@@ -1,4 +1,4 @@
-"""Every error symgen raises on purpose, with the exit code the command line gives it, and the words they are made of.
+"""Errors raised by symgen, their exit codes on the command line, and helpers for their messages.
 
 Whatever a message repeats of a file or an argument goes through `quoted`, so that it is short and printable.
 """
@@ -19,7 +19,7 @@ CLOSE = 0.6
 
 
 class SymgenError(Exception):
-    """Base of all errors whose text is one printable sentence written for the person at the keyboard."""
+    """Base of all errors; the text is one printable sentence for the user."""
 
     exit_code = 1
 
@@ -39,7 +39,7 @@ class InputError(SymgenError):
     got : str
         What was found.
     hint : str, optional
-        Nearest valid spelling or what to do next.
+        Nearest valid spelling or a remedy.
     """
 
     exit_code = 2
@@ -63,9 +63,9 @@ class AssemblyError(SymgenError):
     message : str
         The sentence.
     joints : tuple of str
-        Joints that stay open, none where that is not why.
+        Joints that stay open, empty for other causes.
     q : tuple of float
-        Coordinates of all bodies where closing stopped, for a picture; empty where nobody knows.
+        Coordinates of all bodies where closing stopped, for a picture; empty if unknown.
     """
 
     exit_code = 2
@@ -91,12 +91,12 @@ class AnalysisError(SymgenError):
 
 
 class StepError(SimulationError):
-    """A run that goes on step by step cannot do so; it stays at the last accepted state.
+    """A step of a stepped run failed; the run stays at the last accepted state.
 
     Parameters
     ----------
     reason : str
-        Why, as results have it.
+        The reason, as in results.
     time : float
         Where the failed step was to end, or began if it came to nothing [s].
     """
@@ -133,7 +133,7 @@ def quoted(text: object, longest: int = LONGEST_QUOTE) -> str:
         return shown if len(text) <= longest and len(shown) <= longest else f"{shown[: longest - 4]}...{shown[0]}"
     try:
         shown = "'" + printable(str(text)) + "'"
-    except Exception:  # whatever an object of somebody else does when it is asked for its text
+    except Exception:  # the `str` of a foreign object may raise anything
         return f"an object of type '{type(text).__name__}'"
     return shown if len(shown) <= longest else shown[: longest - 4] + "...'"
 
@@ -144,7 +144,7 @@ def fitting(count: int, most: int) -> int:
 
 
 def counted(n: int, one: str, many: str = "") -> str:
-    """Return a number of things: 1 run, 3 runs."""
+    """Return a count with its noun: 1 run, 3 runs."""
     return f"{n} {one if n == 1 else many or one + 's'}"
 
 

@@ -1,4 +1,4 @@
-"""What plugins need: registries, and the parts that methods, integrators, joints and forces are made of.
+"""Imports for plugins: registries, and the parts of methods, integrators, joints and forces.
 
 Worked examples are the guides "own method", "own joint" and "own integrator"; the classes are described in
 ``docs/extending.md``.

@@ -1,4 +1,4 @@
-"""Files that people name: written whole or not at all, and refused in one sentence where they cannot be."""
+"""Files named by users: written whole or not at all; errors are one sentence."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 
 from symgen.errors import InputError, nearest, quoted
 
-#: What a file is to hold, or what writes it to an open file.
+#: Content of a file, or a function that writes it to an open file.
 Content = bytes | str | Callable[[io.BytesIO], object]
 
 
@@ -47,7 +47,7 @@ def check_writable(where: str, path: Path) -> None:
 
 
 def need(where: str, *libraries: str, extra: str = "data") -> None:
-    """Refuse to go on without a library, saying how to get it.
+    """Raise an error with installation advice if a library is missing.
 
     Raises
     ------
@@ -71,12 +71,12 @@ def check_path(where: str, path: Path, endings: Mapping[str, tuple[str, ...]], e
     endings : mapping
         Endings with the libraries that they need.
     extra : str
-        What to install for the libraries.
+        The extra to install for the libraries.
 
     Raises
     ------
     InputError
-        With what was expected.
+        With the expected value.
     """
     ending = path.suffix.lower()
     if ending not in endings:
@@ -101,7 +101,7 @@ def check_name(where: str, path: Path) -> None:
     Raises
     ------
     InputError
-        If nothing can have that name.
+        If the name is invalid.
     """
     try:
         os.lstat(path)
@@ -143,7 +143,7 @@ def write_all(files: Mapping[Path, Content]) -> None:
             with siblings[target].open("xb") as file:
                 file.write(data)
                 file.flush()
-                os.fsync(file.fileno())  # a disk that is full, or gone, may say so only now
+                os.fsync(file.fileno())  # a full or missing disk may raise only now
         for current, sibling in siblings.items():
             os.replace(sibling, current)
     except OSError as error:
@@ -218,7 +218,7 @@ def _bytes(content: Content) -> bytes | memoryview:
         stream = io.BytesIO()
         content(stream)
         return stream.getbuffer()
-    # words of the command line may hold bytes that are no text
+    # arguments of the command line may hold bytes that are no text
     return content.encode(errors="replace") if isinstance(content, str) else content
 
 

@@ -15,11 +15,11 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 class Ended(Protocol):
-    """A run that another one goes on from: a result."""
+    """A run that another one continues: a result."""
 
     @property
     def last_state(self) -> Any:
-        """Where it ended."""
+        """Its last state."""
 
 
 class DrivenKeywords(TypedDict, total=False):
@@ -55,7 +55,7 @@ class PlaceKeywords(StateKeywords, total=False):
 
 
 class RunKeywords(PlaceKeywords, total=False):
-    """Settings of runs: all that there are."""
+    """Settings of runs: all settings."""
 
     method: str
     integrator: str | None
@@ -100,9 +100,9 @@ def explicit(function: Callable[..., Any], keywords: type, defaults: Mapping[str
     keywords : type
         The typed dictionary of the names.
     defaults : mapping
-        What each name is by default.
+        Default of each name.
     others : bool
-        Whether it takes other names as well.
+        Whether other names are accepted.
     """
     kinds = {name: getattr(kind, "__forward_arg__", kind) for name, kind in keywords.__annotations__.items()}
     usual = inspect.signature(function)

@@ -1,6 +1,6 @@
-"""How many processors, how much memory and how much disk there is.
+"""Numbers of processors and amounts of free memory and disk.
 
-What would need more memory or disk is refused in one sentence before anything is allocated.
+Requests that exceed memory or disk are refused before anything is allocated.
 """
 
 from __future__ import annotations
@@ -14,21 +14,21 @@ from pathlib import Path
 
 from symgen.errors import InputError
 
-#: Share of what is free that one request may take: code, copies and other programs need room as well.
+#: Fraction of the free amount that one request may take: code, copies and other programs need room as well.
 SHARE = 0.8
-#: Requests below this are not looked at [bytes]: asking the system takes longer than they matter.
+#: Requests below this are not checked [bytes]: the check would take longer than they are worth.
 SMALL = 1e8
 _GROUPS = Path("/sys/fs/cgroup")
 
 
 def processors() -> int:
-    """Return how many processors this process may use."""
+    """Return the number of processors that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 @contextmanager
 def uncollected() -> Iterator[None]:
-    """Look for no garbage where many objects are made, of which none is garbage."""
+    """Suspend garbage collection while many objects are created that all stay alive."""
     collecting = gc.isenabled()
     gc.disable()
     try:
@@ -39,7 +39,7 @@ def uncollected() -> Iterator[None]:
 
 
 def require(where: str, what: str, size: float) -> None:
-    """Refuse what would need more memory than there is.
+    """Refuse a request that exceeds the free memory.
 
     Parameters
     ----------
@@ -48,12 +48,12 @@ def require(where: str, what: str, size: float) -> None:
     what : str
         What needs it, in words, such as ``"1e+07 outputs"``.
     size : float
-        How much [bytes].
+        Its size [bytes].
 
     Raises
     ------
     InputError
-        If it is too much. Where the system does not say how much there is, nothing is refused.
+        If it is too much. Where the free amount is unknown, nothing is refused.
     """
     free = available() if size > SMALL else None
     if free is not None and size > SHARE * free:
@@ -62,7 +62,7 @@ def require(where: str, what: str, size: float) -> None:
 
 
 def require_disk(where: str, folder: Path, what: str, size: float) -> None:
-    """Refuse what would need more room on a disk than there is.
+    """Refuse a request that exceeds the free disk space.
 
     Raises
     ------
@@ -78,7 +78,7 @@ def require_disk(where: str, folder: Path, what: str, size: float) -> None:
 
 
 def available() -> float | None:
-    """Return how many bytes this process may still take, None where the system does not say.
+    """Return the number of bytes that this process may still allocate, None if unknown.
 
     The least of what is free in the machine, what control groups (containers) leave, and the limit of the address
     space.
@@ -97,7 +97,7 @@ def _of_machine() -> Iterator[float]:
 
 
 def _of_groups() -> Iterator[float]:
-    """Yield what every control group around this process leaves, of both versions of the interface."""
+    """Yield the free memory of every control group of this process, for both versions of the interface."""
     with suppress(OSError, ValueError):
         for line in Path("/proc/self/cgroup").read_text().splitlines():
             _, kinds, path = line.split(":", 2)

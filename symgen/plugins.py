@@ -1,4 +1,4 @@
-"""Plugins: Python files that the user names, and installed packages, which register kinds of their own.
+"""Plugins: Python files and installed packages that register their own kinds.
 
 A plugin is Python that is run: it is loaded because a person names it (``--plugin FILE.py``, `load_plugin`) or has
 installed it, never because a mechanism file mentions it. Processes of studies load the same files.
@@ -19,7 +19,7 @@ from symgen.errors import InputError, SymgenError
 #: Group of entry points of packages that are plugins.
 GROUP = "symgen.plugins"
 
-#: Files that were loaded -> what they held.
+#: Loaded files -> their modules.
 _files: dict[str, bytes] = {}
 #: Entry points that were loaded, with their versions; None before they are looked for.
 _installed: list[str] | None = None
@@ -31,7 +31,7 @@ def load_plugin(path: str | PathLike[str]) -> ModuleType:
     Parameters
     ----------
     path : path
-        The file. What it needs is in `symgen.extension`.
+        The file; `symgen.extension` has the imports for it.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def load_installed() -> bool:
     """
     global _installed
     if _installed is None:
-        from importlib.metadata import entry_points  # which imports much, and is seldom needed
+        from importlib.metadata import entry_points  # a slow import, seldom needed
 
         _installed = []
         for entry in entry_points(group=GROUP):
@@ -97,7 +97,7 @@ def load_installed() -> bool:
 
 
 def loaded_files() -> tuple[str, ...]:
-    """Return the files that were loaded, for another process to load."""
+    """Return the loaded files, for another process."""
     return tuple(_files)
 
 

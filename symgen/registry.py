@@ -1,7 +1,7 @@
-"""Kinds found by looking: every module of a package folder is one kind, named after its file.
+"""Registries of kinds: every module of a package folder is one kind, named after its file.
 
 The file ``pin_in_slot.py`` is the kind ``pin-in-slot``. Names are known from the file names alone; a module is imported
-when its kind is asked for. Adding a kind is adding a file.
+when its kind is requested. To add a kind, add a file.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class Registry(Generic[T]):
     package : str
         Dotted name of the package whose modules are kinds; modules with a leading underscore are not.
     what : str
-        What one kind is called in messages, e.g. ``"joint type"``.
+        Noun for one kind in messages, e.g. ``"joint type"``.
     aliases : mapping of str to str, optional
         Other names of kinds, e.g. ``{"prismatic": "translational"}``.
     attribute : str, optional
@@ -61,7 +61,7 @@ class Registry(Generic[T]):
         self._loaded: dict[str, T] = {}
 
     def _scan(self) -> dict[str, str]:
-        """Return kind name -> module name, looking at the folder once."""
+        """Return kind name -> module name; the folder is read once."""
         if self._modules is None:
             modules: dict[str, str] = {}
             for module in pkgutil.iter_modules(importlib.import_module(self.package).__path__):

@@ -1,7 +1,7 @@
 """The settings of a run: one table of names, kinds, defaults, units and words.
 
 Python's arguments, the options of every command and the tables of the documentation are made from it or checked
-against it. Nothing is imported here, as ``--help`` asks for it.
+against it. Nothing is imported here, since ``--help`` needs this module.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ COORDINATES = ("absolute", "joint", "auto")
 
 @dataclass(frozen=True)
 class About:
-    """What is known of a setting beside its name and default.
+    """Facts about a setting apart from its name and default.
 
     Attributes
     ----------
@@ -35,9 +35,9 @@ class About:
     flag : str
         The option of commands; ``--name`` by default.
     metavar : str
-        What stands for a value in the help of commands.
+        Placeholder of a value in the help of commands.
     otherwise : str
-        What is done where it is not given, if that is no plain default.
+        Behaviour without a value, if there is no plain default.
     """
 
     text: str
@@ -66,7 +66,7 @@ def _values(where: str, value: object) -> dict[str, float]:
 
 
 def _start(where: str, value: object) -> Mapping[str, float]:
-    # what another run ended with is checked by who takes it up
+    # the last state of another run is checked where it is used
     if value is not None and not isinstance(value, Mapping) and hasattr(value, "last_state"):
         return value  # type: ignore[return-value]  # a result
     values = arguments.mapping(where, value, "values by the names of coordinates and velocities, or a result")
@@ -74,7 +74,7 @@ def _start(where: str, value: object) -> Mapping[str, float]:
 
 
 def _inputs(where: str, value: object) -> dict[str, Any]:
-    # what is given for each is looked at where the mechanism is known
+    # the values are checked where the mechanism is known
     return arguments.mapping(where, value, "numbers, formulas or data by the names of inputs")
 
 
@@ -94,7 +94,7 @@ def _options(where: str, value: object) -> dict[str, str | float]:
 
 
 def _times(where: str, value: object) -> Sequence[float]:
-    # an array is checked by who makes it one; it may be long
+    # an array is checked where it is created; it may be long
     return value if hasattr(value, "dtype") else arguments.numbers(where, value)  # type: ignore[return-value]  # an array is numbers
 
 
@@ -111,7 +111,7 @@ _switch = partial(_setting, kind=bool, check=arguments.switch)
 
 @dataclass(frozen=True)
 class Settings:
-    """Everything that shapes a run beside the model; `Model.simulate` says what each setting means.
+    """Settings of a run; `Model.simulate` describes each of them.
 
     Raises
     ------
@@ -244,7 +244,7 @@ def flag(name: str) -> str:
 
 
 def changed(settings: Settings | None, changes: Mapping[str, object]) -> Settings:
-    """Return settings, by default the usual ones, with some replaced.
+    """Return settings, the defaults if None, with some replaced.
 
     Raises
     ------

@@ -1,3 +1,3 @@
-"""The version of the package; nothing is imported here, so that every module may ask for it."""
+"""The version of the package; this module imports nothing, so that every module may import it."""
 
 __version__ = "0.1.0"

@@ -1,4 +1,4 @@
-"""The command line: the group, and what every command shares. Each command is a module, imported when it is used.
+"""The command line: the group and code shared by commands. Each command is a module, imported at its first use.
 
 Exit codes: 0 done, 1 a simulation or study failed, 2 bad input, 130 interrupted. Results go to standard output, and
 with ``--json`` nothing but JSON does; everything else goes to standard error. SIGTERM interrupts as Ctrl-C does.
@@ -29,10 +29,10 @@ from symgen.settings import flag, names
 from symgen.version import __version__
 
 OK, FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
-#: Objects that may come into being before they are looked through for the first time; imports make about as many.
+#: Number of new objects before the first garbage collection; imports create about as many.
 FIRST = 100_000
 
-#: Commands in the order of the help; one that is not named here comes last.
+#: Commands in the order of the help; others come last.
 ORDER = (
     *("list", "new", "check", "draw", "view", "inspect", "generate", "run"),
     *("equilibrium", "modes", "linearise", "kinematics", "inverse"),
@@ -45,7 +45,7 @@ LISTS = {
     "reference_by": "--reference",
 }
 _ARGUMENT = re.compile("`([a-z][a-z_]*)`")
-#: Commands that know no kinds of joints, forces, methods or integrators.
+#: Commands that use no kinds of joints, forces, methods or integrators.
 WITHOUT_PLUGINS = ("cache", "completion")
 
 #: Commands that are files of this folder; every analysis is one as well.
@@ -61,7 +61,7 @@ class LazyGroup(click.Group):
         return [*COMMANDS]  # the built-in `list` is hidden by the command of that name once it is imported
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """Import and return a command, None where there is none of that name."""
+        """Import and return a command, None if no command has that name."""
         if cmd_name not in COMMANDS:
             return None
         if cmd_name in OWN:
@@ -78,7 +78,7 @@ class LazyGroup(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return the command, or say the nearest name."""
+        """Return the command, or suggest the nearest name."""
         if args and args[0] not in COMMANDS and not args[0].startswith("-") and not ctx.resilient_parsing:
             raise click.UsageError(f"there is no command '{args[0]}'; {nearest(args[0], COMMANDS)}", ctx)
         return super().resolve_command(ctx, args)
@@ -90,7 +90,7 @@ class LazyGroup(click.Group):
 
 
 def _plugin_option() -> click.Option:
-    """Return the option that loads files before anything else of a command is looked at."""
+    """Return the option that loads plugin files before the rest of a command is read."""
     return click.Option(
         ["--plugin"],
         multiple=True,
@@ -130,10 +130,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     arguments : sequence of str, optional
         Words after ``symgen``; by default those of this process.
     """
-    if arguments is None:  # this process is there for nothing else
+    if arguments is None:  # this process does nothing else
         sparing()
         _open_streams()
-    # who ends a run from outside keeps what it has, as with Ctrl-C; only the main thread may say so
+    # a terminated run keeps its results, as with Ctrl-C; only the main thread may set handlers
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
@@ -152,7 +152,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except MemoryError:
         return complain("there is not enough memory for that", FAILURE)
     except (BrokenPipeError, SystemExit):  # click makes the second of the first
-        # whoever read our output went away: nothing is left to say, and Python must not try at exit
+        # the reader of our output is gone: nothing more can be written, and Python must not try at exit
         _forget_stdout()
         return OK
     except OSError as error:
@@ -170,7 +170,7 @@ def complain(sentence: str, code: int) -> int:
 
 
 def in_options(sentence: str) -> str:
-    """Return a sentence of the package in the words of the command line.
+    """Return a message of the package in terms of the command line.
 
     Names of arguments are written as options: `verify` as ``--verify``, and so is the place that a sentence begins
     with where it is a setting or one of `LISTS`.
@@ -188,14 +188,14 @@ def _option_of(argument: str) -> str:
 def write_files(
     code: int, files: Mapping[Path | None, Callable[[Path], object]], say: Callable[[Path], None] | None = None
 ) -> int:
-    """Write files at the end of a command, each whatever becomes of the others, and say what could not be.
+    """Write files at the end of a command, each independent of the others, and report failures.
 
     Parameters
     ----------
     code : int
         Exit code of the command so far.
     files : mapping
-        Path -> what writes it; None is a file that nobody asked for.
+        Path -> function that writes it; None is a file that was not requested.
     say : callable, optional
         Called with each file that was written.
 
@@ -227,7 +227,7 @@ def _sentence(error: click.ClickException) -> str:
     return text[:1].lower() + text[1:].rstrip(".") + help_at
 
 
-#: Words for options that people type, and what they mean: told where the command has that option.
+#: Words that users type for options -> the option, suggested where the command has it.
 MEANT = {
     **dict.fromkeys(("--param", "--parameter", "--parameters", "--params", "--p"), "--set"),
     **dict.fromkeys(("--dt", "--h", "--step-size", "--timestep"), "--step"),
@@ -241,17 +241,17 @@ MEANT = {
 
 
 def _hint(option: str, options: Sequence[str]) -> str:
-    """Return the option that is meant by one that does not exist: by its meaning, or by its spelling."""
+    """Return the likely option for an unknown one, by meaning or by spelling."""
     if (meant := MEANT.get(option)) in options:
         return f"did you mean '{meant}'?"
     hint = nearest(option, options)
-    # three letters in common are none in common
+    # three letters in common mean nothing
     close = hint.startswith("did you mean") and SequenceMatcher(None, option[2:], hint[16:-2]).ratio() >= CLOSE
     return hint if close else ""
 
 
 def sparing() -> None:
-    """Keep garbage collection away from what a process imports, and from everything when it ends.
+    """Exclude imported objects from garbage collection, and all objects when the process ends.
 
     Modules, classes and functions live as long as the process. Python looks through them some hundred and eighty times
     while they are imported, and twice more before it ends, which took a third of a short run.
@@ -269,10 +269,10 @@ def sparing() -> None:
 
 
 def _open_streams() -> None:
-    """Give what is said by a process that was begun with closed streams somewhere to go."""
+    """Open the standard streams of a process that was started with closed ones."""
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
-            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # as long as the process
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # open until the process ends
 
 
 def _forget_stdout() -> None:

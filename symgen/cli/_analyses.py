@@ -1,4 +1,4 @@
-"""Commands of analyses, made of what their files declare: options that are read, output that is shown."""
+"""Commands of analyses, made from the declarations in their files: options and output."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 #: Kinds of options that are files to write.
 FILES = ("plot", "tables")
-#: Kind of an option -> what click has to know of it; others are one text.
+#: Kind of an option -> its arguments for click; others are one text.
 OF_KIND: dict[str, dict[str, Any]] = {
     "switch": {"is_flag": True},
     "whole": {"type": int},

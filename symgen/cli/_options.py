@@ -1,4 +1,4 @@
-"""Options of commands: made from the table of settings, and words turned into values before anything is done."""
+"""Options of commands, made from the table of settings, and conversion of their words to values."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from symgen.settings import about, default, flag
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-#: Processes or threads at most.
+#: Largest number of processes or threads.
 MOST_JOBS = 4096
 
 
@@ -40,9 +40,9 @@ def setting_options(
     *names : str
         Names of settings, in the order of the help.
     text : mapping, optional
-        Help of settings that mean something of their own in this command.
+        Help of settings that have a special meaning in this command.
     otherwise : mapping, optional
-        Defaults that differ in this command: a value, or, in brackets, words about what is done.
+        Defaults that differ in this command: a value, or, in brackets, words about the behaviour.
     """
 
     def decorate(function: F) -> F:
@@ -86,7 +86,7 @@ def _checked(name: str, value: Any) -> Any:
 
 
 def jobs_option(text: str) -> Callable[[F], F]:
-    """Return the option that says how many processes or threads work."""
+    """Return the option for the number of processes or threads."""
 
     def check(context: click.Context, parameter: click.Parameter, value: int | None) -> int | None:
         return None if value is None else arguments.whole("--jobs", value, 1, MOST_JOBS)
@@ -109,7 +109,7 @@ def quantity_options(shown: str, drawn: str, over: str = "[default: t]") -> Call
     shown, drawn : str
         What the help says of ``--quantity``, and what ``--plot`` draws.
     over : str
-        What the help says is drawn over unless it is told.
+        Default of the horizontal axis in the help.
     """
     options = (
         click.option(
@@ -140,7 +140,7 @@ def column_names(option: str, texts: Sequence[str]) -> tuple[str, ...]:
 
 
 def plotted(plot: str | None, over: str | None) -> Path | None:
-    """Return where ``--plot`` draws; ``--over`` alone is refused."""
+    """Return the file of ``--plot``; ``--over`` alone is refused."""
     path = output_file("--plot", plot, "plot")
     check_over(over, path)
     return path
@@ -194,7 +194,7 @@ def _number(where: str, expected: str, text: str, above: float = -math.inf) -> f
 
 
 def words(option: str, text: str | None) -> tuple[str, ...]:
-    """Return the words of a comma-separated list, empty where none is given."""
+    """Return the words of a comma-separated list, empty without one."""
     if text is None:
         return ()
     parts = tuple(part.strip() for part in text.split(","))
@@ -210,7 +210,7 @@ def number_list(option: str, text: str | None) -> tuple[float, ...]:
 
 
 def output_file(option: str, text: str | None, kind: str = "") -> Path | None:
-    """Return where a file will be written, after making sure that it can be.
+    """Return the path of a file, after checking that it can be written.
 
     Parameters
     ----------
@@ -239,12 +239,12 @@ def output_file(option: str, text: str | None, kind: str = "") -> Path | None:
 
 
 def differ(files: Mapping[str, Path | None]) -> None:
-    """Refuse one file for two things, of which the second would be written over the first.
+    """Refuse one file for two outputs, as the second would overwrite the first.
 
     Parameters
     ----------
     files : mapping
-        Options and their files; None: there is none.
+        Options and their files, None without a file.
     """
     owners = dict[str, str]()
     for option, path in files.items():
@@ -257,7 +257,7 @@ def differ(files: Mapping[str, Path | None]) -> None:
 
 
 def tell(notes: Iterable[str]) -> None:
-    """Say on standard error what belongs to an answer and is no part of it."""
+    """Write a remark on the results to standard error."""
     for sentence in notes:
         click.echo(f"symgen: {in_options(sentence)}", err=True)
 

@@ -1,4 +1,4 @@
-"""A progress bar on standard error, only on a terminal and only for what takes long enough to look at."""
+"""A progress bar on standard error, only on a terminal and only for long work."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ import sys
 import time
 from typing import Any, Self
 
-#: Shorter work shows nothing, and does not import what draws the bar.
+#: Shorter work shows nothing and does not import the library of the bar.
 PATIENCE = 0.7
-#: Where standard error is no terminal, so long passes between two lines about a long study [s].
+#: Time between two lines about a long study where standard error is no terminal [s].
 BETWEEN_LINES = 20.0
 
 
 class Bar:
-    """Callable with how far the work is; draws nothing unless standard error is a terminal.
+    """Progress bar, called with the work done; draws nothing unless standard error is a terminal.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class Lines(Bar):
         self.last = self.began
 
     def say(self, text: str, share: float) -> None:
-        """Show what is being done, how much of the work is done, and about how long the rest takes."""
+        """Show the current task, the part of the work done, and an estimate of the time left."""
         self.title = text
         self(share)
         now = time.perf_counter()

@@ -1,4 +1,4 @@
-"""What ``symgen inspect`` writes as LaTeX."""
+"""LaTeX output of ``symgen inspect``."""
 
 from __future__ import annotations
 

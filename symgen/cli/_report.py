@@ -1,4 +1,4 @@
-"""What the commands that write a report share."""
+"""Code shared by the commands that write a report."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 #: Larger mechanisms have no sketch in reports.
 MOST_BODIES = 200
-#: Options that say where or how fast to work, not what to do.
+#: Options for places and speed of work, without effect on results.
 _WORKING = ("--resume", "--journal", "--jobs")
 #: Options that name a file to write.
 _WRITTEN = ("--output", "--csv", "--plot")
@@ -30,7 +30,7 @@ _WRITTEN = ("--output", "--csv", "--plot")
 
 @dataclass(frozen=True)
 class StudyFiles:
-    """Where a study is kept; None: it is not.
+    """Files of a study; None: not written.
 
     Attributes
     ----------
@@ -47,14 +47,14 @@ class StudyFiles:
 
 
 def study_files(row: str) -> Callable[[F], F]:
-    """Return a decorator that gives a command the options of where a study is kept.
+    """Return a decorator that gives a command the options for the files of a study.
 
-    They arrive as one value, the `StudyFiles` called ``files``, after making sure that all can be written.
+    They arrive as one value, the `StudyFiles` called ``files``, after checking that all can be written.
 
     Parameters
     ----------
     row : str
-        What the help calls a row of the study.
+        Noun for a row of the study in the help.
     """
     options = (
         click.option("-o", "--output", metavar="FILE", help="Write a report with pictures: .html or .md."),
@@ -97,7 +97,7 @@ def _report_file(text: str | None) -> Path | None:
 
 
 def command_again() -> str:
-    """Return the command that makes the report again: this one without where its working files are."""
+    """Return the command that makes the report again: this one without options for working files."""
     context = click.get_current_context()
     parts = ["symgen", context.info_name or "", *context.params["models"]]
     for parameter in context.command.params:
@@ -112,7 +112,7 @@ def command_again() -> str:
         if isinstance(value, dict):
             value = tuple(f"{name}={str(item).removesuffix('.0')}" for name, item in value.items())
         for item in value if isinstance(value, tuple) else (value,):
-            # where the file lies is nobody's business
+            # the folder of the file is private
             parts += [
                 flag,
                 Path(item).name if flag in _WRITTEN else str(item).removesuffix(".0"),
@@ -123,12 +123,12 @@ def command_again() -> str:
 def sketches_of(
     models: Sequence[Model], parameters: Mapping[str, float] | None = None, start: Mapping[str, float] | None = None
 ) -> dict[str, str]:
-    """Return sketches for the head of a report, by the names of mechanisms, where runs begin."""
+    """Return sketches of mechanisms at their starts for the head of a report, by name."""
     small = [model for model in models if len(model.mechanism.bodies) <= MOST_BODIES]
     return {model.name: model.draw(parameters, start).svg for model in small}
 
 
 def interrupted(row: str, stored: bool) -> int:
-    """Say that a study was interrupted and whether a journal keeps its rows, and return the exit code."""
+    """Report an interrupted study and whether a journal keeps its rows; return the exit code."""
     how = "the same command continues after them" if stored else "with --resume FILE they would have been stored"
     return complain(f"interrupted; the {row}s that were done are shown; {how}", INTERRUPTED)

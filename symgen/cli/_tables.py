@@ -46,7 +46,7 @@ def show_rows(
     Parameters
     ----------
     out : Console
-        Where it is printed.
+        Output of the table.
     headings, rows : sequence of str, iterable of sequences of str
         Columns and cells.
     left : sequence of str
@@ -54,7 +54,7 @@ def show_rows(
     title : str
         Above the table.
     first : int
-        Columns with which each part of a table begins that is wider than the terminal.
+        Number of columns repeated in each part of a table wider than the terminal.
     in_parts : bool
         Whether further parts are printed; otherwise a line names their columns.
     """
@@ -80,7 +80,7 @@ def show_rows(
 
 
 def show_facts(out: Console, facts: Iterable[tuple[str, str]]) -> None:
-    """Print labels with what belongs to them; statuses have colours."""
+    """Print labels and values; statuses have colours."""
     table = Table(show_header=False, box=None, pad_edge=False)
     table.add_column(style="dim")
     table.add_column(overflow="fold")
@@ -91,7 +91,7 @@ def show_facts(out: Console, facts: Iterable[tuple[str, str]]) -> None:
 
 
 def show_result(result: Result) -> None:
-    """Print what a run gave."""
+    """Print the result of a run."""
     from symgen.cli import in_options
     from symgen.result.summary import lines
 
@@ -159,7 +159,7 @@ def show_study(study: Study) -> None:
             out.print(f"{row.label}, {row.integrator}, {steps}: {sentence}", style="dim")
 
 
-#: Columns of a study, of which a narrow terminal shows the first ones.
+#: Columns of a study; a narrow terminal shows the first ones.
 _HEADINGS = (
     *(
         "method",
@@ -210,7 +210,7 @@ def show_stress(study: Stress) -> None:
 
 
 def show_sweep(study: Sweep, written: Path | None) -> None:
-    """Print what an ensemble gave: axes, statuses, reasons, and the ends of what was kept."""
+    """Print the results of an ensemble: axes, statuses, reasons, and final values of the kept quantities."""
     import numpy as np
 
     facts, ensemble = study.to_json(), study.ensemble

@@ -25,7 +25,7 @@ def command(shell: str) -> int:
 
     kind = get_completion_class(shell)
     assert kind is not None, "click completes these shells"
-    # not source(), which asks the bash of this machine for its version: the script may be meant for another one
+    # not source(), which checks the version of the local bash: the script may be for another machine
     script = kind.source_template % kind(group, {}, "symgen", "_SYMGEN_COMPLETE").source_vars()
     click.echo(f"{_HOW[shell]}\n{script}")
     return OK

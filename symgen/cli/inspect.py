@@ -88,7 +88,7 @@ def command(
 
 
 def _own(options: dict[str, str], method: str) -> dict[str, str]:
-    """Return options of a method by their own names; they are given with its name, with ``method``, or with none."""
+    """Return options of a method by their own names; prefixes are its name, ``method``, or none."""
     own = {}
     for key, value in options.items():
         owner, _, name = key.rpartition(".")

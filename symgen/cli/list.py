@@ -11,7 +11,7 @@ from symgen.cli import OK, write_json
 from symgen.cli._options import examples, json_option
 from symgen.registry import Registry
 
-#: Terminals of so many characters show sources beside.
+#: Terminals of this width show sources in a further column.
 WIDE = 120
 
 
@@ -72,7 +72,7 @@ def command(what: str, as_json: bool) -> int:
     out = console()
     names = [f"{row['name']}:{row['default_size']}" if row["sized"] else str(row["name"]) for row in rows]
     table = Table(box=None, header_style="dim", pad_edge=False)
-    # names are what one types: they stay whole, and sentences take what room is left
+    # names are typed by users: they stay whole, and sentences take the remaining width
     table.add_column("name", no_wrap=True, min_width=max(map(len, names)))
     table.add_column("what", ratio=1, overflow="fold")
     for heading in ("until [s]", "step [s]"):

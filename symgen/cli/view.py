@@ -133,7 +133,7 @@ def command(
 
 
 def _refuse(settings: Settings, allowed: Collection[str], what: str) -> None:
-    """Refuse settings that mean nothing where nothing is run by them."""
+    """Refuse settings that have no effect without a run."""
     for name in names():
         if name not in allowed and is_set(settings, name):
             raise InputError(flag(name), f"settings of {what}", "one of a run")

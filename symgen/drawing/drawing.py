@@ -1,4 +1,4 @@
-"""A picture as a value: shown by notebooks, saved as SVG, PDF or PNG."""
+"""A picture of a mechanism: shown by notebooks, saved as SVG, PDF or PNG."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 #: Endings of pictures with the libraries that they need.
 PICTURES: Mapping[str, tuple[str, ...]] = {".svg": (), ".png": ("matplotlib",), ".pdf": ("matplotlib",)}
-#: Positions in a picture of a motion, and points of a way.
+#: Number of positions in a picture of a motion, and of points of a path.
 POSES, PATH = 4, 300
 
 
@@ -41,13 +41,13 @@ class Drawing:
     scene : Scene
         What is drawn.
     q : tuple of float
-        Where it is.
+        Coordinates of all bodies.
     view : View
         From where it is seen, where it is spatial.
     ghosts : tuple of tuple of float
-        Other positions that are drawn faintly behind, the first one faintest; none by default.
+        Further positions drawn faintly behind, the first one faintest; none by default.
     paths : tuple of tuple of Point
-        Lines of the ground frame behind everything, such as the ways of points.
+        Lines of the ground frame behind everything, such as the paths of points.
     labels : bool or None
         Whether bodies have their names beside them; where they are few by default.
     caption : str
@@ -89,7 +89,7 @@ class Drawing:
     ) -> Drawing:
         """Return the picture of a mechanism in motion: its start, a few later positions, and paths.
 
-        Paths are those of points that no joint ties, and of the centres of mass where there is no such point.
+        Paths are those of points that no joint ties, or else those of the centres of mass.
 
         Parameters
         ----------

@@ -107,7 +107,7 @@ def _turning(pen: Pen, force: Force) -> list[Mark]:
 
 
 def _pushes(pen: Pen, force: Force) -> list[Mark]:
-    """Return an arrow with its tip where the force acts, along what it is now or else along its components."""
+    """Return an arrow with its tip where the force acts, along its present value or else along its components."""
     numbers = pen.numbers
     pushed = [m.b if isinstance(m, Component) else m.at for _, m in _components(force) if not isinstance(m, Spin)]
     if not pushed:
@@ -119,12 +119,12 @@ def _pushes(pen: Pen, force: Force) -> list[Mark]:
 
 
 def _components(force: Force) -> list[tuple[Effort, Component | PointSpeed | Spin]]:
-    """Return the efforts of a force or torque that is given by components, each with what it works along."""
+    """Return the efforts of a force or torque set by components, each with its measure."""
     return [(e, m) for e in force.efforts for m in parts(e.measure) if isinstance(m, Component | PointSpeed | Spin)]
 
 
 def _direction(pen: Pen, force: Force) -> tuple[Array, int]:
-    """Return the direction of a force or torque in the ground frame, and the body with which that turns."""
+    """Return the direction of a force or torque in the ground frame, and the body that it turns with."""
     numbers, (turned, own) = pen.numbers, _turns_with(pen, force)
     total, sizes = np.zeros(3), []
     for effort, measure in _components(force):
@@ -140,7 +140,7 @@ def _direction(pen: Pen, force: Force) -> tuple[Array, int]:
 
 
 def _turns_with(pen: Pen, force: Force) -> tuple[int, Array]:
-    """Return the number of the body with which a force turns, and some force in its axes; else that of the ground.
+    """Return the number of the body that a force turns with, and a force in its axes; else that of the ground.
 
     Formulas decide: in the plane a force that turns with its body has components along the axes of the ground too.
     """
@@ -158,7 +158,7 @@ def _turns_with(pen: Pen, force: Force) -> tuple[int, Array]:
 
 
 def _probed(pen: Pen, force: Force, body: int) -> list[tuple[Array, Array]]:
-    """Return a force with its body turned in two ways, and how it is turned, all else being the same and nothing 0."""
+    """Return a force with its body in two orientations, and these, all else being the same and nothing 0."""
     numbers, probes = pen.numbers, []
     state = {**numbers.values, **numbers.state, "s": 0.0, "rate": 0.0}
     state |= dict.fromkeys(

@@ -1,4 +1,4 @@
-"""What symbols of joints are made of: their points and axes, stands, wheels."""
+"""Parts of symbols of joints: their points and axes, stands, wheels."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def axis_of(numbers: PlacedMechanism, joint: Joint) -> Array:
 
 
 def turned_about(numbers: PlacedMechanism, joint: Joint, angle: object) -> tuple[BodyPoint, Array]:
-    """Return the point of a joint and the axis that one of its angles is about, both on the body that has the axis.
+    """Return the point of a joint and the axis of one of its angles, both on the body that has the axis.
 
     The second body turns forward about the axis where the angle grows.
     """
@@ -73,7 +73,7 @@ def turned_about(numbers: PlacedMechanism, joint: Joint, angle: object) -> tuple
 
 
 def grounded(pen: Pen, places: tuple[BodyPoint, BodyPoint], swivel: bool = True) -> list[Mark]:
-    """Return the stand of a point of the ground, where a joint has one."""
+    """Return the stand of a ground point of a joint, if any."""
     for place in places:
         if place.body == GROUNDED:
             at, up = pen.numbers.out(place), pen.up

@@ -1,4 +1,4 @@
-"""From a mechanism and positions to its scene; bodies as their shapes, or as bars and plates through their points."""
+"""The scene of a mechanism in positions; bodies as their shapes, or as bars and plates through their points."""
 
 from __future__ import annotations
 
@@ -126,7 +126,7 @@ def _rounded(point: Point) -> Point:
 
 
 def _unit(numbers: PlacedMechanism, points: Mapping[str, list[Point]]) -> float:
-    """Return the size of symbols [m]: small beside the mechanism, and beside what they are drawn on."""
+    """Return the size of symbols [m]: small against the mechanism and its bodies."""
     places = [numbers.now.out(numbers.index[name], own) for name, own in points.items() if own]
     everyone = (*numbers.mechanism.joints, *numbers.mechanism.forces)
     grounded = [m for element in everyone for m in numbers.markers(element) if m.body < 0]
@@ -190,7 +190,7 @@ def _shape_marks(pen: Pen, body: AnyBody, shape: Shape, colour: str) -> list[Mar
     pen : Pen
         What draws.
     body : Body or SpatialBody
-        Whose shape it is.
+        The body of the shape.
     shape : Shape
         In the body's frame.
     colour : str
@@ -247,7 +247,7 @@ def _outline(pen: Pen, body: int, points: Sequence[Point], gyration: Array, look
     look : Look
         Of the outline.
     shown : bool
-        Whether symbols of joints show the body already where it has no points.
+        Whether symbols of joints already show a body without points.
     """
     away = np.array([p for p in points]).reshape(-1, 3)
     if not len(away) or not np.any(np.ptp(np.vstack([away, np.zeros(3)]), axis=0) > 0.0):

@@ -12,7 +12,7 @@ from symgen.drawing.scene import INK, PAPER, Array, Disc, Item, Line, Look, Mark
 
 @dataclass(frozen=True)
 class View:
-    """From where a scene in space is seen: turned about the vertical, and from so far above the horizontal [rad]."""
+    """View of a scene in space: turn about the vertical, and elevation above the horizontal [rad]."""
 
     turn: float = 0.6
     tilt: float = 0.42
@@ -56,7 +56,7 @@ class Drawn:
     parts : tuple of Path or Circle
         From the back to the front.
     depth : float
-        Of its farthest point, so that a small item inside a large one is drawn after it [m].
+        Depth of its farthest point, so that a small item inside a large one is drawn after it [m].
     label : (float, float) or None
         Place of its name.
     """
@@ -79,7 +79,7 @@ def on_paper(scene: Scene, q: Array, view: View | None = None, bodies: bool = Fa
     view : View, optional
         From where it is seen, where it is spatial.
     bodies : bool
-        Whether bodies alone are drawn, bars in space as lines, for what stands behind.
+        Whether bodies alone are drawn, bars in space as lines, as for pictures behind another.
     """
     eye = axes(scene, view or View())
     poses = scene.poses(q)
@@ -110,7 +110,7 @@ def axes(scene: Scene, view: View) -> Array:
     depth = np.cross(right, up)
     side = np.cos(view.turn) * right + np.sin(view.turn) * depth
     forward = -np.sin(view.turn) * right + np.cos(view.turn) * depth
-    upward = np.cos(view.tilt) * up - np.sin(view.tilt) * forward  # forward is towards the eye: what is near sinks
+    upward = np.cos(view.tilt) * up - np.sin(view.tilt) * forward  # forward is towards the eye: near points sink
     return np.stack([side, upward, np.cross(side, upward)])
 
 
@@ -161,7 +161,7 @@ def _parts(mark: Mark, poses: Poses, eye: Array) -> Iterator[tuple[Array, Path |
 
 
 def _tube(mark: Tube, poses: Poses, eye: Array) -> Iterator[tuple[Array, Path]]:
-    """Yield the outline of a round bar, and the end that is seen."""
+    """Yield the outline of a round bar, and its visible end."""
     a, b = poses.out(mark.body, [mark.a, mark.b]) @ eye.T
     if a[2] > b[2]:
         a, b = b, a

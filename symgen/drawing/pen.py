@@ -35,7 +35,7 @@ from symgen.vocabulary.measures import GROUND, Direction, Marker, parts
 
 @dataclass(frozen=True)
 class BodyPoint:
-    """A point of a body: its index, and where it is on it."""
+    """A point of a body: the body's index, and the place on it."""
 
     body: int
     at: Point
@@ -89,7 +89,7 @@ class PlacedMechanism:
         return BodyPoint(self.index[marker.body], (float(x), float(y), float(z)))
 
     def out(self, place: BodyPoint) -> Array:
-        """Return where a point is, shape (3,)."""
+        """Return a point in the ground frame, shape (3,)."""
         return np.asarray(self.now.out(place.body, [place.at])[0])
 
     def direction(self, direction: Direction) -> Array:
@@ -107,7 +107,7 @@ class PlacedMechanism:
         return list(dict.fromkeys(d for d in parts(value) if isinstance(d, Direction)))
 
     def span(self, a: BodyPoint, b: BodyPoint, along: Array) -> tuple[float, float]:
-        """Return from where to where b moves along a direction, which a's body carries, as seen from a [m].
+        """Return the range of b along a direction that a's body carries, as seen from a [m].
 
         The guide of a body that moves begins at the body's own point; that of the ground is only as long as it is used.
         """
@@ -143,7 +143,7 @@ class Pen:
     Attributes
     ----------
     carried : list of CarriedFrame
-        Frames beside those of the bodies that were asked for so far.
+        Frames requested so far, other than those of the bodies.
     """
 
     def __init__(self, numbers: PlacedMechanism, unit: float, up: Point) -> None:
@@ -155,9 +155,9 @@ class Pen:
         return GREY if body == GROUNDED else COLOURS[body % len(COLOURS)]
 
     def carry(self, place: BodyPoint, turned: int) -> int:
-        """Return the number of a frame that goes with a point and has the directions of a body, or of the ground.
+        """Return the number of a frame that moves with a point and has the directions of a body, or of the ground.
 
-        That of the body itself where it has those directions in any position.
+        This is the body's own frame if it always has those directions.
         """
         frames, still = self.numbers.frames, 3 if self.numbers.spatial else 2  # coordinates of a body that is a point
         if place.body == turned or (turned == GROUNDED and frames[place.body].size == still):

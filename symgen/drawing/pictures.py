@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 WIDTH, HEIGHT, MARGIN = 640.0, 480.0, 14.0
 #: Width of a line of width 1 [pixel].
 THIN = 1.25
-#: Bodies at most that have their names in the picture.
+#: Largest number of bodies with names in the picture.
 NAMED = 14
 
 
@@ -37,9 +37,9 @@ def svg(
     scene : Scene
         What is drawn.
     drawn : sequence of Drawn
-        It on paper, from `symgen.drawing.paper.on_paper`.
+        Its items on paper, from `symgen.drawing.paper.on_paper`.
     behind : sequence of Drawn
-        What stands faintly behind it.
+        Items drawn faintly behind it.
     labels : bool, optional
         Whether bodies have their names beside them; where they are few by default.
     caption : str
@@ -95,7 +95,7 @@ def _wrapped(text: str, width: float) -> list[str]:
 
 
 def _named(drawn: Sequence[Drawn], labels: bool | None) -> list[tuple[str, tuple[float, float]]]:
-    """Return the names that stand in a picture with their places: unless told otherwise those of few bodies."""
+    """Return the names in a picture with their places: by default only where bodies are few."""
     few = sum(d.item.role == "body" for d in drawn) <= NAMED
     return [(d.item.name, d.label) for d in drawn if d.label is not None and (few if labels is None else labels)]
 
@@ -142,9 +142,9 @@ def _part(part: Path | Circle, place: Callable[[Array], Array], scale: float) ->
     return f'<{tag} points="{points}" {_paint(part.look, part.closed)}/>'
 
 
-#: Pixels an inch that sizes are counted in, and that are written.
+#: Pixels per inch of sizes, and of written files.
 LAID_OUT, WRITTEN = 96.0, 192.0
-#: Ink of what stands behind, in parts of the whole.
+#: Opacity of items behind.
 FAINT = 0.3
 
 
@@ -158,9 +158,9 @@ def write_pixels(
     stream : file
         Open for bytes.
     kind : {"png", "pdf"}
-        What is written.
+        Format of the picture.
     drawn, behind : sequence of Drawn
-        The scene on paper, and what stands faintly behind it.
+        The scene on paper, and items drawn faintly behind it.
     labels : bool, optional
         Whether bodies have their names beside them; where they are few by default.
     caption : str
@@ -189,7 +189,7 @@ def paint(
     figure : Figure
         Of matplotlib.
     frame : tuple
-        What `symgen.drawing.pictures.fitted` says of what shall fit.
+        The value of `symgen.drawing.pictures.fitted` for all items.
     drawn, behind, labels, caption
         As for `write_pixels`.
     """

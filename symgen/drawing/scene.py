@@ -1,4 +1,4 @@
-"""The scene: what is drawn of a mechanism, carried by its bodies, so that any positions can be drawn by it."""
+"""The scene: marks of a mechanism, fixed to its bodies, for drawing in any positions."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Line:
     points : tuple of Point
         In that frame [m].
     closed : bool
-        Whether the last point is joined to the first, and what is between filled.
+        Whether the last point is joined to the first, and the area filled.
     """
 
     body: int
@@ -69,7 +69,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Disc:
-    """A circle that faces whoever looks: a pin, a ball.
+    """A circle that faces the viewer: a pin, a ball.
 
     Attributes
     ----------
@@ -116,7 +116,7 @@ class Solid:
 
 @dataclass(frozen=True)
 class Stretch:
-    """What reaches from a point of one body to a point of another and changes its length.
+    """A mark from a point of one body to a point of another, of variable length.
 
     `kind` is one of ``spring``, ``damper``, ``spring-damper``, ``actuator``, ``rod`` and ``gap``.
     """
@@ -135,7 +135,7 @@ Mark = Line | Disc | Tube | Solid | Stretch
 
 @dataclass(frozen=True)
 class Item:
-    """Everything that is drawn of one body, joint or force.
+    """All marks of one body, joint or force.
 
     Attributes
     ----------
@@ -146,9 +146,9 @@ class Item:
     marks : tuple of Mark
         In the order in which they are drawn.
     ends : tuple of (int, Point)
-        Of a joint: the points of its bodies that it holds together, none where it does not hold points.
+        Of a joint: the points of its bodies that it holds together, if any.
     label : Point, optional
-        Where the name of a body stands, as a point of it.
+        Place of the name of a body, as a point of the body.
     """
 
     role: str
@@ -161,7 +161,7 @@ class Item:
 
 @dataclass(frozen=True)
 class BodyFrame:
-    """Where the coordinates of a body stand in q: `first`, and how many, 2 or 3 in the plane, 3 or 7 in space."""
+    """Coordinates of a body in q: index `first`, and their number, 2 or 3 in the plane, 3 or 7 in space."""
 
     name: str
     first: int
@@ -170,12 +170,12 @@ class BodyFrame:
 
 @dataclass(frozen=True)
 class CarriedFrame:
-    """A frame that goes with a point of one body and turns with another one, or keeps the directions of the ground.
+    """A frame that moves with a point of one body and turns with another, or keeps the directions of the ground.
 
     Attributes
     ----------
     body, at : int, Point
-        Number of the body that carries it, and where its origin is on that [m].
+        Number of the body that carries it, and its origin on that body [m].
     turned : int
         Number of the body whose directions it has; negative: those of the ground.
     """
@@ -217,7 +217,7 @@ class Scene:
     carried: tuple[CarriedFrame, ...] = ()
 
     def poses(self, q: Sequence[float] | Array) -> Poses:
-        """Return where all frames are for coordinates, shape (nq,)."""
+        """Return the poses of all frames for coordinates, shape (nq,)."""
         return Poses(self.frames, q, self.spatial, self.carried)
 
     @property
@@ -239,7 +239,7 @@ class Scene:
 
 
 class Poses:
-    """Where frames are: rotations and origins, those of bodies first, of what they carry next, of the ground last.
+    """Rotations and origins of frames: bodies first, carried frames next, the ground last.
 
     Parameters
     ----------
@@ -250,7 +250,7 @@ class Poses:
     spatial : bool
         Whether the mechanism is.
     carried : sequence of CarriedFrame
-        Frames beside those of the bodies.
+        Frames other than those of the bodies.
     """
 
     def __init__(

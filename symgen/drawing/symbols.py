@@ -1,4 +1,4 @@
-"""Symbols of joints by their kinds, in the plane and in space, as engineering drawings have them."""
+"""Symbols of joints by their kinds, in the plane and in space, as in engineering drawings."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def _slide(pen: Pen, joint: Joint) -> list[Mark]:
 
 
 def _telescope(pen: Pen, a: BodyPoint, b: BodyPoint, along: Array, side: Array, stroke: list[float]) -> list[Mark]:
-    """Return a cylinder whose rod never goes back to its foot: a barrel as long as the shortest length, and a rod."""
+    """Return a cylinder whose rod never retracts to its foot: a barrel as long as the shortest length, and a rod."""
     u, start, (short, long) = pen.unit, pen.numbers.out(a), stroke
     on = start + ((pen.numbers.out(b) - start) @ along) * along
     way = float(np.sign(short)) * along
@@ -190,7 +190,7 @@ def driver(pen: Pen, joint: Joint) -> list[Mark]:
     return plain(pen, joint)
 
 
-#: In the plane: kind -> what draws it.
+#: In the plane: kind -> function that draws it.
 PLANAR: dict[str, Callable[[Pen, Joint], list[Mark]]] = {
     "revolute": _pin,
     "rigid": weld,
@@ -294,7 +294,7 @@ def _round(pen: Pen, joint: Joint) -> list[Mark]:
 
 
 def _floor(pen: Pen, normal: Array, places: list[BodyPoint], centre: BodyPoint, radius: float) -> Line:
-    """Return a part of the plane that holds all of the way."""
+    """Return a part of the plane that holds the whole path."""
     grounded = [p for p in places if p.body == GROUNDED]
     at = pen.numbers.out(grounded[0]) if grounded else np.zeros(3)
     way = np.array([poses.out(centre.body, [centre.at])[0] for poses in pen.numbers.all])
@@ -328,7 +328,7 @@ def _coupled(pen: Pen, joint: Joint) -> list[Mark]:
     return marks
 
 
-#: In space: kind -> what draws it.
+#: In space: kind -> function that draws it.
 SPATIAL: dict[str, Callable[[Pen, Joint], list[Mark]]] = {
     "revolute": _hinge,
     "spherical": _ball,

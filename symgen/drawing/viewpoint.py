@@ -1,4 +1,4 @@
-"""The view of a scene in space unless one is set: one in which every body can be recognised."""
+"""The default view of a scene in space, in which every body can be recognised."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from symgen.drawing.paper import Circle, Path, View, axes, on_paper
 from symgen.drawing.scene import Array, Disc, Line, Mark, Poses, Scene, Solid, Tube
 
-#: The usual view, and how much of each body it has to show (see `_least_shown`).
+#: The usual view, and the smallest share of a body in it (see `_least_shown`).
 USUAL, ENOUGH = View(), 0.95
 #: Turns and tilts of the views to choose from [rad].
 TURNS = (0.6, 0.9, 0.3, 1.2, 0.0, -0.3, -0.6, -0.9, -1.2, 1.57)
@@ -59,7 +59,7 @@ def _points(mark: Mark, poses: Poses) -> list[Array]:
 
 
 def _least_shown(bodies: Scene, q: Array, clouds: dict[str, Array], view: View) -> float:
-    """Return how much is shown of the body that is shown least.
+    """Return the visible share of the body that is shown least.
 
     That is the visible share of its points, areas in front of a point counting with their opacity, or twice the ratio
     of its length on paper to its length in space where that is less.

@@ -1,4 +1,4 @@
-"""What a page needs to work out the motion itself: the emitted code and the start as JavaScript, and numbers."""
+"""Live simulation in a page: the emitted code and the start as JavaScript, and numbers."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
 
-#: Characters of emitted code that a page holds at most, in the plane and in space, and what these are in operations.
+#: Largest number of characters of emitted code in a page, in the plane and in space, and the same in operations.
 MOST = {False: 76_000, True: 270_000}
 A_OPERATION = 24
 
-#: How a page says that it has none.
+#: Note of a page without live simulation.
 NONE = "the page has no live part"
 
 #: Sections of the scratch that a start finds and evaluations do not.
@@ -57,7 +57,7 @@ def live_part(
     begun: Array | None = None,
     still: Collection[str] = (),
 ) -> tuple[Live | None, str]:
-    """Return the live part of a page, or None and why there is none.
+    """Return the live part of a page, or None and the reason.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def live_part(
     step : float
         Of the Runge-Kutta method [s].
     begun : Array, shape (nq + nv,), optional
-        Coordinates and velocities of bodies that the motion was begun with, where these are not the described ones.
+        Initial coordinates and velocities of bodies, if other than the described ones.
     still : collection of str
         Parameters that keep their values: pages have no slider for them, nor for inputs that are formulas.
     """
@@ -102,7 +102,7 @@ def live_part(
 
 
 def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:
-    """Return the right-hand side alone, for pages that show no motion, or None and why there is none.
+    """Return the right-hand side alone, for pages without motion, or None and the reason.
 
     Parameters
     ----------

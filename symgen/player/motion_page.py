@@ -1,4 +1,4 @@
-"""From a recording to its page: one HTML file with style, script and data inside, which asks nobody for anything."""
+"""From a recording to its page: one HTML file with style, script and data inside, which loads nothing else."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from symgen.player.recording import (
 PAGES: Mapping[str, tuple[str, ...]] = {".html": ()}
 #: Characters for the data of motions in the plane and in space; a large mechanism has more, for its fewest frames.
 MOST_DATA = {False: 100_000, True: 180_000}
-#: Characters for plots of what a page need not have, beside these.
+#: Further characters for plots of optional quantities.
 MOST_PLOTS = {False: 120_000, True: 200_000}
 SCRIPTS = {False: ("draw.js", "plots.js", "player.js"), True: ("solid.js", "draw.js", "plots.js", "player.js")}
 
@@ -47,7 +47,7 @@ def _web(name: str) -> str:
     text = (Path(__file__).parent / "web" / name).read_text(encoding="utf-8")
     if not name.endswith(".js"):
         return text
-    # comments and what lines begin with are for those who read the sources
+    # comments and indentation serve readers of the sources only
     lines = (line.strip() for line in text.splitlines())
     return "".join(f"{line}\n" for line in lines if line and not line.startswith("//"))
 
@@ -60,9 +60,9 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
     recording : Recording
         What moves.
     live : Live, optional
-        What works out other motions in the page.
+        Simulation of other motions in the page.
     note : str
-        Why there is none.
+        Reason why `live` is missing.
     second : Recording, optional
         Another motion of the same mechanism, drawn faintly behind.
     """
@@ -210,7 +210,7 @@ class Page:
     name : str
         Of the mechanism.
     live : bool
-        Whether it works out other motions by itself.
+        Whether it simulates other motions itself.
     """
 
     html: str

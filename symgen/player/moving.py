@@ -1,4 +1,4 @@
-"""Motions as GIF or MP4, through matplotlib and Pillow, which are imported only here, and ffmpeg."""
+"""Motions as GIF or MP4, by matplotlib and Pillow, which are imported only here, and ffmpeg."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ if TYPE_CHECKING:
 
 #: Endings of films with the libraries that they need.
 FILMS: Mapping[str, tuple[str, ...]] = {".gif": ("matplotlib", "PIL"), ".mp4": ("matplotlib", "PIL")}
-#: Pictures of a GIF and of an MP4 at most, and how many a second.
+#: Largest number of pictures of a GIF and of an MP4, and pictures per second.
 MOST, MOST_OF_FILM, RATE = 150, 1500, 25
-#: Seconds that a picture of a GIF can last at most; those that are alike are one.
+#: Longest duration of a picture of a GIF [s]; equal pictures are merged.
 LONGEST = 655.0
-#: Pixels an inch.
+#: Pixels per inch.
 DPI = 80.0
 
 
@@ -41,7 +41,7 @@ def check_film(where: str, path: Path) -> Path:
     Raises
     ------
     InputError
-        With what was expected.
+        With the expected value.
     """
     if path.suffix.lower() == ".mp4" and shutil.which("ffmpeg") is None:
         raise InputError(where, "the program ffmpeg, which makes films of pictures", "none", "a .gif needs none")
@@ -120,7 +120,7 @@ def _encoded(pictures: Iterator[Image.Image], rate: float) -> bytes:
         with tempfile.TemporaryFile() as messages:
             process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=messages, stderr=messages)
             assert process.stdin is not None
-            with suppress(BrokenPipeError):  # it has said why
+            with suppress(BrokenPipeError):  # ffmpeg has written its own message
                 for picture in itertools.chain([first], pictures):
                     process.stdin.write(picture.tobytes())
             with suppress(BrokenPipeError):

@@ -1,4 +1,4 @@
-"""What a page plays: positions and columns over time, thinned out until they fit, and packed."""
+"""Data of a page: positions and columns over time, thinned out to fit, and packed."""
 
 from __future__ import annotations
 
@@ -52,14 +52,14 @@ class PlottedGroup:
 
 @dataclass(frozen=True)
 class Moment:
-    """Something that happened.
+    """An event of a run.
 
     Attributes
     ----------
     begin, end : float
-        From when to when [s].
+        Its time span [s].
     kind, text : str
-        Of which kind, and in words.
+        Its kind, and a description.
     """
 
     begin: float
@@ -83,7 +83,7 @@ class Recording:
     q : Array, shape (k, nq)
         Coordinates of all bodies.
     facts : tuple of (str, str)
-        What was run, and how it went.
+        Settings and outcome of the run.
     status : str
         Of the run.
     groups : tuple of PlottedGroup
@@ -115,7 +115,7 @@ class Recording:
 
 
 def parts_of(title: str, count: int) -> Iterator[tuple[str, slice]]:
-    """Yield titles and columns of the groups that so many columns of one unit make."""
+    """Yield titles and columns of the groups for a number of columns of one unit."""
     for i in range(0, min(count, MOST_OF_UNIT), LONGEST_KEY):
         yield title if i == 0 else f"{title} {1 + i // LONGEST_KEY}", slice(i, i + LONGEST_KEY)
 
@@ -136,7 +136,7 @@ def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
 def is_coarse(recording: Recording, room: int, further: int = 0) -> bool:
     """Whether the coordinates of a page have 16 bits, between the smallest and the largest value, instead of 32.
 
-    They have where `FEWEST` frames would be too many characters otherwise.
+    They do if `FEWEST` frames would otherwise take too many characters.
 
     Parameters
     ----------
@@ -157,19 +157,19 @@ def _characters(recording: Recording, coarse: bool, further: int) -> float:
 
 
 def without_further(recording: Recording) -> Recording:
-    """Return a recording without the groups that a page has only where there is room."""
+    """Return a recording without its optional groups."""
     return replace(recording, groups=tuple(group for group in recording.groups if not group.further))
 
 
 def with_further(recording: Recording, frames: int, room: int) -> tuple[Recording, list[str]]:
-    """Return what a page holds with those further groups that there is room for, and the titles of the others.
+    """Return a recording with the further groups that fit, and the titles of the others.
 
     Parameters
     ----------
     recording : Recording
         The motion.
     frames : int
-        How many outputs the page holds.
+        Number of outputs in the page.
     room : int
         Characters that further groups may take.
     """

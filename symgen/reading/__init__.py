@@ -1,1 +1,1 @@
-"""What was derived, for people to read: as SymPy objects, as LaTeX, as a page. Nothing is derived here."""
+"""Derived equations for readers: as SymPy objects, as LaTeX, as a page. Nothing is derived here."""

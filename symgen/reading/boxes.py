@@ -59,7 +59,7 @@ def name(text: str, whole: bool = False) -> Box:
 
 
 def apart(names: Iterable[str]) -> dict[str, Box]:
-    """Return names of one kind as they are typeset; where both ``l1`` and ``l_1`` are names, the first is whole."""
+    """Return names of one kind as they are typeset; if both ``l1`` and ``l_1`` are names, the first is whole."""
     every = set(names)
     return {text: name(text, whole=re.sub(r"^([A-Za-z])(\d+)$", r"\1_\2", text) in every - {text}) for text in every}
 
@@ -104,7 +104,7 @@ def is_number(box: Box) -> bool:
 
 
 def atoms(box: Box) -> int:
-    """Return how many names and literals a box has."""
+    """Return the number of names and literals of a box."""
     return sum(map(atoms, box.parts)) if box.parts else 1
 
 
@@ -185,13 +185,13 @@ class _Notation:
         return between.join(map(self.write, box.parts))
 
     def lines(self, box: Box, form: str, between: str) -> list[str]:
-        """Return the lines of a matrix in a form that has one place, its entries with something between them."""
+        """Return the lines of a matrix in a form with one place, its entries joined by a separator."""
         entries, wide = [*map(self.write, box.parts)], int(box.text)
         return [form % between.join(entries[i : i + wide]) for i in range(0, len(entries), wide or 1)]
 
 
 def bare(box: Box) -> bool:
-    """Whether a box is a function whose argument needs no bracket; a power of it would be read as one of that."""
+    """Whether a box is a function whose argument needs no bracket; its power would be read as one of the argument."""
     return box.kind == "call" and box.text in ("sin", "cos", "tan") and box.parts[0].kind == "name"
 
 
@@ -373,7 +373,7 @@ class _Python(_Notation):
         return f"{self.write(above)}/{self.part(below)}"
 
     def call(self, box: Box) -> str:
-        if box.text == "defined":  # what is no number differs from itself
+        if box.text == "defined":  # nan differs from itself
             return f"Eq({self.listed(box)}, {self.listed(box)})"
         return f"{box.index or box.text}({self.listed(box)})"
 
@@ -406,7 +406,7 @@ class _Plain(_Python):
 
 
 def _beside(box: Box, write: Callable[[Box], str], between: str) -> str:
-    """Return the text of parts side by side, with something between those of which none is a sign."""
+    """Return the text of parts side by side, with a separator between those that are no signs."""
     texts = [write(part) for part in box.parts]
     for i, (before, part) in enumerate(pairwise(box.parts)):
         if "sign" not in (before.kind, part.kind):

@@ -1,4 +1,4 @@
-"""Pieces of a page: what is folded, tables, formulas as MathML, patterns of sparse matrices."""
+"""Pieces of a page: folds, tables, formulas as MathML, patterns of sparse matrices."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def section(ident: str, title: str, parts: Iterable[str]) -> str:
 
 
 def fold(head: str, inside: str, is_open: bool = False, ident: str = "", marked: bool = False) -> str:
-    """Return something that is folded; `head` is HTML where `marked`, or has MathML in it."""
+    """Return a folded part; `head` is HTML where `marked`, or has MathML in it."""
     text = head if marked or "<math" in head else escape(head, quote=False)
     name = f' id="{attribute(ident)}"' if ident else ""
     start = f"<details{name}{' open' if is_open else ''}><summary>{text}</summary>"
@@ -76,7 +76,7 @@ def equations(lines: Iterable[Equation]) -> str:
     return "\n".join(map(equation, lines))
 
 
-#: Entries up to which each says in words where it stands.
+#: Largest number of entries that each have a title with their place.
 NAMED = 2500
 _FILLS = {"x": "#1f5fa8", "1": "#b9c7d8", "f": "#c4622d"}
 
@@ -121,9 +121,9 @@ def picture(
     entries : mapping
         Kind of entry by row and column.
     rows, columns : sequence of str
-        What they are called.
+        Their names.
     title : str
-        For those who do not see it.
+        Alternative text.
     links : bool
         Whether rows are linked to where they are written.
     """

@@ -1,4 +1,4 @@
-"""What was derived for a mechanism, counted and written as text: ``symgen inspect`` and `symgen.api.Model.inspect`."""
+"""Derived equations of a mechanism, counted and written as text: ``symgen inspect`` and `symgen.api.Model.inspect`."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ WIDEST = 150
 
 @dataclass(frozen=True)
 class Inspection:
-    """What was derived for a mechanism; printed, it is the text of ``symgen inspect``.
+    """Derived equations of a mechanism; printed, it is the text of ``symgen inspect``.
 
     Attributes
     ----------
@@ -91,7 +91,7 @@ def write_page(mechanism: Mechanism, settings: Settings, path: Path, where: str,
     Parameters
     ----------
     mechanism, settings : Mechanism, Settings
-        What is shown.
+        Subject of the page.
     path : Path
         The page.
     where : str
@@ -125,7 +125,7 @@ def write_page(mechanism: Mechanism, settings: Settings, path: Path, where: str,
 
 
 def at_start(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, Mechanism, MethodChoice]:
-    """Return a mechanism at its start, as a run has it.
+    """Return a mechanism at the start of a run.
 
     Raises
     ------
@@ -139,7 +139,7 @@ def at_start(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, Mechan
     Mechanism
         With its tree where coordinates are those of joints.
     MethodChoice
-        The method as it is compiled: with the solver that the start asks for.
+        The method as compiled, with the solver that the start requires.
     """
     run = prepare(structs.replace(mechanism, outputs=()), settings, Purpose.STATE)
     choice, solver = run.plan.choice, str(run.compiled.law.options.get("solver", ""))
@@ -149,7 +149,7 @@ def at_start(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, Mechan
 
 
 def facts_of(whole: Mechanism, settings: Settings, with_method: bool) -> dict[str, Any]:
-    """Return everything that is shown, expressions as text.
+    """Return all facts, expressions as text.
 
     Parameters
     ----------
@@ -158,7 +158,7 @@ def facts_of(whole: Mechanism, settings: Settings, with_method: bool) -> dict[st
     settings : Settings
         Of which ``method``, ``options``, ``shape``, ``coordinates``, ``parameters`` and ``start`` count.
     with_method : bool
-        Whether the functions of the method are among it.
+        Whether the functions of the method are included.
     """
     run, mechanism, choice = at_start(whole, settings)
     plan, start = run.plan, run.start

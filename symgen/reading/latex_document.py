@@ -1,4 +1,4 @@
-"""Derived equations as LaTeX, in which no line runs over the edge of a page: a document, or its sections alone."""
+"""Derived equations as LaTeX with lines no wider than a page: a document, or its sections alone."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from symgen.formulate.equations import Equations
     from symgen.reading.law import Law
 
-#: What a document may have.
+#: Sections of a document.
 SECTIONS = ("nomenclature", "Phi", "D", "nu", "gamma", "N", "M", "f", "energies", "law", "left-out")
 #: Those of a part of another document, which needs amsmath alone.
 EQUATIONS = SECTIONS[1:-2]
@@ -41,7 +41,7 @@ def document(
     select: Sequence[str] = (),
     whole: bool = True,
 ) -> str:
-    r"""Return everything that was derived as a document, or its sections alone as paragraphs of another one.
+    r"""Return all derived equations as a document, or its sections as paragraphs of another one.
 
     Parameters
     ----------

@@ -27,7 +27,7 @@ from symgen.reading.boxes import (
 
 _QUANTITIES = {"gamma": "gamma", "nu": "nu", "phi": "Phi", "f": "f", "v": "v"}
 _SIGNS = {"add": "+", "sub": "-"}
-#: What results of functions are called.
+#: Names of results of functions.
 _PLACES = {
     "rates.q": dot(name("q")),
     "rates.v": dot(name("v")),
@@ -49,7 +49,7 @@ class Step:
     Attributes
     ----------
     function, purpose : str
-        The emitted function that it is part of, and what that computes.
+        The emitted function that it belongs to, and the purpose of that.
     left, right : Box
         Its sides.
     solved : bool
@@ -83,7 +83,7 @@ class Law:
     Attributes
     ----------
     method, summary, form : str
-        Name, what it does, and how v' is found: ``direct``, ``iterated``, ``dense`` or ``tangent``.
+        Name, description, and the way v' is computed: ``direct``, ``iterated``, ``dense`` or ``tangent``.
     options : mapping
         Structural options.
     steps : tuple of Step
@@ -98,7 +98,7 @@ class Law:
 
     @property
     def parts(self) -> list[tuple[str, str, list[Step]]]:
-        """Emitted functions with what they compute and their steps."""
+        """Emitted functions with their purposes and steps."""
         groups: dict[tuple[str, str], list[Step]] = {}
         for step in self.steps:
             groups.setdefault((step.function, step.purpose), []).append(step)

@@ -29,7 +29,7 @@ def with_symbols(raw: Mapping[str, Any]) -> dict[str, Any]:
     """
     parameters = raw.get("parameters", {})
     if not isinstance(parameters, Mapping):
-        return dict(raw)  # what is wrong with it is said where it is read
+        return dict(raw)  # errors are reported where the file is read
     symbols = _Symbols(parameters)
     description = dict(raw)
     for section, keys in _KEYS.items():

@@ -1,4 +1,4 @@
-"""What a model shows of itself: its equations, a picture, a page of its motion."""
+"""Views of a model: its equations, a picture, a page of its motion."""
 
 from __future__ import annotations
 
@@ -79,9 +79,9 @@ class Shown:
         q: Sequence[float] | Array | None = None,
         view: View | None = None,
     ) -> Drawing:
-        """Return a picture of the mechanism, which notebooks show and ``.save("x.svg")`` writes.
+        """Return a picture of the mechanism, shown by notebooks and written by ``.save("x.svg")``.
 
-        Where the mechanism cannot be assembled the picture shows where that stopped, with the joints that stay open
+        If the mechanism cannot be assembled, the picture shows where that stopped, with the joints that stay open
         marked and the reason below it.
 
         Parameters
@@ -91,7 +91,7 @@ class Shown:
         start : mapping, optional
             Values of coordinates that the start keeps, as for `simulate`.
         at : {"start", "described"}
-            The assembled start, or the one that the description has, which may be open.
+            The assembled start, or the described one, which may be open.
         q : array, shape (nq,), optional
             Coordinates of all bodies, in place of a start.
         view : View, optional
@@ -142,7 +142,7 @@ class Shown:
         shape: str = "auto",
         parameters: Mapping[str, float] | None = None,
     ) -> Inspection:
-        """Return what is derived, with sizes and counts of operations; printed, it is the text of ``symgen inspect``.
+        """Return the derived equations, sizes and counts of operations; printed, it is the text of ``symgen inspect``.
 
         Parameters
         ----------

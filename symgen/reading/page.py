@@ -1,4 +1,4 @@
-"""One page for a mechanism, offline: what was derived, what is compiled, and the way from a joint to both and back."""
+"""An offline page of a mechanism: derived equations, compiled code, and links between a joint and both."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ LARGEST = 2_000_000
 MOST_ROWS = 1500
 #: Up to so many velocities of bodies a page has the code of a run in straight lines, unless the shape is set.
 MOST_STRAIGHT = 150
-#: Shared terms that stand together.
+#: Number of shared terms in one group.
 _TOGETHER = 25
 #: Matrices up to this size are shown whole.
 _WHOLE = 12
@@ -61,7 +61,7 @@ def _web(name: str) -> str:
 
 
 def check_size(mechanism: Mechanism) -> None:
-    """Refuse a mechanism whose page nobody could read, before anything is derived.
+    """Refuse a mechanism too large for a readable page, before anything is derived.
 
     Raises
     ------
@@ -126,7 +126,7 @@ class EquationPage:
         Raises
         ------
         InputError
-            If it is larger without the code, too.
+            If it is larger even without the code.
         """
         whole, why = self._rates()
         for script, listed in product(dict.fromkeys((whole, "")), (self.parts, {}, None)):
@@ -146,7 +146,7 @@ class EquationPage:
         return by_row
 
     def _rates(self) -> tuple[str, str]:
-        """Return the right-hand side as a script, or an empty text and why there is none."""
+        """Return the right-hand side as a script, or an empty text and the reason."""
         if self.run is None:
             return "", "the mechanism does not close"
         part, why = rates_part(self.run.compiled, self.run.start)

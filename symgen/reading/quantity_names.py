@@ -1,4 +1,4 @@
-"""What derived equations consist of, with the nodes of their entries."""
+"""Quantities of derived equations, with the nodes of their entries."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from symgen.formulate.equations import Equations
 
 
-#: What the equations consist of: attribute and words.
+#: Quantities of the equations: attribute and words.
 QUANTITIES = {
     "Phi": "constraints, 0 where a row has none",
     "D": "Jacobian, D v = nu",
@@ -78,7 +78,7 @@ def python_name(payload: object) -> str:
 
 
 def functions(tables: Iterable[Interpolation]) -> dict[str, Any]:
-    """Return the interpolated functions and their derivatives by the names that expressions call them by."""
+    """Return the interpolated functions and their derivatives by their names in expressions."""
     by_name: dict[str, Any] = {}
     for table in tables:
         for order in range(3):

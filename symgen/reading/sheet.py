@@ -1,4 +1,4 @@
-"""What a document and a page are made of: equations as lines and matrices of boxes, in the order of a textbook."""
+"""Content of documents and pages: equations as lines and matrices of boxes, in the order of a textbook."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Sheet:
     equations : Equations
         What was derived.
     joints : container of str, optional
-        Joints that are written; all unless some are given.
+        Joints that are written; all by default.
     """
 
     def __init__(self, mechanism: Mechanism, equations: Equations, joints: Sequence[str] = ()) -> None:
@@ -87,7 +87,7 @@ class Sheet:
 
     @cached_property
     def groups(self) -> dict[str, list[int]]:
-        """Velocities by what they belong to: bodies, or joints of the tree."""
+        """Velocities by their bodies, or joints of the tree."""
         by_owner: dict[str, list[int]] = {}
         for i, v in enumerate(self.equations.velocities):
             by_owner.setdefault(v.name.rpartition(".")[0], []).append(i)

@@ -1,4 +1,4 @@
-"""Names for what expressions share: entries of rotation matrices, and the motion of bodies that joints carry."""
+"""Names of shared terms of expressions: entries of rotation matrices, and the motion of bodies that joints carry."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def structure(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
 def shared_terms(
     graph: Graph, nodes: Iterable[int], names: Mapping[int, str], taken: Container[str] = ()
 ) -> dict[int, str]:
-    """Return names for all that `nodes` use more than once, beside those that some have already.
+    """Return names for all terms that `nodes` use more than once and that have none yet.
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ _CONDITIONS = {
     **{"lt": sp.StrictLessThan, "le": sp.LessThan, "gt": sp.StrictGreaterThan, "ge": sp.GreaterThan},
     **{"step": sp.StrictGreaterThan, "and": sp.And, "or": sp.Or, "not": sp.Not},
 }
-#: What SymPy leaves as it is: to compare expressions takes it long.
+#: Functions left unevaluated, since SymPy compares expressions slowly.
 _UNEVALUATED = {"floor": sp.floor, "min": sp.Min, "max": sp.Max}
 
 
@@ -101,7 +101,7 @@ def number(value: float) -> Any:
 
 
 class Boxed(Translator):
-    """Boxes of SymPy expressions, with a name for whatever the graph has no operation for."""
+    """Boxes of SymPy expressions, with names for functions that are no operations of the graph."""
 
     def __init__(self) -> None:
         super().__init__(Graph(), {})

@@ -56,7 +56,7 @@ class SymbolicEquations:
     sharing : bool
         Whether everything is written with shared terms; see `shared`.
     values : mapping
-        What symbols are replaced by; see `subs`.
+        Replacements of symbols; see `subs`.
     """
 
     mechanism: Mechanism
@@ -140,14 +140,14 @@ class SymbolicEquations:
         Raises
         ------
         InputError
-            If there is none of that name.
+            If no quantity has that name.
         """
         return getattr(self, arguments.one_of("quantity", name, tuple(QUANTITIES)))
 
     # -- shared terms ----------------------------------------------------------------------------------------------
 
     def shared(self) -> SymbolicEquations:
-        """Return the same equations with what they share under names; `definitions` says what these stand for.
+        """Return the same equations with named shared terms; `definitions` defines them.
 
         Names are those of the structure, ``BODY.c`` and ``BODY.s`` for cosine and sine of a body's angle and
         ``BODY.a00`` to ``BODY.a22`` for its rotation matrix, and numbers for what else is used more than once.
@@ -156,7 +156,7 @@ class SymbolicEquations:
 
     @cached_property
     def definitions(self) -> Mapping[Any, Any]:
-        """What the names of shared terms stand for, by symbol, each written with earlier ones; empty without any."""
+        """Definitions of shared terms, by symbol, each written with earlier ones; empty without any."""
         return MappingProxyType(self._of(()))
 
     @cached_property
@@ -258,7 +258,7 @@ class SymbolicEquations:
     # -- writing ---------------------------------------------------------------------------------------------------
 
     def latex(self, *names: str) -> str:
-        """Return quantities as LaTeX, one equation ``NAME = ...`` a line; all of them unless some are named.
+        """Return quantities as LaTeX, one equation ``NAME = ...`` a line; all by default.
 
         Lines are as long as they are: a document with broken lines is what ``symgen inspect --document`` writes.
         """
@@ -329,7 +329,7 @@ class SymbolicEquations:
         return expression.xreplace(self.values) if self.values else expression
 
     def _of(self, names: Iterable[str]) -> dict[Any, Any]:
-        """Return the definitions that quantities need, in evaluation order; of all unless some are named."""
+        """Return the definitions that quantities need, in evaluation order; of all quantities by default."""
         display, used = self._named, [x for x in names or self._quantities if self.sharing or self._is_large(x)]
         needed = self._written.graph.needed(n for name in used for *_, n in self.nodes[name][1])
         named = [n for n in needed if n in display.named and display.named[n] not in self.values]

@@ -1,6 +1,6 @@
 """Nodes of the graph as formulas: sums of terms that can be broken between lines, none of them wider than a line.
 
-What is used more than once, and what would make a term too wide, gets a name and is written once, in `definitions`.
+Terms that are used more than once, or too wide, get names and are written once, in `definitions`.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from symgen.reading.structure import free_names, uses
 
 #: Widest term, in units of the type's size; a line of a document has 44 of them.
 TERM = 30.0
-#: What is used more than once is written out where it has no more names and literals.
+#: Shared terms with at most so many names and literals are written out.
 SHORT = 3
 #: Expressions with more operations, written out without sharing, are named by that number in text.
 LONGEST = 1500
@@ -198,7 +198,7 @@ class Typesetter(Writer):
     Attributes
     ----------
     definitions : dict
-        Name and sum of what was given a name, by node, each written with earlier ones.
+        Name and sum of each named term, by node, each written with earlier ones.
     """
 
     def __init__(

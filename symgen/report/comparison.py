@@ -35,11 +35,11 @@ def comparison(
     Parameters
     ----------
     studies : sequence of Study
-        What was compared, one a mechanism.
+        One for each mechanism.
     command : str, optional
         The command that makes it again.
     settings : sequence of (str, str), optional
-        What was asked for, by label, beside what the studies say themselves.
+        Settings by label, in addition to those of the studies.
     sketches : mapping of str to str, optional
         SVG of mechanisms by their names, for the head of the report.
     """
@@ -79,7 +79,7 @@ def _settings(studies: Sequence[Study]) -> list[tuple[str, str]]:
 
 
 def _across(studies: Sequence[Study]) -> Section:
-    """Return the section that puts the mechanisms side by side."""
+    """Return the section that compares the mechanisms."""
     every = list(dict.fromkeys(method for study in studies for method in methods(study)))
     by_study = [{row.label: row for row, _ in representatives(study)} for study in studies]
     names = tuple(study.mechanism for study in studies)

@@ -1,4 +1,4 @@
-"""What the rows of a comparison say, in plain sentences computed from them, and which rows stand for its methods."""
+"""Findings of a comparison as sentences computed from its rows, and the rows that represent its methods."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from symgen.report import words
 from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study, Trace
 
-#: The integrator and the step of the source, by which methods are compared where they have it.
+#: The integrator and the step of the source, used to compare methods that were run with them.
 USUAL = "rk4"
-#: An error above this in a run that ended ok is a success that was none [m].
+#: An error above this in a run that ended ok is a false success [m].
 WRONG = 1e-3
 #: Errors for which the cheapest run is named [m].
 TARGETS = (1e-3, 1e-6, 1e-9)
 #: A violation below this is rounding, times the lengths and speeds of usual mechanisms.
 ROUNDING = 1e-11
-#: So many methods are named at an end of a long list.
+#: Number of methods named at either end of a long list.
 MOST = 4
 #: Slopes are fitted over errors above this multiple of the reference's own.
 CLEAR = 10.0
@@ -40,12 +40,12 @@ def line_number(method: str) -> int:
 
 
 def _closeness(row: Row, step: float) -> float:
-    """Return how far a row is from the mechanism's own step, or from the middle of the usual tolerances."""
+    """Return the distance of a row from the mechanism's own step, or from the middle of the usual tolerances."""
     return abs(math.log(row.step / step)) if row.step is not None else abs(math.log10((row.rtol or 1.0) / 1e-8))
 
 
 def representatives(study: Study) -> list[tuple[Row, Trace]]:
-    """Return one row a method: with the usual integrator where it was run, at the step nearest to the mechanism's."""
+    """Return one row per method: with the usual integrator if run, at the step nearest to the mechanism's."""
     pairs = []
     for method in methods(study):
         own = [(row, trace) for row, trace in zip(study.rows, study.traces, strict=True) if row.label == method]
@@ -56,7 +56,7 @@ def representatives(study: Study) -> list[tuple[Row, Trace]]:
 
 
 def settings_text(study: Study) -> str:
-    """Return the setting that representatives share, in words, or what they have in common."""
+    """Return the setting of the representatives in words, or the common part."""
     rows = [row for row, _ in representatives(study)]
     most = max({row.setting for row in rows}, key=[row.setting for row in rows].count)
     settings = [f"{row.integrator}, {words.setting(row.step, row.rtol)}" for row in rows]
@@ -178,7 +178,7 @@ def _wrong(study: Study) -> str:
 
 
 def _ranked(study: Study, values: dict[str, float], unit: str) -> str:
-    """Return which methods keep a quantity at rounding, and what the others reach."""
+    """Return the methods that keep a quantity at rounding, and the values of the others."""
     small = [m for m, x in values.items() if x < ROUNDING]
     large = sorted(((x, m) for m, x in values.items() if x >= ROUNDING), reverse=True)
     parts = []

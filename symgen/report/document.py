@@ -1,4 +1,4 @@
-"""What a report consists of, whatever it is about and whatever file it becomes."""
+"""Parts of a report, independent of its subject and file format."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ class Picture:
     Attributes
     ----------
     name : str
-        What its file is called where pictures stand beside the page: words joined by dashes, without ending.
+        Name of its file where pictures are separate files: words joined by dashes, without ending.
     caption : str
         What it shows, below it.
     alternative : str
-        What is said to those who do not see it.
+        Alternative text.
     data : bytes
         The file.
     kind : str
@@ -37,14 +37,14 @@ class Picture:
 
 @dataclass(frozen=True)
 class TableCell:
-    """A cell of a table that is shown in a way of its own.
+    """A cell of a table with its own style.
 
     Attributes
     ----------
     text : str
         What stands there.
     mood : str
-        ``good``, ``doubtful``, ``bad`` or ``faint``; never the only sign of what is meant.
+        ``good``, ``doubtful``, ``bad`` or ``faint``; never the only sign of the meaning.
     """
 
     text: str
@@ -64,7 +64,7 @@ class DocumentTable:
     rows : tuple of tuple of (str or Cell)
         As many cells as headings.
     words : int
-        How many columns from the left hold words; the others hold numbers and are set to the right.
+        Number of columns of words, from the left; the others hold numbers and are right-aligned.
     notes : tuple of str
         Below it.
     """
@@ -89,7 +89,7 @@ class Section:
 
     @property
     def anchor(self) -> str:
-        """Where links to the section lead."""
+        """Target of links to the section."""
         return anchor(self.title)
 
 
@@ -104,11 +104,11 @@ class Document:
     lead : tuple of str
         Paragraphs below the title.
     facts : tuple of (str, str)
-        What it was made with, by label.
+        Settings and versions, by label.
     command : str
         The command that makes it again; empty where there is none.
     sections : tuple of Section
-        What it says.
+        Its content.
     """
 
     title: str

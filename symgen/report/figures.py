@@ -25,7 +25,7 @@ MARKS = 8
 
 
 def pictures(study: Study) -> tuple[Picture, ...]:
-    """Return all pictures of a study; those for which it has nothing are left out."""
+    """Return all pictures of a study, without those that have no data."""
     shared = settings_text(study)
     levels = (
         ("position", "|Φ| [m, rad]"),
@@ -184,7 +184,7 @@ def _over_time(study: Study, field: str, name: str, label: str, caption: str) ->
 
 
 def _decades(ax: Any) -> None:
-    """Keep a logarithmic axis from blowing noise at rounding up to the height of the picture."""
+    """Widen a logarithmic axis so that rounding noise does not fill the picture."""
     low, high = ax.get_ylim()
     if high / low < 1e3:
         middle = float(np.sqrt(low * high))

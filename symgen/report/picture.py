@@ -1,4 +1,4 @@
-"""From a matplotlib figure to a picture in a page: the look that all share, and files small enough to embed."""
+"""Matplotlib figures as pictures in a page: their common style, and files small enough to embed."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ WIDTH = 5.0
 LARGEST_SVG = 200_000
 #: Sketches at the head of a report at most.
 MOST_SKETCHES = 12
-#: Pixels an inch of those.
+#: Pixels per inch of those.
 DPI = 200
 
 #: Any, as matplotlib's types list every key.
@@ -100,10 +100,10 @@ def _file(figure: Figure) -> tuple[bytes, str]:
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     stream, canvas = io.BytesIO(), cast("Any", FigureCanvasSVG(figure))
-    # `savefig` arranges and draws everything once before, for the sake of files that are cut to what is drawn
+    # `savefig` would first draw everything once more, for files cropped to the drawing
     canvas.print_svg(stream, metadata={"Date": None, "Creator": None})
     text = stream.getvalue().decode()
-    # a hundredth of a point is less than anybody sees
+    # a hundredth of a point is invisible
     text = re.sub(r' d="[^"]*"', lambda m: re.sub(r"(\.\d\d)\d+", r"\1", m.group()), text)
     data = text[text.index("<svg") :].encode()
     if len(data) <= LARGEST_SVG:
@@ -114,7 +114,7 @@ def _file(figure: Figure) -> tuple[bytes, str]:
 
 
 def below(figure: Figure, entries: int, columns: int = 2, handles: Any = None) -> None:
-    """Put the legend below the axes, and make the figure as much higher as it is."""
+    """Put the legend below the axes, and make the figure taller by its height."""
     if entries < 1:
         return
     rows = -(-entries // columns)
@@ -125,7 +125,7 @@ def below(figure: Figure, entries: int, columns: int = 2, handles: Any = None) -
 
 
 def sketched(sketches: Mapping[str, str]) -> list[Section]:
-    """Return the section at the head of a report that shows its mechanisms, none where there are no sketches.
+    """Return the section of sketches at the head of a report, empty without sketches.
 
     Parameters
     ----------

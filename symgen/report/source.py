@@ -1,4 +1,4 @@
-"""The source's ratios of computing time, second hand, to stand beside ours."""
+"""The source's ratios of computing time, second hand, for comparison with ours."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The report of a stress study: findings, the map, largest steps, regions of stability, and which status to trust."""
+"""The report of a stress study: findings, the map, largest steps, regions of stability, and unreliable statuses."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ _LEAD = (
     "closed form, or independently derived equations integrated by another scheme at a tight tolerance. The outcome is "
     f"judged by that distance, not by the status of the run. A run is accurate (ok) up to {ACCURATE:g} m."
 )
-#: Of more models than this the report has an overview.
+#: Reports of more models than this have an overview.
 FEW_MODELS = 3
-#: More cells than this are not listed.
+#: Largest number of cells that are listed.
 MOST_CELLS = 6000
 _MOODS = {"ok": "good", "inaccurate": "doubtful", "refused": "faint", "unjudged": "faint", "too slow": "faint"}
 _MEANINGS = {
@@ -46,7 +46,7 @@ def stress_report(study: Stress, command: str = "", sketches: Mapping[str, str] 
     Parameters
     ----------
     study : Stress
-        What was found.
+        The study.
     command : str, optional
         The command that makes it again.
     sketches : mapping of str to str, optional

@@ -1,4 +1,4 @@
-"""Numbers and lists as a reader meets them; plain text that HTML and Markdown show alike."""
+"""Numbers and lists for readers; plain text that HTML and Markdown show alike."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from symgen.errors import counted as counted
 
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-#: What stands where there is no number.
+#: Placeholder of a missing number.
 NONE = "–"
 
 
@@ -28,7 +28,7 @@ def number(x: float | None, digits: int = 2) -> str:
 
 
 def exact(x: float) -> str:
-    """Return a number that was chosen, not measured, with the digits that it has: 0.001, 5×10⁻⁵, 10⁻⁸."""
+    """Return a chosen, not measured, number with all its digits: 0.001, 5×10⁻⁵, 10⁻⁸."""
     mantissa, _, exponent = f"{x:g}".partition("e")
     if not exponent:
         return mantissa
@@ -65,7 +65,7 @@ def ratio(x: float | None) -> str:
 
 
 def with_spread(x: float | None, spread: float | None) -> str:
-    """Return a ratio with what it may vary by."""
+    """Return a ratio with its spread."""
     return f"{ratio(x)} ± {ratio(spread)}" if spread is not None else ratio(x)
 
 

@@ -1,4 +1,4 @@
-"""From a document to its file: HTML that needs nothing else, or Markdown with its pictures beside it."""
+"""Files of a document: self-contained HTML, or Markdown with separate pictures."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ WRITTEN: Mapping[str, tuple[str, ...]] = {".html": ("matplotlib",), ".md": ("mat
 
 
 def check_report(where: str, path: Path) -> None:
-    """Refuse a report that cannot be written, before it is made.
+    """Refuse a report that cannot be written, before it is created.
 
     Raises
     ------
@@ -91,7 +91,7 @@ def _embedded(picture: Picture) -> str:
 
 
 def html(document: Document) -> str:
-    """Return a document as one HTML page: style and pictures inside, no scripts, nothing from elsewhere."""
+    """Return a document as one HTML page: style and pictures inside, no scripts, no other files."""
     return _templates().get_template("page.html.j2").render(document=document)
 
 
@@ -109,7 +109,7 @@ _MARKED = re.compile(
 
 
 def escaped(text: str) -> str:
-    """Return plain text for a line of Markdown: it reads there as it stands."""
+    """Return plain text escaped for a line of Markdown."""
     return _MARKED.sub(lambda mark: f"\\{mark[0]}" if not mark[0].isdigit() else f"{mark[0]}\\", " ".join(text.split()))
 
 
