@@ -1,8 +1,8 @@
 """Derivatives of formulas: motions of rows and drivers over time and parameters, and potentials.
 
 SymPy differentiates. It treats every part of a formula as complex unless it can prove it real: the derivative of
-``abs(log(t))`` has real and imaginary parts, and a choice between numbers is no valid condition. Where its result is
-not real, the rules of the graph are applied instead, operation by operation.
+``abs(log(t))`` has real and imaginary parts, and a condition on a choice between numbers is invalid. Where its
+result is not real, the rules of the graph are applied instead, operation by operation.
 """
 
 from __future__ import annotations

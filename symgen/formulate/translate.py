@@ -154,7 +154,7 @@ def to_sympy(expression: Expr, symbols: Mapping[str, Any]) -> Any:
     Raises
     ------
     NotReal
-        If it compares a number that SymPy proves not to be real.
+        If it compares a value that SymPy proves not to be real.
     """
     if isinstance(expression, Number):
         value = expression.value  # whole exponents keep derivatives polynomial
