@@ -3,8 +3,7 @@
 The constant inertia of a body welded to its parent is added to the parent's own; only the forces on it are propagated
 inwards. A thin rod along the axis of a hinge, or a mass at the centre of a ball joint, does not act on that joint: this
 part of a body's inertia is transferred to the parent, which leaves the body without mass and changes no entry of M or
-f (base parameters; Khalil and Dombre, Modeling, Identification and Control of Robots,
-2002, section 9.4).
+f (base parameters; Khalil and Dombre, Modeling, Identification and Control of Robots, 2002, section 9.4).
 """
 
 from __future__ import annotations
