@@ -1,8 +1,8 @@
-"""One body, joint or force on its own: its equations over the frames of its bodies, derived once for each kind.
+"""Equations of a single body, joint or force over the frames of its bodies, derived once for each kind.
 
-The abstract mechanism of an element (`symgen.lower.looped.instances`) goes through the same derivation as a whole
-one. What depends on the position of one body alone, such as the entries of its rotation matrix, is cut out and read
-from the body's *record*, which is filled once for all elements on that body.
+The abstract mechanism of an element (`symgen.lower.looped.instances`) is derived like a complete one. Nodes that depend
+on the position of one body alone, such as the entries of its rotation matrix, are replaced by entries of the body's
+*record*, which is filled once for all elements on that body.
 """
 
 from __future__ import annotations
@@ -16,20 +16,20 @@ from symgen.formulate.formulate import formulate
 from symgen.formulate.measures import ModelNodes
 from symgen.ir.graph import Graph
 
-#: Room for one frame's record in the numbering of ("record", frame * RECORD + place).
+#: Stride of the records in the numbering ("record", frame * RECORD + place).
 RECORD = 64
 
 
 @dataclass(frozen=True)
 class FrameRecord:
-    """A body's record: its coordinates, its velocities, then what else its frame needs, as nodes of q and v.
+    """A body's record: its coordinates, its velocities, then further numbers of its frame, as nodes of q and v.
 
     Parameters
     ----------
     q, v : tuple of int
         Indices of the body's coordinates and velocities in the element's equations.
     slots : tuple of int
-        Nodes of the further numbers, entries of the rotation matrix for instance.
+        Nodes of the further numbers, such as entries of the rotation matrix.
     """
 
     q: tuple[int, ...]
@@ -49,7 +49,7 @@ class Element:
     Parameters
     ----------
     equations : Equations
-        Of the abstract mechanism; inputs ``t``, ``q``, ``v`` and ``p`` (the constants).
+        Equations of the abstract mechanism; inputs ``t``, ``q``, ``v`` and ``p`` (the constants).
     frames : tuple of FrameRecord
         One for each body.
     """
@@ -60,7 +60,7 @@ class Element:
     def over_records(self, nodes: Sequence[int], graph: Graph, source: Graph | None = None) -> list[int]:
         """Copy nodes into `graph` as functions of ``t``, ``p`` and ``("record", RECORD * frame + place)``.
 
-        `source` is a copy of the equations' graph with more nodes, where these are meant.
+        `source` is an extended copy of the equations' graph that contains `nodes`; by default that graph itself.
         """
         source = self.equations.graph if source is None else source
         places: dict[int, int] = {}
@@ -84,7 +84,7 @@ def derive_element(abstract: Mechanism) -> Element:
         Its abstract mechanism.
     """
     equations = formulate(abstract)
-    model = ModelNodes(abstract, equations.graph)  # the same graph: nodes that are there already are found again
+    model = ModelNodes(abstract, equations.graph)  # the same graph: existing nodes are reused
     frames: list[FrameRecord] = []
     q = v = 0
     for body in abstract.bodies:

@@ -15,9 +15,9 @@ class ConstraintRow:
     """One constraint: ``D v = nu`` and ``D v' = gamma``; `phi` is None for a nonholonomic row.
 
     `entries` holds (velocity index, node) of the structurally nonzero entries of D, in increasing order of index.
-    Where joints of a tree carry the bodies, a row may vanish as a whole, at a dead centre for instance: `size` is what
-    its square is compared with then, the square of the row over the velocities of bodies; None for a row that cannot.
-    `stiffness` is the node of one that the file names [N/m].
+    With bodies on a tree of joints a whole row may vanish, at a dead centre for instance: its square is compared with
+    `size`, the square of the row over the velocities of bodies; None for a row that cannot vanish.
+    `stiffness` is the node of a stiffness specified in the file [N/m].
     """
 
     name: str
@@ -40,7 +40,7 @@ class MassBlock:
 
 
 def mass_blocks(entries: Mapping[tuple[int, int], int], size: int, zero: int) -> tuple[MassBlock, ...]:
-    """Return a symmetric matrix as blocks of velocities that depend on each other."""
+    """Return a symmetric matrix as blocks of coupled velocities."""
     label = list(range(size))
     for (i, j), node in entries.items():
         if node != zero and label[i] != label[j]:
@@ -55,7 +55,7 @@ def mass_blocks(entries: Mapping[tuple[int, int], int], size: int, zero: int) ->
 
 @dataclass(frozen=True)
 class JointCoordinate:
-    """A reported joint coordinate: nodes of its value and rate."""
+    """Nodes of the value and rate of a reported joint coordinate."""
 
     name: str
     unit: str
@@ -65,7 +65,7 @@ class JointCoordinate:
 
 @dataclass(frozen=True)
 class Omission:
-    """Something that the scene does not need and that was therefore left out, and why."""
+    """A part left out of the model because the scene does not need it, and the reason."""
 
     what: str
     why: str
@@ -75,15 +75,15 @@ class Omission:
 class DriverPower:
     """Power of the drivers of prescribed coordinates.
 
-    What these exert against the efforts of rows is no part of it: that is in the power of rows, whose nu holds what
-    drivers make of them.
+    It excludes the power against the efforts of rows, which is part of the power of rows: their nu contains the motion
+    of drivers.
 
     Attributes
     ----------
     entries : tuple of (int, int)
-        Velocities of the state, and what their rates are multiplied by.
+        Velocities of the state, and the factors of their rates.
     rest : int
-        The power where v' is 0.
+        The power at v' = 0.
     """
 
     entries: tuple[tuple[int, int], ...]
@@ -107,35 +107,35 @@ class Equations(Counted):
     rows : tuple of ConstraintRow
         Phi, D, nu and gamma, row by row.
     forces : tuple of int
-        f, one node a velocity.
+        f, one node for each velocity.
     power : int
         Power of the applied forces that have no potential, f_nc^T v [W].
     kinetic, potential : int
         Energies [J].
     joint_coordinates : tuple of JointCoordinate
-        What results report beside q and v.
+        Coordinates that results report in addition to q and v.
     tables : tuple of Interpolation
         Interpolated functions.
     omissions : tuple of Omission
-        What was left out and why.
+        Parts left out and the reasons.
     dropped_rows : tuple of str
-        Rows that repeat another row for all q, named ``ROW = ROW``.
+        Rows equal to another row for all q, named ``ROW = ROW``.
     windings : tuple of int
-        Angles whose turns are counted: each on the branch nearest to what the section ``winding`` remembers.
+        Angles with counted turns: each on the branch nearest to its value in the section ``winding``.
     spins : tuple of (int, int)
-        For each body with Euler parameters where these begin in q, and where its angular velocity begins in v.
+        For each body with Euler parameters, their first index in q and that of its angular velocity in v.
     inputs : tuple of str
         Parameters that may change during a run.
     bodies : tuple of int
-        Where joints of a tree carry the bodies: coordinates, velocities and accelerations of these.
+        With bodies on a tree of joints: coordinates, velocities and accelerations of the bodies.
     driving : DriverPower, optional
-        Where drivers prescribe coordinates of a tree, their power; no part of `power`.
+        Power of the drivers of prescribed coordinates of a tree; no part of `power`.
     metric : tuple of MassBlock
-        Where joints of a tree carry the bodies, the identity in the velocities of these, pulled back.
+        With bodies on a tree of joints: the identity in the velocities of the bodies, pulled back.
     states : tuple of Quantity
-        States of the file's own.
+        States that the file defines.
     state_rates : tuple of int
-        Nodes of their rates; as inputs of the graph states are ``z``, from 1 on.
+        Nodes of their rates; as inputs of the graph the states are ``z``, numbered from 1.
     """
 
     name: str
@@ -164,7 +164,7 @@ class Equations(Counted):
     state_rates: tuple[int, ...] = ()
 
     def nodes(self, rows: Iterable[ConstraintRow] | None = None) -> dict[str, list[int]]:
-        """Return the nodes that quantities are made of, by their names; of all rows, unless some are given."""
+        """Return the nodes of each quantity by its name, for `rows` or else for all rows."""
         rows = self.rows if rows is None else tuple(rows)
         return {
             "phi": [row.phi for row in rows if row.phi is not None],

@@ -1,4 +1,4 @@
-"""Euler parameters as nodes: the matrix that they stand for, their rates and products."""
+"""Euler parameters as nodes: rotation matrix, rates and products."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def turning(g: Graph, e: Sequence[int], omega: Sequence[int]) -> list[int]:
 
 
 def half_turn(g: Graph, angle: int, axis: int) -> list[int]:
-    """Return the Euler parameters of a turn about the first, second or third axis (1, 2, 3)."""
+    """Return the Euler parameters of a rotation about the first, second or third axis (1, 2, 3)."""
     half = g.mul(g.constant(0.5), angle)
     e = [g.call("cos", half), g.zero, g.zero, g.zero]
     e[axis] = g.call("sin", half)
@@ -48,12 +48,12 @@ def half_turn(g: Graph, angle: int, axis: int) -> list[int]:
 
 
 def inverse(g: Graph, e: Sequence[int]) -> list[int]:
-    """Return those of the turn back."""
+    """Return the Euler parameters of the inverse rotation."""
     return [e[0], *(g.neg(x) for x in e[1:])]
 
 
 def composed(g: Graph, p: Sequence[int], q: Sequence[int]) -> list[int]:
-    """Return those of A(p) A(q)."""
+    """Return the Euler parameters of A(p) A(q)."""
     a, b, c, d = p
     w, x, y, z = q
     return [
@@ -65,7 +65,7 @@ def composed(g: Graph, p: Sequence[int], q: Sequence[int]) -> list[int]:
 
 
 def parameters_of(g: Graph, matrix: Sequence[Sequence[int]]) -> list[int]:
-    """Return those of a rotation whose entries are literals, as the axes of joints are; the largest one is positive."""
+    """Return the Euler parameters of a rotation matrix of literals, such as joint axes; the largest is positive."""
     r = [[g.value(n) or 0.0 for n in row] for row in matrix]
     trace = r[0][0] + r[1][1] + r[2][2]
     squares = [1.0 + trace, *(1.0 - trace + 2.0 * r[i][i] for i in range(3))]

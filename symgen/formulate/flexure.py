@@ -1,4 +1,4 @@
-"""Beam elements on the graph: deformation, energy, and what they exert along their measures.
+"""Beam elements on the graph: deformation, energy, and the forces along their measures.
 
 The deformation of an element is ``psi = log(H_a^-1 H_b)``. With s = 2 y, twice the vector between the frames along the
 mean of their axes, and b = 2 sin(phi) times the axis of the relative rotation, both of which are sums of components:
@@ -10,7 +10,7 @@ in space, and (c s, phi) in the plane. c is a polynomial, in the plane of phi^2 
 exact to rounding up to 1 rad.
 
 The strain along the element is eps_0 + x eps'. To third order in its length h (Magnus 1954) ``psi = h eps_0 +
-h^3/12 [eps_0, eps']``, and where the energy is least for a psi that is held, it is ``d^T F^-1 d / 2`` with
+h^3/12 [eps_0, eps']``, and the least energy for a fixed psi is ``d^T F^-1 d / 2`` with
 ``F = h C + h/12 ad_psi C ad_psi^T``, d = psi - psi_0 and the compliances C. F is factorised, so that the energy is
 positive for every psi. The derivatives are written with ``P = F^-1 d``, the force and moment in the middle, and
 ``z = C ad_psi^T P``:
@@ -59,7 +59,7 @@ SPACE = (
 
 
 def exertions(model: ModelNodes, source: Force | Exerted) -> list[Exertion]:
-    """Return what the efforts and beam elements of a force exert, along one measure after the other."""
+    """Return the exertions of the efforts and beam elements of a force, measure by measure."""
     exerted = [exertion(model, effort) for effort in source.efforts]
     return exerted + [part for flexure in source.flexures for part in Flexing(model, flexure).exertions()]
 
@@ -73,7 +73,7 @@ def flexed(model: ModelNodes, source: Flexed) -> int:
 
 
 class Flexing:
-    """A beam element in a model, as nodes; six components in space, in the plane three.
+    """A beam element in a model, as nodes; six components in space, three in the plane.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ class Flexing:
 
     @cached_property
     def series(self) -> tuple[int, int, int, int]:
-        """The factor c and (c - 1/2) / X, each with its derivative by X."""
+        """The factor c and (c - 1/2) / X, each with its derivative with respect to X."""
         g, x = self.graph, self.argument
         value = slope = g.zero
         for coefficient in reversed(SPACE if self.spatial else PLANE):
@@ -115,7 +115,7 @@ class Flexing:
 
     @cached_property
     def across(self) -> tuple[int, int]:
-        """The factor k = (c - 1/2) / X / (4 - X) and its derivative by X."""
+        """The factor k = (c - 1/2) / X / (4 - X) and its derivative with respect to X."""
         g, (_, _, value, slope) = self.graph, self.series
         rest = g.sub(g.constant(4.0), self.argument)
         k = g.div(value, rest)
@@ -156,7 +156,7 @@ class Flexing:
 
     @cached_property
     def excess(self) -> list[int]:
-        """The deformation beyond that of the unloaded element, d = psi - psi_0."""
+        """The deformation relative to the unloaded element, d = psi - psi_0."""
         rest = [self.model.expression(e) for e in self.flexure.rest]
         return [self.graph.sub(p, r) for p, r in zip(self.deformation, rest, strict=True)]
 
@@ -215,7 +215,7 @@ class Flexing:
 
     @cached_property
     def damped(self) -> list[int]:
-        """What damping adds to them, tau F^-1 psi'."""
+        """The damping force and moment, tau F^-1 psi'."""
         damping = self.model.expression(self.flexure.damping)
         if damping == self.graph.zero:
             return [damping] * len(self.compliances)
@@ -223,7 +223,7 @@ class Flexing:
 
     @cached_property
     def gradient(self) -> list[int]:
-        """The derivatives of the energy by psi."""
+        """The gradient of the energy in psi."""
         g, v, c, k = self.graph, self.algebra, self.compliances, self.twelfth
         p, psi = self.stress, self.deformation
         if not self.spatial:
@@ -244,7 +244,7 @@ class Flexing:
         return [*v.sub(pu, v.cross(zw, pu)), *v.sub(pw, v.add(v.cross(zu, pu), v.cross(zw, pw)))]
 
     def pulled(self, force: Sequence[int]) -> list[int]:
-        """Return forces along the measures from those along psi."""
+        """Return the forces along the measures for forces along psi."""
         g, v, (c, slope, _, _) = self.graph, self.algebra, self.series
         if not self.spatial:
             turned = g.dot(self.values[:2], force[:2])
@@ -259,7 +259,7 @@ class Flexing:
         return [*on_s, *on_b, g.neg(by_x)]
 
     def exertions(self) -> list[Exertion]:
-        """Return what the element exerts along its measures; the first one has all of its energy and power."""
+        """Return the exertions along the measures; the first one carries the energy and power of the element."""
         g, force = self.graph, self.gradient
         energy = g.mul(g.constant(0.5), g.dot(self.excess, self.stress))
         power = g.zero

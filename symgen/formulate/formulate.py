@@ -1,7 +1,7 @@
 """From a mechanism to its equations: the only stage that uses SymPy.
 
-Derivation goes joint by joint and force by force; nothing is ever expanded, simplified or inverted over the whole
-system.
+Equations are derived joint by joint and force by force; no expression of the whole system is expanded, simplified or
+inverted.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def formulate(mechanism: Mechanism) -> Equations:
     Raises
     ------
     InputError
-        If products or sums of a mechanism's numbers overflow; says of which body, joint or force.
+        If products or sums of a mechanism's numbers overflow; it names the body, joint or force.
     """
     mechanism, repeats = without_repeats(mechanism)
     with finite_numbers("mechanism"):
@@ -89,7 +89,7 @@ def formulate(mechanism: Mechanism) -> Equations:
 
 
 def _bodies(model: ModelNodes) -> tuple[int, ...]:
-    """Return the motion of bodies that joints of a tree carry: coordinates, velocities, accelerations."""
+    """Return coordinates, velocities and accelerations of the bodies on a tree of joints."""
     if model.tree is None:
         return ()
     bodies, rates = model.mechanism.bodies, model.tree.accelerations(model.state_rates)
@@ -99,7 +99,7 @@ def _bodies(model: ModelNodes) -> tuple[int, ...]:
 
 
 def _spins(model: ModelNodes) -> tuple[tuple[int, int], ...]:
-    """Return where Euler parameters begin in q, and their angular velocities in v."""
+    """Return the first indices of Euler parameters in q and of their angular velocities in v."""
     if model.tree is not None:
         return tuple(model.tree.spins)
     return tuple(
@@ -141,7 +141,7 @@ def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
 
 
 def _size(model: ModelNodes, row: Row, entries: Mapping[int, int]) -> int | None:
-    """Return the square of a row over the velocities of bodies: translations, or rotations where it is an angle."""
+    """Return the square of a row over the translational velocities of bodies, or the angular ones for an angle."""
     if model.tree is None or any(i >= model.size for i in entries):
         return None
     speeds = [speed for body in model.mechanism.bodies for speed in body.speeds]
@@ -170,7 +170,7 @@ def _forces(model: ModelNodes) -> tuple[list[int], int, int]:
 
 
 def _inertia(model: ModelNodes, forces: list[int]) -> tuple[tuple[MassBlock, ...], int, int]:
-    """Return M, the kinetic energy and gravity's potential; adds weights and gyroscopic terms to `forces`."""
+    """Return M, the kinetic energy and gravity's potential; add weights and gyroscopic terms to `forces`."""
     g = model.graph
     gravity = tuple(model.expression(e) for e in model.mechanism.gravity)
     blocks: list[MassBlock] = []
@@ -200,10 +200,10 @@ def _inertia(model: ModelNodes, forces: list[int]) -> tuple[tuple[MassBlock, ...
 
 
 def with_rotors(model: ModelNodes, mass: tuple[MassBlock, ...], forces: list[int]) -> tuple[tuple[MassBlock, ...], int]:
-    """Return M with the rotors of joints, and their energy; adds to `forces` what their angles' rows change by.
+    """Return M with the rotors of joints, and their energy; add their inertia forces to `forces`.
 
     A rotor of inertia J adds J r^T r to M and -J r^T b to f, where the angle has the rate r v and the second derivative
-    r v' + b: constants where body axes are those of the state and the joint holds its axes parallel.
+    r v' + b: constants where the state has velocities in body axes and the joint keeps its axes parallel.
     """
     g, energy = model.graph, model.graph.zero
     if not model.mechanism.rotors:
@@ -231,9 +231,9 @@ def with_rotors(model: ModelNodes, mass: tuple[MassBlock, ...], forces: list[int
 
 
 def _about_axes(model: ModelNodes, rotor: Rotor) -> DerivedMeasure | None:
-    """Return the difference of two bodies' angular velocities about axes that a joint in space holds parallel.
+    """Return the difference of two bodies' angular velocities about axes that a joint in space keeps parallel.
 
-    That is the rate of its angle where the rows of the joint hold, with constant factors in body axes.
+    It is the rate of the joint's angle where its rows hold, with constant factors in body axes.
     """
     if model.tree is not None or not rotor.axes:
         return None
@@ -246,9 +246,9 @@ def _about_axes(model: ModelNodes, rotor: Rotor) -> DerivedMeasure | None:
 
 
 def _turning(model: ModelNodes, first: int, tensor: tuple[int, ...], blocks: list[MassBlock], forces: list[int]) -> int:
-    """Add the inertia of rotation to M and -omega x (I omega) to f; return the energy of rotation.
+    """Add the rotational inertia to M and -omega x (I omega) to f; return the rotational energy.
 
-    Written with differences of the principal entries, so that it vanishes for a body that is alike in all directions.
+    Differences of the diagonal entries make the gyroscopic term vanish for an isotropic body.
     """
     g = model.graph
     xx, yy, zz, xy, xz, yz = tensor

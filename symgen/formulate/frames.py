@@ -1,13 +1,13 @@
 """Frames of bodies in the plane and in space, and the derivation rule of the project.
 
 The entries c, s of a planar body's rotation matrix are symbols with a known derivative, A' = A [[0, -w], [w, 0]], so
-that an expression is differentiated along the motion without ever forming sin and cos of an angle, and stays small.
+that derivatives along the motion contain no sin and cos of an angle and stay small.
 
 In space A' = A skew(omega), angular velocity in body axes. A vector fixed in a body, r = A p, has the derivatives
-A (omega x p) and, where omega is held, A (omega x (omega x p)). Kernels are derived over the ground components of such
-vectors, so that the products in brackets, which all components share, are computed once. The entries of A are symbols;
-the model fills in the homogeneous form in Euler parameters (diagonal e0^2 + e1^2 - e2^2 - e3^2, ...), for which the
-rule is exact whatever their length.
+A (omega x p) and, for constant omega, A (omega x (omega x p)). Kernels are derived over the ground components of such
+vectors, so that the products in brackets, common to all components, are computed once. The entries of A are symbols;
+the model inserts the homogeneous form in Euler parameters (diagonal e0^2 + e1^2 - e2^2 - e3^2, ...), for which the
+rule is exact for any length of them.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Frame:
     prefix : str
         Distinguishes the frames of one kernel.
     kind : {"ground", "point", "rigid"}
-        Ground does not move; a point mass does not turn. In space a 3 follows.
+        Ground does not move; a point mass does not rotate. Kinds of space end in 3.
     """
 
     dimension, first_velocity = 2, 4
@@ -37,7 +37,7 @@ class Frame:
 
     def __init__(self, prefix: str, kind: str) -> None:
         self.prefix, self.moves, self.turns = prefix, not kind.startswith("ground"), kind.startswith("rigid")
-        #: Symbol of a vector's component -> its definition, in the order of computation; the plane needs none.
+        #: Symbol of a vector's component -> its definition, in the order of computation; empty in the plane.
         self.definitions: dict[Any, Any] = {}
 
     def symbol(self, slot: str) -> Any:
@@ -46,7 +46,7 @@ class Frame:
 
     @property
     def velocities(self) -> tuple[Any, ...]:
-        """Velocity symbols, those that multiply the columns of the row."""
+        """Velocity symbols, the factors of the columns of a row."""
         names = self.slots[self.first_velocity :]
         count = len(names) if self.turns else self.dimension if self.moves else 0
         return tuple(self.symbol(n) for n in names[:count])
@@ -118,7 +118,7 @@ class SpatialFrame(Frame):
         return self.symbol("wx"), self.symbol("wy"), self.symbol("wz")
 
     def rates(self) -> Mapping[Any, Any]:
-        """Return the derivative of each moving symbol along the motion, velocities held."""
+        """Return the derivative of each moving symbol along the motion, velocities constant."""
         return self._rates
 
     def column_entries(self, rate: Any) -> list[Any]:
@@ -154,7 +154,7 @@ class SpatialFrame(Frame):
         return self._vector("e", tuple(vector))
 
     def spin(self) -> Triple:
-        """Return the angular velocity in ground axes, whose derivative with omega held is zero."""
+        """Return the angular velocity in ground axes, whose derivative for constant omega is zero."""
         if not self.turns:
             return sp.S.Zero, sp.S.Zero, sp.S.Zero
         if ("w", ()) not in self._vectors:
@@ -168,7 +168,7 @@ class SpatialFrame(Frame):
         return self._vectors["w", ()]
 
     def _vector(self, what: str, local: tuple[Any, ...]) -> Triple:
-        """Return symbols of A p, plus the centre of mass for a point; their derivatives are registered with them."""
+        """Return symbols of A p, plus the centre of mass for a point, and register their derivatives."""
         symbols = self._vectors.get((what, local))
         if symbols is not None:
             return symbols
@@ -193,7 +193,7 @@ class SpatialFrame(Frame):
         return value
 
     def _local(self, name: str, vector: Triple) -> Triple:
-        """Name the components of a vector in body axes, so that they are computed once."""
+        """Introduce symbols for the components of a vector in body axes, so that they are computed once."""
         return self._symbols(name, vector) if self.turns else vector
 
     def _symbols(self, name: str, definition: Sequence[Any]) -> Triple:
@@ -208,7 +208,7 @@ def frame(prefix: str, kind: str) -> Frame:
 
 
 def along_motion(expression: Any, frames: Iterable[Frame]) -> Any:
-    """Return the time derivative of `expression` along the motion of `frames`, velocities held constant."""
+    """Return the time derivative of `expression` along the motion of `frames`, velocities constant."""
     total = sp.S.Zero
     for frame in frames:
         for symbol, rate in frame.rates().items():

@@ -1,8 +1,8 @@
 """One kernel per kind of measure: value, row and quadratic velocity term, derived once and used for every occurrence.
 
 For a measure s(q): s' = J v and s'' = J v' + b. The kernel gives s, the entries of J by body, and b. A velocity measure
-u(q, v) = J v (nonholonomic rows) gives J and b of u' = J v' + b. The pattern of which slots share a body is part of
-the kernel's key, so that a direction fixed in the body of a marker is differentiated together with it.
+u(q, v) = J v (nonholonomic rows) gives J and b of u' = J v' + b. The key of a kernel includes which slots share a body,
+so that a direction fixed in the body of a marker is differentiated together with it.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from symgen.ir.graph import Graph
 class Kernel:
     """A derived measure: a small graph whose inputs are slots.
 
-    Inputs are ``("slot", i)``: the frames' slots come first, frame by frame, then the constants (`constants` of them:
-    local points, directions, lengths). `row` holds, for each frame, the nodes of its velocity columns.
+    Inputs are ``("slot", i)``: first the frames' slots, frame by frame, then `constants` constants (local points,
+    directions, lengths). `row` holds, for each frame, the nodes of its velocity columns.
     """
 
     graph: Graph
@@ -92,7 +92,7 @@ def _direction_product(f: Frames, k: Constants) -> Any:
 
 
 def _spin(f: Frames, k: Constants) -> Any:
-    """Relative angular velocity along a direction; that of the direction's own body is taken in its axes."""
+    """Relative angular velocity along a direction; that of the direction's own body stays in body axes."""
     a, b, along = _spatial(f)
     total = sp.S.Zero
     for body, sign in ((b, 1), (a, -1)):
@@ -137,9 +137,9 @@ def _spatial(f: Frames) -> tuple[SpatialFrame, ...]:
     return tuple(frame for frame in f if isinstance(frame, SpatialFrame))
 
 
-#: Kind -> (expression of frames and constants, number of frames, its constants: v for a vector, s for a scalar, whether
-#: it is a velocity already). Those of a measure come from its fields: frames of bodies, points and directions; points,
-#: directions, then numbers.
+#: Kind -> (expression of frames and constants, number of frames, constants: v for a vector, s for a scalar, whether the
+#: expression is a velocity). The fields of a measure supply them: frames of bodies, points and directions; constants of
+#: points, directions, then numbers.
 _MEASURES: dict[str, tuple[_Build, int, str, bool]] = {
     "component": (_component, 3, "vvv", False),
     "distance": (_distance, 2, "vv", False),
@@ -165,7 +165,7 @@ def derive(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
         ``component``, ``distance``, ``half-square``, ``link-stretch``, ``point-speed``; in space also ``dot``,
         ``spin``, ``rim-height``, ``sphere-speed``, ``disc-speed`` or ``blade-speed``.
     frames : tuple of (slot, kind)
-        For each frame argument of the measure, which of the kernel's frames it is and what that frame is.
+        Frame of the kernel and its kind, for each frame argument of the measure.
     """
     build, count, pattern, is_rate = _MEASURES[kind]
     assert len(frames) == count, "the caller passes one frame for each of the measure's"

@@ -48,7 +48,7 @@ from symgen.vocabulary.measures import (
 class DerivedMeasure:
     """A measure in the model: value, row (velocity index -> node) and quadratic velocity term b of s'' = J v' + b.
 
-    `drift` is what s' has beside J v where s is a formula of t: 0 in all graphs but for those.
+    `drift` is s' - J v: 0 except for a formula of t.
     """
 
     value: int
@@ -63,7 +63,7 @@ class DerivedMeasure:
 
 @dataclass
 class ModelNodes(Formulas):
-    """The mechanism's names resolved to nodes: what every instantiation needs."""
+    """Nodes of the mechanism's names and measures."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -77,7 +77,7 @@ class ModelNodes(Formulas):
             self.names |= self.tree.names
         self._memo: dict[object, DerivedMeasure] = {}
         self._frames: dict[str, list[int]] = {}
-        #: Raw angles of measures that count turns, in the order of their slots in the section ``winding``.
+        #: Raw angles of measures with counted turns, in the order of their slots in the section ``winding``.
         self.windings: list[int] = []
 
     def kind(self, body: str) -> str:
@@ -139,7 +139,7 @@ class ModelNodes(Formulas):
         return [x, y, g.call("cos", theta), g.call("sin", theta), vx, vy, g.input("v", i + 2)]
 
     def reading(self, r: Reading) -> int:
-        """Return the node of a measure's value, rate, or second derivative, which needs v'."""
+        """Return the node of a measure's value, rate or second derivative; the last one requires v'."""
         if isinstance(r.source, Flexed):
             from symgen.formulate.flexure import flexed
 
@@ -154,7 +154,7 @@ class ModelNodes(Formulas):
 
     @property
     def accelerations(self) -> tuple[int, ...]:
-        """Nodes of the rates of the velocities of bodies, where the rate of the state is known."""
+        """Nodes of the accelerations of bodies, for graphs with the input v'."""
         g, rates = self.graph, self.state_rates
         if self.tree is None:
             return rates
@@ -163,12 +163,12 @@ class ModelNodes(Formulas):
 
     @property
     def state_rates(self) -> tuple[int, ...]:
-        """Nodes of v', where the rate of the state is known."""
+        """Nodes of v', for graphs with this input."""
         nq, nv = len(self.q_rates()), self.size if self.tree is None else self.tree.size
         return tuple(self.graph.input("ydot", nq + i) for i in range(nv))
 
     def pulled(self, row: Mapping[int, int], bias: int) -> tuple[dict[int, int], int, int]:
-        """Return a row over the velocities of the state, its quadratic velocity term, and what drivers add to J v."""
+        """Return a row over the velocities of the state, its quadratic velocity term and the drivers' part of J v."""
         if self.tree is None:
             return dict(row), bias, self.graph.zero
         g, pulled, drift = self.graph, dict[int, int](), self.graph.zero
@@ -190,7 +190,7 @@ class ModelNodes(Formulas):
         return derived
 
     def _coordinate(self, m: Measure) -> DerivedMeasure | None:
-        """Return a measure that is a coordinate of the state: its rate stands behind the velocities of bodies."""
+        """Return a measure that is a coordinate of the state: its rate follows the velocities of bodies."""
         if self.tree is None or m not in self.tree.measures:
             return None
         g, (coordinate, velocity, sign) = self.graph, self.tree.measures[m]
@@ -210,11 +210,11 @@ class ModelNodes(Formulas):
         kind = m.__struct_config__.tag
         assert isinstance(kind, str), "measures are tagged by the names of their kernels"
         derived = self._kernel(kind, bodies, constants)
-        # the angular velocity is no rate of a measure, so that there is nothing to report as its value
+        # the angular velocity is not the rate of a measure: the value is 0
         return DerivedMeasure(self.graph.zero, derived.row, derived.bias) if isinstance(m, Spin) else derived
 
     def _parts(self, m: Measure) -> tuple[tuple[str, ...], list[int]]:
-        """Return the bodies of a measure's frames, and its constants: points, then directions, then numbers."""
+        """Return the bodies of a measure's frames and its constants: points, directions, then numbers."""
         fields = [getattr(m, name) for name in m.__struct_fields__]
         points = [x for x in fields if isinstance(x, Marker)]
         directions = [x for x in fields if isinstance(x, Direction)]
@@ -225,7 +225,7 @@ class ModelNodes(Formulas):
         return tuple(bodies), [*located, *turned, *map(self.expression, numbers)]
 
     def motion(self, m: Measure | Speed) -> DerivedMeasure:
-        """Return a measure, or a velocity that is no rate of one, whose value is 0."""
+        """Return a measure, or a velocity that is not the rate of one, with the value 0."""
         if isinstance(m, Speed):
             derived = self.speed(m)
             return DerivedMeasure(self.graph.zero, derived.row, derived.bias)
@@ -260,9 +260,9 @@ class ModelNodes(Formulas):
         return self._kernel("disc-speed", bodies, [*constants, *self.direction(speed.axis)])
 
     def _formula(self, m: FormulaMeasure | FormulaSpeed) -> DerivedMeasure:
-        """Return a formula of what moves, x: s' = c x' + d with c = ds/dx, s'' = c x'' + (ds'/dx) x' + ds'/dt.
+        """Return a formula of moving quantities x: s' = c x' + d with c = ds/dx, s'' = c x'' + (ds'/dx) x' + ds'/dt.
 
-        Of a velocity u = c x' + d the rate is u' = c x'' + (du/dx) x' + du/dt.
+        A velocity u = c x' + d has the rate u' = c x'' + (du/dx) x' + du/dt.
         """
         g, leaves = self.graph, moving(m.of)
         derived = [self._leaf(leaf) for leaf in leaves]
@@ -274,7 +274,7 @@ class ModelNodes(Formulas):
         value = self.expression(with_names(m.of, names), **places)
 
         def along(node: int) -> int:
-            """Return the derivative along the motion, rates held."""
+            """Return the derivative along the motion, rates constant."""
             slopes = jacobian(g, [node], [key for key in keys if key[0] == "value"] + [("t", 0)])[0]
             return g.total(
                 slope if key == ("t", 0) else g.mul(slope, rates[key[1]]) for key, slope in sorted(slopes.items())
@@ -296,9 +296,9 @@ class ModelNodes(Formulas):
         return DerivedMeasure(value, {j: n for j, n in sorted(row.items()) if n != g.zero}, bias, drift)
 
     def _leaf(self, leaf: Name | Reading) -> DerivedMeasure:
-        """Return what moves in a formula: a measure, or a coordinate or velocity of a body as one.
+        """Return a moving quantity of a formula: a measure, or a coordinate or velocity of a body as a measure.
 
-        Velocities of bodies on a tree are those of a point that its joint chooses, not those of their centres.
+        Velocities of bodies on a tree are those of the joint's point, not of the centre of mass.
         """
         if isinstance(leaf, Reading):
             assert not isinstance(leaf.source, Exerted | Driven | Integral | Flexed), "rows read measures"
@@ -313,7 +313,7 @@ class ModelNodes(Formulas):
         return self.measure(Component(origin, Marker(body, centre), axes(GROUND, dimension)[i]))
 
     def _turn(self, m: Turning) -> DerivedMeasure:
-        """Return an angle in space, on the branch nearest to the angle that the section ``winding`` remembers.
+        """Return an angle in space, on the branch nearest to its value in the section ``winding``.
 
         s = atan2(y, x) of two measures, s' = (x y' - y x') / (x^2 + y^2), and s'' once more by the chain rule.
         """
@@ -340,7 +340,7 @@ class ModelNodes(Formulas):
         return DerivedMeasure(value, {i: n for i, n in row.items() if n != g.zero}, bias)
 
     def place_of_turn(self, m: Measure) -> int:
-        """Return where the section ``winding`` remembers an angle: behind those that were derived before."""
+        """Return the slot of an angle in the section ``winding``: after those of the angles derived before."""
         return len(self.windings)
 
     def _angle(self, m: Angle) -> DerivedMeasure:

@@ -1,8 +1,8 @@
-"""Formulas with their derivatives: of time and parameters, which rows and drivers follow, and potentials.
+"""Derivatives of formulas: motions of rows and drivers over time and parameters, and potentials.
 
-SymPy differentiates. It takes every part of a formula that it does not know better for a complex number: the derivative
-of ``abs(log(t))`` has real and imaginary parts, and a condition on a choice between numbers is none to it. Where it
-gives what has no place among real numbers, the rules of the graph are used instead, one operation after the other.
+SymPy differentiates. It treats every part of a formula as complex unless it can prove it real: the derivative of
+``abs(log(t))`` has real and imaginary parts, and a condition on a choice between numbers is invalid. Where its
+result is not real, the rules of the graph are applied instead, operation by operation.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def translated(model: ModelNodes, symbols: dict[str, Any], expressions: list[Any
 
 
 def time_function(model: ModelNodes, e: Expr) -> tuple[int, int, int]:
-    """Return value, first and second time derivative of a formula of t and parameters."""
+    """Return the value and the first two time derivatives of a formula of t and parameters."""
     g = model.graph
     if "t" not in names(e):
         return model.expression(e), g.zero, g.zero
@@ -54,7 +54,7 @@ def time_function(model: ModelNodes, e: Expr) -> tuple[int, int, int]:
 
 
 def potential_of(model: ModelNodes, e: Expr, s: int) -> tuple[int, int]:
-    """Return -dU/ds and U of a formula U of ``s``, which is `s`, and parameters."""
+    """Return -dU/ds and U of a formula U of parameters and ``s``, the node `s`."""
     symbols = as_symbols(e, "s")
     try:
         potential = to_sympy(e, symbols)
@@ -68,15 +68,15 @@ def potential_of(model: ModelNodes, e: Expr, s: int) -> tuple[int, int]:
 
 
 def _slope(g: Graph, node: int, key: tuple[str, int]) -> int:
-    """Return the derivative of a node by an input, from the rules of the graph."""
+    """Return the derivative of a node with respect to an input, by the rules of the graph."""
     return jacobian(g, [node], [key])[0].get(key, g.zero)
 
 
 class Coordinate(NamedTuple):
-    """A coordinate of a tree as nodes, with its rate and what is known of that one's rate.
+    """A coordinate of a tree as nodes, with its rate and the prescribed part of its acceleration.
 
-    `number` is that of its velocity in the state, below 0 where a driver prescribes it; then `acceleration` is all of
-    it, else 0.
+    `number` is the index of its velocity in the state, below 0 where a driver prescribes it; then `acceleration` is the
+    complete acceleration, else 0.
     """
 
     number: int
@@ -101,7 +101,7 @@ def driving_of(
     mass: Mapping[tuple[int, int], int],
     forces: Mapping[int, int],
 ) -> DriverPower | None:
-    """Return the power of drivers from their rows of M and f, None where there are none."""
+    """Return the power of drivers from their rows of M and f, None without drivers."""
     driven = {i: c for i, c in coordinates.items() if i < 0}
     if not driven:
         return None

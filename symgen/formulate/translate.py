@@ -1,4 +1,4 @@
-"""SymPy into the graph, and formulas of a file into SymPy where a derivative is wanted."""
+"""Translation of SymPy into the graph, and of formulas of a file into SymPy for differentiation."""
 
 from __future__ import annotations
 
@@ -45,14 +45,14 @@ _FROM_SYMPY = {function: name for name, function in TO_SYMPY.items() if isinstan
 
 
 class NotReal(TypeError):
-    """SymPy cannot tell that a part of a formula is a real number, and so has no use for it or no real derivative."""
+    """SymPy cannot prove a part of a formula real: it rejects the part or finds no real derivative."""
 
 
 class Translator:
     """Translates SymPy expressions over known symbols into nodes of one graph.
 
-    Common subexpressions over all outputs are taken out by SymPy first (``order="canonical"``), which finds parts
-    of sums and products that hash-consing of binary operations alone would miss.
+    SymPy first extracts common subexpressions of all outputs (``order="canonical"``): parts of sums and products
+    that hash-consing of binary operations alone would miss.
     """
 
     def __init__(self, graph: Graph, symbols: Mapping[Any, int]) -> None:
@@ -86,7 +86,7 @@ class Translator:
             return self._product(e)
         if e.is_Pow:
             return g.power(self.node(e.base), self.node(e.exp))
-        if isinstance(e, sp.Heaviside):  # slope of min and max; which side the kink itself counts to is a convention
+        if isinstance(e, sp.Heaviside):  # slope of min and max; its value at the kink is a convention
             return self.functions.call("step", self.node(e.args[0]), g.zero)
         if isinstance(e, sp.DiracDelta):  # slope of a jump: zero everywhere else
             return g.zero
@@ -111,7 +111,7 @@ class Translator:
         return g.div(above, below)
 
     def _call(self, function: str, first: Any, *others: Any) -> int:
-        """Return a function of one or two arguments, or of more from the left."""
+        """Return a function of one or two arguments; with more it is applied from the left."""
         result = self.node(first)
         if not others:
             return self.functions.call(function, result)
@@ -128,16 +128,16 @@ class Translator:
 
 
 class _Table(sp.Function):  # type: ignore[misc]  # SymPy is untyped
-    """An interpolated table or a derivative of it as a SymPy function; subclasses know which."""
+    """An interpolated table, or its derivative, as a SymPy function; each has a subclass."""
 
     payload = ""
 
 
-@cache  # SymPy takes two classes for two functions, whatever their names
+@cache  # SymPy treats two classes as two functions, whatever their names
 def table_function(payload: str) -> Any:
-    """Return the function with the payload of a table's operation on the graph.
+    """Return the SymPy function for the payload of a table's operation on the graph.
 
-    The slope of straight lines is constant between their points: its own derivative is zero.
+    The slope of a linear interpolation is constant between points: its derivative is zero.
     """
     name, what = of_table(payload)
     last = not payload.startswith(SMOOTH) and what == "slope"
@@ -149,12 +149,12 @@ def table_function(payload: str) -> Any:
 
 
 def to_sympy(expression: Expr, symbols: Mapping[str, Any]) -> Any:
-    """Return `expression` as a SymPy expression over `symbols`; only node kinds of the file's own tree reach SymPy.
+    """Return `expression` as a SymPy expression over `symbols`; SymPy receives node kinds of the file's tree alone.
 
     Raises
     ------
     NotReal
-        If it compares what SymPy knows to be no real number.
+        If it compares a value that SymPy proves not to be real.
     """
     if isinstance(expression, Number):
         value = expression.value  # whole exponents keep derivatives polynomial

@@ -1,4 +1,4 @@
-"""Bodies on a tree of joints: what trees in the plane and in space have in common, and the energies of their bodies."""
+"""Bodies on a tree of joints: the common part of trees in the plane and in space, and the energies of bodies."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class Tree(ABC):
     """Bodies on a tree of joints.
 
-    Rows and forces of a mechanism are derived over the velocities of bodies: of a point of each, and its angular
+    Rows and forces of a mechanism are derived over the velocities of bodies: of a point of each body, and its angular
     velocity. Here these follow from the velocities of the state: u = B v + b, with derivative B v' + c.
 
     Attributes
@@ -28,16 +28,16 @@ class Tree(ABC):
     velocities, biases : tuple of int
         u, and c; one node for each velocity of a body.
     columns : list of mapping
-        Rows of B: velocities of the state and nodes. What drivers prescribe has an index below 0: the velocity of a
-        body has a part with that column and its rate.
+        Rows of B: velocities of the state and nodes. Prescribed coordinates have indices below 0: the velocity of a
+        body contains that column times their rate.
     q_rates : list of int
         q' of the state.
     spins : list of (int, int)
-        Where Euler parameters begin in q, and their angular velocities in v.
+        First indices of Euler parameters in q and of their angular velocities in v.
     names : dict of str to int
         Nodes of the coordinates and velocities of bodies, centres of mass among them, by their names.
     coordinates : dict of int to Coordinate
-        The coordinates of joints by `Coordinate.number`.
+        Joint coordinates by `Coordinate.number`.
     measures : dict
         Measures that are coordinates of the state, see `symgen.describe.topology.state_measures`.
     """
@@ -69,11 +69,11 @@ class Tree(ABC):
 
     @abstractmethod
     def place(self, link: Link) -> None:
-        """Place the body of a link, those that carry it being in their places."""
+        """Place the body of a link after its ancestors."""
 
     @abstractmethod
     def velocities_of_bodies(self) -> tuple[Sequence[int], Sequence[int]]:
-        """Return u and c of all bodies, and note the rows of B and the names of their coordinates and velocities."""
+        """Return u and c of all bodies, and store the rows of B and the nodes of their coordinates and velocities."""
 
     @abstractmethod
     def frame(self, body: str) -> list[int]:
@@ -85,28 +85,28 @@ class Tree(ABC):
 
     @abstractmethod
     def speed(self, body: str) -> list[int]:
-        """Return the velocity of a centre of mass in some axes."""
+        """Return the velocity of a centre of mass, in ground or body axes."""
 
     @abstractmethod
     def weight(self, body: str, force: list[int]) -> dict[int, int]:
-        """Return a force at the centre of mass, in ground axes, as one on the velocities of bodies."""
+        """Return a force at the centre of mass, in ground axes, over the velocities of bodies."""
 
     @abstractmethod
     def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int], DriverPower | None]:
-        """Return M and f of the state, from forces on the velocities of bodies, inertia apart; the power of drivers."""
+        """Return M and f of the state and the power of drivers; `forces` are over the velocities of bodies."""
 
     @abstractmethod
     def metric(self) -> tuple[MassBlock, ...]:
-        """Return the metric of the velocities of bodies, centres of mass and angular ones, pulled back."""
+        """Return the metric of the bodies' centre-of-mass and angular velocities, pulled back."""
 
     def velocity(self) -> int:
-        """Return the index of another velocity of the state that is the rate of its own coordinate."""
+        """Add a velocity to the state that is the rate of its coordinate; return its index."""
         self.q_rates.append(self.graph.input("v", self.size))
         self.size, self.count = self.size + 1, self.count + 1
         return self.size - 1
 
     def coordinate(self, body: str, label: str) -> Coordinate:
-        """Return the next coordinate of the state, unless a driver prescribes it."""
+        """Return a prescribed coordinate, or else a new coordinate of the state."""
         g, coordinate = self.graph, self.prescribed.get((body, label))
         if coordinate is None:
             q, i = g.input("q", self.count), self.velocity()
@@ -115,15 +115,15 @@ class Tree(ABC):
         return coordinate
 
     def blocks(self, mass: Mapping[tuple[int, int], int]) -> tuple[MassBlock, ...]:
-        """Return the blocks of M without what drivers prescribe."""
+        """Return the blocks of M without prescribed coordinates."""
         own = {(i, j): node for (i, j), node in mass.items() if min(i, j) >= 0}
         return mass_blocks(own, self.size, self.graph.zero)
 
 
 def energies_on_tree(model: ModelNodes, forces: list[int]) -> tuple[int, int]:
-    """Return the kinetic energy and gravity's potential of bodies on a tree; adds weights to `forces`.
+    """Return the kinetic energy and gravity's potential of bodies on a tree; add weights to `forces`.
 
-    Energies are those of the bodies' own velocities, not of M: they hold M to account in the balance of a run.
+    Energies come from the bodies' velocities, not from M: the energy balance of a run thus checks M.
     """
     g, names = model.graph, model.names
     gravity = tuple(model.expression(e) for e in model.mechanism.gravity)

@@ -1,10 +1,9 @@
-"""M and f of bodies in space on a tree: composite inertias, and the recursion of Newton and Euler from the leaves in.
+"""M and f of bodies in space on a tree: composite inertias and the recursive Newton-Euler algorithm, leaves first.
 
-Bodies that are welded to what carries them are one body with it: their inertia is added to its own where it is
-constant, and only the forces on them are carried in. A hinge feels nothing of a thin rod along its axis, a ball
-nothing of a mass in its middle: as much of a body's inertia counts as part of what carries it, which leaves it without
-mass and moves no entry of M or f (base parameters; Khalil and Dombre, Modeling, Identification and Control of Robots,
-2002, section 9.4).
+The constant inertia of a body welded to its parent is added to the parent's own; only the forces on it are propagated
+inwards. A thin rod along the axis of a hinge, or a mass at the centre of a ball joint, does not act on that joint: this
+part of a body's inertia is transferred to the parent, which leaves the body without mass and changes no entry of M or
+f (base parameters; Khalil and Dombre, Modeling, Identification and Control of Robots, 2002, section 9.4).
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class BodyVelocity:
-    """What a velocity of the state does to the body of its link: turns it about, and moves it along, in its axes."""
+    """Rotation and translation of a link's body by a velocity of the state, in body axes: `about` and `along`."""
 
     about: Triple
     along: Triple
@@ -33,16 +32,16 @@ class BodyVelocity:
 
 @dataclass
 class Placed:
-    """A body where its joint holds it, as nodes; vectors in the body's axes unless said otherwise.
+    """The place and motion of a body as nodes; vectors in body axes unless stated otherwise.
 
     Attributes
     ----------
     turn : Matrix
-        From the body's axes to those of what carries it.
+        From the body's axes to its parent's.
     arm : Triple
-        From the point of what carries it to its own, in the axes of what carries it.
+        From the parent's point to its own, in the parent's axes.
     own : bool
-        Whether its orientation is its own, so that what carries it does not turn it.
+        Whether its orientation is independent of the parent's.
     axes : Matrix
         From its axes to the ground's.
     at : Triple
@@ -52,7 +51,7 @@ class Placed:
     alpha, bias : Triple
         Angular acceleration, and acceleration of its point less gravity, where v' is 0.
     whirl : Matrix
-        What makes of a place in the body the acceleration against that of its point, where v' is 0.
+        Maps a position in the body to its acceleration relative to the body's point, where v' is 0.
     motions : mapping of int to BodyVelocity
         Velocities of the state that belong to its link.
     columns : mapping of int to (Triple, Triple)
@@ -62,8 +61,7 @@ class Placed:
     euler : sequence of int
         Euler parameters.
     hinge : (Triple, Triple) or None
-        Of a body that turns about an axis alone: this axis, in its own axes and in those of what carries it; zeros
-        where it turns about a point alone.
+        The axis of a body on a hinge, in its own and in the parent's axes; zeros for a body on a ball joint.
     """
 
     link: Link
@@ -87,7 +85,7 @@ class Placed:
 
 @dataclass(frozen=True)
 class Inertia:
-    """Mass, first and second moment about the point of a body, in its axes."""
+    """Mass, first and second moment about the point of a body, in body axes."""
 
     mass: int
     first: Triple
@@ -95,23 +93,23 @@ class Inertia:
 
 
 def welded(p: Placed) -> bool:
-    """Whether a body is rigid with the body that carries it."""
+    """Whether a body is rigidly attached to its parent."""
     return not p.motions and not p.own and p.link.parent != GROUND
 
 
 class Composite:
-    """The bodies of a tree with all that hangs on them.
+    """The composite bodies of a tree: each body with its subtree.
 
     Parameters
     ----------
     model : ModelNodes
         The mechanism.
     placed : mapping of str to Placed
-        Its bodies in an order in which each stands behind what carries it, the ground among them.
+        Its bodies and the ground, each after its parent.
     forces : list of int
-        On the velocities of bodies, and behind these on those of the state; gravity and inertia apart.
+        Over the velocities of bodies, then over those of the state; without gravity and inertia.
     alike : bool
-        Whether all bodies have mass 1 and inertia 1 in all directions: M is the metric of their velocities then.
+        Whether all bodies have mass 1 and inertia 1 in all directions: M is then the metric of their velocities.
     """
 
     def __init__(self, model: ModelNodes, placed: Mapping[str, Placed], forces: list[int], alike: bool = False) -> None:
@@ -119,7 +117,7 @@ class Composite:
         self.v = Vectors(model.graph)
         self.order = [name for name in placed if name != GROUND]
         self.rigid: dict[str, Inertia] = {}
-        self.transferred: dict[str, Inertia] = {}  # what a body leaves to what carries it, about the point of that
+        self.transferred: dict[str, Inertia] = {}  # part of a body's inertia for its parent, about the parent's point
         self.hanging: dict[str, Inertia] = {}
         self.push: dict[str, Triple] = {}
         self.torque: dict[str, Triple] = {}
@@ -132,7 +130,7 @@ class Composite:
     # -- inertia -------------------------------------------------------------------------------------------------------
 
     def _rigid(self, name: str) -> Inertia:
-        """Return the inertia of a body with all that is welded to it."""
+        """Return the inertia of a body with the bodies welded to it."""
         v, body, p = self.v, self.model.mechanism.body(name), self.placed[name]
         assert isinstance(body, SpatialBody), "bodies in space"
         m = self.model.graph.one if self.alike else self.model.expression(body.mass)
@@ -151,7 +149,7 @@ class Composite:
         return inertia
 
     def _without_rod(self, name: str, inertia: Inertia) -> Inertia:
-        """Return an inertia without what its joint does not feel, which is noted as given to what carries it."""
+        """Return an inertia without the part that does not act on its joint, and record that part for the parent."""
         g, v, p = self.model.graph, self.v, self.placed[name]
         if p.hinge is None:
             return inertia
@@ -164,7 +162,7 @@ class Composite:
         first, second = list(inertia.first), [list(row) for row in inertia.second]
         j, k = (i + 1) % 3, (i + 2) % 3
         turned = v.scale(g.mul(g.constant(sign), first[i]), beside)
-        # of the second moments by coordinates, the one along the axis
+        # the second moment by coordinates along the axis
         along = g.mul(g.constant(0.5), g.sub(g.add(second[j][j], second[k][k]), second[i][i]))
         rod = v.shifted(v.scale(along, beside), beside)
         first[i] = g.zero
@@ -174,11 +172,11 @@ class Composite:
         return Inertia(g.zero, v.triple(first), (v.triple(second[0]), v.triple(second[1]), v.triple(second[2])))
 
     def _hanging(self, name: str) -> Inertia:
-        """Return the inertia of a body with all that hangs on it."""
+        """Return the inertia of a body with its subtree."""
         inertia, v = self.rigid[name], self.v
         for child in self.placed[name].children:
             c, own = self.placed[child], self.hanging[child]
-            if welded(c):  # what is rigid with it is there already
+            if welded(c):  # the rigid part is already included
                 less = self.rigid[child]
                 second = tuple(v.sub(a, b) for a, b in zip(own.second, less.second, strict=True))
                 rest = v.sub(own.first, less.first), (second[0], second[1], second[2])
@@ -191,10 +189,10 @@ class Composite:
         return Inertia(self.model.graph.add(a.mass, b.mass), v.add(a.first, b.first), v.plus(a.second, b.second))
 
     def _carried(self, c: Placed, own: Inertia) -> Inertia:
-        """Return an inertia about the point of what carries it, in the axes of that."""
+        """Return an inertia about the parent's point, in the parent's axes."""
         v = self.v
         shift = v.scale(own.mass, c.arm)
-        if c.own:  # a body that is turned by nothing else counts as a point in its joint
+        if c.own:  # a body with its own orientation acts as a point mass in its joint
             return Inertia(own.mass, shift, v.shifted(shift, c.arm))
         turned = v.times(c.turn, own.first)
         double = v.add(shift, turned, turned)
@@ -203,12 +201,12 @@ class Composite:
     # -- forces --------------------------------------------------------------------------------------------------------
 
     def _taken(self, name: str) -> tuple[Triple, Triple]:
-        """Return force and torque about its point that a body takes from its joint where v' is 0."""
+        """Return force and torque of the joint on its body, about the body's point, where v' is 0."""
         v, p, first = self.v, self.placed[name], self.model.first[name]
         is_point = self.model.mechanism.body(name).is_point
         push = v.neg(v.back(p.axes, v.triple(self.forces[first : first + 3])))
         torque = v.zero if is_point else v.neg(v.triple(self.forces[first + 3 : first + 6]))
-        if not welded(p):  # else its inertia is part of that of what carries it
+        if not welded(p):  # else its inertia is part of the parent's
             m, h, j = self.rigid[name].mass, self.rigid[name].first, self.rigid[name].second
             push = v.add(push, v.scale(m, p.bias), v.times(p.whirl, h))
             torque = v.add(torque, v.moment(p.whirl, j), v.cross(h, p.bias))
@@ -222,7 +220,7 @@ class Composite:
         return push, torque
 
     def force(self) -> dict[int, int]:
-        """Return f by velocities, those among them that drivers prescribe."""
+        """Return f by velocity, including those that drivers prescribe."""
         g, v = self.model.graph, self.v
         f = dict(enumerate(self.forces[self.model.size :]))
         for name in self.order:
@@ -232,7 +230,7 @@ class Composite:
         return f
 
     def mass(self) -> dict[tuple[int, int], int]:
-        """Return the entries of M: what each velocity gives of momentum, carried in to the velocities before it."""
+        """Return the entries of M: the momentum of each velocity, propagated inwards to the velocities before it."""
         g, v = self.model.graph, self.v
         entries: dict[tuple[int, int], int] = {}
         for name in self.order:

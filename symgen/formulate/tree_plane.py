@@ -1,14 +1,14 @@
 """Bodies of the plane on a tree of joints: positions, velocities, M and f from the angles of bodies and displacements.
 
-The point of a body that moves with its joint is the origin of its frame here, so that the angle of the body itself does
-not move it. Angles are those of bodies against the ground: the entry of M between two angles is one product of two
-vectors then, and there are no sums of angles. Bodies that do not turn against what carries them share its angle.
+The origin of a body's frame is its joint's point, so that the angle of the body itself does not move it. Angles are
+relative to the ground: the entry of M between two angles is then one product of two vectors, without sums of angles.
+Bodies that do not rotate relative to their parent share its angle.
 
-Composite bodies: with m, mu and J the mass, first and second moment about the joint's point of all that hangs on a body
-(bodies that turn by an angle of their own count as points in their joints), the velocity of an angle gives the
-momentum perp(mu), and one of a displacement along e the momentum m e; Featherstone, Rigid Body Dynamics Algorithms
-(2008), chapter 6, written for angles against the ground. What v' = 0 leaves of the accelerations is carried outwards
-and the forces it takes inwards, as in the recursion of Newton and Euler (chapter 5).
+Composite bodies: with m, mu and J the mass, first and second moment of a body's subtree about the joint's point
+(bodies with an angle of their own count as points in their joints), the velocity of an angle gives the momentum
+perp(mu), and that of a displacement along e the momentum m e; Featherstone, Rigid Body Dynamics Algorithms (2008),
+chapter 6, with angles relative to the ground. The accelerations at v' = 0 are propagated outwards and their forces
+inwards, as in the recursive Newton-Euler algorithm (chapter 5).
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class _PlanarPlace:
-    """A body where its joint holds it, as nodes.
+    """The place and motion of a body as nodes.
 
     Attributes
     ----------
@@ -39,21 +39,21 @@ class _PlanarPlace:
     axes : pair of int
         Cosine and sine of the angle.
     turners : tuple of int
-        Velocities that turn the body, by their indices: one of the state, and those of drivers.
+        Indices of the velocities that rotate the body: one of the state, and those of drivers.
     angle, spin, gain : int
-        Its angle, its angular velocity, and of that one's rate what is known.
+        Its angle, its angular velocity, and the prescribed part of its angular acceleration.
     follows : bool
-        Whether it turns with what carries it.
+        Whether it rotates with its parent.
     arm : pair of int
-        From the point of what carries it to its own.
+        From the parent's point to its own.
     local : pair of int, optional
-        The same in the frame of what carries it, where it is constant there.
+        The arm in the parent's frame, if constant there.
     columns : mapping of int to pair
         Velocity of the state, or of a driver -> derivative of `velocity` by it.
     slides : mapping of int to pair
-        Those of the body's own displacements, with their directions.
+        Velocities of the body's own displacements -> their directions.
     sliding, pulled : pair of int
-        The velocity of the arm by these, and what is known of its rate.
+        The velocity of the arm by these, and the prescribed part of its rate.
     centre : pair of int
         The centre of mass from the joint's point, in the body's frame.
     """
@@ -78,7 +78,7 @@ class _PlanarPlace:
 
     @property
     def group(self) -> int:
-        """The velocity of the state that turns the body, -1 where there is none."""
+        """The velocity of the state that rotates the body, or -1."""
         return max((i for i in self.turners if i >= 0), default=-1)
 
 
@@ -196,7 +196,7 @@ class PlanarTree(Tree):
         )
 
     def _free(self, link: Link, body: Body) -> None:
-        """Place a body that no joint holds: its centre of mass moves as it likes."""
+        """Place a body without a joint: its centre of mass moves freely."""
         g = self.graph
         at = g.input("q", self.count), g.input("q", self.count + 1)
         x, y = self.velocity(), self.velocity()
@@ -223,7 +223,7 @@ class PlanarTree(Tree):
         return g.sub(com[0], at[0]), g.sub(com[1], at[1])
 
     def _name(self, body: Body, p: _PlanarPlace) -> None:
-        """Note the coordinates and velocities of a body by their names."""
+        """Store the coordinates and velocities of a body by their names."""
         rho = self.v.rotate(p.axes, p.centre)
         place = self.v.add(p.at, rho)
         speed = self.v.add(p.velocity, self.v.scale(p.spin, self.v.perp(rho)))
@@ -254,11 +254,11 @@ class PlanarTree(Tree):
         return accelerations
 
     def speed(self, body: str) -> list[int]:
-        """Return the velocity of a centre of mass in some axes."""
+        """Return the velocity of a centre of mass in ground axes."""
         return [self.names[f"{body}.{name}"] for name in ("vx", "vy")]
 
     def weight(self, body: str, force: list[int]) -> dict[int, int]:
-        """Return a force at the centre of mass, in ground axes, as one on the velocities of bodies."""
+        """Return a force at the centre of mass, in ground axes, over the velocities of bodies."""
         p, first = self.placed[body], self.model.first[body]
         forces = {first: force[0], first + 1: force[1]}
         if not self.model.mechanism.body(body).is_point:
@@ -268,13 +268,13 @@ class PlanarTree(Tree):
     # -- M and f -------------------------------------------------------------------------------------------------------
 
     def metric(self) -> tuple[MassBlock, ...]:
-        """Return the metric of the velocities of bodies, pulled back: M if all had mass 1 and inertia 1."""
+        """Return the metric of the velocities of bodies, pulled back: M for masses and inertias of 1."""
         return self.dynamics([self.graph.zero] * len(self.velocities), alike=True)[0]
 
     def dynamics(
         self, forces: list[int], alike: bool = False
     ) -> tuple[tuple[MassBlock, ...], list[int], DriverPower | None]:
-        """Return M and f of the state, from forces on the velocities of bodies, inertia apart; the power of drivers."""
+        """Return M and f of the state and the power of drivers; `forces` are over the velocities of bodies."""
         g, model = self.graph, self.model
         masses, moments, seconds = dict[str, int](), dict[str, Pair](), dict[str, int]()
         pushes, turns = dict[str, Pair](), dict[str, int]()
@@ -284,7 +284,7 @@ class PlanarTree(Tree):
             body, p = model.mechanism.body(name), self.placed[name]
             assert isinstance(body, Body), "bodies of the plane"
             m = g.one if alike else model.expression(body.mass)
-            fixed = self.v.scale(m, p.centre)  # of the first moment, what is constant in the body's frame
+            fixed = self.v.scale(m, p.centre)  # the part of the first moment that is constant in the body's frame
             second = g.mul(m, g.dot(p.centre, p.centre))
             if not body.is_point:
                 second = g.add(g.one if alike or body.inertia is None else model.expression(body.inertia), second)
@@ -342,7 +342,7 @@ class PlanarTree(Tree):
             for k in p.turners[len(self.placed[p.link.parent].turners) if p.follows else 0 :]:
                 for j, column in p.columns.items():
                     entry = g.dot(self.v.perp(mu), column)
-                    if j in p.turners:  # the body turns with it, about its point
+                    if j in p.turners:  # the body rotates with it, about its point
                         entry = g.add(entry, seconds[name])
                     entries[k, j] = entries[j, k] = entry
                 entries[k, k] = seconds[name]

@@ -1,10 +1,10 @@
 """Bodies in space on a tree of joints: positions, velocities, M and f from joint coordinates.
 
-The point of a body that moves with its joint is the origin of its frame here. Vectors of a body stand in its own axes,
-where its inertia is constant: velocities are carried outwards, forces and composite inertias inwards (the recursive
-Newton-Euler and the composite-rigid-body algorithm; Featherstone, Rigid Body Dynamics Algorithms, 2008, chapters 5 and
-6). Gravity is an acceleration of the ground. Balls and free bodies have Euler parameters and angular velocities of
-their own, against the ground: what carries such a body moves its joint's point but does not turn it.
+The origin of a body's frame is its joint's point. Vectors of a body are in its own axes, where its inertia is constant:
+velocities are propagated outwards, forces and composite inertias inwards (the recursive Newton-Euler and the
+composite-rigid-body algorithm; Featherstone, Rigid Body Dynamics Algorithms, 2008, chapters 5 and 6). Gravity is an
+acceleration of the ground. Bodies on ball joints and free bodies have Euler parameters and angular velocities relative
+to the ground: the parent of such a body moves its joint's point but does not rotate it.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class SpatialTree(Tree):
     # -- positions and velocities --------------------------------------------------------------------------------------
 
     def _ball(self) -> tuple[list[int], list[int]]:
-        """Return Euler parameters, and the indices of the angular velocity that goes with them."""
+        """Return Euler parameters and the indices of their angular velocity."""
         g = self.graph
         e = [g.input("q", self.count + k) for k in range(4)]
         indices = list(range(self.size, self.size + 3))
@@ -83,7 +83,7 @@ class SpatialTree(Tree):
         parent.children.append(link.body)
         joint = link.articulation
         motions: dict[int, BodyVelocity] = {}
-        rate = gained = v.zero  # of the arm, in the parent's axes; and what is known of that one's rate
+        rate = gained = v.zero  # of the arm, in the parent's axes, and the prescribed part of its rate
         if joint is None:
             reference = body.centre_of_mass
             first = self.count
@@ -176,7 +176,7 @@ class SpatialTree(Tree):
         )
 
     def _hinge(self, link: Link, body: SpatialBody) -> tuple[Triple, Triple] | None:
-        """Return the axis that a body turns about, if that is all that it does."""
+        """Return the axis of a body that only rotates about it, zeros for a ball joint, else None."""
         joint, v = link.articulation, self.v
         if joint is None or joint.slides or joint.screw or body.is_point or joint.turn not in ("axis", "ball"):
             return None
@@ -186,21 +186,21 @@ class SpatialTree(Tree):
         return v.triple(self.model.direction(mine)), v.triple(self.model.direction(other))
 
     def _carried(self, joint: Articulation, link: Link, direction: Direction) -> Triple:
-        """Return a direction of displacement in the axes of what carries the body."""
+        """Return a direction of displacement in the parent's axes."""
         vector = self.v.triple(self.model.direction(direction))
         if direction.body == link.parent:
             return vector
-        # it is the axis, or nothing turns: the same in both frames
+        # the axis itself, or no rotation: the same in both frames
         of, to = (joint.of_a, joint.of_b) if link.forward is False else (joint.of_b, joint.of_a)
         parts = [self.v.dot(vector, self.v.triple(self.model.direction(d))) for d in of]
         axes = [self.v.triple(self.model.direction(d)) for d in to]
         return self.v.add(*(self.v.scale(x, axis) for x, axis in zip(parts, axes, strict=True)))
 
     def _turn(self, joint: Articulation, link: Link) -> tuple[Matrix, Sequence[int], dict[int, Triple], Triple]:
-        """Return how the axes are turned against those of what carries them.
+        """Return the rotation from the body's axes to the parent's.
 
-        The matrix, its Euler parameters, the axes of the joint's angles in the body's axes, and what angular
-        acceleration two angles make where their rates are constant.
+        The matrix, its Euler parameters, the axes of the joint's angles in the body's axes, and the angular
+        acceleration of two angles with constant rates.
         """
         g, v, model = self.graph, self.v, self.model
         mine, other = (joint.of_b, joint.of_a) if link.forward else (joint.of_a, joint.of_b)
@@ -228,7 +228,7 @@ class SpatialTree(Tree):
         fa, sa, za = (v.triple(model.direction(d)) for d in joint.of_a)
         fb, sb, zb = (v.triple(model.direction(d)) for d in joint.of_b)
         c1, s1, c2, s2 = g.call("cos", qa), g.call("sin", qa), g.call("cos", qb), g.call("sin", qb)
-        # the cross: its second axis, the product of both, its first axis; in the first body's axes, and the second's
+        # the cross: its second axis, the product of both, its first axis; in the axes of the first and the second body
         in_a = v.add(v.scale(c1, fa), v.scale(s1, sa)), v.sub(v.scale(c1, sa), v.scale(s1, fa)), za
         in_b = zb, v.neg(v.add(v.scale(s2, fb), v.scale(c2, sb))), v.sub(v.scale(c2, fb), v.scale(s2, sb))
         into_a, into_b = v.transposed(in_a), v.transposed(in_b)
@@ -249,7 +249,7 @@ class SpatialTree(Tree):
         return turn, inverse(g, forwards), {one: v.neg(za), two: v.neg(in_a[0])}, v.neg(v.scale(product, in_a[1]))
 
     def _name(self, name: str, is_point: bool, p: Placed) -> None:
-        """Note the coordinates and velocities of a body by their names."""
+        """Store the coordinates and velocities of a body by their names."""
         v = self.v
         place = v.add(p.at, v.times(p.axes, p.centre))
         speed = v.times(p.axes, v.add(p.velocity, v.cross(p.omega, p.centre)))
@@ -265,7 +265,7 @@ class SpatialTree(Tree):
         return [*p.at, *(n for row in p.axes for n in row), *v.times(p.axes, p.velocity), *p.omega]
 
     def accelerations(self, rates: tuple[int, ...]) -> dict[str, int]:
-        """Return the accelerations of centres of mass, and angular ones, by the names of their velocities."""
+        """Return the centre-of-mass and angular accelerations by the names of their velocities."""
         v, accelerations = self.v, dict[str, int]()
         for body in self.model.mechanism.bodies:
             p = self.placed[body.name]
@@ -280,7 +280,7 @@ class SpatialTree(Tree):
         return accelerations
 
     def speed(self, body: str) -> list[int]:
-        """Return the velocity of a centre of mass in some axes."""
+        """Return the velocity of a centre of mass in body axes."""
         p = self.placed[body]
         return list(self.v.add(p.velocity, self.v.cross(p.omega, p.centre)))
 
@@ -289,7 +289,7 @@ class SpatialTree(Tree):
         return {}
 
     def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int], DriverPower | None]:
-        """Return M and f of the state, from forces on the velocities of bodies, inertia apart; the power of drivers."""
+        """Return M and f of the state and the power of drivers; `forces` are over the velocities of bodies."""
         bodies = Composite(self.model, self.placed, forces)
         mass, f = bodies.mass(), bodies.force()
         blocks, own = self.blocks(mass), [f[i] for i in range(self.size)]

@@ -1,4 +1,4 @@
-"""Vectors and matrices of nodes: what the recursions over bodies of a tree are written in."""
+"""Vectors and matrices of nodes for the recursions over the bodies of a tree."""
 
 from __future__ import annotations
 
@@ -36,15 +36,15 @@ class PlaneVectors:
         return self.graph.mul(factor, a[0]), self.graph.mul(factor, a[1])
 
     def perp(self, a: Pair) -> Pair:
-        """Return a turned left by 90 degrees."""
+        """Return a rotated left by 90 degrees."""
         return self.graph.neg(a[1]), a[0]
 
     def cross(self, a: Pair, b: Pair) -> int:
-        """Return the component of a x b across the plane."""
+        """Return the component of a x b normal to the plane."""
         return self.graph.sub(self.graph.mul(a[0], b[1]), self.graph.mul(a[1], b[0]))
 
     def rotate(self, axes: Pair, a: Pair) -> Pair:
-        """Return a vector turned by the angle whose cosine and sine `axes` are."""
+        """Return a vector rotated by the angle with cosine and sine `axes`."""
         g, (c, s), (x, y) = self.graph, axes, a
         return g.sub(g.mul(c, x), g.mul(s, y)), g.add(g.mul(s, x), g.mul(c, y))
 
@@ -98,11 +98,11 @@ class Vectors:
         return self.triple([self.graph.dot(row, a) for row in m])
 
     def back(self, m: Matrix, a: Triple) -> Triple:
-        """Return the transposed matrix times a vector."""
+        """Return the transpose of a matrix times a vector."""
         return self.times(self.transposed(m), a)
 
     def transposed(self, m: Matrix) -> Matrix:
-        """Return the transposed matrix."""
+        """Return the transpose of a matrix."""
         a, b, c = (self.triple(column) for column in zip(*m, strict=True))
         return a, b, c
 
@@ -118,7 +118,7 @@ class Vectors:
         return x, y, z
 
     def turned(self, r: Matrix, j: Matrix) -> Matrix:
-        """Return R J R^T of a symmetric J; the lower triangle is the upper one."""
+        """Return R J R^T of a symmetric J; the lower triangle reuses the nodes of the upper one."""
         g = self.graph
         for i in range(3):
             if self._about(r, i):
@@ -132,14 +132,14 @@ class Vectors:
         return x, y, z
 
     def _about(self, r: Matrix, i: int) -> bool:
-        """Whether a matrix turns about a direction of the axes, by an angle that is not known."""
+        """Whether a matrix is a rotation about a coordinate axis by an angle that is not constant."""
         g, j, k = self.graph, (i + 1) % 3, (i + 2) % 3
         rest = r[i][j], r[i][k], r[j][i], r[k][i]
         around = r[i][i] == g.one and rest == (g.zero,) * 4
         return around and r[j][j] == r[k][k] and r[j][k] == g.neg(r[k][j]) and g.value(r[j][j]) is None
 
     def _turned_about(self, r: Matrix, a: Matrix, i: int) -> Matrix:
-        """Return R A R^T of a symmetric A by half the operations, with the trace and the angle's squares left out."""
+        """Return R A R^T of a symmetric A in half the operations, without the trace and the squares of c and s."""
         g, j, k = self.graph, (i + 1) % 3, (i + 2) % 3
         c, s = r[j][j], r[k][j]
         entries = [[g.zero] * 3 for _ in range(3)]

@@ -13,5 +13,5 @@ INTEGRATORS: Registry[Integrator] = Registry("symgen.integrators", "integrator")
 
 
 def list_integrators() -> Listing:
-    """Return the names of all integrators, with a line about each."""
+    """Return the names of all integrators, each with a one-line summary."""
     return INTEGRATORS.listing()

@@ -24,11 +24,11 @@ class Adams:
     name, reference : str
         Name as typed, and the source.
     order : int
-        Order, the highest one with varying steps.
+        Order; with varying steps the highest one.
     adaptive : bool
         Whether steps and order vary.
     real_boundary : float
-        Where the region of stability ends on the negative real axis, for the highest order.
+        End of the region of stability on the negative real axis, for the highest order.
     """
 
     row_targets: ClassVar[tuple[str, ...]] = ()
@@ -47,7 +47,7 @@ class Adams:
         return 2
 
     def loop(self, adaptive: bool) -> Any:
-        """Return the loop of all orders."""
+        """Return the loop for all orders."""
         from symgen.runtime.schemes import adams
 
         return adams.adaptive if adaptive else adams.constant

@@ -27,15 +27,15 @@ class AlphaFamily:
     order : int
         Order with the default parameters.
     forms : tuple of str
-        Problem forms it solves.
+        Problem forms that it solves.
     parameters : tuple of IntegratorParameter
-        What shapes the scheme.
+        Parameters of the scheme.
     coefficients : callable
-        Gives (alpha_m, alpha_f, gamma, beta) for values of the parameters.
+        Returns (alpha_m, alpha_f, gamma, beta) for values of the parameters.
     estimates : bool
-        Whether it can choose its steps, which it does where that is asked for.
+        Whether it can choose its steps; it does so on request.
     rtol : float
-        Its relative tolerance by default.
+        Default relative tolerance.
     """
 
     row_targets: ClassVar[tuple[str, ...]] = ()
@@ -53,7 +53,7 @@ class AlphaFamily:
 
     @property
     def stages(self) -> int:
-        """Evaluations that a step takes at least."""
+        """Minimum number of evaluations in a step."""
         return 1
 
     def loop(self, adaptive: bool) -> Any:

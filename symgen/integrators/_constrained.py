@@ -1,4 +1,4 @@
-"""Explicit schemes whose stages meet constraints by forces along D^T, as data."""
+"""Explicit schemes whose stages satisfy constraints by forces along D^T, as data."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ class ConstrainedTableau:
     order : int
         Order of positions and velocities.
     forms : tuple of str
-        Problem forms it solves.
+        Problem forms that it solves.
     scheme : str
         Its module in `symgen.runtime.schemes`.
     a, c : Array, shapes (s, s), (s,)
-        Row i leads to the state behind stage i, the last one to the end of the step; nodes of these states.
+        Row i yields the state after stage i, the last one the end of the step; nodes of these states.
     real_boundary : float
-        Where the region of absolute stability ends on the negative real axis.
+        End of the region of absolute stability on the negative real axis.
     """
 
     row_targets: ClassVar[tuple[str, ...]] = ()
@@ -57,7 +57,7 @@ class ConstrainedTableau:
 
     @property
     def stages(self) -> int:
-        """Evaluations that a step takes."""
+        """Number of evaluations in a step."""
         return len(self.c)
 
     def loop(self, adaptive: bool) -> Any:

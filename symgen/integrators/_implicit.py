@@ -1,4 +1,4 @@
-"""Implicit Runge-Kutta schemes as data: coefficients that check themselves."""
+"""Implicit Runge-Kutta schemes as data, with checked coefficients."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ class ImplicitTableau:
     order : int
         Order on index-1 problems.
     forms : tuple of str
-        Problem forms it solves.
+        Problem forms that it solves.
     a, b, c : Array
         Butcher's tableau, shapes (s, s), (s,), (s,).
     errors : Array, shape (s + 1,), or None
         Weights of the error estimate on the derivative at the beginning of the step and on those of the stages.
     error_order : int
-        The step is chosen with exponent -1 / (error_order + 1).
+        The exponent of step-size control is -1 / (error_order + 1).
     filter_factor : float
-        The estimate is filtered by ``(1 - h filter_factor J)^-1``; 0: it is not.
+        The estimate is filtered by ``(1 - h filter_factor J)^-1``, with 0 not filtered.
     index2_order : int
-        Order on stabilised index 2, 0 where that is not solved.
+        Order on stabilised index 2, 0 if the scheme does not solve it.
     """
 
     row_targets: ClassVar[tuple[str, ...]] = ()
@@ -76,7 +76,7 @@ class ImplicitTableau:
 
     @property
     def together(self) -> bool:
-        """Whether all stages have to be solved together."""
+        """Whether the stages are coupled."""
         return bool(np.any(np.triu(self.a, 1) != 0.0))
 
     def loop(self, adaptive: bool) -> Any:

@@ -1,4 +1,4 @@
-"""Explicit Runge-Kutta pairs as data: coefficients that check themselves, and what a loop needs of them."""
+"""Explicit Runge-Kutta pairs as data, with checked coefficients, and their records for loops."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Tableau:
-    """An explicit Runge-Kutta scheme, with an embedded error estimate and dense output where it has them.
+    """An explicit Runge-Kutta scheme, optionally with an embedded error estimate and dense output.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ class Tableau:
     order : int
         Order of the propagated solution.
     forms : tuple of str
-        Problem forms it solves.
+        Problem forms that it solves.
     a : Array, shape (s, s)
         Strictly lower triangular.
     b, c : Array, shape (s,)
@@ -35,15 +35,15 @@ class Tableau:
     errors : tuple of Array, shape (s + 1,)
         Weights of the error estimates; the last element belongs to the stage at the end of the step.
     error_order : int
-        The step is chosen with exponent -1 / (error_order + 1).
+        The exponent of step-size control is -1 / (error_order + 1).
     extra_a, extra_c : Array
-        Stages that only dense output needs; they may use the stage at the end of the step.
+        Stages for dense output alone; they may use the stage at the end of the step.
     dense : Array, shape (s + 1 + extra, degree), or None
         y(t + x h) = y + h sum_k K_k sum_j dense[k, j] x^(j + 1).
     real_boundary : float
-        Where the region of absolute stability ends on the negative real axis.
+        End of the region of absolute stability on the negative real axis.
     safety : float
-        Part of the step that the error estimate would allow that is taken.
+        Ratio of the step taken to the one that the error estimate allows.
     """
 
     row_targets: ClassVar[tuple[str, ...]] = ("cpu", "lanes", "cuda")
@@ -87,7 +87,7 @@ class Tableau:
     def zero(self) -> complex:
         """The zero of the stability function R(z) nearest to the negative real axis, within reach of that axis.
 
-        One beyond the region of stability is alone there: what is damped next to it grows.
+        A zero outside the region of stability is isolated: neighbouring modes grow.
         """
         powers, terms = np.ones(self.stages), [1.0]
         for _ in range(self.stages):
@@ -103,7 +103,7 @@ class Tableau:
         return bool(self.errors)
 
     def packed(self) -> tuple[NDArray[np.int64], NDArray[np.int64], Array, Array]:
-        """Return the nonzero coefficients row by row as the loops read them.
+        """Return the nonzero coefficients row by row for the loops.
 
         Rows are the stages, then b, then the stages of dense output, then the error weights. Row r has the entries from
         ``start[r]`` to ``start[r + 1]`` of `column` and `value`; `nodes` holds c of all stages, 1 for the end of the
@@ -122,7 +122,7 @@ class Tableau:
         return np.array(start, dtype=np.int64), np.array(column, dtype=np.int64), np.array(value), nodes
 
     def record(self, adaptive: bool) -> Any:
-        """Return the scheme as loops take it, with dense output for adaptive ones."""
+        """Return the record of the scheme for loops, with dense output for adaptive ones."""
         from symgen.runtime.scheme_records import TableauRecord as Record
 
         start, column, value, nodes = self.packed()
@@ -136,7 +136,7 @@ class Tableau:
         return Record(start, column, value, nodes, dense.ravel(), count, *sizes)
 
     def loop(self, adaptive: bool) -> Any:
-        """Return the loop of runs with constant or with adaptive steps."""
+        """Return the loop for constant or adaptive steps."""
         from symgen.runtime.schemes import explicit
 
         return explicit.adaptive if adaptive else explicit.constant

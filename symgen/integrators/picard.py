@@ -35,7 +35,7 @@ def lobatto(n: int) -> tuple[Array, Array]:
 
 
 def integrals(terms: int, x: Array) -> tuple[Array, Array]:
-    """Return integrals and second integrals from 0 to (1 + x) / 2 of shifted Legendre polynomials, one a row."""
+    """Return integrals and second integrals from 0 to (1 + x) / 2 of shifted Legendre polynomials, one per row."""
     values = legendre.legvander(x, terms + 1).T
     k = np.arange(1, terms + 1)[:, np.newaxis]
     once = np.vstack([0.5 * (values[:1] + values[1:2]), (values[2:] - values[:-2]) / (4 * k + 2)])
@@ -45,7 +45,7 @@ def integrals(terms: int, x: Array) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class Coefficients:
-    """Coefficients of the scheme, as `symgen.runtime.scheme_records.Nodes` names them."""
+    """Coefficients of the scheme, named as in `symgen.runtime.scheme_records.Nodes`."""
 
     table: Array
     middle: Array
@@ -84,7 +84,7 @@ def coefficients() -> Coefficients:
 
 
 def rates_of(info: ModelInfo) -> NDArray[np.int64]:
-    """Return which rates are unknown, and which coordinates have one of them for a rate (`symgen.runtime.nodes`)."""
+    """Return the unknown rates, and the coordinates whose rates are among them (`symgen.runtime.nodes`)."""
     turning = {q + k for q, _ in info.spins for k in range(4)}
     spins = {v + k for _, v in info.spins for k in range(3)}
     coordinates = [i for i in range(info.nq) if i not in turning]
@@ -96,16 +96,16 @@ def rates_of(info: ModelInfo) -> NDArray[np.int64]:
 
 @dataclass(frozen=True)
 class Picard:
-    """The scheme.
+    """The collocation scheme.
 
     Parameters
     ----------
     name, reference : str
         Name as typed, and the source.
     order : int
-        Of the state at the end of a step; rates inside a step have order 9.
+        Order of the state at the end of a step; rates inside a step have order 9.
     real_boundary : float
-        Where steps end on the negative real axis: Picard's iteration converges in as many evaluations as a step has.
+        Limit of steps on the negative real axis: Picard's iteration converges within the evaluations of a step.
     """
 
     row_targets: ClassVar[tuple[str, ...]] = ("cpu",)
@@ -124,7 +124,7 @@ class Picard:
         return 5
 
     def loop(self, adaptive: bool) -> Any:
-        """Return the loop of runs with constant or with adaptive steps."""
+        """Return the loop for constant or adaptive steps."""
         from symgen.runtime.schemes import picard
 
         return picard.adaptive if adaptive else picard.constant

@@ -47,7 +47,7 @@ class LieTableau(Tableau):
         return Setup(self.loop(False), law_functions(compiled, "turn"), scheme, spec.step, 0, room)
 
     def scheme(self, info: ModelInfo, spins: NDArray[np.int64], stage: int) -> tuple[Any, int]:
-        """Return the record of the scheme, and the room that its updates need beside that of stages."""
+        """Return the record of the scheme, and the extra workspace of its updates."""
         from symgen.runtime.scheme_records import Rotations
 
         return Rotations(self.record(False), spins, stage), 0

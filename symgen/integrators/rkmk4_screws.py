@@ -26,7 +26,7 @@ class ScrewTableau(LieTableau):
         return screw.constant
 
     def scheme(self, info: ModelInfo, spins: NDArray[np.int64], stage: int) -> tuple[Any, int]:
-        """Return the record of the scheme with the bodies that move freely, and the room of their screws."""
+        """Return the record of the scheme with the free bodies, and the workspace of their screws."""
         from symgen.runtime.scheme_records import Screws
 
         names = [q.name for q in info.velocities]

@@ -1,10 +1,10 @@
 """The singly diagonally implicit scheme of order 4 of Hairer and Wanner: L-stable and stiffly accurate.
 
-Their error estimate is 1/4 of (0, -3/4, -27/8, 25/8, 0, 1), the difference to an embedded formula of order 3. It knows
-nothing of the derivative at the beginning of a step: what jumps before the first stage, at a quarter of it, is seen by
-all stages alike. Other formulas of order 3 in which that derivative takes part, but not the fourth stage, differ by
-multiples of (1, -11/4, -11/8, 25/8, 0, 0). A twentieth of that is added: a jump anywhere in a step counts for a
-twentieth of what it changes or more, and estimates of smooth motions keep their size.
+Their error estimate is 1/4 of (0, -3/4, -27/8, 25/8, 0, 1), the difference to an embedded formula of order 3. It
+omits the derivative at the beginning of a step: a jump before the first stage, at a quarter of the step, affects all
+stages alike. Other formulas of order 3 that contain this derivative, but not the fourth stage, differ by multiples of
+(1, -11/4, -11/8, 25/8, 0, 0). A twentieth of that is added: a jump anywhere in a step counts for a twentieth of its
+effect or more, and estimates of smooth motions keep their size.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from symgen.integrators.rkmk4 import LieTableau
 
 
 class SymplecticEuler(LieTableau):
-    """``v1 = v0 + h v'(q0, v0)``, then q1 is q0 moved by ``h v1``."""
+    """``v1 = v0 + h v'(q0, v0)``, then q1 is q0 advanced by ``h v1``."""
 
     def loop(self, adaptive: bool) -> Any:
         """Return the loop of the scheme."""

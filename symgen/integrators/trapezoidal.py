@@ -1,6 +1,6 @@
 """The implicit trapezoidal rule: order 2, A-stable, without numerical damping.
 
-On index 3 it is used with projections only: alone it is unstable there, since nothing damps the constraints' own modes.
+On index 3 it requires projections: alone it is unstable, since nothing damps the modes of the constraints.
 """
 
 from __future__ import annotations

@@ -9,5 +9,5 @@ METHODS: Registry[Method] = Registry("symgen.methods", "method")
 
 
 def list_methods() -> Listing:
-    """Return the names of all methods, with a line about each."""
+    """Return the names of all methods, each with a one-line summary."""
     return METHODS.listing()

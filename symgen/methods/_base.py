@@ -24,12 +24,12 @@ from symgen.methods._formula import Scalar, System, Vector
 
 @dataclass(frozen=True)
 class MethodParameter:
-    """A number that a method takes at run time.
+    """A numerical parameter of a method, set at run time.
 
     Parameters
     ----------
     name, unit, note : str
-        Note says what it does and where the default comes from.
+        `note` describes its effect and the source of the default.
     default, minimum : float
         Values below `minimum` are refused.
     """
@@ -48,7 +48,7 @@ class MethodOption:
     Parameters
     ----------
     name, note : str
-        Note says what it decides.
+        `note` describes its effect.
     values : tuple of str
         The first one is the default.
     """
@@ -60,7 +60,7 @@ class MethodOption:
 
 @dataclass(frozen=True)
 class Acceleration:
-    """A law that is a formula.
+    """A law in closed form.
 
     Parameters
     ----------
@@ -79,14 +79,14 @@ class Acceleration:
 
 @dataclass(frozen=True)
 class Iteration:
-    """A law that is iterated until v' changes no more.
+    """A law that is iterated until v' converges.
 
     Parameters
     ----------
     state : tuple of IterationState
-        What an iteration changes; the first one is v', the second the multipliers.
+        Iterated vectors; the first one is v', the second the multipliers.
     increment : Vector
-        The change of the first one in an iteration; it ends when this is small.
+        The change of the first one in an iteration, which ends when this is small.
     rates : Rates, optional
         The rates of the state where they are not v and v' as iterated.
     multipliers : Vector, optional
@@ -101,14 +101,14 @@ class Iteration:
 
 @dataclass(frozen=True)
 class Rates:
-    """Rates of what is integrated in place of q and v.
+    """Rates of the vectors integrated in place of q and v.
 
     Parameters
     ----------
     position, velocity : Vector
         q' and v'.
     velocities : Vector
-        Those at which forces do work.
+        Velocities in the power of forces.
     multipliers : Vector
         lambda.
     """
@@ -126,9 +126,9 @@ class IterationState:
     Parameters
     ----------
     section : str
-        Of ``w``, where it is kept.
+        Its section of ``w``.
     start, following : Vector
-        What it begins with, and its next value.
+        Its initial and its next value.
     """
 
     section: str
@@ -150,14 +150,14 @@ class Dense:
 
 @dataclass(frozen=True)
 class Descriptor:
-    """What implicit integrators solve for a method: the constraints beside ``M v' + D^T lambda = f``.
+    """The constraints that implicit integrators solve with ``M v' + D^T lambda = f``.
 
     Parameters
     ----------
     level : {"acceleration", "position", "stabilised", "projected", "explicit"}
         ``D v' = g + e lambda``; ``Phi = 0``; ``Phi = 0`` and ``D v = nu`` with ``q' = N (v - D^T eta)``; ``Phi = 0``
-        with what projections to the other levels need; or ``Phi = 0`` and ``D v = nu`` with no derivatives but M and D,
-        for schemes that evaluate forces explicitly.
+        with the terms for projections to the other levels; or ``Phi = 0`` and ``D v = nu`` with M and D as the only
+        derivatives, for schemes that evaluate forces explicitly.
     target : Vector, optional
         g of the acceleration level.
     compliance : Scalar, optional
@@ -185,20 +185,20 @@ class Method(ABC):
     summary, reference : str
         One line, and the literature.
     forms : tuple of str
-        Problem forms the method gives: ``ode`` for explicit integrators; ``index-1``, ``index-2`` or ``index-3`` for
+        Problem forms of the method: ``ode`` for explicit integrators; ``index-1``, ``index-2`` or ``index-3`` for
         implicit ones.
     default_integrator : str
-        What runs take by default: ``picard`` for laws whose right-hand side has a form in vectors, ``dop853`` for those
-        that iterate, choose coordinates or factorise in loops.
+        Integrator of runs by default: ``picard`` for laws whose right-hand side has a form in vectors, ``dop853`` for
+        laws that iterate, choose coordinates or factorise in loops.
     integrates : str
         ``"all"`` coordinates, or only the ``"independent"`` ones of a partition.
     dense : str
-        What keeps the method from the looped shape, as the rest of a sentence; empty where nothing does.
+        Reason why the method has no looped shape, as the rest of a sentence; empty if it has one.
     velocities_follow : bool
-        Whether every step holds the positions and velocities follow from them by the integrator's formula: they are off
-        their constraint by its error, which does not grow with time.
+        Whether every step enforces the positions and derives velocities by the integrator's formula: they violate their
+        constraint by its error, which does not grow with time.
     unique_multipliers : bool
-        Whether the law determines multipliers where rows depend on each other; else results have those of minimum norm.
+        Whether the law determines the multipliers of dependent rows; else results have those of minimum norm.
     """
 
     name: ClassVar[str]
@@ -218,20 +218,20 @@ class Method(ABC):
         """Return the law as a formula over the blocks of `system`."""
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
-        """Return the descriptor form for implicit integrators; None: the method is for explicit ones only."""
+        """Return the descriptor form for implicit integrators, None for a method of explicit ones only."""
         return None
 
     def correction(self, options: Mapping[str, str]) -> Correction:
-        """Return the correction after each accepted step; nothing unless overridden."""
+        """Return the correction after each accepted step; none by default."""
         return Correction()
 
     def complete_options(self, values: Mapping[str, str]) -> dict[str, str]:
-        """Return the structural options, defaults filled in.
+        """Return the structural options, completed by the defaults.
 
         Raises
         ------
         InputError
-            If an option or its value is not known.
+            If an option or its value is unknown.
         """
         options = {o.name: o for o in self.options}
         for name, value in values.items():
@@ -250,39 +250,39 @@ class Method(ABC):
         return {o.name: values.get(o.name, o.values[0]) for o in self.options}
 
     def needs_regular_mass(self, options: Mapping[str, str]) -> bool:
-        """Whether the method cannot do with massless bodies."""
+        """Whether the method excludes massless bodies."""
         return options.get("weight") == "mass"
 
     def stem(self, options: Mapping[str, str], implicit: bool = False) -> str:
-        """Return the file stem of the emitted module: the method, options off their defaults, the form if implicit.
+        """Return the file stem of the emitted module: the method, non-default options, the form if implicit.
 
-        That of a method from outside the package also carries a digest of its code.
+        For a method from outside the package it includes a digest of the code.
         """
         chosen = (options[o.name] for o in self.options if options[o.name] != o.values[0])
         parts = [self.name, *chosen, *(("implicit",) if implicit else ()), *_version(type(self))]
         return "_".join(parts).replace("-", "_")
 
     def largest_step(self, parameters: Mapping[str, float], boundary: float) -> float | None:
-        """Return the step above which the law itself is unstable, None where it sets no limit.
+        """Return the largest stable step of the law, None without a limit.
 
         Parameters
         ----------
         parameters : mapping
             Values of the method's parameters.
         boundary : float
-            Where the integrator's region of stability ends on the negative real axis.
+            End of the integrator's region of stability on the negative real axis.
         """
         return None
 
     def placed(self, options: Mapping[str, str], zero: complex | None, integrator: str) -> dict[str, float]:
-        """Return parameters that follow from the integrator where nothing else is set; none unless overridden.
+        """Return the default parameters that follow from the integrator; none unless overridden.
 
         Parameters
         ----------
         options : mapping
             The structural options, complete.
         zero : complex or None
-            The zero of the integrator's stability function that is nearest to the negative real axis.
+            The zero of the integrator's stability function nearest to the negative real axis.
         integrator : str
             Its name.
         """
@@ -291,7 +291,7 @@ class Method(ABC):
 
 @lru_cache(maxsize=32)
 def _version(kind: type[Method]) -> tuple[str, ...]:
-    """Return the digest of a method registered by hand: the cache knows symgen's sources only."""
+    """Return the digest of a method registered by hand: the key of the cache covers symgen's sources only."""
     outside = [base for base in kind.__mro__ if base.__module__.partition(".")[0] not in ("symgen", "builtins", "abc")]
     if not outside:
         return ()
@@ -320,9 +320,9 @@ def augmented_iteration(system: System, penalty: Scalar | Vector, target: Vector
     """Return the augmented Lagrangian iteration for D v' = target.
 
     ``(M + a D^T D) dv' = f - M v' - D^T (lambda + a (D v' - target))``, ``v' += dv'``, ``lambda += a (D v' -
-    target)``, from ``v' = M^-1 f`` (0 where M is singular) and ``lambda = 0``. It is the textbook's iteration (Bayo,
-    Garcia de Jalon, Serna 1988) written for increments, so that rounding is that of the residual and not that of a
-    times it.
+    target)``, from ``v' = M^-1 f`` (0 where M is singular) and ``lambda = 0``. This is the iteration of
+    Bayo, Garcia de Jalon and Serna (1988) in increments, so that rounding is that of the residual, not of a times the
+    residual.
     """
     penalties = system.penalties(penalty)
     factor = system.keep_factor(system.augmented_factor(penalties))
@@ -359,22 +359,22 @@ SOLVER = MethodOption(
 
 
 class MultiplierMethod(Method):
-    """Base of the methods that solve ``M v' + D^T lambda = f``, ``D v' = target``: all that differs is the target.
+    """Base of the methods that solve ``M v' + D^T lambda = f``, ``D v' = target`` and differ in the target only.
 
     Very light bodies spoil the elimination, whose matrix S = D M^-1 D^T mixes 1 / m of all bodies, and massless ones
-    forbid it: then the same equations are solved by the residual form of the augmented iteration. A dense
-    factorisation of D^T that decides rank without squares is there to be asked for.
+    forbid it: the residual form of the augmented iteration then solves the same equations. A dense factorisation of
+    D^T, which decides rank without squares, is an option.
     """
 
     forms: ClassVar[tuple[str, ...]] = ("ode", "index-1")
     options: ClassVar[tuple[MethodOption, ...]] = (SOLVER,)
 
     def target(self, system: System) -> Vector:
-        """Return the right-hand side of D v'; gamma unless overridden."""
+        """Return the right-hand side of D v'; gamma by default."""
         return system.gamma
 
     def chosen_target(self, system: System, options: Mapping[str, str]) -> Vector:
-        """Return the right-hand side of D v' for some options; `target` unless overridden."""
+        """Return the right-hand side of D v' for some options; `target` by default."""
         return self.target(system)
 
     def law(self, system: System, options: Mapping[str, str]) -> Law:
@@ -385,5 +385,5 @@ class MultiplierMethod(Method):
         return Dense(target) if options["solver"] == "dense" else multiplier_law(system, target)
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
-        """Return the same equations, kept together."""
+        """Return the same equations without elimination."""
         return Descriptor("acceleration", self.chosen_target(system, options))

@@ -1,8 +1,8 @@
 """Formulas on whole vectors: the operations that methods apply to the equations of motion, and their values.
 
-Nothing is computed while a method writes its law. Every value stands for an operation on a `Tape`, which holds what was
-asked for in the order in which it was asked for. Code for one mechanism replays the tape element by element
-(`symgen.lower.scalar`), code for all mechanisms lays it out as loops (`symgen.lower.looped.law_loops`).
+A method computes nothing while it writes its law. Every value represents an operation on a `Tape`, which records the
+operations in order. Code for one mechanism replays the tape element by element (`symgen.lower.scalar`), code for all
+mechanisms converts it to loops (`symgen.lower.looped.law_loops`).
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ class FormulaStep:
     Parameters
     ----------
     kind : str
-        What is done: arithmetic (``add``, ``dot``, ...), or what `System` offers (``minv``, ``solve``, ...).
+        Arithmetic (``add``, ``dot``, ...) or an operation of `System` (``minv``, ``solve``, ...).
     operands : tuple of int
         Indices of earlier operations.
     payload : tuple of str or float
         Names of sections and parameters, literals.
     size : {"", "nq", "nv", "m"}
-        Length of the result; empty where it is no vector.
+        Length of the result; empty unless it is a vector.
     """
 
     kind: str
@@ -38,12 +38,12 @@ class FormulaStep:
 
 @dataclass(eq=False)
 class Tape:
-    """Operations in the order of their first use, each of them once.
+    """Distinct operations in the order of their first use.
 
     Attributes
     ----------
     stored : list of (str, Value)
-        Sections of ``w``, and what is kept in them between the functions of a law.
+        Sections of ``w`` and the values that they keep between the functions of a law.
     """
 
     operations: list[FormulaStep] = field(default_factory=list)
@@ -51,7 +51,7 @@ class Tape:
     _index: dict[FormulaStep, int] = field(default_factory=dict)
 
     def add(self, operation: FormulaStep) -> int:
-        """Return the index of an operation, appended where it is new."""
+        """Return the index of an operation, appended if it is new."""
         index = self._index.setdefault(operation, len(self.operations))
         if index == len(self.operations):
             self.operations.append(operation)
@@ -62,11 +62,11 @@ class Tape:
         return Scalar(self, self.add(FormulaStep("constant", payload=(float(value),))))
 
     def named(self, cls: type[_Value], kind: str, *names: str, size: str = "") -> _Value:
-        """Return the value of a name."""
+        """Return the value of a named quantity."""
         return cls(self, self.add(FormulaStep(kind, (), names, size)))
 
     def stored_value(self, cls: type[_Value], kind: str, section: str, x: Value, size: str = "") -> _Value:
-        """Return a value as it is read from a section."""
+        """Return a stored value, read from a section."""
         stored = cls(self, self.add(FormulaStep(kind, (x.index,), (section,), size)))
         self.stored.append((section, stored))
         return stored
@@ -162,17 +162,17 @@ class Scalar(Value):
 
 
 class Matrix(Value):
-    """A matrix of which only products are formed: D by rows, or a root of M^-1."""
+    """A matrix used in products only: D by rows, or a root of M^-1."""
 
     def __matmul__(self, x: Vector) -> Vector:
         return self.applied(Vector, "product", self, x, size="m")
 
     def transposed(self, y: Vector) -> Vector:
-        """Return the transposed matrix times a vector."""
+        """Return the transpose times a vector."""
         return self.applied(Vector, "transposed", self, y, size="nv")
 
     def times_transposed(self, other: Matrix) -> Matrix:
-        """Return this matrix times the transposed of another one."""
+        """Return this matrix times the transpose of another one."""
         return self.applied(Matrix, "times_transposed", self, other)
 
 
@@ -186,13 +186,13 @@ class System:
     Attributes
     ----------
     tape : Tape
-        Where operations are noted down.
+        Record of the operations.
     D : Matrix
         Velocity Jacobian of the constraints.
     f, gamma, nu, phi, v, q_rates : Vector
-        As in the notation, q_rates = N v; `phi` is zero in nonholonomic rows.
+        Symbols of the notation, q_rates = N v; `phi` is zero in nonholonomic rows.
     power : Scalar
-        Of the applied forces without potential.
+        Power of the applied forces without potential.
     """
 
     def __init__(self) -> None:
@@ -215,15 +215,15 @@ class System:
 
     @property
     def heavy_penalty(self) -> Vector:
-        """1e5 times the mean mass, that of rotations being I / l^2, for rows whose derivatives are brought to length 1.
+        """1e5 times the mean mass, with I / l^2 for rotations, for rows scaled to derivatives of length 1.
 
-        So much takes few iterations and loses few digits [kg, or kg m^2 for rows that are angles].
+        This factor needs few iterations and loses few digits [kg, or kg m^2 for rows that are angles].
         """
         return (self.tape.constant(1e5) * self.scale("mean_mass")) * self.variable("row_weight", "m")
 
     @property
     def inverse_step(self) -> Scalar:
-        """One over the step that is being taken [1/s]."""
+        """One over the current step [1/s]."""
         return self.inverse(self.scale("step"))
 
     def inverse(self, x: Scalar) -> Scalar:
@@ -268,9 +268,9 @@ class System:
         return self.solve(self.tape.named(Factor, "schur"), right)
 
     def compliant_factor(self, compliance: Scalar) -> Factor:
-        """Return the factor of ``S + e``, e the compliance of each row, infinite where the runtime leaves one out.
+        """Return the factor of ``S + e``, e the compliance of each row, infinite for rows that the runtime leaves out.
 
-        It is positive definite whatever the rank of D, so no pivot is suspicious.
+        It is positive definite for any rank of D, so no pivot is suspicious.
         """
         return compliance.applied(Factor, "compliant", compliance)
 
@@ -279,40 +279,40 @@ class System:
         return matrix.applied(Factor, "pseudoinverse", matrix)
 
     def penalties(self, penalty: Scalar | Vector) -> Vector:
-        """Return the penalty of each row, of all alike or by rows, 0 for rows that the runtime leaves out.
+        """Return the penalty of each row, from a scalar or by rows; 0 for rows that the runtime leaves out.
 
-        A row that depends on others where the constraints hold does so no more at the stages of a step, where they hold
-        to the integrator's error only: a penalty on what it adds there would pull at the motion itself.
+        A row that depends on others where the constraints hold is independent at the stages of a step, where they hold
+        to the integrator's error only: its penalty would then act on the motion itself.
         """
         return penalty.applied(Vector, "penalties", penalty, size="m")
 
     def row_stiffness(self, otherwise: Scalar) -> Vector:
-        """Return the stiffness of each row as the file names it, or what stands in its place [N/m]; masks are ignored.
+        """Return the stiffness of each row from the file, or else `otherwise` [N/m]; masks are ignored.
 
-        There is no loop for it: methods that ask for it say so in `dense`.
+        It has no loop: methods that use it state this in `dense`.
         """
         return otherwise.applied(Vector, "row_stiffness", otherwise, size="m")
 
     def augmented_factor(self, penalties: Vector) -> Factor:
-        """Return the factor of ``M + D^T a D``, a by rows, which is positive definite whatever the rank of D."""
+        """Return the factor of ``M + D^T a D``, a by rows, which is positive definite for any rank of D."""
         return penalties.applied(Factor, "augmented", penalties)
 
     # -- what an iterated law keeps in w -------------------------------------------------------------------------------
 
     def keep(self, section: str, x: Vector) -> Vector:
-        """Store a vector in a section once per evaluation; return it as the iteration reads it."""
+        """Store a vector in a section once per evaluation; return the stored vector for the iteration."""
         return self.tape.stored_value(Vector, "keep", section, x, x.size)
 
     def keep_constraints(self) -> Matrix:
-        """Store D; return it as the iteration reads it."""
+        """Store D; return the stored matrix for the iteration."""
         return self.tape.stored_value(Matrix, "keep_constraints", "kept_jacobian", self.D)
 
     def keep_factor(self, factor: Factor) -> Factor:
-        """Store a factor; return it as the iteration reads it."""
+        """Store a factor; return the stored one for the iteration."""
         return self.tape.stored_value(Factor, "keep_factor", "kept_factor", factor)
 
     def variable(self, section: str, size: str) -> Vector:
-        """Return a vector that the iteration changes, as it reads it from a section."""
+        """Return an iterated vector, read from a section."""
         return self.tape.named(Vector, "section", section, size=size)
 
     # -- along the motion ----------------------------------------------------------------------------------------------
@@ -332,11 +332,11 @@ class System:
     # -- what corrections and descriptor forms are written with, beside ------------------------------------------------
 
     def flag(self) -> Value:
-        """Return whether a pivot of S was suspicious so far."""
+        """Return the flag of a suspicious pivot of S."""
         return self.tape.named(Value, "flag")
 
     def geometry(self, rank: Factor) -> Value:
-        """Return what every `geometry` writes: Phi, its norm, nu, D, relative pivots and the rank they decide."""
+        """Return the outputs of every `geometry`: Phi, its norm, nu, D, relative pivots and the resulting rank."""
         return rank.applied(Value, "geometry", rank)
 
     def rank_factor(self) -> Factor:
@@ -347,8 +347,8 @@ class System:
         """Return the factor of D W D^T without the rows that `rank` leaves out.
 
         W is M^-1 (``mass``) or the identity (``identity``), with D as ``geometry`` left it; or the choice of dependent
-        columns times G (``dependent``), or the inverse of the metric of carried bodies (``body``), with D as it is
-        being evaluated.
+        columns times G (``dependent``), or the inverse of the metric of carried bodies (``body``), with the D under
+        evaluation.
         """
         return rank.applied(Factor, f"weighted_{weight}", rank)
 
@@ -357,7 +357,7 @@ class System:
         return self.tape.named(Vector, "body_entries", size="nv")
 
     def body_inverse(self, x: Vector) -> Vector:
-        """Return the inverse of that metric times x, from the section ``body_entry``."""
+        """Return the inverse of the metric of carried bodies times x, from the section ``body_entry``."""
         return x.applied(Vector, "body_inverse", x, size="nv")
 
     def augmented_metric(self, penalties: Vector) -> Factor:
@@ -373,7 +373,7 @@ class System:
         return rank.applied(Scalar, "partition_quality", rank, factor)
 
     def stored_factor(self, factor: Factor, prefix: str) -> Factor:
-        """Return a factor as another function reads it, from ``<prefix>lower`` and ``<prefix>reciprocal``."""
+        """Return a factor stored by another function in ``<prefix>lower`` and ``<prefix>reciprocal``."""
         return Factor(self.tape, self.tape.add(FormulaStep("stored_factor", (factor.index,), (prefix,))))
 
     def stored_constraints(self) -> Matrix:
@@ -381,9 +381,9 @@ class System:
         return self.tape.named(Matrix, "stored_constraints")
 
     def driving(self, accelerations: Vector) -> Scalar:
-        """Return the power of the drivers of prescribed coordinates, without what they do against rows."""
+        """Return the power of the drivers of prescribed coordinates, without that against rows."""
         return accelerations.applied(Scalar, "driving", accelerations)
 
     def holonomic_or(self, otherwise: Vector) -> Vector:
-        """Return Phi, and in nonholonomic rows what stands in its place."""
+        """Return Phi, with `otherwise` in nonholonomic rows."""
         return otherwise.applied(Vector, "holonomic_or", otherwise, size="m")

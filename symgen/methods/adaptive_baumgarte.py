@@ -16,14 +16,14 @@ _ZERO = (1.729444231067705, 0.8889743761218646)
 class AdaptiveBaumgarte(MultiplierMethod):
     """`baumgarte` with gains that depend on the step h.
 
-    ``rule=gain``: ``alpha = beta = min(gain, a / h)``, our own: a / h keeps the root inside the region of stability of
-    every explicit integrator but `abm`, whatever the step, and `gain` bounds it where steps are short. ``rule=taylor``:
-    ``alpha = 1 / h``, ``beta = sqrt(2) / h``, from ``Phi + h Phi' + h^2 Phi'' / 2 = 0``. ``rule=pole-placed``: the
-    roots are zeros of the integrator's stability function over h, so that one step ends a violation of linear
-    constraints.
+    ``rule=gain``: ``alpha = beta = min(gain, a / h)``, our own choice: a / h keeps the root inside the region of
+    stability of every explicit integrator but `abm`, whatever the step, and `gain` bounds it where steps are short.
+    ``rule=taylor``: ``alpha = 1 / h``, ``beta = sqrt(2) / h``, from ``Phi + h Phi' + h^2 Phi'' / 2 = 0``.
+    ``rule=pole-placed``: the roots are zeros of the integrator's stability function over h, so that one step ends a
+    violation of linear constraints.
 
-    It is for stability at any step, not for accuracy: gains that grow like 1 / h feed the violations of the stages,
-    which are no error of the step, back times 1 / h^2, and leave order 2 of any integrator.
+    It provides stability at any step, not accuracy: gains that grow like 1 / h feed back the violations of the stages,
+    which are no error of the step, times 1 / h^2, and reduce any integrator to order 2.
     """
 
     name = "adaptive-baumgarte"
@@ -61,7 +61,7 @@ class AdaptiveBaumgarte(MultiplierMethod):
         return system.gamma - (2.0 * alpha) * drift - square * system.phi
 
     def placed(self, options: Mapping[str, str], zero: complex | None, integrator: str) -> dict[str, float]:
-        """Return the zero of the integrator's stability function, for the rule that takes it."""
+        """Return the zero of the integrator's stability function, for the rule that uses it."""
         if options["rule"] != "pole-placed":
             return {}
         if zero is None:

@@ -14,7 +14,7 @@ from symgen.methods._formula import System, Vector
 class AugmentedHamiltonian(Method):
     """Integrates ``p = M v + D^T sigma`` by ``p' = f + (dD/dt)^T sigma``; v and sigma follow from p by iteration.
 
-    ``(M + a D^T D) dv = p - M v - D^T (sigma + a (D v - nu))``, ``sigma += a (D v - nu)`` until v changes no more, so
+    ``(M + a D^T D) dv = p - M v - D^T (sigma + a (D v - nu))``, ``sigma += a (D v - nu)`` until v converges, so
     that the velocity constraint holds in every evaluation and only one derivative of the constraints is needed. The
     state holds u = M^-1 p in place of v, whose rate has a part ``M^-1 (dM/dt) (v - u)`` where M changes. sigma is the
     impulse of the constraint forces; it starts from 0 at every step, where p becomes M v again (a change of gauge), so

@@ -12,8 +12,8 @@ from symgen.methods._formula import System
 class AugmentedLagrangian(Method):
     """Iterates ``(M + a D^T D) dv' = f - M v' - D^T (lambda + a (D v' - g))``, ``lambda += a (D v' - g)``.
 
-    ``g = gamma - 2 omega mu Phi' - omega^2 Phi``: violations decay like a damped oscillator, as with `baumgarte`.
-    M + a D^T D is positive definite for every rank of D, so redundant and singular positions need no care.
+    ``g = gamma - 2 omega mu Phi' - omega^2 Phi``: violations decay like a damped oscillator, as with `baumgarte`. M + a
+    D^T D is positive definite for every rank of D, so redundant rows and singular positions need no special treatment.
     """
 
     name = "augmented-lagrangian"

@@ -14,7 +14,7 @@ class Baumgarte(MultiplierMethod):
     """``Phi'' + 2 alpha Phi' + beta^2 Phi = 0`` in place of ``Phi'' = 0``.
 
     ``alpha = beta`` is critically damped. The roots ``-alpha +- sqrt(alpha^2 - beta^2)`` belong to the integrated
-    system, so they limit the step: ``|root| h < 2.785`` for RK4. Nonholonomic rows have no ``Phi``: there the velocity
+    system, so they limit the step: ``|root| h < 2.785`` for RK4. Nonholonomic rows have no ``Phi``: their velocity
     residual decays with ``2 alpha``.
     """
 

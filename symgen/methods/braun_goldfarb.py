@@ -12,8 +12,8 @@ class BraunGoldfarb(InvariantStabilization):
     """`invariant-stabilization` with kappa = 1 / h, where h is the current step.
 
     ``q' = N (v - M^-1 D^T S^-1 (w + Phi / h))``, ``D v' = gamma - w / h``: the smallest changes of velocities and
-    accelerations in the metric of M that close positions and velocities at the end of an Euler step. Schemes of higher
-    order lose their order to it. The formula is our reading: only the abstract of the reference was available.
+    accelerations in the metric of M that close positions and velocities at the end of an Euler step. It reduces the
+    order of higher-order schemes. The formula is our reading: only the abstract of the reference was available.
     """
 
     name = "braun-goldfarb"
@@ -26,7 +26,7 @@ class BraunGoldfarb(InvariantStabilization):
         return system.inverse_step
 
     def largest_step(self, parameters: Mapping[str, float], boundary: float) -> float | None:
-        """Return 0 where minus one is outside the region of stability, else None: the rate follows the step."""
+        """Return 0 if minus one is outside the region of stability, else None: the rate follows the step."""
         return None if boundary >= 1.0 else 0.0
 
 

@@ -14,8 +14,8 @@ class CompliantConstraints(Method):
 
     S = D M^-1 D^T, ``g = gamma - 2 omega mu Phi' - omega^2 Phi``. In exact arithmetic it is `penalty` with a = 1 / e,
     without that method's loss of digits where a is large. At rest ``Phi = e lambda / omega^2``: joints are springs of
-    stiffness omega^2 / e. S + e is positive definite, so singular positions need no decision on rank. Game engines call
-    e constraint force mixing (CFM).
+    stiffness omega^2 / e. S + e is positive definite, so singular positions require no decision on rank. Game engines
+    call e constraint force mixing (CFM).
     """
 
     name = "compliant-constraints"
@@ -39,7 +39,7 @@ class CompliantConstraints(Method):
         return Acceleration(system.minv(system.f - system.D.transposed(multipliers)), multipliers)
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
-        """Return the same equations, kept together."""
+        """Return the same equations without elimination."""
         return Descriptor("acceleration", stabilised(system), system.parameter("compliance"))
 
 

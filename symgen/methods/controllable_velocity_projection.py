@@ -12,9 +12,9 @@ class ControllableVelocityProjection(MultiplierMethod):
     """As `lagrange`; after each step ``v -= theta M^-1 D^T S^-1 w``, w = D v - nu.
 
     Each step multiplies w by 1 - theta. For nu = 0 it changes the kinetic energy by ``-(theta - theta^2 / 2) w^T S^-1
-    w``; the complete projection, theta = 1, which is `velocity-projection` with ``weight=mass``, takes most. The
+    w``; the complete projection, theta = 1, which is `velocity-projection` with ``weight=mass``, removes most. The
     reference solves ``(M + a D^T D) v = M v* + a D^T nu``, which is theta = s / (s + 1 / a) for each eigenvalue s of S.
-    One factor theta in its place is our reading.
+    Replacing it by one factor theta is our reading.
     """
 
     name = "controllable-velocity-projection"
@@ -29,7 +29,7 @@ class ControllableVelocityProjection(MultiplierMethod):
         return True
 
     def correction(self, options: Mapping[str, str]) -> Correction:
-        """Return one correction at velocity level, times theta."""
+        """Return one correction at velocity level, scaled by theta."""
         return Correction("none", True, "mass", share="theta")
 
 

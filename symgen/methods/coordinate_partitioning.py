@@ -13,9 +13,9 @@ class CoordinatePartitioning(MultiplierMethod):
     """Integrates independent coordinates w; dependent ones u follow from ``Phi = 0``, their rates from ``D v = nu``.
 
     Before every evaluation u is found by Newton's iteration on the dependent columns of D and u' by one solve, so
-    that all states of a step satisfy the constraints. The derivatives that the integrator forms for u serve as
-    prediction only. The partition comes from an elimination of D with complete pivoting, and exchanges; another one is
-    chosen where the determinant that judges it has fallen below 0.3 of the best since the choice.
+    that all states of a step satisfy the constraints. The integrated u serves as prediction only. The
+    partition results from an elimination of D with complete pivoting, and exchanges; a new one is chosen when its
+    determinant has fallen below 0.3 of the best since the choice.
     """
 
     name = "coordinate-partitioning"
@@ -31,7 +31,7 @@ class CoordinatePartitioning(MultiplierMethod):
     parameters = (TOLERANCE,)
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
-        """Return None: the dependent coordinates of an implicit stage are not closed by the partition."""
+        """Return None: the partition does not close the dependent coordinates of an implicit stage."""
         return None
 
     def correction(self, options: Mapping[str, str]) -> Correction:

@@ -10,10 +10,10 @@ from symgen.methods._formula import System
 
 
 class DependentCorrection(MultiplierMethod):
-    """As `lagrange`, all coordinates integrated; after each step ``dv = -P D^T (D P D^T)^-1 Phi``, and so for v.
+    """As `lagrange`, all coordinates integrated; after each step ``dv = -P D^T (D P D^T)^-1 Phi``, likewise for v.
 
     P keeps the dependent columns, chosen as for `coordinate-partitioning`, which closes the stages as well. Near a
-    singular position no partition determines the motion: there all coordinates are corrected in the metric of M. The
+    singular position no partition determines the motion: all coordinates are corrected in the metric of M. The
     references choose the partition by another criterion.
     """
 
@@ -25,7 +25,7 @@ class DependentCorrection(MultiplierMethod):
     parameters = (TOLERANCE,)
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
-        """Return None: the choice of a partition is made for explicit steps."""
+        """Return None: partitions are chosen in explicit steps only."""
         return None
 
     def correction(self, options: Mapping[str, str]) -> Correction:

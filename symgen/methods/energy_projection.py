@@ -11,10 +11,10 @@ from symgen.methods._base import TOLERANCE, MultiplierMethod
 class EnergyProjection(MultiplierMethod):
     """As `direct-correction` in the metric of M; then ``v <- v_p + s (v - v_p)`` with T + V = E0 + W.
 
-    ``v_p = M^-1 D^T S^-1 nu`` is what drivers prescribe; the rest is orthogonal to it in the metric of M, so that ``s^2
-    = (E0 + W - V - T(v_p)) / T(v - v_p)``. This is the smallest change in the metric of M that keeps ``D v = nu``.
-    Where s^2 would be outside of 1/4 to 4, as at turning points, velocities are not scaled. The formula is our reading:
-    only the abstract of the reference was available. The energy of such a run says nothing about its error.
+    ``v_p = M^-1 D^T S^-1 nu`` is the part prescribed by drivers; the rest is orthogonal to it in the metric of M, so
+    that ``s^2 = (E0 + W - V - T(v_p)) / T(v - v_p)``. This is the smallest change in the metric of M that keeps ``D v =
+    nu``. Where s^2 would leave 1/4 to 4, as at turning points, velocities are not scaled. The formula is our reading:
+    only the abstract of the reference was available. The energy of such a run does not indicate its error.
     """
 
     name = "energy-projection"

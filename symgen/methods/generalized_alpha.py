@@ -12,8 +12,8 @@ class GeneralizedAlpha(MultiplierMethod):
     """``M v' = f - D^T lambda``, ``Phi(t, q) = 0`` at the end of every step, by the integrator `generalized-alpha`.
 
     Positions satisfy their constraints to the tolerance of Newton's iteration; velocities violate theirs by the
-    integrator's error of order two, which is judged as an error and not as drift. High frequencies, those of the
-    constraints among them, are damped as `rho` says.
+    integrator's error of order two, which counts as an error and not as drift. `rho` sets the damping of high
+    frequencies, including those of the constraints.
     """
 
     name = "generalized-alpha"

@@ -11,7 +11,7 @@ from symgen.methods._formula import System
 class Ggl(MultiplierMethod):
     """``q' = N (v - D^T eta)``, ``M v' = f - D^T lambda``, ``Phi = 0``, ``D v = nu``; eta vanishes on solutions.
 
-    For implicit integrators only: every stage satisfies the constraints at both levels, so there is nothing to correct.
+    For implicit integrators only: every stage satisfies the constraints at both levels and needs no correction.
     Nonholonomic rows have no Phi: their eta is set to 0.
     """
 

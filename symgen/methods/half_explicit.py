@@ -11,9 +11,9 @@ from symgen.methods._formula import System
 class HalfExplicit(MultiplierMethod):
     """``V_(i+1) = v + h sum_j a_ij V'_j``, ``M V'_i = f_i - D_i^T lambda_i``, ``D_(i+1) V_(i+1) = nu_(i+1)``.
 
-    One linear system a stage, with D at both of its ends, gives V'_i and lambda_i: no gamma, no Newton iteration and no
-    gains. Velocities meet their constraint to rounding after every step; positions drift by what integrating exact
-    velocities adds. Multipliers and accelerations of results are those of `lagrange`.
+    One linear system per stage, with D at both ends, determines V'_i and lambda_i: no gamma, no Newton iteration and no
+    gains. Velocities meet their constraint to rounding after every step; positions drift by the error of integrating
+    exact velocities. Multipliers and accelerations of results are those of `lagrange`.
     """
 
     name = "half-explicit"
@@ -26,7 +26,7 @@ class HalfExplicit(MultiplierMethod):
     default_integrator = "half-explicit"
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
-        """Return the constraints at velocity level, with M and D alone as derivatives."""
+        """Return the constraints at velocity level, with M and D as the only derivatives."""
         return Descriptor("explicit")
 
 

@@ -14,9 +14,9 @@ from symgen.methods.augmented_hamiltonian import AugmentedHamiltonian
 class HamiltonianBaumgarte(AugmentedHamiltonian):
     """`augmented-hamiltonian` with ``D v = nu - alpha Phi``: ``Phi' = -alpha Phi`` in every evaluation.
 
-    ``p = M v + D^T sigma``, ``p' = f + (dD/dt)^T sigma``. `augmented-hamiltonian` leaves violations of positions as
-    they are; here they decay. As there, one derivative of the constraints is enough. We have the content of the
-    reference at second hand.
+    ``p = M v + D^T sigma``, ``p' = f + (dD/dt)^T sigma``. `augmented-hamiltonian` leaves violations of positions
+    unchanged; here they decay. Both need one derivative of the constraints only. The content of the reference is known
+    to us at second hand.
     """
 
     name = "hamiltonian-baumgarte"

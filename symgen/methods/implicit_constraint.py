@@ -11,9 +11,9 @@ from symgen.methods._formula import System, Vector
 class ImplicitConstraint(MultiplierMethod):
     """``D v' = -w / h - e Phi / h^2``, w = D v - nu and h the step: with ``v1 = v + h v'``, ``D v1 = nu - e Phi / h``.
 
-    With e = 1 and `symplectic-euler`, whose positions move by ``h v1``, that is one Newton step of ``Phi(q1) = 0``, the
-    one of SHAKE. gamma is left out: the step itself makes the quadratic terms. Game engines take the same step with the
-    error reduction e of 0.2 to 0.8. Both constraints are off by the scheme's error, of order 1 in velocities.
+    With e = 1 and `symplectic-euler`, whose positions move by ``h v1``, this is one Newton step of SHAKE for ``Phi(q1)
+    = 0``. gamma is omitted: the step itself produces the quadratic terms. Game engines take the same step with the
+    error reduction e of 0.2 to 0.8. Both constraints are violated by the scheme's error, of order 1 in velocities.
     """
 
     name = "implicit-constraint"

@@ -13,8 +13,8 @@ from symgen.methods._formula import System
 class Index1AugmentedLagrangian(Method):
     """The iteration of `augmented-lagrangian` for ``D v' = gamma``, then mass-orthogonal projections of q and v.
 
-    There is no feedback of violations (omega = 0): after each accepted step positions and velocities are projected with
-    the leading matrix that the iteration uses, M + a D^T D. Readings of the name differ; this is ours, after Cuadrado,
+    Violations are not fed back (omega = 0): after each accepted step positions and velocities are projected with the
+    leading matrix of the iteration, M + a D^T D. Readings of the name differ; this is ours, after Cuadrado,
     Cardenal and Bayo.
     """
 

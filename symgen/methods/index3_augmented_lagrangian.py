@@ -13,8 +13,8 @@ class Index3AugmentedLagrangian(MultiplierMethod):
 
     The leading matrix ``W = M + h/2 C + h^2/4 (a D^T D + K)`` has the exact stiffness K and damping C of forces and
     constraints. Velocities and accelerations, which the trapezoidal rule leaves off their constraints, are projected
-    with W. Nonholonomic rows have ``h/2 a (D v - nu)`` in place of a Phi, and the same part of W. With h^2/4 a D M^-1
-    D^T well above 1 a few iterations do; redundant constraints need no care.
+    with W. Nonholonomic rows have ``h/2 a (D v - nu)`` in place of a Phi, and the same term of W. With h^2/4 a D M^-1
+    D^T well above 1 a few iterations suffice; redundant constraints need no special treatment.
     """
 
     name = "index3-augmented-lagrangian"
@@ -32,7 +32,7 @@ class Index3AugmentedLagrangian(MultiplierMethod):
     )
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
-        """Return the constraints at position level, and those that the projections meet."""
+        """Return the constraints at position level and those of the projections."""
         return Descriptor("projected", system.gamma)
 
 

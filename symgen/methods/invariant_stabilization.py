@@ -12,11 +12,11 @@ from symgen.methods._formula import Scalar, System
 class InvariantStabilization(Method):
     """``q' = N (v - D^+ (w + kappa Phi))``, ``D v' = gamma - kappa w`` with w = D v - nu: ``Phi' = -kappa Phi``.
 
-    ``D^+ = M^-1 D^T S^-1``, so that v' and the change of q' are solved with one factor of S. Phi decays with the rate
-    kappa exactly and does not oscillate; w does but for the turning of D along the change of q', a term of the order of
-    v times the violations. With kappa near 1 / h it is `post-stabilization` within a step. Gains that grow like 1 / h
-    feed the stages' own violations back and cost the integrator its order. The form with a change of q' is our reading
-    of the references; of the first only the abstract was available.
+    ``D^+ = M^-1 D^T S^-1``, so that v' and the change of q' share one factor of S. Phi decays with the rate kappa
+    exactly and without oscillation; w likewise, except for the rotation of D along the change of q', a term of the
+    order of v times the violations. With kappa near 1 / h it is `post-stabilization` within a step. Gains that grow
+    like 1 / h feed the stages' own violations back and cost the integrator its order. The form with a change of q' is
+    our reading of the references; of the first only the abstract was available.
     """
 
     name = "invariant-stabilization"
@@ -39,7 +39,7 @@ class InvariantStabilization(Method):
         return True
 
     def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
-        """Return v' with its feedback, and q' without what violates the constraints."""
+        """Return v' with its feedback, and q' without the part that violates the constraints."""
         kappa, drift = self.rate(system), system.D @ system.v - system.nu
         multipliers = system.solve_schur(system.D @ system.minv(system.f) - system.gamma + kappa * drift)
         impulse = system.solve_schur(drift + kappa * system.phi)

@@ -8,8 +8,8 @@ from symgen.methods._base import MultiplierMethod
 class Lagrange(MultiplierMethod):
     """``[M D^T; D 0] [v'; lambda] = [f; gamma]``.
 
-    The constraints hold at acceleration level only, so position violations grow with time; it is the baseline to which
-    the other methods' cost is related.
+    The constraints hold at acceleration level only, so position violations grow with time; the cost of other methods
+    is relative to this one.
     """
 
     name = "lagrange"

@@ -12,11 +12,11 @@ from symgen.methods._formula import System
 class NullSpace(Method):
     """``v' = b + R z'`` with ``D R = 0``, ``b = D^+ gamma`` and ``R^T M R z' = R^T (f - M b)``.
 
-    The basis R begins with unit vectors of independent coordinates and is projected on to each new tangent space, ``R
-    <- orth((1 - D^+ D) R)``, so that it changes as little as the mechanism does; no decomposition is made anew at
-    every step. After each step positions and velocities are corrected as in `direct-correction`, in the metric in
-    which rank is decided: 1 rad weighs as much as the length of its body. Readings of the name
-    differ: Mani, Haug and Atkinson take R from a singular value decomposition, Kim and Vanderploeg from a QR one.
+    The basis R begins with unit vectors of independent coordinates and is projected onto each new tangent space, ``R <-
+    orth((1 - D^+ D) R)``, so that it changes as little as the mechanism does, without a new decomposition at every
+    step. After each step positions and velocities are corrected as in `direct-correction`, in the metric of the rank
+    decision: 1 rad weighs as much as the length of its body. Readings of the name differ: Mani, Haug and Atkinson take
+    R from a singular value decomposition, Kim and Vanderploeg from a QR one.
     """
 
     name = "null-space"

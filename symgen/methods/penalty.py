@@ -13,7 +13,7 @@ class Penalty(Method):
     """``(M + a D^T D) v' = f + a D^T g`` with ``g = gamma - 2 omega mu Phi' - omega^2 Phi``; ``lambda = a (D v' - g)``.
 
     The first step of the augmented Lagrangian method, not iterated: the constraints hold up to an error that falls like
-    1 / a, while rounding grows like a. M + a D^T D is positive definite, so redundant rows need no care.
+    1 / a, while rounding grows like a. M + a D^T D is positive definite, so redundant rows need no special treatment.
     """
 
     name = "penalty"

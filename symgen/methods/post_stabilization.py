@@ -12,7 +12,7 @@ class PostStabilization(MultiplierMethod):
     """As `lagrange`; after each step once ``q -= N D^+ Phi`` and once ``v -= D^+ (D v - nu)``.
 
     The stabilisation with F = D^T (D D^T)^-1 of Ascher, Chin and Reich: one step towards the constraints, which keeps
-    the violation at the square of what a step adds, at a fixed price.
+    the violation at the square of the increment of a step, at fixed cost.
     """
 
     name = "post-stabilization"

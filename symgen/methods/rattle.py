@@ -11,7 +11,7 @@ from symgen.methods._formula import System
 class Rattle(MultiplierMethod):
     """``Phi(q1) = 0`` by forces along D_0^T in the first half of a step, ``D_1 v1 = nu`` by D_1^T in the second one.
 
-    Explicit in the forces of position, of order 2 and reversible: the error of energy stays bounded over very long
+    Explicit for position-dependent forces, of order 2 and reversible: the error of energy stays bounded over very long
     runs. Multipliers and accelerations of results are those of `lagrange`.
     """
 
@@ -25,7 +25,7 @@ class Rattle(MultiplierMethod):
     default_integrator = "rattle"
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
-        """Return the constraints at position and velocity level, with M and D alone as derivatives."""
+        """Return the constraints at position and velocity level, with M and D as the only derivatives."""
         return Descriptor("explicit")
 
 

@@ -26,10 +26,10 @@ _HEAVY, _PASSES = 1e6, 6
 class StiffnessScaledPenalty(Method):
     """The motion of `direct-correction` with the multipliers of elastic rows of stiffness k.
 
-    The force of constraints F = D^T lambda is known from the rows that are independent. ``(M + D^T a D) z = F``,
+    The independent rows determine the constraint force F = D^T lambda. ``(M + D^T a D) z = F``,
     ``lambda += a D z``, ``F -= D^T a D z`` with penalties a like the stiffness k, of redundant rows as well, gives
-    ``lambda = k D z``: loads are shared like k. Penalties act on multipliers alone. In the law itself those of
-    redundant rows would pull at the motion, as these rows are independent at the stages of a step.
+    ``lambda = k D z``: loads are shared in proportion to k. Penalties act on multipliers alone: in the law
+    itself those of redundant rows would act on the motion, as these rows are independent at the stages of a step.
     """
 
     name = "stiffness-scaled-penalty"
@@ -53,7 +53,7 @@ class StiffnessScaledPenalty(Method):
     )
 
     def law(self, system: System, options: Mapping[str, str]) -> Acceleration | Iteration:
-        """Return the motion of `direct-correction`, and multipliers shared like the stiffness."""
+        """Return the motion of `direct-correction` and multipliers in proportion to the stiffness."""
         if options["solver"] == "augmented":
             iterated = augmented_iteration(system, system.heavy_penalty, system.gamma)
             multipliers = system.variable("multipliers", system.gamma.size)
@@ -62,7 +62,7 @@ class StiffnessScaledPenalty(Method):
         return Acceleration(motion.acceleration, self._shared(system, motion.multipliers))
 
     def _shared(self, system: System, multipliers: Vector) -> Vector:
-        """Return multipliers of the same force, in proportion to the stiffness."""
+        """Return multipliers of the same force in proportion to the stiffness."""
         stiffness = system.row_stiffness(system.parameter("stiffness"))
         penalties = (_HEAVY * system.scale("mean_mass") / stiffness.dot(stiffness).root()) * stiffness
         factor = system.augmented_factor(penalties)
@@ -74,7 +74,7 @@ class StiffnessScaledPenalty(Method):
         return shared
 
     def correction(self, options: Mapping[str, str]) -> Correction:
-        """Return that of `direct-correction`."""
+        """Return the correction of `direct-correction`."""
         return Correction("newton", True, "identity")
 
 

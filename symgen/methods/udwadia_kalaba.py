@@ -11,9 +11,9 @@ from symgen.methods._formula import System
 class UdwadiaKalaba(Method):
     """``v' = a + M^-1/2 (D M^-1/2)^+ (gamma - D a)`` with ``a = M^-1 f``: Gauss's principle solved in closed form.
 
-    With ``B = D M^-1/2`` the pseudoinverse is ``B^T (B B^T)^+``; dependent rows are skipped as D D^T decides. Where D
-    has full rank the accelerations are those of `lagrange` up to rounding. Multipliers are reported as ``(B B^T)^+ (D
-    a - gamma)``. Singular mass matrices (Udwadia, Phohomsiri 2006) are not covered.
+    With ``B = D M^-1/2`` the pseudoinverse is ``B^T (B B^T)^+``; dependent rows, as decided by D D^T, are skipped.
+    Where D has full rank the accelerations are those of `lagrange` up to rounding. Multipliers are reported as ``(B
+    B^T)^+ (D a - gamma)``. Singular mass matrices (Udwadia, Phohomsiri 2006) are not covered.
     """
 
     name = "udwadia-kalaba"

@@ -11,8 +11,8 @@ from symgen.methods._base import SOLVER, WEIGHT, MultiplierMethod
 class VelocityProjection(MultiplierMethod):
     """As `lagrange`; after each step ``v -= D^+ (D v - nu)``.
 
-    The velocity constraint holds to rounding, so positions violate theirs only by what integrating exact velocities
-    adds: linear growth instead of the quadratic one of `lagrange`.
+    The velocity constraint holds to rounding, so positions violate theirs only by the error of integrating exact
+    velocities: linear growth instead of the quadratic one of `lagrange`.
     """
 
     name = "velocity-projection"

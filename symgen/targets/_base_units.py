@@ -1,4 +1,4 @@
-"""Units as products of SI base units, as model descriptions of FMI have them."""
+"""Units as products of SI base units, in the form of FMI model descriptions."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 import re
 from collections import Counter
 
-#: Symbols of units: exponents of base units, and the factor to these.
+#: Symbol of a unit -> exponents of base units and the factor to these.
 _UNITS: dict[str, tuple[dict[str, int], float]] = {
     "1": ({}, 1.0),
     **{name: ({name: 1}, 1.0) for name in ("kg", "m", "s", "A", "K", "mol", "cd", "rad")},
@@ -30,7 +30,7 @@ def base_unit(unit: str) -> dict[str, int | float] | None:
     Parameters
     ----------
     unit : str
-        Such as ``kg m^2``, ``N/m``, ``N m s/rad``; units behind a slash divide.
+        Such as ``kg m^2``, ``N/m``, ``N m s/rad``; units after a slash divide.
     """
     exponents, factor = Counter[str](), 1.0
     body = unit.replace("(", "").replace(")", "")

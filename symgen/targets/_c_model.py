@@ -1,4 +1,4 @@
-"""A mechanism as C99: emitted functions, numbers of its start, and what templates print around them."""
+"""A mechanism as C99: emitted functions, numbers of its start, and values for the templates."""
 
 from __future__ import annotations
 
@@ -37,15 +37,15 @@ if TYPE_CHECKING:
     from symgen.targets._target import Request
     from symgen.vocabulary.quantities import Quantity
 
-#: Functions of a law and of a model that C has.
+#: Functions of a law and of a model that exist in C.
 _NAMES = ("rhs", "accept", "geometry", "confirm", "masses", "move", "bodies")
-#: Operations of a right-hand side at most: a compiler takes half a minute for as many.
+#: Maximum number of operations of a right-hand side: a compiler takes half a minute for it.
 MOST_OPERATIONS = 40_000
 
 
 @dataclass(frozen=True)
 class CModel:
-    """A mechanism that is printed as C99.
+    """A mechanism in C99.
 
     Attributes
     ----------
@@ -81,17 +81,17 @@ class CModel:
 
     @property
     def mechanism(self) -> Mechanism:
-        """The mechanism, with its tree where the state is that of joints."""
+        """The mechanism, with its tree for a state in joint coordinates."""
         return self.run.mechanism
 
     @property
     def joint(self) -> bool:
-        """Whether the state is that of joints."""
+        """Whether the state has joint coordinates."""
         return self.run.tree is not None
 
     @property
     def prefix(self) -> str:
-        """What the names of the C functions begin with."""
+        """Prefix of the names of the C functions."""
         name = self.mechanism.name.replace("-", "_")
         return f"{name}_model" if name in RESERVED else name
 
@@ -196,7 +196,7 @@ class CModel:
         return functions | {name: read(side.function, abi.OBSERVE) for name, side in sides.items()}
 
     def _changed(self, event: Event) -> list[int]:
-        """Return the velocities that an event changes, by place."""
+        """Return the indices of the velocities that an event changes."""
         info, bodies = self.compiled.info, self.mechanism.bodies
         where = f"--target {self.target}: events.{event.name}"
         if self.joint:
@@ -208,9 +208,9 @@ class CModel:
         return [names.index(to_text(name)) for name, _ in event.reset]
 
     def _start(self) -> dict[str, str]:
-        """Return lines for the parameters that follow from others and for the start.
+        """Return lines for the derived parameters and for the start.
 
-        A start that holds coordinates of joints, and one in joint coordinates, is closed from the exported one.
+        A start that specifies coordinates of joints, or is in joint coordinates, is closed from the exported one.
         """
         mechanism, info = self.mechanism, self.compiled.info
         columns = {*(q.name for q in self.columns), *(f"{b.name}.{ORIENTATION}" for b in mechanism.bodies)}
@@ -240,7 +240,7 @@ class CModel:
 
 
 def _reset(event: Event) -> str:
-    """Return the name of the function with the velocities that an event changes."""
+    """Return the name of the function for the velocities that an event changes."""
     return f"velocities_at_{event.name}"
 
 

@@ -12,7 +12,7 @@ def modules_for(processor: str) -> Target:
     Parameters
     ----------
     processor : {"cpu", "lanes", "cuda"}
-        What the modules run on.
+        Processor of the modules.
     """
 
     def write(request: Request) -> Package:

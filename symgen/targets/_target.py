@@ -1,4 +1,4 @@
-"""A target writes the code of a mechanism."""
+"""Targets write the code of a mechanism."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.running.package import Package
 
-#: The method of targets that have one.
+#: The method of targets with a single method.
 USUAL = "direct-correction"
 
 
 @dataclass(frozen=True)
 class Request:
-    """A mechanism, and the choices of its code.
+    """A mechanism and the options of its code.
 
     Attributes
     ----------
     mechanism : Mechanism
         A validated mechanism.
     path : Path
-        The folder, or the file of targets that are one file.
+        The folder, or the file of a single-file target.
     methods : tuple of str or None
         Names of methods, None for all that suit the mechanism, the shape and the target.
     options : mapping of str to str
@@ -75,14 +75,14 @@ class Request:
 
 @dataclass(frozen=True)
 class Target:
-    """One use of emitted code; the first line of a target's file names it and what the code needs.
+    """One use of emitted code; the first line of a target's file names it and the requirements of the code.
 
     Attributes
     ----------
     write : callable
         Writes the files of a request.
     ending : str
-        What is added to the mechanism's name where no path is given.
+        Suffix of the mechanism's name in the default path.
     """
 
     write: Callable[[Request], Package]

@@ -28,9 +28,9 @@ from symgen.targets._c_model import CModel, sources
 from symgen.targets._target import Request, Target
 from symgen.version import __version__
 
-#: Value references: parameters begin at 0, time is below all others.
+#: Value references: parameters begin at 0, time follows all others.
 _COLUMN, _OUTPUT, _STATE, _RATE, _EVENT, _TIME = 10_000, 20_000, 30_000, 40_000, 50_000, 60_000
-#: Platforms by system: the folder of FMI 2 and of FMI 3, what libraries end in.
+#: Platforms by system: the folders of FMI 2 and FMI 3, the suffix of libraries.
 _PLATFORMS = {
     "linux": ("linux64", "linux", ".so"),
     "win32": ("win64", "windows", ".dll"),
@@ -38,7 +38,7 @@ _PLATFORMS = {
 }
 _CROSS = "x86_64-w64-mingw32-gcc"
 _OPTIONS = ("-std=c99", "-O2", "-shared", "-s")
-#: Smallest of the singular values, over the largest, that count for the rank of rows.
+#: Smallest singular value that counts for the rank of rows, relative to the largest.
 _RANK = 1e-9
 
 
@@ -62,7 +62,7 @@ def _write(request: Request) -> Package:
     if request.fmi not in (2, 3):
         raise InputError("fmi", "2 or 3", str(request.fmi))
     check_path("-o", request.path, {".fmu": ()}, "")
-    # inputs with formulas are inputs of the FMU all the same: whoever imports it connects them
+    # inputs with formulas remain inputs of the FMU: the importing tool connects them
     mechanism = msgspec.structs.replace(request.mechanism, input_formulas=())
     model = CModel.of(replace(request, mechanism=mechanism), "fmu")
     files = _files(model, request.fmi)
@@ -79,7 +79,7 @@ def _write(request: Request) -> Package:
 
 
 def _files(model: CModel, fmi: int) -> dict[str, bytes]:
-    """Return the texts of an FMU by their names in it."""
+    """Return the text files of an FMU by their names in it."""
     texts = sources(model.values)
     values = model.values | _partition(model)
     values |= {
@@ -97,7 +97,7 @@ def _files(model: CModel, fmi: int) -> dict[str, bytes]:
 
 
 def _partition(model: CModel) -> dict[str, Any]:
-    """Return how many coordinates and velocities depend on others at the start, and rows and places for it."""
+    """Return the numbers of dependent coordinates and velocities at the start, with their rows and indices."""
     compiled, info = model.compiled, model.compiled.info
     rows = compiled.jacobian(model.run.start.w)
     holonomic = [i for i, row in enumerate(info.rows) if row.holonomic]
@@ -157,7 +157,7 @@ def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, 
 
 
 def _binaries(prefix: str, files: Mapping[str, bytes], fmi: int) -> dict[str, bytes]:
-    """Return shared libraries of an FMU for the machine at hand, and for Windows where a cross compiler is installed.
+    """Return shared libraries of an FMU for this machine, and for Windows if a cross compiler is installed.
 
     Raises
     ------
