@@ -66,8 +66,8 @@ PARAMETERS = {
 }
 #: Exponents of two that lengths, masses and times are multiplied by: about 1e-6 to 1e6, 1e-9 to 1e9, 1e-4 to 1e4.
 LENGTHS, MASSES, TIMES = (-20, -7, 0, 10, 20), (-30, -10, 0, 10, 30), (-13, -3, 0, 3, 13)
-#: Lengths for methods that weigh 1 rad like 1 m: with a unit of 1 um the iteration of `augmented-lagrangian` diverges on
-#: rows that its penalty holds in metres.
+#: Lengths for methods that weigh 1 rad like 1 m: with a unit of 1 um the iteration of `augmented-lagrangian` diverges,
+#: as one penalty is for rows in metres and in radians.
 MODERATE = (-7, -3, 0, 3, 7)
 #: Both files are in units other than the file's: a product with a number that is 1 is left out of emitted code, which
 #: changes the order of the additions around it, and no power of two makes 1 of such a number again.

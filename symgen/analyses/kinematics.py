@@ -132,7 +132,7 @@ class Kinematics(MotionTables):
         return Labelled(status[:, [abi.PHI, abi.DRIFT]], ("position", "velocity"), ("m", "m/s"))
 
     def run_facts(self) -> dict[str, Any]:
-        """Return what a page says of the motion and begins its live part with, by the names of JSON."""
+        """Return data of the motion for a page and for the start of its live part, by the names of JSON."""
         start = {"t": float(self.t[0]), "q": self.q.row(0), "v": self.v.row(0)} if len(self.t) else {}
         return {
             "method": "kinematics",

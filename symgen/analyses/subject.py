@@ -76,7 +76,7 @@ class Yardsticks:
 
     @property
     def loads(self) -> Array:
-        """What multipliers are divided by to be compared: a moment is the force that has it at the mechanism's length.
+        """Divisors of multipliers for comparisons: a moment counts as the force that has it at the mechanism's length.
 
         As in runs, whose multipliers are the smallest ones by the same measure; shape (m,).
         """

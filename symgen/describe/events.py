@@ -85,13 +85,13 @@ def watched(mechanism: Mechanism, settings: str, when: str, action: str) -> Even
     Parameters
     ----------
     mechanism : Mechanism
-        What it is about.
+        The mechanism.
     settings : str
         The setting with the condition, for messages.
     when : str
         The condition.
     action : {"record", "stop"}
-        What is done.
+        Action of the event.
     """
     switching, condition = _switching(Scope(Context.of(mechanism), settings), "", when)
     text = " ".join(when.split())
@@ -121,7 +121,7 @@ def in_words(events: Iterable[Event]) -> str:
 
 
 def _switching(scope: Scope, key: str, text: str) -> tuple[Expr, bool]:
-    """Return a function that is above 0 where the condition holds, and whether there is one."""
+    """Return a function above 0 where the condition holds, and whether the text is a condition."""
     expression = scope.of_state(key, text, conditions=True)
     changing = ("t", *scope.context.inputs, *scope.context.state_names)
     if not any(name in changing or "." in name for name in names(expression)):

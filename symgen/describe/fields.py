@@ -28,7 +28,7 @@ OutputFunction = Annotated[
 ]
 Potential = Annotated[float | str, Meta(description="an expression of parameters and the element's own coordinate")]
 Pair = Annotated[tuple[float | str, float | str], Meta(description="two numbers or expressions of parameters")]
-#: Two or three of them: the schema publishes that much, which of the two a mechanism needs is said by its `Scope`.
+#: Two or three of them, as published in the schema; the `Scope` of a mechanism decides between the two.
 _Components = Annotated[tuple[float | str, ...], Meta(extra_json_schema={"minItems": 2, "maxItems": 3})]
 Vector = Annotated[
     _Components,

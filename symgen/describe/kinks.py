@@ -40,7 +40,7 @@ _PLAIN = frozenset(("add", "sub", "neg", "mul", "where", "and", "or", "not", *BE
 
 
 def jumps_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[tuple[Jump, ...], tuple[Jump, ...]]:
-    """Return where formulas of joints, forces, integrals and events have kinks in time, and what they compare there.
+    """Return the kinks in time of formulas of joints, forces, integrals and events, and their comparisons.
 
     Jumps have no switch. `abs`, `min` and `max` have kinks where two values are equal, and tables at their points,
     whatever their pieces are: of a cubic one the third derivative jumps. Where comparisons and `sign` are passed,
@@ -97,11 +97,11 @@ class Discontinuity:
 
 
 def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
-    """Return where formulas jump or have kinks as the state passes something, each argument once a table.
+    """Return jumps and kinks of formulas that depend on the state, each argument once for each table.
 
     Comparisons and `sign` jump; `abs`, `min`, `max` and tables at their points have kinks. An integrand acts on
-    nothing, so that a dip of it between two evaluations is seen by no other error. What forces call ``s`` and ``rate``
-    is read of their measures.
+    nothing, so that no other error shows a dip of it between two evaluations. ``s`` and ``rate`` of forces
+    are readings of their measures.
     """
     formulas = integrated(mechanism)
     tables, plain = _tables(mechanism), {p.name for p in mechanism.parameters} | {"t"}
@@ -123,7 +123,7 @@ def compares_state(mechanism: Mechanism) -> bool:
 
 
 def changes_of(formula: Expr) -> tuple[Jump, ...]:
-    """Return the comparisons with zero in a formula of the time, and what depends on t, each once, without a switch."""
+    """Return the comparisons with zero in a formula of time that depend on t, each once, without a switch."""
     compares = (e for e, _ in _calls(formula) if e.function in _COMPARED and "t" in set(names(e)))
     return tuple(dict.fromkeys(Jump(compared(e)) for e in compares))
 
@@ -144,7 +144,7 @@ def restricted(part: Any) -> Iterator[tuple[Expr, Expr]]:
 
 
 def _of_a_run(e: Expr, effort: Effort) -> Expr:
-    """Return a formula of an effort with what it calls its measure and that one's rate as readings."""
+    """Return a formula of an effort with its ``s`` and ``rate`` as readings of the measure."""
     own = {name: Reading(name, effort.measure, order) for order, name in enumerate(("s", "rate"))}
     return replaced(e, lambda name: own.get(name.name, name))
 

@@ -40,14 +40,14 @@ Vec = tuple[Expr, ...]
 class Parameter(msgspec.Struct, frozen=True, omit_defaults=True):
     """A named number that stays adjustable at run time (``p`` of the emitted functions).
 
-    One with a `formula` follows the parameters that this names, unless it is given a number itself; `value` is what it
-    is with their defaults. An `input` is a number that comes from outside: it may change during a run, so it stands in
+    One with a `formula` follows the parameters in it, unless it is set to a number itself; `value` is its value
+    with their defaults. An `input` is a number that comes from outside: it may change during a run, so it stands in
     functions of state alone.
     """
 
     name: str
     value: float
-    # kernels are known by the text of their elements: it stays what it was where there is nothing but a number
+    # kernels are identified by the text of their elements, which stays unchanged for mere numbers
     unit: str = msgspec.field(default_factory=str)  # written even where it is empty
     note: str = msgspec.field(default_factory=str)
     formula: Expr | None = None
@@ -181,7 +181,7 @@ class Articulation(msgspec.Struct, frozen=True):
     angle : Expr
         In the plane, where nothing turns: angle of the second body less that of the first [rad].
     screw : tuple of Expr
-        Displacement along the axis per radian, and at angle 0, where the angle says it.
+        Displacement along the axis per radian, and at angle 0, where it depends on the angle.
     """
 
     a: Marker
@@ -197,7 +197,7 @@ class Articulation(msgspec.Struct, frozen=True):
 class Link(msgspec.Struct, frozen=True):
     """Attachment of a body in the tree: by a joint to another body, or free without a joint.
 
-    `forward` says whether the joint's first body is the one that carries.
+    `forward`: whether the joint's first body carries the other.
     """
 
     body: str
@@ -370,10 +370,10 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     cuts: tuple[str, ...] = ()  # joints that carry nothing where the state is that of a tree
     shapes: tuple[tuple[str, Shape], ...] = ()  # body -> its shape, several entries for several shapes
     topology: Topology | None = None  # where joint coordinates are the state; joints of the tree have no rows then
-    input_formulas: tuple[tuple[str, Expr], ...] = ()  # input -> the formula that a run has put in its place
+    input_formulas: tuple[tuple[str, Expr], ...] = ()  # input -> the formula that replaces it in a run
     states: tuple[StateVariable, ...] = ()
     rotors: tuple[Rotor, ...] = ()
-    beams: bytes = b""  # the description as JSON where it has beams, so that these can have other elements
+    beams: bytes = b""  # the description as JSON if it has beams, to change their number of elements
 
     def __repr__(self) -> str:
         counted = (

@@ -98,7 +98,7 @@ class FormulaNames(msgspec.Struct, frozen=True):
     hints: Mapping[str, str] = {}
 
     def beside(self, what: str, plain: Mapping[str, str]) -> FormulaNames:
-        """Return these names with other plain ones."""
+        """Return other plain names with the same `elsewhere` and `hints`."""
         return FormulaNames(what, plain, elsewhere=self.elsewhere, hints=self.hints)
 
 

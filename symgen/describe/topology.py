@@ -1,7 +1,7 @@
 """Spanning trees of mechanisms: which joints carry bodies, and which close loops.
 
-With joint coordinates the state of a mechanism is how bodies stand on the bodies that carry them. The joints of the
-tree hold by construction and have no rows; those that are cut keep theirs.
+With joint coordinates the state of a mechanism is the pose of bodies relative to the bodies that carry them. The joints
+of the tree hold by construction and have no rows; those that are cut keep theirs.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def spanning_tree(mechanism: Mechanism, cut: Sequence[str] = ()) -> Topology:
 
 
 def _prescribed(mechanism: Mechanism, tree: Topology) -> tuple[Prescribed, ...]:
-    """Return the values of drivers for the coordinates of a tree; one coordinate at least stays with the state.
+    """Return the values of drivers for the coordinates of a tree; at least one coordinate stays in the state.
 
     A driver whose effort is integrated keeps its row: its multiplier is wanted at every evaluation.
     """

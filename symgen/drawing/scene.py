@@ -187,7 +187,7 @@ class CarriedFrame:
 
 @dataclass(frozen=True, repr=False)
 class Scene:
-    """What is drawn of a mechanism.
+    """The drawn parts of a mechanism.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What varies: axes of values for parameters and starts, and the grid that they span.
+"""Axes of varied values, for parameters and starts, and the grid that they span.
 
 Text such as ``lin(1, 3, 21)`` is read by a parser of its own that knows four words and numbers; nothing is evaluated.
 """

@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Rows:
-    """What distinguishes the runs of a chunk.
+    """Data by which the runs of a chunk differ.
 
     Attributes
     ----------
@@ -126,7 +126,7 @@ def make_rows(
 
 @dataclass(frozen=True)
 class Chunk:
-    """What the rows of a chunk gave.
+    """Results of the rows of a chunk.
 
     Attributes
     ----------
@@ -145,7 +145,7 @@ class Chunk:
 
 @dataclass(frozen=True)
 class Results:
-    """What the rows of a chunk give, to be written.
+    """Arrays for the results of the rows of a chunk.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What inputs are in the runs of an ensemble: stops of all of them, or of each where jumps depend on what varies."""
+"""Inputs of the runs of an ensemble: common stops, or stops of each run if jumps depend on what varies."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Driving:
-    """What inputs are.
+    """Inputs of the runs.
 
     Attributes
     ----------
@@ -80,7 +80,7 @@ class Driving:
 
     @property
     def described(self) -> list[Any]:
-        """What inputs are beside what the mechanism holds, as JSON can express it."""
+        """Description of inputs that are not in the mechanism, as JSON can express it."""
         driven = self.inputs.driven
         if driven is None:
             return []

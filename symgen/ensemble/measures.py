@@ -112,7 +112,7 @@ class Measures:
 
     @property
     def described(self) -> list[Any]:
-        """What it computes, as JSON can express it."""
+        """Description of the computation, as JSON can express it."""
         joints = {name: (p.body, p.point, p.centre) for name, p in self.joints.items()}
         return [self.folder, self.stem, self.source, [q.name for q in self.reads], self.places, joints]
 

@@ -1,4 +1,4 @@
-"""What varies and what is held, by name: parameters, coordinates and velocities of bodies and joints at the start."""
+"""Names of varied and held quantities: parameters, coordinates and velocities of bodies and joints at the start."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _EULER = ("e0", "e1", "e2", "e3")
 
 @dataclass(frozen=True)
 class Names:
-    """What runs of a mechanism may differ in.
+    """Quantities in which runs of a mechanism may differ.
 
     Attributes
     ----------
@@ -110,7 +110,7 @@ class Names:
 
 @dataclass(frozen=True)
 class Targets:
-    """What the starts of all runs hold.
+    """Quantities that the starts of all runs hold.
 
     Attributes
     ----------

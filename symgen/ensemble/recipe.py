@@ -1,4 +1,4 @@
-"""What the runs of an ensemble share: everything that shapes them apart from their rows.
+"""Data that all runs of an ensemble share: everything that shapes them apart from their rows.
 
 A recipe travels: emitted modules go as source, and whoever receives them puts them into its cache and compiles once.
 """
@@ -91,7 +91,7 @@ class Module:
 
 @dataclass(frozen=True)
 class Code:
-    """What runs take of code, for one solver of their law.
+    """Emitted code of the runs, for one solver of their law.
 
     Attributes
     ----------
@@ -118,7 +118,7 @@ class Code:
 
 @dataclass(frozen=True)
 class Watch:
-    """What rows look for beside their motion.
+    """Events and switches of the rows.
 
     Attributes
     ----------
@@ -144,7 +144,7 @@ class Watch:
 
     @property
     def described(self) -> list[Any]:
-        """What it is, as JSON can express it."""
+        """Description of the value, as JSON can express it."""
         return [identity(self.mechanism), in_words(self.events), self.ends, self.alone]
 
 
@@ -210,7 +210,7 @@ class Recipe:
 
     @property
     def limits(self) -> Array:
-        """What runs are judged by: see `symgen.runtime.records.Chunk`."""
+        """Limits by which runs are judged: see `symgen.runtime.records.RowChunk`."""
         return np.array([self.spec.max_violation, self.spec.velocity_limit, self.spec.max_energy_error, WARN])
 
     @property
@@ -250,7 +250,7 @@ class Recipe:
 
     @property
     def sources(self) -> set[int]:
-        """What the columns are taken from."""
+        """Sources of the columns."""
         return {q.source for q in self.columns}
 
     @cached_property

@@ -206,7 +206,7 @@ class SingleRuns:
 
 
 def note_events(row: Array, outcome: Outcome, code: int) -> None:
-    """Write what happened in a run into its numbers (`symgen.runtime.ensemble_abi`)."""
+    """Write the events of a run into its numbers (`symgen.runtime.ensemble_abi`)."""
     watch = outcome.simulation.events
     if watch is None:
         return

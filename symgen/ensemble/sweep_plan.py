@@ -103,7 +103,7 @@ class Ensemble:
 
     @property
     def target(self) -> str:
-        """What runs it: ``cpu``, ``lanes`` or ``cuda``."""
+        """Name of the target: ``cpu``, ``lanes`` or ``cuda``."""
         return self.recipe.target
 
     @property
@@ -153,7 +153,7 @@ class Ensemble:
 
     @cached_property
     def description(self) -> dict[str, Any]:
-        """What is computed: two ensembles of the same description give the same rows."""
+        """Description of the computation: two ensembles with the same description give the same rows."""
         varied = hashlib.sha256()
         for axis in self.grid.axes:
             for name, values in axis.values.items():

@@ -1,4 +1,4 @@
-"""What an ensemble gave: counts, reasons, and a labelled data set over its axes and time."""
+"""Results of an ensemble: counts, reasons, and a labelled data set over its axes and time."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ SAVED: Mapping[str, tuple[str, ...]] = {".nc": ("xarray", "h5netcdf", "h5py"), "
 
 @dataclass(frozen=True, repr=False)
 class Sweep:
-    """What an ensemble gave; arrays have one row a run, in the order of the grid, whose last axis changes fastest.
+    """Results of an ensemble; arrays have one row a run, in the order of the grid, whose last axis changes fastest.
 
     Attributes
     ----------
@@ -111,7 +111,7 @@ class Sweep:
 
     @cached_property
     def warnings(self) -> NDArray[np.object_]:
-        """What there is to say of every run, ok or not: a tuple of sentences."""
+        """Warnings of every run, ok or not: a tuple of sentences."""
         ensemble, sentences_of_runs = self.ensemble, np.empty(len(self), dtype=object)
         begun = self.done & (column(self.summary, "start") == ASSEMBLED)
         sentences_of_runs[:] = [ensemble.warnings if there else () for there in begun]
@@ -163,7 +163,7 @@ class Sweep:
 
     @property
     def attributes(self) -> dict[str, Any]:
-        """What was run, by name, as JSON can express it."""
+        """Settings of the ensemble by name, as JSON can express them."""
         ensemble, spec = self.ensemble, self.ensemble.recipe.spec
         chosen, elsewhere = ensemble.plan.settings, ("times", "parameters", "options")
         settings = {f.name: getattr(chosen, f.name) for f in fields(chosen) if f.name not in elsewhere}

@@ -1,4 +1,4 @@
-"""What each run of an ensemble may claim, by the rules of single runs, and why the others failed."""
+"""Status of each run of an ensemble by the rules of single runs, and the reasons of failures."""
 
 from __future__ import annotations
 

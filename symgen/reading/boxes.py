@@ -292,7 +292,7 @@ class _Mathml(_Notation):
         return self._indexed(base, f"<mover>{self._letter(base)}<mo>˙</mo></mover>")
 
     def part(self, box: Box) -> str:
-        """Write what has to be one element."""
+        """Write the box as one element."""
         text = self.write(box)
         several = box.kind in ("row", "call") or (box.kind == "number" and "e" in box.text)
         return f"<mrow>{text}</mrow>" if several else text
@@ -348,7 +348,7 @@ class _Python(_Notation):
     forms: ClassVar = {"power": "%s**%s"}
 
     def part(self, box: Box) -> str:
-        """Write what stands beside a sign of division or of a power."""
+        """Write an operand of a division or a power."""
         return f"({self.write(box)})" if box.kind in ("row", "over", "power") else self.write(box)
 
     def name(self, box: Box) -> str:

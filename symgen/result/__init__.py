@@ -1,1 +1,1 @@
-"""What a run gave: labelled arrays, status, files and plots."""
+"""Results of runs: labelled arrays, status, files and plots."""

@@ -1,4 +1,4 @@
-"""What programs get of a result: the JSON of ``symgen run --json``."""
+"""Result of a run for programs: the JSON of ``symgen run --json``."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ def netcdf(dataset: xr.Dataset) -> Callable[[io.BytesIO], object]:
 
 
 def _in_this_process() -> AbstractContextManager[object]:
-    """Return what keeps xarray from asking a Dask cluster for a lock: a file in memory has no name to lock by."""
+    """Return an option that keeps xarray from requesting a Dask lock: a file in memory has no name to lock by."""
     dask = sys.modules.get("dask")  # who has not imported it has no cluster
     return nullcontext() if dask is None else dask.config.set(scheduler="synchronous")
 

@@ -1,4 +1,4 @@
-"""What a run may claim: ok, unverified or failed, and the sentences that go with it.
+"""Status of a run, ok, unverified or failed, with its reason and warnings.
 
 Small violations say nothing about the branch that was taken at a singular position, and there the step size does not
 control the error. So every run that came near one says so; where moreover nothing corrected the positions, the run is

@@ -179,7 +179,7 @@ def agreement(points: Points, a: Array, b: Array) -> Agreement:
 
 @dataclass(frozen=True)
 class Verification:
-    """What a run with finer steps says of another one.
+    """Errors of a run as a run with finer steps shows them.
 
     Attributes
     ----------

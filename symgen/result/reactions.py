@@ -36,7 +36,7 @@ class Seat:
 
 @dataclass(frozen=True)
 class Acting:
-    """What reactions are worked out from.
+    """Data from which reactions are computed.
 
     Attributes
     ----------
@@ -205,7 +205,7 @@ def seats(mechanism: Mechanism, parameters: Mapping[str, float]) -> dict[str, Se
 
 @dataclass(frozen=True, repr=False)
 class Forces:
-    """What multipliers and reactions are computed from.
+    """Data from which multipliers and reactions are computed.
 
     Attributes
     ----------

@@ -62,7 +62,7 @@ class Seconds:
 
 @dataclass(frozen=True, repr=False)
 class Result(MotionTables):
-    """What a run gave; arrays have one row an output.
+    """Result of a run; arrays have one row an output.
 
     Attributes
     ----------
@@ -182,12 +182,12 @@ class Result(MotionTables):
 
     @property
     def drawn(self) -> tuple[str, ...]:
-        """What a plot shows unless it is told."""
+        """Quantities that a plot shows by default."""
         return ("q", "energy", "violations")
 
     @property
     def title(self) -> str:
-        """What stands above a plot."""
+        """Title of a plot."""
         status = self.status if self.reason is None else f"{self.status}: {self.reason}"
         return f"{self.mechanism}, {self.method}, {self.integrator} ({status})"
 

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False)
 class Measured:
-    """What quantities beside the state are evaluated from.
+    """Data from which quantities beside the state are evaluated.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ class Tables(ABC):
 
     @property
     def drawn(self) -> tuple[str, ...]:
-        """What a plot shows unless it is told."""
+        """Quantities that a plot shows by default."""
         return self.names[:1]
 
     @property
@@ -103,7 +103,7 @@ class Tables(ABC):
 
     @property
     def title(self) -> str:
-        """What stands above a plot."""
+        """Title of a plot."""
         return self.mechanism
 
     # -- multipliers and reactions -------------------------------------------------------------------------------------
@@ -328,7 +328,7 @@ class MotionTables(Tables):
 
     @cached_property
     def joint_coordinates(self) -> Labelled:
-        """What joints report, each followed by its rate: ``JOINT.angle``, ``JOINT.angle.rate``."""
+        """Coordinates of joints, each followed by its rate: ``JOINT.angle``, ``JOINT.angle.rate``."""
         motion = self.measured.outcome
         quantities = motion.compiled.info.joint_coordinates
         names = tuple(name for q in quantities for name in (q.name, f"{q.name}.rate"))

@@ -124,7 +124,7 @@ _ALWAYS = ("outputs", "q", "energy", "violations")
 
 
 def _groups(mechanism: Mechanism, q: Array, read: Callable[[str], Labelled]) -> Iterator[PlottedGroup]:
-    """Yield what a page plots, most wanted first."""
+    """Yield the quantities that a page plots, the most important ones first."""
     for table, head in _PLOTTED.items():
         if table == "q":
             yield from position_groups(mechanism, q)

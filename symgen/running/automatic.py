@@ -59,7 +59,7 @@ LARGEST_LINEARISED = 400
 
 @dataclass(frozen=True)
 class Facts:
-    """What the choice looks at.
+    """Facts on which the choice is based.
 
     Attributes
     ----------

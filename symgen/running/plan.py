@@ -43,7 +43,7 @@ RTOL, ATOL = 1e-8, 1e-10
 
 
 class Purpose(Enum):
-    """What a run is made ready for.
+    """Purpose of a prepared run.
 
     Attributes
     ----------
@@ -145,7 +145,7 @@ class Plan:
 
     @property
     def key(self) -> tuple[str, tuple[tuple[str, float], ...]]:
-        """What code and start depend on beside mechanism and parameters."""
+        """Dependencies of code and start beside mechanism and parameters."""
         return f"{self.choice.stem} {self.choice.shape} {self.coordinates}", tuple(
             sorted(self.method_parameters.items())
         )

@@ -85,7 +85,7 @@ class Prepared:
 
     @property
     def tree(self) -> TreeRun | None:
-        """What carries joints to bodies, None where the state is that of bodies."""
+        """The map from joints to bodies; None where the state is that of bodies."""
         return self.assembled.tree
 
     @property

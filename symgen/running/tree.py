@@ -180,7 +180,7 @@ class TreeRun:
 
     @cached_property
     def signs(self) -> Array:
-        """What makes the Euler parameters of bodies, of two signs, go on from those of the start: 1 or -1 each."""
+        """Signs, 1 or -1 each, that continue the Euler parameters of bodies from those of the start."""
         info = self.bodies.info
         here, signs = self.bodies_at(self.start.t, self.start.y, self.start.p, self.start.w), np.ones(info.nq)
         for first, _ in info.spins:
@@ -248,7 +248,7 @@ class TreeRun:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class CarriedOutcome(Outcome):
-    """What a run in joint coordinates gave, as the motion of bodies.
+    """The outcome of a run in joint coordinates, as the motion of bodies.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a stepped run was at the ends of its pieces, in bounded memory, and the result that this makes."""
+"""States of a stepped run at the ends of its pieces, in bounded memory, and the result made of them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a run remembers, as a value that can be sent elsewhere."""
+"""The whole state of a run, as a value that can be sent elsewhere."""
 
 from __future__ import annotations
 

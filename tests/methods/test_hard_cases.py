@@ -25,7 +25,8 @@ COARSE = ("implicit-constraint",)
 
 def check_redundant(methods):
     for row in robustness.redundant(methods):
-        assert row.status == ("unverified" if row.method == "energy-projection" else "ok"), f"{row.method}: {row.reason}"
+        expected = "unverified" if row.method == "energy-projection" else "ok"
+        assert row.status == expected, f"{row.method}: {row.reason}"
         assert row.error <= (1e-6 if row.method in YIELDING else 1e-9), row.method
         assert (row.result.rank.rank, row.result.rank.rows) == (11, 12)
         assert row.result.rank_event_count == 0

@@ -122,7 +122,7 @@ def command(
 
 
 def shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
-    """Yield what there is to show of an equilibrium."""
+    """Yield the lines of an equilibrium."""
     squares = ", ".join([f"{x:.6g}" for x in result.omega_squared[:8]] + ["..."] * (len(result.omega_squared) > 8))
     yield f"{result.stability}; omega^2 [1/s^2]: {squares or 'nothing can move'}"
     yield f"  {result.iterations} steps, largest force that is not balanced {result.residual:.3g}"

@@ -112,7 +112,7 @@ def command(
 
 
 def _shown(result: Inverse) -> Iterator[str | AnalysisTable]:
-    """Yield what sizes each actuator: its largest effort and when, root mean square, peak power and energy."""
+    """Yield the sizes of each actuator: its largest effort and when, root mean square, peak power and energy."""
     yield f"{result.mechanism}: efforts at {len(result.t)} times"
     columns = {"largest": "max", "rms": "rms", "unit": "unit", "at [s]": "at"}
     columns |= {"peak power [W]": "peak_power", "energy [J]": "energy"}

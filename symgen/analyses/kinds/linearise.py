@@ -69,7 +69,7 @@ def command(load: Callable[[], Analysed], settings: Settings, **further: Any) ->
 
 
 def shown(system: LinearSystem) -> Iterator[str | AnalysisTable]:
-    """Yield what there is to show of a linear system."""
+    """Yield the lines of a linear system."""
     if not system.states:
         yield "no degree of freedom is left: there is nothing to linearise"
     matrices = (

@@ -155,7 +155,7 @@ def command(
 
 
 def shown(result: Modes) -> Iterator[str | AnalysisTable]:
-    """Yield what there is to show of modes."""
+    """Yield the lines of modes."""
     first = fitting(len(result.of_shapes), MOST)
     freedom, many = result.degrees_of_freedom, len(result.eigenvalues)
     if not many:
@@ -193,7 +193,7 @@ def _complex(x: complex) -> str:
 
 
 def shown_locus(result: Locus) -> Iterator[str | AnalysisTable]:
-    """Yield what there is to show of a root locus."""
+    """Yield the lines of a root locus."""
     headings = (result.name, *(f"eigenvalue {k + 1} [1/s]" for k in range(result.branches.shape[1])))
     rows = [
         (
