@@ -86,7 +86,7 @@ def make_rows(
     Parameters
     ----------
     mechanism : Mechanism
-        What is run.
+        The mechanism of the runs.
     base : mapping
         Values of all parameters, before any varies.
     varied : mapping of str to Array, shape (k,)
@@ -150,13 +150,13 @@ class Results:
     Attributes
     ----------
     values : Array, shape (k, columns, times)
-        What loops leave at the output times.
+        Columns that loops write at the output times.
     summary : Array, shape (k, N_SUMMARY)
         See `symgen.runtime.ensemble_abi`.
     events : Array, shape (k, width)
-        What happened; see there.
+        Events of the rows; see there.
     behind : Array, shape (k, quantities, times)
-        What is worked out behind the loops.
+        Columns that are computed after the loops.
     """
 
     values: Array

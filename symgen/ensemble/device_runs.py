@@ -49,7 +49,7 @@ def check_target(target: str, scheduler: object = None) -> None:
     Raises
     ------
     InputError
-        If there is no such target, no device, or it is asked for on a cluster.
+        If the target or the device does not exist, or is requested on a cluster.
     """
     one_of("target", target, TARGETS)
     if target != "cuda":
@@ -95,7 +95,7 @@ def need_of(compiled: CompiledModel, setup: Setup, adaptive: bool, wants: set[in
     compiled : CompiledModel
         The law.
     setup : Setup
-        What the integrator's loop is entered with.
+        Arguments of the integrator's loop.
     adaptive : bool
         Whether its steps are.
     wants : set of int

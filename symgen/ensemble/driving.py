@@ -33,13 +33,13 @@ class Driving:
     Attributes
     ----------
     inputs : Inputs
-        What the settings give, put into the mechanism.
+        Inputs of the settings, put into the mechanism.
     varied : tuple of str
-        What varies.
+        Names of what varies.
     until : float
         End of the runs [s].
     foreseen : Foreseen, optional
-        What formulas pass at times that are known beforehand, where runs stop at them.
+        Times, known in advance, at which formulas jump, where runs stop at them.
     moving : tuple of str
         From `read_by_motions`.
     """
@@ -118,7 +118,7 @@ class Driving:
         Parameters
         ----------
         ensemble : Ensemble
-            What was run.
+            The ensemble of the runs.
         failed : Array of bool, shape (n,)
             Rows without a start.
         """

@@ -34,7 +34,7 @@ Integers = NDArray[np.int64]
 
 
 class Runs(Protocol):
-    """What runs rows from consistent starts: a loop, a loop over rows of a tree, a device, or one run after another."""
+    """A kernel for rows from consistent starts: a loop, one over rows of a tree, a device, or runs one by one."""
 
     def run(self, rows: Rows, starts: Instant, selected: Integers, out: Results, control: Integers) -> bool:
         """Run selected rows; return whether all are done."""
@@ -92,7 +92,7 @@ class RowKernel:
         Parameters
         ----------
         rows : Rows
-            What distinguishes the runs.
+            Data by which the runs differ.
         control : Array of int
             From `new_control`: raising its flag `symgen.runtime.abi.STOP` from another thread stops the run that is
             being worked on; `symgen.runtime.ensemble_abi.RUNS_DONE` counts finished ones.
@@ -193,7 +193,7 @@ class RowKernel:
 
 
 def new_control() -> Integers:
-    """Return the integers that a chunk shares with whoever watches it."""
+    """Return the integers that a chunk shares with its watching thread."""
     return np.zeros(e.N_CONTROL, dtype=np.int64)
 
 

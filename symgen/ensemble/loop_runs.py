@@ -45,9 +45,9 @@ class LoopRuns:
     Attributes
     ----------
     recipe : Recipe
-        What the runs share.
+        Data that the runs share.
     compiled : CompiledModel
-        What is run.
+        Code of the runs.
     integrator, setup : Integrator, Setup
         The scheme, and what its loop takes.
     picks : Array of int
@@ -75,7 +75,7 @@ class LoopRuns:
         Parameters
         ----------
         rows : Rows
-            What distinguishes the runs.
+            Data by which the runs differ.
         starts : Instant
             States, parameters and scratch of all rows.
         selected, control : Array of int

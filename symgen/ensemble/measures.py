@@ -85,7 +85,7 @@ class Place:
 
 @dataclass(frozen=True)
 class Measures:
-    """How quantities that no loop leaves are worked out; it travels as source.
+    """Code for quantities that no loop computes; it travels as source.
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ class Measures:
     length : int
         Numbers that its function writes.
     reads : tuple of Signal
-        What loops leave for it.
+        Columns of the loops that it reads.
     places : tuple of int
         Where each of these goes, see `symgen.runtime.observe.Left`.
     joints : mapping of str to Place
@@ -142,7 +142,7 @@ class Measures:
         Parameters
         ----------
         compiled : CompiledModel
-            What was run.
+            Code of the runs.
         quantities : sequence of Signal
             Those that no loop leaves.
         times : Array
@@ -150,7 +150,7 @@ class Measures:
         selected : Array of int
             Runs.
         columns : Array, shape (runs, columns, times)
-            What loops left; the last columns are `reads`.
+            Columns that loops wrote; the last ones are `reads`.
         ps, ws : Array, shapes (runs, np), (runs, nw)
             Parameters, and scratch, which is overwritten.
         """
@@ -203,7 +203,7 @@ def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequenc
     Parameters
     ----------
     mechanism : Mechanism
-        What is run.
+        The mechanism of the runs.
     compiled : CompiledModel
         Its code for a processor.
     chosen : sequence of Signal

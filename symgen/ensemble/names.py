@@ -138,9 +138,9 @@ def targets_of(names: Names, varied: Sequence[str], holds: Sequence[Hold], info:
     names : Names
         Of the mechanism.
     varied : sequence of str
-        What varies, which is held at its values.
+        Varied quantities, which are held at their values.
     holds : sequence of Hold
-        What the description or the settings hold; what varies is not held otherwise.
+        Quantities that the description or the settings hold; varied ones are held at their values alone.
     info : ModelInfo
         The model.
     """

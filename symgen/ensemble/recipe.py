@@ -1,6 +1,6 @@
 """Data that all runs of an ensemble share: everything that shapes them apart from their rows.
 
-A recipe travels: emitted modules go as source, and whoever receives them puts them into its cache and compiles once.
+A recipe travels: emitted modules go as source; the receiver puts them into its cache and compiles them once.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class Module:
 
     @property
     def described(self) -> list[Any]:
-        """What it computes, as JSON can express it."""
+        """Description of the computation, as JSON can express it."""
         return [self.folder, self.stem, self.model[0], self.law[0], dict(self.parts)]
 
     @classmethod
@@ -96,13 +96,13 @@ class Code:
     Attributes
     ----------
     module : Module
-        What closes starts, and is run where nothing else is.
+        Code that closes starts, and that runs where there is no other.
     other : Module or None
         The same law for the target of the recipe, where that is not ``cpu``.
     tree : Module or None
-        What is run in joint coordinates.
+        Code of runs in joint coordinates.
     measures : Measures or None
-        How what no loop leaves is worked out; None where nothing of it is kept.
+        Code for quantities that no loop computes; None where none is selected.
     """
 
     module: Module
@@ -112,7 +112,7 @@ class Code:
 
     @property
     def described(self) -> list[Any]:
-        """What it computes, as JSON can express it."""
+        """Description of the computation, as JSON can express it."""
         return [x if x is None else x.described for x in (self.module, self.other, self.tree, self.measures)]
 
 
@@ -123,9 +123,9 @@ class Watch:
     Attributes
     ----------
     mechanism : Mechanism
-        What is run, with what it is given in the place of inputs.
+        The mechanism, with the values of inputs in their place.
     events : tuple of Event
-        What is looked for.
+        Events to look for.
     ends : bool
         Whether the only output is the end of a run, wherever an event puts it.
     alone : bool
@@ -155,7 +155,7 @@ class Recipe:
     Attributes
     ----------
     first : Code
-        What is run.
+        Code of the runs.
     spare : Code or None
         The law with another solver, for runs whose bodies turn out too light for the first; None where the solver was
         asked for.
@@ -166,23 +166,23 @@ class Recipe:
     method_parameters : mapping
         Values of the method's parameters that differ from the defaults.
     quantities : tuple of Signal
-        What is kept.
+        Selected quantities.
     tree : Mechanism or None
         The mechanism with its tree, where runs are in joint coordinates.
     watch : Watch or None
-        What rows look for beside their motion.
+        Events and switches of the rows.
     sides : tuple of SidedJoint
         Joints that may hold bodies the wrong way round.
     stops : bool
         Whether runs stop at times that rows bring along.
     held : Held
-        What rows hold; their values are their own.
+        Quantities that rows hold, each row at its own values.
     strict : bool
         Whether a start that has to be changed is refused.
     code : str
         From `code_identity`: what computes it.
     target : {"cpu", "lanes", "cuda"}
-        What runs it.
+        Target of the code.
     plugins : tuple of str
         Files that workers load before.
     """
@@ -220,7 +220,7 @@ class Recipe:
 
     @property
     def measures(self) -> Measures | None:
-        """How what no loop leaves is worked out in first runs."""
+        """Code for quantities that no loop computes, in first runs."""
         return self.first.measures
 
     @property
@@ -230,7 +230,7 @@ class Recipe:
 
     @property
     def columns(self) -> tuple[Signal, ...]:
-        """What loops leave of a run: the quantities, or those of them that loops know and then what others need."""
+        """Columns that loops write: the quantities, or those of them that loops have and the inputs of the others."""
         if self.measures is None:
             return self.quantities
         return (*(q for q in self.quantities if q.source < SIDE), *self.measures.reads)

@@ -29,7 +29,7 @@ def choose_quantities(mechanism: Mechanism, info: ModelInfo, names: Sequence[str
     Parameters
     ----------
     mechanism : Mechanism
-        What is run.
+        The mechanism of the runs.
     info : ModelInfo
         Its model.
     names : sequence of str or None

@@ -55,11 +55,11 @@ class SingleRuns:
     Attributes
     ----------
     recipe : Recipe
-        What the runs share.
+        Data that the runs share.
     compiled : CompiledModel
         In the bodies' own coordinates, which starts are closed in.
     measures : Measures or None
-        How what no loop leaves is worked out.
+        Code for quantities that no loop computes.
     tree : (Mechanism, Carried) or None
         The mechanism with its tree, and starts of bodies as those of the tree, where runs are in joint coordinates.
     """
@@ -99,7 +99,7 @@ class SingleRuns:
         Parameters
         ----------
         rows : Rows
-            What distinguishes the runs.
+            Data by which the runs differ.
         starts : Instant
             States, parameters and scratch of all rows.
         selected, control : Array of int

@@ -63,7 +63,7 @@ def sweep(
     Parameters
     ----------
     model : str, Path, Mechanism or Model
-        What `symgen.load` takes, or what it gave.
+        An argument of `symgen.load`, or its result.
     vary : mapping
         Name -> values: an array, or a text such as ``"lin(1, 3, 21)"``, ``"log(0.1, 10, 21)"``, ``"values(1, 2, 5)"``
         or ``"uniform(0, 1, 100, 7)"``. Names are parameters, and coordinates and velocities of bodies and joints at
@@ -72,7 +72,7 @@ def sweep(
     runs : mapping, optional
         The same for names that vary together, all with as many values: one dimension, ``run``.
     quantities : sequence of str, optional
-        What to keep: ``crank.theta``, ``crank`` (all of a body), ``q``, ``v``, ``energy``, ...; ``event`` or
+        Quantities to keep: ``crank.theta``, ``crank`` (all of a body), ``q``, ``v``, ``energy``, ...; ``event`` or
         ``event.NAME``, what happened; by default all coordinates and velocities. Memory grows with these and with the
         output times alone.
     output : path, optional
@@ -86,10 +86,10 @@ def sweep(
     scheduler : str or Client, optional
         Address of a Dask scheduler, or a client: its workers run the ensemble.
     target : {"cpu", "lanes", "cuda"}
-        What runs them: all cores, one run after the other; all cores, several runs at once in vector instructions
+        Target: all cores, one run after the other; all cores, several runs at once in vector instructions
         (constant steps); or a CUDA device (extra ``cuda``). Starts are closed on all cores.
     settings : Settings, optional
-        How each run is done.
+        Settings of each run.
     progress : callable, optional
         Called about ten times a second with the runs done and all.
     **changes
@@ -215,7 +215,7 @@ def run_here(
     Parameters
     ----------
     ensemble, table : Ensemble, Table
-        What to run, and what gets each chunk as soon as it is there.
+        The runs, and the receiver of each finished chunk.
     jobs : int or None
         Threads; None: one for every core.
     progress : callable, optional

@@ -66,23 +66,23 @@ class Ensemble:
     Attributes
     ----------
     model : Model
-        What is run.
+        The model.
     plan : Plan
         How, resolved.
     compiled : CompiledModel
         Its law; compiled when it is first run.
     grid : Grid
-        What varies.
+        Axes of the varied quantities.
     targets : Targets
-        What the starts of all runs hold.
+        Quantities that the starts of all runs hold.
     recipe : Recipe
-        What a run is apart from its row.
+        Specification of a run apart from its row.
     driving : Driving
-        What inputs are.
+        Inputs of the runs.
     warnings : tuple of str
-        What there is to say of all runs alike.
+        Warnings that concern all runs.
     notes : tuple of str
-        What was chosen, and why.
+        Automatic choices with their reasons.
     """
 
     model: Model
@@ -187,15 +187,15 @@ def make_ensemble(
     Parameters
     ----------
     model : Model
-        What is run.
+        The model.
     settings : Settings
         How; without output times, only the end is kept.
     vary, runs : mapping
         See `symgen.ensemble.sweep.sweep`.
     quantities : sequence of str or None
-        What is kept.
+        Names of the selected quantities.
     target : {"cpu", "lanes", "cuda"}
-        What runs it.
+        Target of the runs.
 
     Raises
     ------
@@ -378,7 +378,7 @@ def _events(
     Raises
     ------
     InputError
-        If an event is asked for that there is none of.
+        If a requested event does not exist.
     """
     words = [] if "event" in {body.name for body in mechanism.bodies} else quantities or ()
     chosen = [name for name in words if name.partition(".")[0] == "event"]

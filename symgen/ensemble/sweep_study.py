@@ -48,7 +48,7 @@ class Sweep:
     Attributes
     ----------
     ensemble : Ensemble
-        What was asked for.
+        The ensemble.
     values : Array, shape (runs, quantities, times)
         Quantities at the output times; nan where a run did not get there.
     summary : Array, shape (runs, N_SUMMARY + width)
@@ -56,7 +56,7 @@ class Sweep:
     done : Array of bool, shape (runs,)
         Which runs have been done: all, unless it was interrupted.
     seconds : float
-        What running took, compilation left out [s].
+        Run time of all runs, without compilation [s].
     interrupted : bool
         Whether it was stopped from outside.
     """

@@ -135,7 +135,7 @@ class FolderTable(RowTable):
     folder : Path
         Made when it is missing.
     description : mapping
-        What is computed, as JSON can express it; a folder with another one is refused.
+        Description of the computation, as JSON can express it; a folder with another one is refused.
     resume : bool
         Whether a folder that has been begun may be continued.
 

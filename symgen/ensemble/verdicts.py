@@ -48,7 +48,7 @@ def judge_all(
     done : Array of bool, shape (n,)
         Which runs have been done.
     info, law : ModelInfo, LawInfo
-        What was run.
+        The model and its law.
     spec : RunSpec
         How.
     events : sequence of str

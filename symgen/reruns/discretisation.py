@@ -27,7 +27,7 @@ def discretisation(run: Prepared, outcome: Outcome, settings: Settings) -> str |
     run, outcome : Prepared, Outcome
         A run, and what its loop gave.
     settings : Settings
-        What was set for it.
+        Settings of the run.
     """
     mechanism = run.plan.mechanism
     if not mechanism.beams or outcome.code != abi.DONE:

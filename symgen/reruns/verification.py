@@ -39,7 +39,7 @@ def run_again(
     run, outcome : Prepared, Outcome
         A run that came to its end.
     points : Points
-        What distances are measured between.
+        Points between which distances are measured.
     tolerance : float
         Tolerances of an adaptive run are multiplied by it; a constant step is halved.
 
@@ -116,7 +116,7 @@ def verified(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Prepa
     run, outcome : Prepared, Outcome
         The run that is reported: the first one, or the finest where tolerances were made smaller.
     verification : Verification
-        What the finer run says; nothing where the first one did not come to its end.
+        Verification by the finer run; nothing where the first run did not reach its end.
     """
     total = outcome.evaluations
     if outcome.code != abi.DONE:

@@ -25,7 +25,7 @@ def overbent(mechanism: Mechanism, parameters: Mapping[str, float], q: Array) ->
     Parameters
     ----------
     mechanism, parameters
-        What moves, and values of its parameters.
+        The mechanism, and values of its parameters.
     q : Array, shape (k, nq)
         Coordinates of bodies at the outputs.
     """

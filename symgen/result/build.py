@@ -40,13 +40,13 @@ def build_result(
     Parameters
     ----------
     run : Prepared
-        What was run.
+        The prepared run.
     outcome : Outcome
-        What the loop gave, in the coordinates of the state.
+        Outcome of the loop, in the coordinates of the state.
     run_spread : float, optional
         Longest minus shortest run time of repeated runs [s].
     verification : Verification, optional
-        What a run with finer steps says of this one.
+        Verification by a run with finer steps.
 
     Returns
     -------

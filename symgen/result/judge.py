@@ -46,7 +46,7 @@ def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -
     run, outcome : Prepared, Outcome
         The run.
     second : Verification, optional
-        What a run with finer steps says of it; it settles doubts but those of energy that jumped.
+        Verification by a run with finer steps; it settles all doubts but those of energy that jumped.
     """
     verdict = judge_alone(outcome, run.compiled.law)
     verdict = replace(verdict, warnings=(*verdict.warnings, *_velocity_warning(run, outcome)))
@@ -67,9 +67,9 @@ def judge_alone(outcome: Ended, law: LawInfo) -> Verdict:
     Parameters
     ----------
     outcome : Ended
-        What the loop gave.
+        Outcome of the loop.
     law : LawInfo
-        What the method corrects.
+        Corrections of the method.
     """
     passed = _passed(outcome)
     warnings = tuple(_warnings(outcome, passed))

@@ -105,7 +105,7 @@ class Labelled:
 def column_texts(table: Labelled, of: Callable[[Array], float] = lambda column: float(column[-1])) -> dict[str, str]:
     """Return a number of each column as people read it, by the names; empty where there are no rows.
 
-    What rounding leaves beside the largest number of all columns of its unit is 0.
+    Values that are rounding beside the largest number of all columns of their unit become 0.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""How far two motions are apart, and whether they agree: one measure for ``--verify``, automatic choices and studies.
+"""Distances between two motions, and whether they agree: one measure for ``--verify``, automatic choices and studies.
 
 The points of a body are its centre of mass and the tips of its axes at the body's own length, so that an error of an
 angle counts as the distance it moves the body's far end. The limit of agreement is a share of the mechanism's size: no
@@ -129,7 +129,7 @@ AGREEMENT = 1e-4
 
 @dataclass(frozen=True)
 class Agreement:
-    """How far two motions are apart.
+    """Distances between two motions.
 
     Attributes
     ----------
@@ -168,7 +168,7 @@ def agreement(points: Points, a: Array, b: Array) -> Agreement:
     Parameters
     ----------
     points : Points
-        What distances are measured between.
+        Points between which distances are measured.
     a, b : Array, shape (k, nq)
         Coordinates at the same times.
     """
@@ -186,7 +186,7 @@ class Verification:
     doubt : str or None
         Why the motion is not known well enough; None where two runs agree.
     note : str or None
-        What was done, one sentence.
+        What the verification did, one sentence.
     error : float or None
         Estimated error of the run that is reported [m].
     evaluations : int

@@ -247,7 +247,7 @@ class Forces:
         o = self.outcome
         if not len(o.times):
             return {}
-        # evaluated there alone: a run of which nothing else is asked need not evaluate every output again
+        # evaluated there alone: a run without other requests need not evaluate every output again
         last = replace(o, times=o.times[-1:], states=o.states[-1:], status_columns=o.status_columns[-1:])
         values = _minimum_norm(last)[0]
         return {row.name: float(x) for row, x in zip(self.compiled.info.rows, values, strict=True)}

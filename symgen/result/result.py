@@ -67,7 +67,7 @@ class Result(MotionTables):
     Attributes
     ----------
     mechanism, method, integrator : str
-        What was run.
+        Names of mechanism, method and integrator.
     step, rtol, atol : float or None
         Constant (or asked first) step [s], and tolerances; None where they do not apply.
     relative_atol : bool or None
@@ -84,7 +84,7 @@ class Result(MotionTables):
     parameters : mapping
         Values of the mechanism's parameters.
     inputs : mapping
-        What its inputs were: numbers, or formulas and data in words.
+        Inputs of the run: numbers, or formulas and data in words.
     t : Array, shape (k,)
         Output times [s].
     q, v : Labelled
@@ -104,7 +104,7 @@ class Result(MotionTables):
     vector_width : int or None
         Numbers of a vector of the processor, where the right-hand side was evaluated in vectors.
     coordinates : {"absolute", "joint"}
-        What the state was made of: coordinates of bodies, or of the joints of a tree.
+        Coordinates of the state: those of bodies, or of the joints of a tree.
     state : tuple of str
         Names of the coordinates and velocities that were integrated.
     watched : tuple of (str, str)
@@ -191,7 +191,7 @@ class Result(MotionTables):
         status = self.status if self.reason is None else f"{self.status}: {self.reason}"
         return f"{self.mechanism}, {self.method}, {self.integrator} ({status})"
 
-    # -- derived, when first asked for ---------------------------------------------------------------------------------
+    # -- derived at the first use --------------------------------------------------------------------------------------
 
     @cached_property
     def a(self) -> Labelled:

@@ -41,7 +41,7 @@ TABLES: Mapping[str, str] = {
     "energy": "kind_of_energy",
     "violations": "level",
 }
-#: Source of what no loop of a sweep leaves.
+#: Source of columns that no loop of a sweep writes.
 UNSWEPT = -1
 
 
@@ -58,7 +58,7 @@ class Signal:
     unit : str
         Unit.
     source, column : int
-        What it is computed from, as in `symgen.runtime.ensemble_abi`, and its place there.
+        Its source, as in `symgen.runtime.ensemble_abi`, and its place there.
     """
 
     table: str
@@ -84,7 +84,7 @@ def of_run(mechanism: Mechanism, info: ModelInfo) -> SignalTables:
     Parameters
     ----------
     mechanism : Mechanism
-        What is run.
+        The mechanism.
     info : ModelInfo
         Of its compiled model.
     """

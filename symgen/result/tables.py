@@ -41,7 +41,7 @@ class Measured:
     Attributes
     ----------
     mechanism : Mechanism
-        What was run.
+        The mechanism of the run.
     outcome : Motion
         States and accelerations at the outputs.
     multipliers : callable

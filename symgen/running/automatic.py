@@ -109,7 +109,7 @@ def linearised(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> A
     Parameters
     ----------
     mechanism : Mechanism
-        What moves.
+        The mechanism.
     compiled : CompiledModel
         Its compiled form; any method will do.
     start : Start

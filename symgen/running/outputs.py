@@ -76,7 +76,7 @@ def output_size(mechanism: Mechanism, saved: bool = False) -> float:
     Parameters
     ----------
     mechanism : Mechanism
-        What is run.
+        The mechanism of the run.
     saved : bool
         Whether all tables of it are made and put into a file, which is done in memory.
     """

@@ -73,7 +73,7 @@ class Plan:
     inputs : Inputs
         The inputs of the run.
     purpose : Purpose
-        What the run is made ready for.
+        Purpose of the run.
     choice : MethodChoice
         The method with its structural options and the shape of its code.
     integrator : Integrator
@@ -161,7 +161,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     s : Settings
         Settings of the run, without inputs and without ``auto``.
     purpose : Purpose
-        What the run is made ready for.
+        Purpose of the run.
     notes : tuple of str
         Reasons of automatic choices.
 

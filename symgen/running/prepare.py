@@ -42,7 +42,7 @@ class Assembled:
     compiled, start : CompiledModel, Start
         In the coordinates of the state.
     tree : TreeRun or None
-        What carries joints to bodies where the state is that of joints.
+        The map from joints to bodies where the state is that of joints.
     """
 
     compiled: CompiledModel
@@ -135,7 +135,7 @@ def prepare(
     settings : Settings
         The settings of the run.
     purpose : Purpose
-        What the run is made ready for.
+        Purpose of the run.
     near : array, optional
         Coordinates that the mechanism is closed from; the described ones by default.
 

@@ -46,7 +46,7 @@ def start_lines(mechanism: Mechanism, lines: FormulaLines) -> tuple[list[Any], l
     mechanism : Mechanism
         The description.
     lines : FormulaLines
-        What the values are worked out in.
+        Lines that receive the values.
     """
     held = {hold.name: hold.value for hold in holds_of(mechanism) if hold.value is not None}
     q, v = described_start(mechanism, lines)

@@ -55,7 +55,7 @@ def start_of(
     strict, ask_light
         See `symgen.runtime.assembly.assemble`.
     held : Held or sequence of Hold, optional
-        What is kept while everything else moves; what the description holds by default.
+        Quantities that are held while all others move; by default those of the description.
     near : array, optional
         Coordinates that the mechanism is closed from; those that are described by default.
 
@@ -108,7 +108,7 @@ def held_of(info: ModelInfo, holds: Sequence[Hold], numbers: Scalars, v: Sequenc
     holds : sequence of Hold
         From `symgen.describe.holds.holds_of`.
     numbers : Scalars
-        What formulas stand for.
+        Values of the names in formulas.
     v : sequence of float or None
         Given velocities.
     """

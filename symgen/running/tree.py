@@ -253,7 +253,7 @@ class CarriedOutcome(Outcome):
     Attributes
     ----------
     inner : Outcome
-        What its loop left.
+        Outcome of the loop.
     end_state : Array, shape (nq + nv,)
         Coordinates and velocities of bodies in the last state that was accepted.
     work : float

@@ -36,7 +36,7 @@ class Clock:
     Attributes
     ----------
     controller : callable
-        What is called.
+        The function.
     start, interval : float
         Beats are at ``start + k interval`` [s].
     beat : int

@@ -25,7 +25,7 @@ class Saved:
     Attributes
     ----------
     owner : mapping
-        What a run must have in common with the one that was saved, in words.
+        Properties that a run must share with the saved one, in words.
     arrays : mapping of str to array
         State, time, work, scratch, counters, past points and factors, by name.
     step : float
