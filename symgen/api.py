@@ -178,7 +178,7 @@ class Model(Analysed, Shown):
         AssemblyError
             If the mechanism cannot be closed.
         """
-        arguments.of_kind("compiled", compiled, CompiledModel, "what Model.compile returned")  # type: ignore[type-abstract]  # asked for, not made
+        arguments.of_kind("compiled", compiled, CompiledModel, "what Model.compile returned")  # type: ignore[type-abstract]  # a type, not an instance
         values = self.parameters(parameters)
         if compiled.info.name != self.name or [p.name for p in compiled.info.parameters] != list(values):
             raise InputError("compiled", f"compiled code of {self.name}", f"that of {compiled.info.name}")

@@ -62,12 +62,12 @@ def choose_coordinates(mechanism: Mechanism, coordinates: str, shape: str) -> Ta
         If both joint coordinates and looped code are requested.
     """
     if coordinates == "absolute":
-        return Taken("absolute", "it was asked for")
+        return Taken("absolute", "it was set")
     if coordinates == "joint":
         if shape == "looped":
             expected = "absolute ones for code that is not straight: loops, lanes and CUDA have no joint coordinates"
             raise InputError("coordinates", expected, "joint")
-        return Taken("joint", "it was asked for")
+        return Taken("joint", "it was set")
     if shape == "looped":
         return Taken("absolute", "loops, lanes and CUDA have no joint coordinates")
     topology = spanning_tree(mechanism)
@@ -161,7 +161,7 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
             f"{coordinates} coordinates",
         )
     if shape != "auto":
-        return Taken(shape, "it was asked for")
+        return Taken(shape, "it was set")
     if dense:
         return Taken("straight", f"{choice.method.name} needs what the looped shape does without")
     if coordinates > LARGEST_STRAIGHT:

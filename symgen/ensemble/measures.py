@@ -1,8 +1,8 @@
 """Points, force elements, drivers, formulas of ``[outputs]`` and reactions of the runs of an ensemble.
 
-Loops leave the states, and what else formulas read, as further columns of each run; behind the loops, the side module
-of single runs is called for all of them by one compiled loop (`symgen.runtime.observe`). Loops of no target know
-anything of it, and where nothing of it is asked for, there is none of it.
+Loops write the states, and other inputs of formulas, as further columns of each run. Behind the loops, one compiled loop
+(`symgen.runtime.observe`) calls the side module of single runs for all of them. The loops of all targets are the same
+with and without such quantities.
 """
 
 from __future__ import annotations

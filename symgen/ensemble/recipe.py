@@ -157,8 +157,7 @@ class Recipe:
     first : Code
         Code of the runs.
     spare : Code or None
-        The law with another solver, for runs whose bodies turn out too light for the first; None where the solver was
-        asked for.
+        The law with another solver, for runs whose bodies are too light for the first; None where the solver is set.
     integrator : str
         Name of the scheme.
     spec : RunSpec

@@ -153,7 +153,7 @@ def _check_room(ensemble: Ensemble, path: Path | None, folder: Path | None) -> N
         require("sweep", what, rows + RUN_SIZE * runs)
     else:
         require_disk(f"folder '{folder}'", folder.parent, what, rows)
-    if path is not None and path != folder:  # a file is made in memory, from the rows and what is told of them
+    if path is not None and path != folder:  # a file is made in memory, from the rows and their descriptions
         require(f"output '{path}'", what, 2.0 * (rows + RUN_SIZE * runs))
 
 

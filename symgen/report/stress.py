@@ -146,7 +146,7 @@ def _trust_section(study: Stress) -> Section:
     headings = ("model", "case", "method", "integrator", "why", "error [m]")
     tables = tuple(
         DocumentTable(caption, headings, tuple(map(_trust_row, rows)), words=5)
-        for caption, rows in (("auto.", own), ("Methods that were asked for by name.", others))
+        for caption, rows in (("auto.", own), ("Methods selected by name.", others))
         if rows
     )
     return Section(f"Success reported with an error above {ACCURATE:g} m", tuple(text), tables=tables)

@@ -34,7 +34,7 @@ def test_inspect_says_which_shape_and_why(cli):
     code, out, _ = cli("inspect", "four-bar", "--shape", "looped", "--json")
     shape = json.loads(out)["shape"]
     assert code == 0
-    assert (shape["shape"], shape["reason"]) == ("looped", "it was asked for")
+    assert (shape["shape"], shape["reason"]) == ("looped", "it was set")
     assert sorted(shape["kernels"].values()) == [2, 2, 3]  # pins on the ground, pins between links, links
     code, out, _ = cli("inspect", "four-bar")
     assert code == 0
