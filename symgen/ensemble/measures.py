@@ -1,6 +1,6 @@
 """Points, force elements, drivers, formulas of ``[outputs]`` and reactions of the runs of an ensemble.
 
-Loops write the states, and other inputs of formulas, as further columns of each run. Behind the loops, one compiled loop
+Loops write the states and other inputs of formulas as further columns of each run. Behind the loops, one compiled loop
 (`symgen.runtime.observe`) calls the side module of single runs for all of them. The loops of all targets are the same
 with and without such quantities.
 """
