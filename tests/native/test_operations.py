@@ -125,6 +125,9 @@ def programs(draw):
         else:
             count = 1 if name in UNARY or name in TABLES else 2
             arguments = tuple(some(numbers) for _ in range(count))
+            base, exponent = graph.value(arguments[0]), graph.value(arguments[-1])
+            if name == "pow" and base is not None and exponent is not None and base < 0.0 and exponent % 1.0:
+                continue  # complex in Python; formulas of files with such a power are refused
             with suppress(OverflowError):  # of constants, which is told whoever wrote them
                 numbers.append(graph.rebuild(name, arguments) if ":" not in name else graph.call(name, *arguments))
     return graph, [some(numbers[-20:]) for _ in range(OUTPUTS)], some(truths) if draw(st.booleans()) else None
