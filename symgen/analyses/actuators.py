@@ -19,9 +19,10 @@ from numpy.typing import NDArray
 from symgen import arguments
 from symgen.analyses.prescribed import DRIVER, drivers_of, instantaneous, without
 from symgen.compiling.side import compile_side
-from symgen.describe.evaluate import parameter_values
+from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.mechanism import Force, Joint, Mechanism, Parameter
 from symgen.describe.readings import is_turning
+from symgen.describe.start import datum_of
 from symgen.errors import InputError, nearest, quoted
 from symgen.lower.windings import winding_order
 from symgen.result.saved import Recorded
@@ -269,11 +270,11 @@ def _motions(
     velocities = [v.name for v in info.velocities]
     q, v = record.table([c.name for c in info.coordinates]), record.table(velocities)
     a = record.table([accelerated(name) for name in velocities])
-    instant = (float(record.t[0]), ())
+    instant, datum = (float(record.t[0]), ()), datum_of(mechanism, scalars(values))
 
     def close(compiled: CompiledModel, ask_light: bool) -> Start:
         p = compiled.parameter_array(values, plan.method_parameters)
-        return assemble(compiled, q[0].copy(), list(v[0]), p, False, None, ask_light, None, instant)
+        return assemble(compiled, q[0].copy(), list(v[0]), p, False, None, ask_light, None, instant, datum)
 
     compiled, start = closed_by(plan, code, close)
     states = np.zeros((len(record.t), info.ny))

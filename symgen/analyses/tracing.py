@@ -14,7 +14,7 @@ from symgen.runtime import abi, decisions
 from symgen.runtime import following as f
 from symgen.runtime.exact import compiled_form
 from symgen.runtime.manifold import stay
-from symgen.runtime.model_arrays import entries_of, velocity_of
+from symgen.runtime.model_arrays import entries_of, lengths_of, velocity_of
 from symgen.runtime.probe import Ready
 from symgen.runtime.redundancy import row_chooser
 
@@ -129,7 +129,8 @@ class Tracer:
         scale = np.array([1.0 if v.unit == "rad/s" else 1.0 / length for v in info.velocities])
         self.spun = {i for first, _ in info.spins for i in range(first, first + 4)}
         self.sizes = [1.0 / length if i in self.spun else scale[velocity_of(i, info)] for i in range(info.nq)]
-        tolerance = decisions.ROUNDING * length * max(info.m, 1)
+        coarse = float(np.abs(start.y[: info.nq] * lengths_of(info)).max(initial=0.0))  # what positions can resolve
+        tolerance = decisions.ROUNDING * max(length, coarse) * max(info.m, 1)
         self.course = f.Course._make((*numbers, tolerance, LEAST * self.span, *entries_of(info), scale))
         move = model.move if info.nq != info.nv else compiled_form(stay)
         self.functions = model.geometry, model.measure, move, model.spread, model.observe

@@ -157,10 +157,11 @@ class DeviceRuns:
         limits: Array,
         times: Array,
         picks: Integers,
+        datum: tuple[float, ...],
     ) -> None:
         self.compiled, self.need, self.scheme, self.span = compiled, need, scheme, span
         self.sizes = sizes_of(compiled)
-        self.constants = limits, share_of(self.sizes), metric_of(compiled.info, self.sizes), picks, times
+        self.constants = limits, share_of(self.sizes, datum), metric_of(compiled.info, self.sizes), picks, times
         self.times, self.quantities = len(times), len(picks) // 2
 
     @cached_property

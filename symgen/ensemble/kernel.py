@@ -154,7 +154,7 @@ class RowKernel:
     def _prepare(self, code: Code) -> _Prepared:
         compiled, recipe = code.module.load(), self.recipe
         p = self._parameters(compiled)
-        assembly = Assembly(compiled, recipe.held, recipe.strict, recipe.spare is not None)
+        assembly = Assembly(compiled, recipe.held, recipe.strict, recipe.spare is not None, datum=recipe.datum)
         alone = recipe.watch is not None and recipe.watch.alone  # single runs work out all of it
         return _Prepared(compiled, assembly, p, self._runs(code, compiled), None if alone else code.measures)
 
@@ -176,7 +176,7 @@ class RowKernel:
         setup = integrator.setup(own, spec, own.scratch())
         if other is not None and recipe.target == "cuda":
             need, span = need_of(other, setup, spec.adaptive, recipe.sources), span_of(spec, setup)
-            return DeviceRuns(other, need, setup.scheme, span, recipe.limits, recipe.times, recipe.picks)
+            return DeviceRuns(other, need, setup.scheme, span, recipe.limits, recipe.times, recipe.picks, recipe.datum)
         watched, rtol = None, spec.rtol if spec.adaptive else None
         if watch is not None:
             watched = compile_events(recipe.tree or watch.mechanism, own, watch.events, {}, rtol)

@@ -101,7 +101,8 @@ class LoopRuns:
         arrays = (selected, *(x.ravel() for x in starts), recipe.limits, self.picks, *results)
         chunk = RowChunk._make((*arrays, *wants, *places))
         room = max(setup.room, 2 * info.ny + series.observed.rows.shape[1])
-        state = new_state(compiled, sizes, setup.memory, room)._replace(control=control)
+        datum = recipe.datum if self.width is None else ()  # joint coordinates have no origin
+        state = new_state(compiled, sizes, setup.memory, room, datum)._replace(control=control)
         observers = sizes, *rates, law.accept, observe
         if self.lanes is not None:
             if self._in_lanes(self.lanes, observers, span, chunk, state, series) < len(selected):

@@ -184,6 +184,8 @@ class Recipe:
         Target of the code.
     plugins : tuple of str
         Files that workers load before.
+    datum : tuple of float
+        What coordinates are measured from, with parameters as described (`symgen.describe.start.datum_of`).
     """
 
     first: Code
@@ -201,6 +203,7 @@ class Recipe:
     sides: tuple[SidedJoint, ...] = ()
     stops: bool = False
     plugins: tuple[str, ...] = ()
+    datum: tuple[float, ...] = ()
 
     @property
     def times(self) -> Array:

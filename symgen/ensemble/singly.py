@@ -121,7 +121,7 @@ class SingleRuns:
 
     def _begun(self, r: int, rows: Rows, starts: Instant) -> Start | TreeRun:
         y, p, w = (array[r].copy() for array in starts)
-        start = Start(y, p, w, self.compiled.rank(w), self.compiled.redundant(w), ())
+        start = Start(y, p, w, self.compiled.rank(w), self.compiled.redundant(w), (), datum=self.recipe.datum)
         if self.tree is None:
             return start
         method = {**self.recipe.method_parameters, **rows.method_of(r)}

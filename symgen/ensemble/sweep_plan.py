@@ -16,10 +16,11 @@ from symgen.compiling.choices import LARGEST_STRAIGHT, on_tree
 from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import can_integrate, with_integrals
 from symgen.describe.digest import identity
-from symgen.describe.evaluate import derived
+from symgen.describe.evaluate import derived, parameter_values, scalars
 from symgen.describe.events import RECORD, RESET, STOP
 from symgen.describe.kinks import discontinuities_of
 from symgen.describe.sides import sides_of
+from symgen.describe.start import datum_of
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.chunks import Rows, make_rows
 from symgen.ensemble.driving import Driving, read_by_motions
@@ -287,6 +288,7 @@ def make_ensemble(
         sides=tuple(side for side in sides_of(mechanism) if side.held),
         stops=driving.jumps,
         plugins=loaded_files(),
+        datum=tuple(datum_of(mechanism, scalars(parameter_values(mechanism, plan.parameters)))),
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first

@@ -11,6 +11,7 @@ import numpy as np
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.events import in_words
 from symgen.describe.mechanism import Hold
+from symgen.describe.start import datum_of
 from symgen.ir.program import FORMAT
 from symgen.lower.windings import winding_order
 from symgen.running.starts import closed_by, compiled_for, states_at_start
@@ -86,8 +87,9 @@ def _from_coordinates(plan: Plan, last: LastState, compiled: CompiledModel, ask_
     q = np.array([last.q[c.name] for c in info.coordinates])
     v = [last.v[c.name] for c in info.velocities]
     p = compiled.parameter_array(values, plan.method_parameters)
+    datum = datum_of(plan.mechanism, scalars(values))
     whence = last.t, _windings(plan.mechanism, compiled, last)
-    start = assemble(compiled, q, v, p, plan.settings.strict, None, ask_light, None, whence)
+    start = assemble(compiled, q, v, p, plan.settings.strict, None, ask_light, None, whence, datum)
     holds = [Hold(name, Number(x)) for name, x in (last.states or {}).items()]
     start.y[info.own_states] = states_at_start(plan.mechanism, scalars(values), holds)
     return start

@@ -14,7 +14,7 @@ from symgen.compiling.side import with_integrals
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.sides import wrong_sides
-from symgen.describe.start import described_start, moved
+from symgen.describe.start import datum_of, described_start, moved
 from symgen.runtime.assembly import Start, assemble
 from symgen.runtime.held import Held
 from symgen.runtime.model_arrays import velocity_of
@@ -76,7 +76,9 @@ def start_of(
         held = held_of(compiled.info, holds_of(mechanism) if held is None else held, numbers, v)
     p = compiled.parameter_array(values, method_parameters or {})
     moves = partial(moved, mechanism, numbers)
-    start = _sided(mechanism, compiled.info, assemble(compiled, np.array(q), v, p, strict, held, ask_light, moves))
+    more = strict, held, ask_light, moves
+    closed = assemble(compiled, np.array(q), v, p, *more, datum=datum_of(mechanism, numbers))
+    start = _sided(mechanism, compiled.info, closed)
     start.y[compiled.info.own_states] = states
     return start
 

@@ -226,7 +226,9 @@ class TreeRun:
         with np.errstate(all="ignore"):
             self.compiled.prepare(numbers)
             before, after = (self.bodies_at(t, state.y, x, state.w) for x in (state.p, numbers))
-        by = np.abs(after - before) / np.maximum(np.abs(before), float(state.w[abi.LENGTH]))
+        places = np.zeros(len(before))
+        places[: len(self.body_start.datum)] = self.body_start.datum
+        by = np.abs(after - before) / np.maximum(np.abs(before - places), float(state.w[abi.LENGTH]))
         if not by.max(initial=0.0) <= MOVED:
             name = self.names[int(np.argmax(np.where(np.isfinite(by), by, np.inf)))]
             expected = "parameters that leave the position of every joint as it is"

@@ -50,6 +50,7 @@ def layout_of(compiled: CompiledModel) -> Layout:
         _marked(info.alone, info.m),
         np.array(spins_of(info), dtype=np.int64),
         lengths_of(info),
+        np.zeros(info.nq),
         np.full(info.windings, np.nan),
     )
     return Layout._make((*numbers, *arrays))
@@ -83,6 +84,8 @@ class Assembly:
         Time of the start [s].
     branches : sequence of float
         Angles that count turns; empty if their turns are chosen.
+    datum : sequence of float
+        What coordinates are measured from (`symgen.describe.start.datum_of`); empty for the origin.
     """
 
     compiled: CompiledModel
@@ -91,6 +94,7 @@ class Assembly:
     ask_light: bool = False
     t: float = 0.0
     branches: Sequence[float] = ()
+    datum: Sequence[float] = ()
 
     @cached_property
     def layout(self) -> Layout:
@@ -102,6 +106,7 @@ class Assembly:
             unchanged=_marked(tuple(held.velocities), info.nv),
             fixed=_marked(held.fixed, info.nv),
             held=np.array([(i, velocity_of(i, info)) for i in held.coordinates], dtype=np.int64).ravel(),
+            datum=np.array(self.datum, dtype=np.float64) if len(self.datum) else layout.datum,
             branches=np.array(self.branches, dtype=np.float64) if len(self.branches) else layout.branches,
         )
 

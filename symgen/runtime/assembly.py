@@ -58,6 +58,8 @@ class Start:
         Work done before the run [J], not included in `y`.
     saved : mapping of str to Array, optional
         Saved arrays of another run that this run continues.
+    datum : tuple of float
+        What coordinates are measured from (`symgen.describe.start.datum_of`); empty for the origin.
     """
 
     y: Array
@@ -72,6 +74,7 @@ class Start:
     t: float = 0.0
     work: float = 0.0
     saved: Mapping[str, NDArray[Any]] | None = None
+    datum: tuple[float, ...] = ()
 
     def __repr__(self) -> str:
         warnings = f", {len(self.warnings)} warnings" if self.warnings else ""
@@ -109,6 +112,7 @@ def assemble(
     ask_light: bool = False,
     moved: Moved | None = None,
     instant: tuple[float, Sequence[float]] = (0.0, ()),
+    datum: Sequence[float] = (),
 ) -> Start:
     """Return the consistent start of a single run.
 
@@ -136,6 +140,8 @@ def assemble(
         Reported coordinates, from described and closed ones: names, differences, and units.
     instant : tuple of float and sequence of float, optional
         Time of the start [s], and the angles that count turns if their branches are set.
+    datum : sequence of float, optional
+        What coordinates are measured from (`symgen.describe.start.datum_of`).
 
     Raises
     ------
@@ -146,7 +152,7 @@ def assemble(
         determines the accelerations of a massless body.
     """
     fixed = held or Held()
-    info, start = compiled.info, Assembly(compiled, fixed, strict, ask_light, *instant)
+    info, start = compiled.info, Assembly(compiled, fixed, strict, ask_light, *instant, datum)
     y = _described(info, q)
     velocities = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
     w, summary = start.close(y, velocities, p)
@@ -163,6 +169,7 @@ def assemble(
         light=bool(summary[e.LIGHT]),
         warnings=moved_far(start, q, y, p, w, changes, moved),
         t=instant[0],
+        datum=tuple(datum),
     )
 
 

@@ -179,7 +179,8 @@ class Changes:
         if not (math.isfinite(w[abi.PHI]) and np.isfinite(state.p).all()):
             raise InputError("set", "parameters for which the equations are defined", "numbers that are not finite")
         w[abi.MEAN_MASS] = plain_form(mean_mass)(compiled.layout, w)
-        spec, reach = self.simulation.spec, state.metric[: info.nq] * state.y[: info.nq]
+        spec, width, nq = self.simulation.spec, self.simulation.sizes.width, info.nq
+        reach = state.metric[:nq] * (state.y[:nq] - state.metric[width : width + nq])
         length = max(float(w[abi.LENGTH]), float(np.abs(reach).max(initial=0.0)))
         self._refuse("position", float(w[abi.PHI_MEASURE]), spec.max_violation * length)
         if any(not np.array_equal(*pair) for pair in zip(before, sections, strict=True)):

@@ -19,6 +19,7 @@ from symgen.runtime.joint_starts import fill_further
 from symgen.runtime.redundancy import choose_rows, farthest
 from symgen.runtime.scales import (
     VANISHED,
+    coarseness_of,
     extent_of,
     free_scale,
     larger,
@@ -53,8 +54,10 @@ def close_positions(closing: Any, layout: Any, now: Any, work: Any, further: Any
             return False
         if layout.windings > 0:  # may overwrite the section of Phi
             closing.measure(layout.t, y, p, w)
-        rounding = decisions.ROUNDING * length * (layout.m if layout.m > 1 else 1)
-        if size <= rounding or (stalled >= decisions.CLOSED_STALLS and size < decisions.CLOSED * length):
+        resolved = larger(length, coarseness_of(layout, y))
+        rounding = decisions.ROUNDING * resolved * (layout.m if layout.m > 1 else 1)
+        closed = larger(decisions.CLOSED * length, rounding)
+        if size <= rounding or (stalled >= decisions.CLOSED_STALLS and size < closed):
             return True
         closing.solve(closing.spread, layout, now, work)
         longest = size_of_change(layout, w, x)

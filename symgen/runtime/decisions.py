@@ -24,7 +24,8 @@ GRADIENT_FALL, ITERATIONS_A_ROW, ITERATIONS_AT_LEAST = 1e-30, 20, 100
 
 #: Newton's iteration on positions ends after this many steps, or when this many of them gained nothing.
 POSITION_STEPS, POSITION_STALLS = 60, 15
-#: Positions are closed when |Phi| is below this, times the scale of lengths and the number of rows ...
+#: Positions are closed when |Phi| is below this, times the scale of lengths and the number of rows (or times the
+#: largest coordinate, which cannot resolve less) ...
 ROUNDING = 1e-15
 #: ... or below this, times the scale of lengths, when three steps gained nothing.
 CLOSED, CLOSED_STALLS = 1e-9, 3

@@ -202,7 +202,7 @@ class Need:
     @property
     def local_bytes(self) -> int:
         """Local memory of a thread [bytes]."""
-        own = 4 * self.width + self.n_p + self.nw + self.stored + self.memory + self.working
+        own = 6 * self.width + self.n_p + self.nw + self.stored + self.memory + self.working
         return 8 * (own + abi.N_COUNTERS + abi.N_CLOCK + abi.N_GAUGES + e.N_CONTROL + N_EVENTS)
 
 
@@ -245,11 +245,12 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
         stored, room = cuda.local.array(n_stored, float64), cuda.local.array(n_room, float64)
         clock, gauges = cuda.local.array(n_clock, float64), cuda.local.array(n_gauges, float64)
         events, memory = cuda.local.array(n_events, float64), cuda.local.array(n_memory, float64)
-        metric, scales = cuda.local.array(width, float64), cuda.local.array(width, float64)
+        metric, scales = cuda.local.array(2 * width, float64), cuda.local.array(2 * width, float64)
         iw, control = cuda.local.array(n_counters, int64), cuda.local.array(n_control, int64)
         for j in range(width):
             y[j] = starts.ys[j, i] if j < sizes.ny else 0.0
             metric[j], scales[j] = starts.metric[j], 0.0
+            metric[width + j], scales[width + j] = starts.share[width + j], starts.share[width + j]
         for j in range(starts.ps.shape[0]):
             p[j] = starts.ps[j, i]
         for j in range(nw):

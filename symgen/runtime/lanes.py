@@ -134,7 +134,7 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
         for lane in range(_L):
             angle = abs(y[i * _L + lane]) * (1.0 - run.metric[i])
             gauges[_ODD + lane] = gauges[_ODD + lane] if angle <= _LARGEST_ANGLE else 1.0
-            size = abs(y[i * _L + lane]) * run.metric[i]
+            size = abs(y[i * _L + lane] - run.share[sizes.width + i]) * run.metric[i]
             gauges[_LARGEST + lane] = size if size > gauges[_LARGEST + lane] else gauges[_LARGEST + lane]
     for i in range(sizes.nq, behind):
         for lane in range(_L):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -43,9 +43,13 @@ def sizes_of(compiled: CompiledModel) -> Sizes:
     return Sizes._make((*lengths, *places, auxiliary, len(info.states)))
 
 
-def share_of(sizes: Sizes) -> Array:
-    """Return 1 for elements of a state under error control, else 0: the work is controlled separately."""
-    share = np.zeros(sizes.width)
+def share_of(sizes: Sizes, datum: Sequence[float] = ()) -> Array:
+    """Return 1 for elements of a state under error control, else 0: the work is controlled separately.
+
+    Behind them are the places that coordinates are measured from (`symgen.describe.start.datum_of`).
+    """
+    share = np.zeros(2 * sizes.width)
+    share[sizes.width : sizes.width + len(datum)] = datum
     share[: sizes.ny] = 1.0
     share[sizes.nq + sizes.nv] = 0.0
     return share
@@ -53,7 +57,7 @@ def share_of(sizes: Sizes) -> Array:
 
 def metric_of(info: ModelInfo, sizes: Sizes) -> Array:
     """Return 1 for coordinates that are lengths, else 0; see `symgen.runtime.scales.settle` for the velocities."""
-    metric = np.zeros(sizes.width)
+    metric = np.zeros(2 * sizes.width)
     metric[: sizes.nq] = lengths_of(info)
     return metric
 
@@ -64,7 +68,7 @@ def new_outputs(info: ModelInfo, times: Array) -> Outputs:
     return Outputs(np.ascontiguousarray(times, dtype=np.float64), np.empty((k, info.ny)), np.empty((k, columns)))
 
 
-def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> State:
+def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int, datum: Sequence[float] = ()) -> State:
     """Return the state of a run before its start.
 
     Parameters
@@ -75,15 +79,17 @@ def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> 
         From `sizes_of`.
     memory, room : int
         As in `symgen.runtime.integrator.Setup`.
+    datum : sequence of float
+        What coordinates are measured from; empty for the origin.
     """
-    law, scales = compiled.law, np.zeros(sizes.width)
+    law, scales = compiled.law, np.zeros(2 * sizes.width)
     scales[sizes.nq + sizes.nv + 1 : sizes.ny] = 1.0  # integrals of outputs have units of their own
     control, counters = np.zeros(abi.N_CONTROL, dtype=np.int64), np.zeros(abi.N_COUNTERS, dtype=np.int64)
     p = np.zeros(max(1, law.parameter_offset + len(law.parameters) + law.hoisted))
     return State(
         *(np.zeros(sizes.width), p, np.zeros(max(1, law.nw)), counters, np.zeros(abi.N_CLOCK)),
         *(np.zeros(abi.N_GAUGES), control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)),
-        *(np.zeros(memory), share_of(sizes), metric_of(compiled.info, sizes), scales),
+        *(np.zeros(memory), share_of(sizes, datum), metric_of(compiled.info, sizes), scales),
         np.zeros(sizes.width + room),
     )
 

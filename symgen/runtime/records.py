@@ -110,11 +110,11 @@ class State(NamedTuple):
         See `symgen.runtime.abi`.
     memory : Array
         Data that the scheme keeps from step to step.
-    share : Array, shape (width,)
-        1 for elements of the state under error control, else 0.
-    metric, scales : Array, shape (width,)
+    share : Array, shape (2 width,)
+        1 for elements of the state under error control, else 0; then the places that elements are measured from.
+    metric, scales : Array, shape (2 width,)
         Factors that convert coordinates and velocities to lengths and speeds, and to numbers of order 1; see
-        `symgen.runtime.scales.settle`.
+        `symgen.runtime.scales.settle`; then these places.
     room : Array
         Working memory: nothing in it outlives a step. It begins with the trial state.
     """

@@ -22,6 +22,12 @@ LEAST_ROW = 1e-2
 #: Rows below this part of a usual one, squared, have vanished: their entries are rounding. A row of D in joint
 #: coordinates is a sum of products of size 1 along a chain, of which rounding leaves some 1e-16.
 VANISHED = 1e-18
+#: Where nothing but places tells a length, it is looked for between these [m]; nearer places are one.
+SHORTEST, LONGEST = 1e-12, 1e12
+#: A row has turned enough to be measured when it has turned by this [rad].
+TURNED = 0.1
+#: Rounding of a number of order 1.
+ROUNDING = 2.0**-52
 #: Speeds below this fraction of the scale of speeds are rest, whatever the tolerances are.
 LEAST_SPEED = 1e-9
 #: Error of speeds over their tolerance: the errors of many steps add up.
@@ -46,7 +52,9 @@ def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
     """Set the section ``gauge``, and the scales of lengths and masses, from D at the described positions.
 
     A body's length is twice the norm of the derivative of a joint's rows in metres by the body's angles, the largest
-    over its joints; a body whose joints are all at its centre of mass has the length of the mechanism.
+    over its joints; a body whose joints are all at its centre of mass has the length of the mechanism. Without such
+    lengths the mechanism has the length by which rows turn (`turning_length`), else the largest radius of gyration,
+    else that of the places of its bodies.
     """
     w, spin, lengths, sums = now.w, layout.spin, work.x, work.scale
     entries, constants, rows = layout.entries, layout.constants, layout.rows
@@ -68,8 +76,10 @@ def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
             if math.isfinite(value):
                 sums[spin[entries[3 * k + 1]]] += value * value
     extent = extent_of(layout, now.y)
+    longest = longest if longest > 0.0 else turning_length(geometry, layout, now, work) ** 2
+    longest = longest if longest > 0.0 else gyration_of(layout, w)
     longest = longest if longest > 0.0 else extent * extent
-    longest = longest if longest > 0.0 else 1.0
+    longest = longest if longest > SHORTEST * SHORTEST else 1.0
     least = LEAST_LENGTH * LEAST_LENGTH * longest
     for j in range(layout.nv):
         if spin[j] >= 0:
@@ -117,11 +127,75 @@ def weigh_rows(layout: Any, now: Any) -> None:
 
 @exact()
 def extent_of(layout: Any, y: Any) -> float:
-    """Return the largest finite coordinate that is a length, 0 where no such coordinate exists."""
+    """Return the largest finite distance of a body from the mechanism's datum along an axis, 0 without bodies.
+
+    Distances are not measured from the origin: decisions do not depend on where it lies.
+    """
+    largest = 0.0
+    for i in range(layout.nq):
+        away = abs(y[i] - layout.datum[i])
+        if layout.lengths[i] != 0.0 and away > largest and math.isfinite(away):
+            largest = away
+    return largest
+
+
+@exact()
+def coarseness_of(layout: Any, y: Any) -> float:
+    """Return the largest finite coordinate that is a length: its rounding is what positions can resolve."""
     largest = 0.0
     for i in range(layout.nq):
         if layout.lengths[i] != 0.0 and abs(y[i]) > largest and math.isfinite(y[i]):
             largest = abs(y[i])
+    return largest
+
+
+@exact()
+def turning_length(geometry: Any, layout: Any, now: Any, work: Any) -> float:
+    """Return the way along which rows in metres turn by about 1 rad: of a rod its length; 0 where rows stay the same.
+
+    Bodies are moved, each its own way, by more and more until a row has turned enough to be measured. `work.y` and
+    `work.w` are overwritten.
+    """
+    y, w, other, there, entries = now.y, now.w, work.y, work.w, layout.entries
+    count, step = layout.constants.shape[0], larger(SHORTEST, 8.0 * ROUNDING * coarseness_of(layout, now.y))
+    for i in range(w.shape[0] if count > 0 and layout.m > 0 else 0):
+        there[i] = w[i]
+    while count > 0 and step < LONGEST:
+        j = 0
+        for i in range(layout.nq):
+            other[i] = y[i]
+            if layout.lengths[i] != 0.0:
+                while layout.spin[j] >= 0:
+                    j += 1
+                other[i] += step * math.cos(j + 1.0)
+                j += 1
+        geometry(layout.t, other, now.p, there)
+        row, way, size, change, length = -1, 0.0, 0.0, 0.0, 0.0
+        for k in range(count + 1):
+            here = -2 if k == count else entries[3 * k]
+            if here != row:
+                if change >= TURNED * TURNED * size and size > 0.0:
+                    length = larger(length, math.sqrt(way * size / change))
+                row, way, size, change = here, 0.0, 0.0, 0.0
+            if here >= 0 and layout.rows[2 * here + 1] == 1 and layout.spin[entries[3 * k + 1]] < 0:
+                before, after = entry_of(layout, w, k), entry_of(layout, there, k)
+                way += (step * math.cos(entries[3 * k + 1] + 1.0)) ** 2
+                size += before * before
+                change += (after - before) ** 2
+        if length > 0.0:
+            return length if math.isfinite(length) else 0.0
+        step *= 4.0
+    return 0.0
+
+
+@exact()
+def gyration_of(layout: Any, w: Any) -> float:
+    """Return the square of the largest radius of gyration, 0 where no body turns."""
+    largest = 0.0
+    for j in range(1, layout.nv):
+        first = layout.spin[j]
+        if first > 0 and w[layout.mass + first - 1] > 0.0:
+            largest = larger(largest, w[layout.mass + j] / w[layout.mass + first - 1])
     return largest
 
 
@@ -164,8 +238,12 @@ def settle(sizes: Any, span: Any, run: Any) -> None:
     velocities); `run.scales` converts them to numbers of order 1. A motion that begins at rest is taken to cross the
     mechanism in the time `span.duration`. The energy in motion is at least that of speeds within the tolerances: a
     motion that begins at rest, without a force, has no other energy to which errors could be compared.
+
+    Behind the factors of both are the places that coordinates are measured from, as in `run.share`.
     """
-    w, nq = run.w, sizes.nq
+    w, nq, width = run.w, sizes.nq, sizes.width
+    for i in range(nq):
+        run.metric[width + i] = run.scales[width + i] = run.share[width + i]
     for j in range(sizes.nv):
         run.metric[nq + j] = 1.0 / math.sqrt(w[sizes.gauge + j])
     length = w[abi.LENGTH]

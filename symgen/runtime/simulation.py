@@ -80,7 +80,7 @@ class Simulation:
         self.sizes = sizes_of(compiled)
         self.scheme, self.span = self.setup.scheme, span_of(spec, self.setup)
         self.direct = True
-        state: Any = new_state(compiled, self.sizes, self.setup.memory, self.setup.room)
+        state: Any = new_state(compiled, self.sizes, self.setup.memory, self.setup.room, start.datum)
         self.events: Events | None = None
         if spec.events is not None:
             state = spec.events.hunting_state(self.sizes, state)

@@ -233,7 +233,9 @@ def weigh(builder: Any, width: Any, error: Any, share: Any, y: Any, new: Any, rt
     relative, absolute = spread(builder, rtol), spread(builder, atol)
 
     def block(i: Any, total: Any) -> Any:
-        larger = _greater(builder, _magnitude(builder, load(builder, y, i)), _magnitude(builder, load(builder, new, i)))
+        place = load(builder, share, builder.add(width, i))
+        sizes = (_magnitude(builder, builder.fsub(load(builder, x, i), place)) for x in (y, new))
+        larger = _greater(builder, *sizes)
         weight = load(builder, share, i)
         larger = builder.fmul(weight, larger)
         scale = builder.fadd(absolute, builder.fmul(relative, larger, flags=_FLAGS), flags=_FLAGS)
@@ -252,7 +254,8 @@ def largest(builder: Any, width: Any, array: Any, weights: Any, first: Any, last
     def block(i: Any, largest: Any) -> Any:
         index = builder.add(spread(builder, i, _INDICES), ir.Constant(_INDICES, list(range(BLOCK))))
         inside = builder.and_(builder.icmp_signed(">=", index, low), builder.icmp_signed("<", index, high))
-        size = builder.fmul(_magnitude(builder, load(builder, array, i)), load(builder, weights, i))
+        away = builder.fsub(load(builder, array, i), load(builder, weights, builder.add(width, i)))
+        size = builder.fmul(_magnitude(builder, away), load(builder, weights, i))
         size = builder.select(inside, size, ZERO)
         return _greater(builder, size, largest)
 

@@ -62,21 +62,28 @@ def _copied(width: int, array: Any, out: Any) -> None:
 
 
 def _weigh(width: int, error: Any, share: Any, y: Any, new: Any, rtol: float, atol: float) -> float:
-    """Return the sum of the squares of share times error over ``atol + rtol share max(|y|, |new|)``; 0 / 0 counts 0."""
+    """Return the sum of the squares of share times error over ``atol + rtol share max(|y|, |new|)``; 0 / 0 counts 0.
+
+    Behind the shares are the places that `y` and `new` are measured from.
+    """
     total = 0.0
     for i in range(width):
-        allowed = atol + rtol * (share[i] * max(abs(y[i]), abs(new[i])))
+        allowed = atol + rtol * (share[i] * max(abs(y[i] - share[width + i]), abs(new[i] - share[width + i])))
         if share[i] * error[i] != 0.0:
             total += (share[i] * error[i] / allowed) ** 2
     return total
 
 
 def _largest(width: int, array: Any, weights: Any, first: int, last: int) -> float:
-    """Return the largest weighted magnitude of the elements from `first` to `last`, at least 0; nan is ignored."""
+    """Return the largest weighted magnitude of the elements from `first` to `last`, at least 0; nan is ignored.
+
+    Behind the weights are the places that the elements are measured from.
+    """
     largest = 0.0
     for i in range(first, last):
-        if abs(array[i]) * weights[i] > largest:
-            largest = abs(array[i]) * weights[i]
+        size = abs(array[i] - weights[width + i]) * weights[i]
+        if size > largest:
+            largest = size
     return largest
 
 

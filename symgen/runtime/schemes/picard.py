@@ -103,11 +103,11 @@ def weigh_rates(system: Any, scheme: Any, span: Any, run: Any, h: float, ends: A
     work = sizes.nq + sizes.nv
     mean = 1.0 / sizes.controlled
     for i in range(sizes.ny):
-        largest = max(abs(y[i]), abs(ends[i * NODES + NODES - 1]))
-        allowed = span.atol + span.rtol * share[i] * largest
+        place, end = share[sizes.width + i], ends[i * NODES + NODES - 1]
+        allowed = span.atol + span.rtol * share[i] * max(abs(y[i] - place), abs(end - place))
         error = h * share[i] / allowed if allowed > 0.0 else 0.0
         if not ADAPTIVE:
-            scale = 1e-16 * max(1.0, run.scales[i] * largest)
+            scale = 1e-16 * max(1.0, run.scales[i] * max(abs(y[i]), abs(end)))
             error = h * run.scales[i] / scale
         weights[i] = mean * error * error
     if ADAPTIVE:
