@@ -20,9 +20,9 @@ from symgen import arguments
 from symgen.analyses.prescribed import DRIVER, drivers_of, instantaneous, without
 from symgen.compiling.side import compile_side
 from symgen.describe.evaluate import parameter_values, scalars
+from symgen.describe.lengths import datum_of
 from symgen.describe.mechanism import Force, Joint, Mechanism, Parameter
 from symgen.describe.readings import is_turning
-from symgen.describe.start import datum_of
 from symgen.errors import InputError, nearest, quoted
 from symgen.lower.windings import winding_order
 from symgen.result.saved import Recorded

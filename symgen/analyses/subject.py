@@ -16,7 +16,8 @@ from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import compile_side
 from symgen.describe.evaluate import evaluate, parameter_values, scalars
 from symgen.describe.holds import holds_of
-from symgen.describe.start import datum_of, described_start
+from symgen.describe.lengths import datum_of
+from symgen.describe.start import described_start
 from symgen.errors import AssemblyError, InputError, nearest
 from symgen.lower.windings import winding_order
 from symgen.running.inputs import Inputs, put_inputs
@@ -393,8 +394,8 @@ def at_start(mechanism: Mechanism, settings: Settings) -> tuple[Mechanism, Compi
     places = [e for body in mechanism.bodies for _, point in body.points for e in point]
     places += [e for _, marker in mechanism.seats for e in marker.point]
     sizes, datum = [abs(evaluate(e, values, "points")) for e in places], datum_of(mechanism, numbers)
-    q = y[: info.nq]
-    w[abi.LENGTH] = max(float((np.abs(q - datum) * lengths_of(info)).max(initial=0.0)), *sizes, 0.0) or 1.0
+    own = y[: info.nq]
+    w[abi.LENGTH] = max(float((np.abs(own - datum) * lengths_of(info)).max(initial=0.0)), *sizes, 0.0) or 1.0
     p = compiled.parameter_array(values, plan.method_parameters)
     compiled.prepare(p)
     return mechanism, compiled, Start(y, p, w, 0, (), ()), False

@@ -25,6 +25,9 @@ from symgen.describe.mechanism import Mechanism, Topology
 from symgen.describe.topology import loops_of, spanning_tree, state_names, with_joint_coordinates
 from symgen.errors import InputError
 
+#: Lengths of bodies between which corrections in the metric of the identity keep at least four digits [m].
+LENGTHS_OF_IDENTITY = 1e-6, 1e6
+
 
 class Taken(NamedTuple):
     """The coordinates, or the shape of code, that are taken, and the reason in one sentence."""
@@ -42,6 +45,19 @@ def weighed(choice: MethodChoice, massless: bool) -> MethodChoice:
     if "weight" not in choice.options:
         return choice
     return choice.with_options(weight="body" if massless else "mass")
+
+
+def for_lengths(choice: MethodChoice, longest: float) -> tuple[MethodChoice, tuple[str, ...]]:
+    """Return a choice for bodies of such a length [m], and why; lengths of machines leave it as it is.
+
+    In the metric of the identity 1 rad weighs as 1 m. D D^T then adds 1 and the square of the length: beyond these
+    lengths rounding leaves nothing of one of them. The metric of the masses knows no unit of length.
+    """
+    low, high = LENGTHS_OF_IDENTITY
+    if not longest > 0.0 or low <= longest <= high or choice.options.get("weight") != "identity":
+        return choice, ()
+    why = f"bodies of {longest:.3g} m: corrections are in the metric of the masses, as 1 rad does not weigh like 1 m"
+    return choice.with_options(weight="mass"), (why,)
 
 
 def choose_coordinates(mechanism: Mechanism, coordinates: str, shape: str) -> Taken:

@@ -15,7 +15,6 @@ from typing import Any, Protocol
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import FUNCTIONS, Expr
-from symgen.vocabulary.measures import GROUND, Component, FormulaMeasure, FormulaSpeed, Holonomic, Marker, parts
 from symgen.vocabulary.rotations import EulerParameters, Matrix, Orientation, matrix, multiply, rotate
 
 
@@ -100,48 +99,6 @@ def described_start(mechanism: Mechanism, numbers: Numbers) -> tuple[list[Any], 
             turning = body.angular_velocity if isinstance(body, SpatialBody) else (body.angular_velocity,)
             v += values_of("angular_velocity", *turning)
     return q, v
-
-
-def datum_of(mechanism: Mechanism, numbers: Numbers) -> list[Any]:
-    """Return what coordinates are measured from where their sizes are compared: a place of the mechanism, 0 for angles.
-
-    It is the first point of the ground that a joint or an element has, without any the place of the first body. So no
-    decision depends on where the origin of coordinates lies.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The description.
-    numbers : Numbers
-        Numbers of one run, or of many.
-
-    Returns
-    -------
-    list
-        A number, or an array of many, for each coordinate [m].
-    """
-    point = next(_ground_points(mechanism), None)
-    if point is None:
-        point = next((body.position for body in mechanism.bodies), ())
-    place = [numbers.value(e, f"{mechanism.name}: points of the ground") for e in point]
-    return [x for body in mechanism.bodies for x in (*place, *[0.0] * (len(body.coordinates) - len(place)))]
-
-
-def _ground_points(mechanism: Mechanism) -> Iterator[tuple[Expr, ...]]:
-    """Yield the points of the ground that joints and elements have; formulas and drivers may mean the origin."""
-    owned = [
-        row.measure if isinstance(row, Holonomic) else row.speed
-        for joint in mechanism.joints
-        if joint.kind != "driver"
-        for row in joint.rows
-    ]
-    for force in mechanism.forces:  # components of a force are along axes through the origin
-        owned += [effort.measure for effort in force.efforts if not isinstance(effort.measure, Component)]
-        owned += [measure for flexure in force.flexures for measure in flexure.measures]
-    for measure in owned:
-        inside = tuple(parts(measure))
-        if not any(isinstance(part, FormulaMeasure | FormulaSpeed) for part in inside):
-            yield from (part.point for part in inside if isinstance(part, Marker) and part.body == GROUND)
 
 
 def _pose(body: AnyBody, numbers: Numbers, where: str) -> list[Any]:

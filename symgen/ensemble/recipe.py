@@ -185,7 +185,7 @@ class Recipe:
     plugins : tuple of str
         Files that workers load before.
     datum : tuple of float
-        What coordinates are measured from, with parameters as described (`symgen.describe.start.datum_of`).
+        What coordinates are measured from, with parameters as described (`symgen.describe.lengths.datum_of`).
     """
 
     first: Code

@@ -19,8 +19,8 @@ from symgen.describe.digest import identity
 from symgen.describe.evaluate import derived, parameter_values, scalars
 from symgen.describe.events import RECORD, RESET, STOP
 from symgen.describe.kinks import discontinuities_of
+from symgen.describe.lengths import datum_of
 from symgen.describe.sides import sides_of
-from symgen.describe.start import datum_of
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.chunks import Rows, make_rows
 from symgen.ensemble.driving import Driving, read_by_motions

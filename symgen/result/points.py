@@ -7,38 +7,18 @@ unit of length matters. Nothing inside one run sees its global error; a second r
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.evaluate import evaluate
-from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
+from symgen.describe.evaluate import scalars
+from symgen.describe.lengths import datum_of, own_length
+from symgen.describe.mechanism import Mechanism
 from symgen.vocabulary.rotations import matrix
 
 Array = NDArray[np.float64]
-
-
-def own_length(body: AnyBody, parameters: Mapping[str, float]) -> float:
-    """Return a body's own length [m]: 0 for a point mass.
-
-    The largest distance of a named point from the centre of mass, and at least the largest radius of gyration, which is
-    all that a body without points has.
-    """
-    if body.inertia is None:
-        return 0.0
-    where = f"bodies.{body.name}"
-    centre = [evaluate(e, parameters, where) for e in body.centre_of_mass]
-    mass = evaluate(body.mass, parameters, where)
-    moments = body.inertia[:3] if isinstance(body, SpatialBody) else (body.inertia,)
-    inertia = max(evaluate(e, parameters, where) for e in moments)
-    longest = math.sqrt(abs(inertia / mass)) if mass else 0.0
-    for _, point in body.points:
-        away = [evaluate(e, parameters, where) - c for e, c in zip(point, centre, strict=True)]
-        longest = max(longest, math.hypot(*away))
-    return longest
 
 
 @dataclass(frozen=True)
@@ -53,11 +33,14 @@ class Points:
         2 in the plane, 3 in space.
     slender : bool
         Whether some bodies are nodes of beams, whose own lengths say nothing of these.
+    datum : tuple of float
+        The place that a point is measured from (`symgen.describe.lengths.datum_of`).
     """
 
     bodies: tuple[tuple[int, float], ...]
     dimension: int = 2
     slender: bool = False
+    datum: tuple[float, ...] = ()
 
     @classmethod
     def of(cls, mechanism: Mechanism, parameters: Mapping[str, float]) -> Points:
@@ -67,13 +50,15 @@ class Points:
             bodies.append((first, own_length(body, parameters)))
             first += len(body.coordinates)
         slender = any(force.flexures for force in mechanism.forces)
-        return cls(tuple(bodies), 3 if mechanism.space == "spatial" else 2, slender)
+        dimension = 3 if mechanism.space == "spatial" else 2
+        datum = tuple(datum_of(mechanism, scalars(parameters))[:dimension])
+        return cls(tuple(bodies), dimension, slender, datum)
 
     def size(self, q: Array) -> float:
         """Return the mechanism's size [m]: the longest body's own length.
 
         Where all bodies are point masses, or some are nodes of beams, it is the extent of what they do: the diagonal of
-        the box that holds them; of one point at one place the distance from the origin.
+        the box that holds them; of one point at one place its distance from the mechanism's datum.
 
         Parameters
         ----------
@@ -85,7 +70,7 @@ class Points:
             return longest
         places = np.concatenate([q[:, i : i + self.dimension] for i, _ in self.bodies])
         extent = float(np.linalg.norm(np.ptp(places, axis=0)))
-        return max(longest, extent) or float(np.linalg.norm(places[0]))
+        return max(longest, extent) or float(np.linalg.norm(places[0] - self.datum))
 
     def distance(self, a: Array, b: Array) -> float:
         """Return the largest distance [m] between corresponding points, over all bodies and times.

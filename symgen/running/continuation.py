@@ -10,8 +10,8 @@ import numpy as np
 
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.events import in_words
+from symgen.describe.lengths import datum_of
 from symgen.describe.mechanism import Hold
-from symgen.describe.start import datum_of
 from symgen.ir.program import FORMAT
 from symgen.lower.windings import winding_order
 from symgen.running.starts import closed_by, compiled_for, states_at_start

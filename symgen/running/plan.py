@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.compiling.choices import choose_coordinates, choose_shape, weighed
+from symgen.compiling.choices import choose_coordinates, choose_shape, for_lengths, weighed
 from symgen.compiling.pipeline import MethodChoice, for_masses
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import RECORD, STOP, events_of, watched
 from symgen.describe.holds import holds_of
 from symgen.describe.kinks import discontinuities_of, longest_step
+from symgen.describe.lengths import longest_body
 from symgen.errors import InputError, quoted
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
@@ -237,6 +238,9 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     coordinates = choose_coordinates(mechanism, s.coordinates, taken.name)
     if coordinates.name == "joint" and not _has_option(s, "weight"):
         choice = weighed(choice, massless)
+    elif not massless and not _has_option(s, "weight"):
+        choice, more = for_lengths(choice, longest_body(mechanism, parameter_values(mechanism, s.parameters)))
+        notes = *notes, *more
     if purpose is Purpose.MOTION:
         refuse_jumps(mechanism, s.parameters, until)
     return Plan(

@@ -13,8 +13,9 @@ from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import with_integrals
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.holds import ORIENTATION, holds_of
+from symgen.describe.lengths import datum_of
 from symgen.describe.sides import wrong_sides
-from symgen.describe.start import datum_of, described_start, moved
+from symgen.describe.start import described_start, moved
 from symgen.runtime.assembly import Start, assemble
 from symgen.runtime.held import Held
 from symgen.runtime.model_arrays import velocity_of

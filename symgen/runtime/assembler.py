@@ -85,7 +85,7 @@ class Assembly:
     branches : sequence of float
         Angles that count turns; empty if their turns are chosen.
     datum : sequence of float
-        What coordinates are measured from (`symgen.describe.start.datum_of`); empty for the origin.
+        What coordinates are measured from (`symgen.describe.lengths.datum_of`); empty for the origin.
     """
 
     compiled: CompiledModel

@@ -59,7 +59,7 @@ class Start:
     saved : mapping of str to Array, optional
         Saved arrays of another run that this run continues.
     datum : tuple of float
-        What coordinates are measured from (`symgen.describe.start.datum_of`); empty for the origin.
+        What coordinates are measured from (`symgen.describe.lengths.datum_of`); empty for the origin.
     """
 
     y: Array
@@ -141,7 +141,7 @@ def assemble(
     instant : tuple of float and sequence of float, optional
         Time of the start [s], and the angles that count turns if their branches are set.
     datum : sequence of float, optional
-        What coordinates are measured from (`symgen.describe.start.datum_of`).
+        What coordinates are measured from (`symgen.describe.lengths.datum_of`).
 
     Raises
     ------

@@ -46,7 +46,7 @@ def sizes_of(compiled: CompiledModel) -> Sizes:
 def share_of(sizes: Sizes, datum: Sequence[float] = ()) -> Array:
     """Return 1 for elements of a state under error control, else 0: the work is controlled separately.
 
-    Behind them are the places that coordinates are measured from (`symgen.describe.start.datum_of`).
+    Behind them are the places that coordinates are measured from (`symgen.describe.lengths.datum_of`).
     """
     share = np.zeros(2 * sizes.width)
     share[sizes.width : sizes.width + len(datum)] = datum

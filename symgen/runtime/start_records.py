@@ -44,7 +44,7 @@ def record_type(name: str, module: str, *kinds: tuple[str, types.Kind]) -> types
 #: - alone (shape (m,)): 1 for rows that are never left out, see `symgen.runtime.compiled.ModelInfo`.
 #: - spin (shape (nv,)): The body's first angular velocity for an angular velocity, -1 for others.
 #: - lengths (shape (nq,)): 1 for coordinates that are lengths, else 0.
-#: - datum (shape (nq,)): What coordinates are measured from, see `symgen.describe.start.datum_of`.
+#: - datum (shape (nq,)): What coordinates are measured from, see `symgen.describe.lengths.datum_of`.
 #: - branches (shape (windings,)): Known values of angles whose turns are counted; nan where turns are chosen.
 LAYOUT = record_type(
     "Layout",

@@ -8,9 +8,10 @@ import pytest
 
 import symgen
 from symgen.describe import MechanismBuilder
+from symgen.describe.lengths import own_length
 from symgen.describe.mechanism import bounded
 from symgen.errors import InputError
-from symgen.result.points import Points, own_length
+from symgen.result.points import Points
 from symgen.study.references.closed_forms import CLOSED
 from symgen.study.references.independent import IndependentEquations
 from symgen.study.references.motion import CompiledEquations, motion

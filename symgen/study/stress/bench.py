@@ -224,7 +224,7 @@ class Base:
     @cached_property
     def size(self) -> float:
         """Half of the largest distance between bodies and points at the start [m], at least 1e-3."""
-        from symgen.result.points import own_length
+        from symgen.describe.lengths import own_length
 
         places = [self.centre(body.name) for body in self.mechanism.bodies]
         spread = max(math.dist(a, b) for a in [*places, (0.0,) * len(places[0])] for b in places)
