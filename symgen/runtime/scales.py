@@ -53,8 +53,8 @@ def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
 
     A body's length is twice the norm of the derivative of a joint's rows in metres by the body's angles, the largest
     over its joints; a body whose joints are all at its centre of mass has the length of the mechanism. Without such
-    lengths the mechanism has the length by which rows turn (`turning_length`), else the largest radius of gyration,
-    else that of the places of its bodies.
+    lengths the mechanism has the length by which rows turn (`turning_length`), else that of the places of its bodies,
+    at least their radius of gyration.
     """
     w, spin, lengths, sums = now.w, layout.spin, work.x, work.scale
     entries, constants, rows = layout.entries, layout.constants, layout.rows
@@ -77,8 +77,7 @@ def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
                 sums[spin[entries[3 * k + 1]]] += value * value
     extent = extent_of(layout, now.y)
     longest = longest if longest > 0.0 else turning_length(geometry, layout, now, work) ** 2
-    longest = longest if longest > 0.0 else gyration_of(layout, w)
-    longest = longest if longest > 0.0 else extent * extent
+    longest = longest if longest > 0.0 else larger(gyration_of(layout, w), extent * extent)
     longest = longest if longest > SHORTEST * SHORTEST else 1.0
     least = LEAST_LENGTH * LEAST_LENGTH * longest
     for j in range(layout.nv):
