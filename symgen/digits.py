@@ -8,6 +8,8 @@ from typing import Any
 
 #: A number below this fraction of the largest in its column is a rounding error.
 NOTHING = 1e-12
+#: An entry of a matrix below this part of the largest ones of its row and of its column is what rounding left of a sum.
+ROUNDING = 4e-15
 #: Smallest scale of a column of a matrix, as a fraction of the largest number of the matrix.
 BESIDE = 1e-2
 #: Smallest scales of numbers of these units.
@@ -30,6 +32,18 @@ def scale_of(values: Iterable[float], unit: str = "") -> float:
 def cleaned(values: Any, scale: float) -> Any:
     """Return a number or an array with 0 for values below `NOTHING` of a scale."""
     return values * (abs(values) >= NOTHING * scale) + 0.0
+
+
+def without_rounding(matrix: Any) -> Any:
+    """Return a matrix with 0 for entries that are rounding beside the largest ones of both their row and their column.
+
+    Numbers are kept that a table shows as 0: rows and columns may have any units.
+    """
+    sizes = abs(matrix)
+    if not sizes.size:
+        return matrix
+    rows, columns = sizes.max(axis=1, keepdims=True), sizes.max(axis=0, keepdims=True)
+    return matrix * ((sizes >= ROUNDING * rows) | (sizes >= ROUNDING * columns)) + 0.0
 
 
 def digits(x: float, scale: float, count: int = 6) -> str:

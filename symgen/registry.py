@@ -50,11 +50,19 @@ class Registry(Generic[T]):
         Other names of kinds, e.g. ``{"prismatic": "translational"}``.
     attribute : str, optional
         The module's attribute that is the kind.
+    beside : str, optional
+        Package of a registry whose kinds are easily taken for these, which a message says.
     """
 
     def __init__(
-        self, package: str, what: str, aliases: Mapping[str, str] | None = None, attribute: str = "KIND"
+        self,
+        package: str,
+        what: str,
+        aliases: Mapping[str, str] | None = None,
+        attribute: str = "KIND",
+        beside: str = "",
     ) -> None:
+        self.beside = beside
         self.package, self.what, self.attribute = package, what, attribute
         self.aliases: dict[str, str] = dict(aliases or {})
         self._modules: dict[str, str] | None = None
@@ -102,11 +110,24 @@ class Registry(Generic[T]):
         if resolved not in self._loaded and resolved not in self._scan():
             names = (*self.names, *self.aliases)
             hint = nearest(name, names)
+            if hint.startswith("known"):
+                hint = self._hint_beside(name) or hint
             choices = " (known: " + ", ".join(sorted(names)) + ")"
             if not hint.startswith("known") and len(choices) <= _LISTED:  # a longer list buries the hint
                 hint += choices
             raise InputError(where or self.what, f"{article} {self.what}", quoted(name), hint)
         return resolved
+
+    def _hint_beside(self, name: str) -> str:
+        """Return the hint that a name is, or nearly is, one of the registry beside; empty where it is not."""
+        if not self.beside:
+            return ""
+        own = vars(importlib.import_module(self.beside)).values()
+        other = next(x for x in own if isinstance(x, Registry) and x.package == self.beside)
+        if name in other:
+            return f"'{name}' is an {other.what}" if other.what[0] in "aeiou" else f"'{name}' is a {other.what}"
+        hint = nearest(name, other.names)
+        return "" if hint.startswith("known") else hint.replace("did you mean ", f"did you mean the {other.what} ")
 
     def get(self, name: str, where: str = "") -> T:
         """Return the kind called `name` (or so by an alias), importing its module if need be."""

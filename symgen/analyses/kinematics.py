@@ -105,6 +105,16 @@ class Kinematics(MotionTables):
         """Whether the motion reaches all times."""
         return not self.ended
 
+    @property
+    def status(self) -> str:
+        """``ok``, or ``failed`` where the motion does not reach all times."""
+        return "ok" if self.ok else "failed"
+
+    @property
+    def reason(self) -> str | None:
+        """Why the status is not ok."""
+        return self.ended or None
+
     @cached_property
     def efforts(self) -> Labelled:
         """Effort of each driver along its coordinate [N m or N]: on the second body of its joint, forward.
@@ -137,8 +147,8 @@ class Kinematics(MotionTables):
         return {
             "method": "kinematics",
             "integrator": f"{len(self.t)} times",
-            "status": "ok" if self.ok else "failed",
-            "reason": self.ended or None,
+            "status": self.status,
+            "reason": self.reason,
             "events": [{"t": passage.t, "name": passage.words} for passage in self.passages],
             **{"parameters": self.parameters, "inputs": self.inputs},
             **{"coordinates": "absolute", "step": None, "start": start, "watched": ()},

@@ -18,6 +18,7 @@ from symgen.analyses.edges import edges
 from symgen.analyses.reduced import StateTangent, tangent
 from symgen.analyses.steady import at_rest, named_states, system
 from symgen.analyses.subject import Subject
+from symgen.digits import without_rounding
 from symgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -156,10 +157,10 @@ def linear_system(subject: Subject, y: Array, states: Sequence[str] = (), instan
         d.append(row[n:] - by_states @ changes[:, n:])
     k = len(subject.varied)
     return LinearSystem(
-        a,
-        b.reshape(len(names), k),
-        np.array(c).reshape(len(outputs), len(names)),
-        np.array(d).reshape(len(outputs), k),
+        without_rounding(a),
+        without_rounding(b.reshape(len(names), k)),
+        without_rounding(np.array(c).reshape(len(outputs), len(names))),
+        without_rounding(np.array(d).reshape(len(outputs), k)),
         names,
         subject.varied,
         tuple(outputs),

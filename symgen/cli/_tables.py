@@ -15,6 +15,7 @@ from symgen.errors import fitting
 
 if TYPE_CHECKING:
     from symgen.ensemble.sweep_study import Sweep
+    from symgen.result.labelled import Labelled
     from symgen.result.result import Result
     from symgen.study.comparison.compare import Study
     from symgen.study.comparison.comparison_rows import Row
@@ -102,12 +103,22 @@ def show_result(result: Result) -> None:
         show_rows(out, ("body", *labels), rows, left=("body",), title="final state")
 
 
-def show_quantities(quantities: Mapping[str, Mapping[str, Any]]) -> None:
-    """Print last, smallest and largest values of quantities."""
-    rows = []
+def show_quantities(quantities: Mapping[str, Mapping[str, Any]], tables: Iterable[Labelled] = ()) -> None:
+    """Print last, smallest and largest values of quantities.
+
+    Rounding is shown as 0 beside what `tables` of the same motion have of that unit; for a moment, force times length.
+    """
+    from symgen.result.labelled import unit_scales
+
+    rows, scales = list[tuple[str, ...]](), dict[str, float]()
+    for table in tables:
+        for unit, size in unit_scales(table).items():
+            scales[unit] = max(size, scales.get(unit, 0.0))
+    scales["N m"] = max(scales.get("N m", 0.0), scales.get("N", 0.0) * scales.get("m", 0.0))
     for name, entry in quantities.items():
         values = [entry[key] for key in ("final", "min", "max")]
         scale = scale_of((x for x in values if x is not None), entry["unit"])
+        scale = max(scale, scales.get(entry["unit"], 0.0))
         rows.append((name, *("" if x is None else digits(x, scale) for x in values), entry["unit"]))
     headings = ("quantity", "final", "smallest", "largest", "unit")
     show_rows(console(), headings, rows, left=("quantity", "unit"))

@@ -108,7 +108,7 @@ def command(
 
         show_result(result)
         if quantities:
-            show_quantities(chosen)
+            show_quantities(chosen, (result.q, result.v, result.a, result.lam))
     files = {
         save_path: lambda path: result.save(path, quantities, units),
         plot_path: lambda path: result.plot(path, quantities, over or "t"),

@@ -41,7 +41,9 @@ def check_identifier(name: str, where: str, what: str) -> str:
             hint = f"for example '{cured}'"
         raise InputError(where, f"{named} of letters, digits and _, a letter first", quoted(name), hint)
     if name in RESERVED or keyword.iskeyword(name):
-        raise InputError(where, f"{named} that has no meaning of its own", quoted(name), f"'{name}_' is free")
+        of_forces = "formulas of forces mean by 's' what they act along, by 'rate' its rate; "
+        why = of_forces if name in ("s", "rate") else ""
+        raise InputError(where, f"{named} that has no meaning of its own", quoted(name), f"{why}'{name}_' is free")
     return name
 
 

@@ -9,7 +9,7 @@ from symgen.registry import Listing, Registry
 if TYPE_CHECKING:
     from symgen.runtime.integrator import Integrator
 
-INTEGRATORS: Registry[Integrator] = Registry("symgen.integrators", "integrator")
+INTEGRATORS: Registry[Integrator] = Registry("symgen.integrators", "integrator", beside="symgen.methods")
 
 
 def list_integrators() -> Listing:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from symgen.methods._base import Method
 from symgen.registry import Listing, Registry
 
-METHODS: Registry[Method] = Registry("symgen.methods", "method")
+METHODS: Registry[Method] = Registry("symgen.methods", "method", beside="symgen.integrators")
 
 
 def list_methods() -> Listing:

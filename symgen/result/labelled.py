@@ -116,10 +116,15 @@ def column_texts(table: Labelled, of: Callable[[Array], float] = lambda column: 
     """
     if not len(table.values):
         return {}
-    units = np.array(table.units)
-    scales = {unit: scale_of(table.values[:, units == unit].ravel(), unit) for unit in set(table.units)}
+    scales = unit_scales(table)
     columns = zip(table.names, table.units, table.values.T, strict=True)
     return {name: digits(of(values), scales[unit]) for name, unit, values in columns}
+
+
+def unit_scales(table: Labelled) -> dict[str, float]:
+    """Return the scale of the numbers of each unit: the largest of all columns."""
+    units = np.array(table.units)
+    return {unit: scale_of(table.values[:, units == unit].ravel(), unit) for unit in set(table.units)}
 
 
 def html_table(headings: Sequence[str], rows: Sequence[Sequence[str]], most: int = 200) -> str:

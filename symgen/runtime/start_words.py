@@ -118,7 +118,7 @@ def _from_to(change: Change) -> str:
         before, after = f"{change.before:.{digits}g}", f"{change.after:.{digits}g}"
         if before != after:
             break
-    return f"{before} to {after} {change.unit}"
+    return f"{before} to {after} {change.unit}".removesuffix(" 1")  # Euler parameters are numbers
 
 
 def refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> AssemblyError | InputError:

@@ -514,3 +514,9 @@ def test_velocities_that_a_start_holds_are_those_of_the_drivers(held):
     np.testing.assert_allclose(motion["crank.x"], 0.5 * np.cos(6.0 * times), atol=1e-12)
     effort = crank.inverse(times=times)["motor.effort"]
     np.testing.assert_allclose(effort, 2.0 * 9.81 * 0.5 * np.cos(6.0 * times), rtol=1e-10)
+
+
+def test_status_and_reason_as_results_have_them():
+    whole = symgen.load("driven-four-bar").kinematics(until=1.0)
+    assert (whole.status, whole.reason, whole.ok) == ("ok", None, True)
+    assert whole.to_json()["status"] == "ok"

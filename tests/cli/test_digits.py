@@ -8,7 +8,7 @@ import pytest
 
 from symgen.api import load
 from symgen.cli import main
-from symgen.digits import cleaned, column, complex_digits, digits, scale_of, table
+from symgen.digits import cleaned, column, complex_digits, digits, scale_of, table, without_rounding
 from symgen.result.labelled import Labelled, column_texts
 
 #: A number below 1e-13 as text.
@@ -31,6 +31,34 @@ def test_columns_of_a_matrix_that_are_rounding_throughout() -> None:
     """By one part in 1e14 of the whole: small entries of a column with a unit of its own stay."""
     assert table([[1e-17, 30.0], [2e-16, 1e-15]]) == [["0", "30"], ["0", "0"]]
     assert table([[1e-9, 1e3], [-2e-11, 1.0]]) == [["1e-09", "1000"], ["-2e-11", "1"]]
+
+
+def test_entries_that_rounding_leaves_of_a_sum() -> None:
+    """Of both their row and their column: a row or a column of small numbers has a unit of its own."""
+    np.testing.assert_array_equal(
+        without_rounding(np.array([[-4.9e-17, 1.0, 1e-14], [-4.9, 3e-16, 1e-20], [1e-14, 1e-14, 1e-20]])),
+        [[0.0, 1.0, 1e-14], [-4.9, 0.0, 1e-20], [1e-14, 1e-14, 1e-20]],
+    )
+    assert without_rounding(np.zeros((0, 3))).shape == (0, 3)
+
+
+@pytest.mark.parametrize("name", ["pendulum", "four-bar", "cart-pole"])
+def test_a_linear_system_has_zeros_for_rounding(name: str) -> None:
+    """In Python and JSON alike; -4.9e-17 stood in A."""
+    system = load(name).linearise(at="start")
+    for matrix in (system.A, system.B, system.C, system.D):
+        sizes = np.abs(matrix[matrix != 0.0])
+        assert not sizes.size or sizes.min() > 1e-13 * sizes.max()
+    assert system.to_dict()["A"] == system.A.tolist()
+
+
+def test_a_quantity_alone_is_judged_beside_its_motion(capsys: pytest.CaptureFixture[str]) -> None:
+    """The ram is guided level and does not turn: its columns are rounding throughout."""
+    main(["run", "shaper", "--quantity", "ram"], standalone_mode=False)
+    rows = [line.split() for line in capsys.readouterr().out.split("quantity ")[1].splitlines()[1:]]
+    shown = {row[0]: row[1:4] for row in rows if row}
+    assert shown["ram.x"] != ["0"] * 3
+    assert all(shown[f"ram.{name}"] == ["0"] * 3 for name in ("theta", "vy", "omega", "ay", "alpha"))
 
 
 @pytest.mark.parametrize(

@@ -1,10 +1,13 @@
 """The registry that finds kinds by their files."""
 
+import re
 import sys
 
 import pytest
 
 from symgen.errors import InputError
+from symgen.integrators import INTEGRATORS
+from symgen.methods import METHODS
 from symgen.registry import Registry
 
 
@@ -78,3 +81,18 @@ def test_aliases_must_lead_somewhere_new(package):
         _ = Registry(package, "kind", aliases={"double": "nothing"}).names
     with pytest.raises(ValueError, match="kind 'plain' is registered twice"):
         _ = Registry(package, "kind", aliases={"plain": "two-words"}).names
+
+
+@pytest.mark.parametrize(
+    ("registry", "name", "hint"),
+    [
+        (METHODS, "picard", "'picard' is an integrator"),
+        (METHODS, "picrd", "did you mean the integrator 'picard'?"),
+        (INTEGRATORS, "lagrange", "'lagrange' is a method"),
+        (METHODS, "lagrnge", "did you mean 'lagrange'?"),
+    ],
+)
+def test_a_name_of_the_registry_beside(registry, name, hint):
+    """Neither lists its own kinds where the name is one of the other's."""
+    with pytest.raises(InputError, match=f"got '{name}'; {re.escape(hint)}"):
+        registry.get(name)

@@ -6,15 +6,16 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import ellipj
+from support.emitted import mechanism_of
 
 import symgen
+from runtime.test_scales import in_units, of_catalogue
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.lengths import datum_of
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 from symgen.runtime import abi
-from tests.runtime.test_scales import in_units, of_catalogue
-from tests.support.emitted import mechanism_of
+from symgen.runtime.start_words import Change, _from_to
 
 #: sin(pi) in double precision: a place that is 0 but for rounding.
 NEARLY_ZERO = 1.2246467991473532e-16
@@ -193,3 +194,9 @@ def test_what_coordinates_are_measured_from(name, place):
     datum = datum_of(mechanism, scalars(parameter_values(mechanism)))
     first = mechanism.bodies[0]
     assert datum[: len(first.coordinates)] == [*place, *[0.0] * (len(first.coordinates) - len(place))]
+
+
+def test_euler_parameters_have_no_unit():
+    """Notes on moved bodies printed them with a unit "1"."""
+    moved = Change("top.e0", "1", 1.0, 0.5), Change("top.x", "m", 1.0, 0.5)
+    assert [_from_to(change) for change in moved] == ["1 to 0.5", "1 to 0.5 m"]
