@@ -37,12 +37,14 @@ def cleaned(values: Any, scale: float) -> Any:
 def without_rounding(matrix: Any) -> Any:
     """Return a matrix with 0 for entries that are rounding beside the largest ones of both their row and their column.
 
-    Numbers are kept that a table shows as 0: rows and columns may have any units.
+    Numbers are kept that a table shows as 0: rows and columns may have any units. A row or a column that is rounding
+    throughout beside the matrix has no unit of its own.
     """
     sizes = abs(matrix)
     if not sizes.size:
         return matrix
-    rows, columns = sizes.max(axis=1, keepdims=True), sizes.max(axis=0, keepdims=True)
+    rows, columns, whole = sizes.max(axis=1, keepdims=True), sizes.max(axis=0, keepdims=True), sizes.max()
+    rows, columns = (x + whole * (x < ROUNDING * whole) for x in (rows, columns))
     return matrix * ((sizes >= ROUNDING * rows) | (sizes >= ROUNDING * columns)) + 0.0
 
 
