@@ -148,3 +148,30 @@ def test_random_states_in_recorded_motions(seed):
     needed = model.inverse(run, actuators=["motor"])
     assert needed.missing.max() < 1e-6 * max(1.0, float(np.abs(run.a.values).max()))
     np.testing.assert_allclose(needed.efforts["motor"], 3.0 + np.sin(5.0 * run.t), atol=1e-6)
+
+
+@pytest.mark.parametrize("start", [0.0, 1e-9, 0.1, -2.0])
+def test_an_equilibrium_with_a_state_whose_slope_is_singular_at_the_start(start):
+    """s' = 1 - s^3 rests at 1; the torque s - 2 theta - omega is 0 at theta = 1/2."""
+    raw = disc(states={"c": {"rate": "1 - c**3", "start": start}})
+    raw["forces"]["other"]["torque"] = "c - 2*angle - rate"
+    rest = model_of(raw).equilibrium()
+    assert rest.states == {"c": pytest.approx(1.0, abs=1e-9)}
+    assert rest.q["a.theta"] == pytest.approx(0.5, abs=1e-9) and rest.stability == "stable"
+    assert rest.to_dict()["states"] == rest.states
+
+
+def test_states_that_their_rates_do_not_determine():
+    with pytest.raises(AnalysisError, match="rates of the states c do not determine them"):
+        model_of(disc(states={"c": {"rate": "cos(t)"}})).equilibrium()
+
+
+def test_the_multiplier_of_a_coupling_has_the_sign_of_all_others():
+    """A torque of 1 turns two equal discs: the coupling takes half of it from the first, minus its factor times it."""
+    raw = disc(joints={"q": {"type": "revolute", "between": ["ground", "b"], "at": [[1.0, 0.0], "centre"]}})
+    raw["bodies"]["b"] = {"mass": 1.0, "inertia": 1.0, "position": [1.0, 0.0]}
+    raw["joints"]["link"] = {"type": "coupling", "terms": {"p": 1.0, "q": -1.0}}
+    raw["forces"]["other"]["torque"] = "1"
+    run = model_of(raw).simulate(until=0.1, times=[0.0, 0.1], method="lagrange", integrator="rk4")
+    np.testing.assert_allclose(run.lam["link.coupling"], 0.5, atol=1e-12)
+    np.testing.assert_allclose(run.a["a.alpha"], 1.0 - run.lam["link.coupling"], atol=1e-12)
