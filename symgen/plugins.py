@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import sys
+import traceback
 from collections.abc import Iterable
 from importlib.util import module_from_spec, spec_from_file_location
 from os import PathLike
@@ -60,11 +61,23 @@ def load_plugin(path: str | PathLike[str]) -> ModuleType:
     except SymgenError:
         del sys.modules[name]
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         del sys.modules[name]
-        raise InputError(where, "a file that runs", f"{type(error).__name__}: {error}") from error
+        raise InputError(where, "a file that runs", _words(error)) from error
     _files[str(file)] = text
     return module
+
+
+def failure_of_plugin(error: BaseException) -> InputError | None:
+    """Return the sentence for an error that passed a line of a loaded file, with that line; None for others."""
+    lines = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename in _files]
+    if not lines:
+        return None
+    return InputError(f"plugin '{lines[-1].filename}', line {lines[-1].lineno}", "code that runs", _words(error))
+
+
+def _words(error: BaseException) -> str:
+    return f"{type(error).__name__}: {error}"
 
 
 def load_plugins(paths: Iterable[str | PathLike[str]]) -> None:

@@ -279,6 +279,7 @@ def _motions(
     compiled, start = closed_by(plan, code, close)
     states = np.zeros((len(record.t), info.ny))
     states[:, : info.nq], states[:, info.nq : info.work] = q, v
+    states[:, info.own_states] = record.table([x.name for x in info.states])
     # angles that count turns are those that joints have reported
     status = np.full((len(record.t), abi.N_STATUS + info.windings), np.nan)
     names = {m: f"{joint.name}.{label}" for joint in mechanism.joints for label, m in joint.coordinates}

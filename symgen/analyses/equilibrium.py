@@ -56,6 +56,8 @@ class Equilibrium:
         Largest unbalanced force [N, N m].
     iterations : int
         Steps of Newton's method.
+    states : dict of str to float
+        States of the file's own, at rest.
     multipliers : dict of str to float
         By row; the smallest ones where rows depend on others.
     not_unique : tuple of str
@@ -73,6 +75,7 @@ class Equilibrium:
     omega_squared: tuple[float, ...]
     residual: float
     iterations: int
+    states: dict[str, float]
     multipliers: dict[str, float]
     not_unique: tuple[str, ...]
     y: Array = field(repr=False)
@@ -113,6 +116,7 @@ def judged(rest: Settled) -> Equilibrium:
         omega_squared=tuple(float(x) for x in squares.real),
         residual=float(np.abs(e.value("balance")).max(initial=0.0)),
         iterations=rest.steps,
+        states={x.name: float(y[info.own_states][i]) for i, x in enumerate(info.states)},
         multipliers={row.name: float(x) for row, x in zip(info.rows, lam, strict=True)},
         not_unique=not_unique(subject.mechanism, info, share),
         y=y,

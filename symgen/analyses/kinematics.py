@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from symgen import arguments
+from symgen.analyses.own_states import states_along
 from symgen.analyses.passing import Passage
 from symgen.analyses.prescribed import drivers_of, make_driven
 from symgen.analyses.tracing import trace
@@ -245,9 +246,13 @@ def kinematics(
     run = make_driven(mechanism, settings, float(instants[-1]), where, min(0.0, float(instants[0])))
     require(f"{where}: times", f"{len(instants)} times", 16.0 * len(instants) * (run.compiled.info.ny + 16))
     traced, info, start, numbers = trace(run, instants), run.compiled.info, run.start, run.numbers
+    states, off = traced.states, ""
+    if run.mechanism.states:
+        states = states.copy()
+        states[:, info.own_states], off = states_along(run, traced.times)
     motion = PrescribedMotion(
         times=traced.times,
-        states=traced.states,
+        states=states,
         status_columns=traced.status,
         compiled=run.compiled,
         start=start,
@@ -256,11 +261,13 @@ def kinematics(
         held=run.held,
         prescribed_accelerations=traced.accelerations,
     )
+    if run.mechanism.states:
+        motion = replace(motion, status_columns=motion.measured())
     forces = Forces(motion, seats(run.mechanism, numbers))
     parameters = {name: x for name, x in numbers.items() if name not in run.mechanism.inputs}
     q, v = info.parts(traced.states)
     velocities = labelled(v, info.velocities)
-    words = [p.words for p in traced.passages if p.kind == "passed"]
+    words = [*filter(None, [off]), *(p.words for p in traced.passages if p.kind == "passed")]
     if (start.redundant_rows or info.dropped_rows) and forces.non_unique:
         words.append("reactions are not unique at " + ", ".join(forces.non_unique))
     return Kinematics(

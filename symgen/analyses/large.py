@@ -226,6 +226,7 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         omega_squared=tuple(float(x) for x in squares.real),
         residual=float(np.abs(sparse.forces(y, lam)[0] / sparse.spans).max(initial=0.0)),
         iterations=steps,
+        states={x.name: float(y[info.own_states][i]) for i, x in enumerate(info.states)},
         multipliers={row.name: float(x) for row, x in zip(info.rows, lam, strict=True)},
         not_unique=not_unique(mechanism, info, share),
         y=y,

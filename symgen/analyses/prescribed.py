@@ -125,8 +125,10 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
     branch = settings.start if drivers_of(mechanism) else {}
     if not isinstance(branch, Mapping):
         raise InputError("start", "values of coordinates by name, to choose a branch by", "a state of a run")
+    own = {x.name: branch[x.name] for x in mechanism.states if x.name in branch}
+    branch = {name: value for name, value in branch.items() if name not in own}
     end = until if until > 0.0 else 1.0
-    settings = replace(settings, start={} if branch else settings.start, until=end, times=(end,), step=end)
+    settings = replace(settings, start=own if branch or own else settings.start, until=end, times=(end,), step=end)
     settings = replace(settings, method="lagrange", integrator=None, output_step=None, coordinates="absolute")
     placed = put_inputs(mechanism, settings)
     driven = instantaneous(placed.mechanism)

@@ -45,6 +45,8 @@ SINGULAR, ASTRAY = 1e6, 0.01
 FASTER, SLOWER = 4.0, 0.3
 #: Most iterations of Newton's method for states of the file at rest.
 MOST_ITERATIONS = 50
+#: A change of states beyond this, over their values or 1, comes from slopes that are nearly singular.
+ASTRAY_STATE = 1e4
 #: Parts of what is not balanced at first that the first load step takes away, and the last one that is tried; Newton's
 #: steps in one.
 FIRST_LOAD, LEAST_LOAD, CORRECTIONS = 0.25, 1e-3, 20
@@ -160,18 +162,31 @@ def at_balance(subject: Subject, y: Array, lam: Array | None = None) -> tuple[Ev
         return e, e.by("balance", "q")
     own = subject.compiled.info.own_states
     for _ in range(MOST_ITERATIONS):
-        try:
-            change = np.linalg.solve(e.by("states", "z"), e.value("states"))
-        except np.linalg.LinAlgError:
-            names = ", ".join(x.name for x in subject.compiled.info.states)
-            raise AnalysisError(f"no equilibrium: the rates of the states {names} do not determine them") from None
+        slopes, rates, extents = e.by("states", "z"), e.value("states"), subject.extents(y)
+        change = _solved(slopes, rates)
+        if change is None or not np.abs(change / extents).max() < ASTRAY_STATE:
+            # singular here, and perhaps not further along the rates
+            change = _solved(slopes - np.abs(rates / extents).max() * np.eye(len(rates)), rates)
+        if change is None:
+            break
         size = float(np.abs(change / subject.extents(y)).max())
         y[own] -= change
         e = subject.evaluated(y, lam=lam)
         if not size > 1e-14:
             break
-    following = np.linalg.solve(e.by("states", "z"), e.by("states", "q"))
+    following = _solved(e.by("states", "z"), e.by("states", "q"))
+    if following is None:
+        names = ", ".join(x.name for x in subject.compiled.info.states)
+        raise AnalysisError(f"no equilibrium: the rates of the states {names} do not determine them")
     return e, e.by("balance", "q") - e.by("balance", "z") @ following
+
+
+def _solved(matrix: Array, right: Array) -> Array | None:
+    """Return the solution of a system, None where its matrix is singular."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        return None
 
 
 @dataclass(frozen=True)

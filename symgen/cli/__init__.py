@@ -23,7 +23,7 @@ import click
 
 from symgen.analyses.kinds import ANALYSES
 from symgen.errors import CLOSE, SymgenError, nearest, printable
-from symgen.plugins import load_plugins
+from symgen.plugins import failure_of_plugin, load_plugins
 from symgen.registry import Registry
 from symgen.settings import flag, names
 from symgen.version import __version__
@@ -151,7 +151,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return complain("interrupted", INTERRUPTED)
     except MemoryError:
         return complain("there is not enough memory for that", FAILURE)
-    except (BrokenPipeError, SystemExit):  # click makes the second of the first
+    except (BrokenPipeError, SystemExit) as error:  # click makes the second of the first
+        if (failure := failure_of_plugin(error)) is not None:
+            return complain(str(failure), failure.exit_code)
         # the reader of our output is gone: nothing more can be written, and Python must not try at exit
         _forget_stdout()
         return OK
@@ -160,6 +162,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             raise
         _forget_stdout()
         return complain(f"standard output cannot be written ({error.strerror})", FAILURE)
+    except Exception as error:
+        if (failure := failure_of_plugin(error)) is None:
+            raise
+        return complain(str(failure), failure.exit_code)
 
 
 def complain(sentence: str, code: int) -> int:

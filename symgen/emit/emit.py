@@ -179,7 +179,7 @@ class LiteralLayout(PartsLayout):
 
 def table_names(tables: Sequence[Interpolation], slopes: bool = True) -> list[str]:
     """Return the names of functions of tables; those of straight lines have a slope where it is used."""
-    return [table_name(t.name, what) for t in tables for what in DERIVATIVES[: 3 if t.pieces else 1 + slopes]]
+    return [table_name(t.name, what) for t in tables for what in DERIVATIVES[: None if t.pieces else 1 + slopes]]
 
 
 def table_codes(tables: Sequence[Interpolation], target: str = "cpu", slopes: bool = True) -> list[ModulePiece]:
@@ -192,11 +192,11 @@ def table_codes(tables: Sequence[Interpolation], target: str = "cpu", slopes: bo
         table |= {what: table_name(curve.name, what) for what in ("value", "slope", "x", "y")}
         values: dict[str, Any] = {"table": table, "cuda": target == "cuda", "decorator": PLATFORMS[target].decorator}
         if curve.pieces:
-            table["second"], table["period"] = table_name(curve.name, "second"), curve.period
+            table |= {what: table_name(curve.name, what) for what in DERIVATIVES[2:]} | {"period": curve.period}
             text = render("curves/pieces.j2", values).strip("\n")
         else:
             text = render("parts/table.j2", values | {"slope": slopes}).strip("\n")
-        also = tuple(table_name(curve.name, what) for what in ("slope", "second", "x", "y"))
+        also = tuple(table_name(curve.name, what) for what in (*DERIVATIVES[1:], "x", "y"))
         libraries = frozenset(("numpy", "math") if curve.period else ("numpy",))
         codes.append(ModulePiece(table["value"], text, libraries=libraries, also=also))
     return codes

@@ -243,7 +243,10 @@ def harmless(text: object) -> str:
 _SIGNS = str.maketrans('"\\', "'/")
 
 #: Prefixes of the name of a table in the emitted names: no other emitted name begins with them.
-_OF_TABLE = {"value": "table_", "slope": "slope_", "second": "second_", "x": "points_", "y": "values_"}
+_OF_TABLE = {
+    **{"value": "table_", "slope": "slope_", "second": "second_", "third": "third_"},
+    **{"x": "points_", "y": "values_"},
+}
 
 
 def table_name(name: str, what: str = "value") -> str:
@@ -255,7 +258,7 @@ def table_name(name: str, what: str = "value") -> str:
     ----------
     name : str
         A checked identifier.
-    what : {"value", "slope", "second", "x", "y"}
+    what : {"value", "slope", "second", "third", "x", "y"}
         Kind of the name.
     """
     return _OF_TABLE[what] + name

@@ -11,8 +11,8 @@ import sympy as sp
 from symgen.errors import InputError
 from symgen.ir.formula import Functions
 from symgen.ir.graph import Graph
-from symgen.ir.program import of_table
-from symgen.vocabulary.expressions import SMOOTH, Call, Expr, Name, Number, Reading
+from symgen.ir.program import derived_table, of_table
+from symgen.vocabulary.expressions import Call, Expr, Name, Number, Reading
 from symgen.vocabulary.functions import ELEMENTARY
 
 #: Functions of formulas, and operations of the graph with these names, in SymPy's own normal form.
@@ -135,15 +135,11 @@ class _Table(sp.Function):  # type: ignore[misc]  # SymPy is untyped
 
 @cache  # SymPy treats two classes as two functions, whatever their names
 def table_function(payload: str) -> Any:
-    """Return the SymPy function for the payload of a table's operation on the graph.
-
-    The slope of a linear interpolation is constant between points: its derivative is zero.
-    """
-    name, what = of_table(payload)
-    last = not payload.startswith(SMOOTH) and what == "slope"
+    """Return the SymPy function for the payload of a table's operation on the graph."""
+    (name, what), derived = of_table(payload), derived_table(payload)
 
     def fdiff(self: Any, argindex: int = 1) -> Any:
-        return sp.S.Zero if last else table_function(payload + "'")(self.args[0])
+        return sp.S.Zero if derived is None else table_function(derived)(self.args[0])
 
     return type(f"{what.replace('value', 'table')}_{name}", (_Table,), {"payload": payload, "fdiff": fdiff})
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from symgen.ir.graph import Graph
-from symgen.vocabulary.expressions import SMOOTH
+from symgen.ir.program import derived_table
 from symgen.vocabulary.functions import ELEMENTARY, steepest
 
 Key = tuple[str, int]
@@ -96,8 +96,8 @@ def _partials(g: Graph, node: int, op: str, args: tuple[int, ...], payload: str)
         square = steepest(g, g.add(g.mul(a, a), g.mul(b, b)), 1e-200)
         return g.div(b, square), g.neg(g.div(a, square))
     if op == "table":
-        straight = payload.endswith("'") and not payload.startswith(SMOOTH)
-        return (zero if straight else g.call(f"table:{payload}'", a),)
+        derived = derived_table(payload)
+        return (zero if derived is None else g.call(f"table:{derived}", a),)
     if op == "abs":
         return (g.call("sign", a),)
     if op in ELEMENTARY:

@@ -49,7 +49,7 @@ class Interpolation:
         return 5 * len(self.pieces) if self.pieces else 2 * len(self.x)
 
     def value(self, x: float, order: int = 0) -> float:
-        """Return the function at `x`, or its derivative of an order up to 2."""
+        """Return the function at `x`, or its derivative of an order up to 3."""
         if self.period:
             x -= self.period * math.floor((x - self.x[0]) / self.period)
         if self.pieces:
@@ -58,12 +58,14 @@ class Interpolation:
             (c0, c1, c2, c3), u = self.pieces[i], x - starts[i]
             if order == 0:
                 return c0 + u * (c1 + u * (c2 + u * c3))
-            return c1 + u * (2.0 * c2 + u * (3.0 * c3)) if order == 1 else 2.0 * c2 + u * (6.0 * c3)
+            if order == 1:
+                return c1 + u * (2.0 * c2 + u * (3.0 * c3))
+            return 2.0 * c2 + u * (6.0 * c3) if order == 2 else 6.0 * c3
         if x <= self.x[0] or x >= self.x[-1]:
             return 0.0 if order else self.y[0] if x <= self.x[0] else self.y[-1]
         i = bisect.bisect_right(self.x, x)
         x0, x1, y0, y1 = self.x[i - 1], self.x[i], self.y[i - 1], self.y[i]
-        return (y0 + (y1 - y0) * (x - x0) / (x1 - x0), (y1 - y0) / (x1 - x0), 0.0)[order]
+        return (y0 + (y1 - y0) * (x - x0) / (x1 - x0), (y1 - y0) / (x1 - x0), 0.0, 0.0)[order]
 
 
 def cubic_slopes(x: Sequence[float], y: Sequence[float]) -> list[float]:

@@ -111,14 +111,23 @@ class Target:
     index: int
 
 
-#: A table's function and its derivatives. No third one is needed: formulas of state have one, those of time two.
-DERIVATIVES = ("value", "slope", "second")
+#: A table's function and its derivatives: gamma of a row has the second one, and derivatives of gamma the third one.
+DERIVATIVES = ("value", "slope", "second", "third")
 
 
 def of_table(payload: object) -> tuple[str, str]:
     """Return the name in the payload of a table's operation, and its item of `DERIVATIVES`."""
     name = str(payload).rstrip("'")
     return name.removeprefix(SMOOTH), DERIVATIVES[len(str(payload)) - len(name)]
+
+
+def derived_table(payload: object) -> str | None:
+    """Return the payload of the derivative of a table's operation, None where it is zero.
+
+    The slope of straight lines is constant between points, and so is the third derivative of cubic pieces.
+    """
+    last = DERIVATIVES[-1] if str(payload).startswith(SMOOTH) else "slope"
+    return None if of_table(payload)[1] == last else f"{payload}'"
 
 
 @dataclass(frozen=True)

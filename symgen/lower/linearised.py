@@ -208,13 +208,6 @@ def _functions(model: SideModel) -> tuple[list[tuple[str, str, int]], list[int]]
             chain += model.rates(chain[-1:])
             if last == "ydot":
                 break
-        if len(chain) == 3 and _has_second_slopes(model, chain[2]):
-            chain.pop()  # it has no derivative
         functions.append((name, unit, len(chain)))
         nodes += chain
     return functions, nodes
-
-
-def _has_second_slopes(model: SideModel, node: int) -> bool:
-    g = model.graph
-    return any(g.nodes[n].op == "table" and str(g.nodes[n].payload).endswith("''") for n in g.needed([node]))

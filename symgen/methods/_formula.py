@@ -205,6 +205,11 @@ class System:
         self.q_rates = self.tape.named(Vector, "quantity", "q_rates", size="nq")
         self.power = self.tape.named(Scalar, "power")
 
+    @property
+    def Phi(self) -> Vector:  # the symbol of the notation
+        """The same as `phi`, as files and equations write it."""
+        return self.phi
+
     def parameter(self, name: str) -> Scalar:
         """Return a parameter of the method."""
         return self.tape.named(Scalar, "parameter", name)

@@ -9,7 +9,7 @@ import numpy as np
 
 from symgen.ir.derivative import jacobian
 from symgen.ir.interpolation import Interpolation
-from symgen.ir.program import of_table
+from symgen.ir.program import DERIVATIVES, of_table
 from symgen.vocabulary.expressions import SMOOTH
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ def functions(tables: Iterable[Interpolation]) -> dict[str, Any]:
     """Return the interpolated functions and their derivatives by their names in expressions."""
     by_name: dict[str, Any] = {}
     for table in tables:
-        for order in range(3):
+        for order in range(len(DERIVATIVES)):
             payload = f"{SMOOTH if table.pieces else ''}{table.name}" + "'" * order
             value = np.vectorize(lambda x, table=table, order=order: table.value(float(x), order), otypes=[float])
             by_name[python_name(payload)] = value

@@ -11,7 +11,7 @@ from itertools import pairwise
 
 from symgen.formulate.equations import Equations
 from symgen.ir.graph import Graph
-from symgen.ir.program import of_table
+from symgen.ir.program import DERIVATIVES, of_table
 from symgen.reading.boxes import (
     Box,
     apart,
@@ -147,7 +147,7 @@ class Writer:
             return atom(cases([(number(1.0), self._condition(node)), (number(0.0), None)]))
         if op == "table":
             table, what = of_table(payload)
-            marks = {"value": "", "slope": "'", "second": "''"}[what]
+            marks = "'" * DERIVATIVES.index(what)
             return atom(call(table + marks, [as_box(s) for s in sums], python_name(payload)))
         return atom(call(op, [as_box(s) for s in sums], _PYTHON.get(op, "")))
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _Value = TypeVar("_Value")
 #: Tables of a NetCDF file that are read.
-_TABLES = ("q", "v", "a", "joint_coordinates")
+_TABLES = ("q", "v", "a", "joint_coordinates", "outputs")
 
 
 @dataclass(frozen=True)

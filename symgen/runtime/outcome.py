@@ -190,9 +190,9 @@ class PrescribedMotion(Motion):
         (sizes, outputs, _), w = self._seen, self.start.w.copy()
         status = self.status_columns.copy()
         model = self.compiled.model
-        observe_status(
-            model.geometry, model.measure, sizes, outputs._replace(status=status), self.p, w, np.zeros(sizes.ny)
-        )
+        for first, last, p in self.parameters:
+            here = _rows_of(outputs._replace(status=status), first, last)
+            observe_status(model.geometry, model.measure, sizes, here, p, w, np.zeros(sizes.ny))
         return status
 
 

@@ -36,10 +36,10 @@ def test_values_and_derivatives_are_those_of_scipy(how, periodic, n):
         x, y = points(seed, n, periodic)
         found = Table("f", x, y, how, periodic).interpolated
         at = np.concatenate([np.linspace(x[0] - 4.0, x[-1] + 4.0, 101), x if not periodic else x[1:-1]])
-        for order in range(3):
+        for order in range(4):
             expected = np.array([curve(x, y, how, periodic, order)(u) for u in at])
             numbers = np.array([found.value(float(u), order) for u in at])
-            if order == 2:  # at points it may jump: both sides count there
+            if order >= 2:  # at points it may jump: both sides count there
                 near = np.min(np.abs(at[:, None] - np.array(x)[None, :]), axis=1) > 1e-9
                 expected, numbers = expected[near], numbers[near]
             np.testing.assert_allclose(numbers, expected, rtol=1e-9, atol=1e-11 * np.abs(expected).max())
@@ -56,6 +56,7 @@ def test_a_cubic_table_of_a_cubic_polynomial_is_that_polynomial():
     for u in np.linspace(0.0, 2.0, 33):
         assert found.value(u) == pytest.approx(1.0 - u + 2.0 * u**2 - 0.5 * u**3, abs=1e-14)
         assert found.value(u, 2) == pytest.approx(4.0 - 3.0 * u, abs=1e-12)
+        assert found.value(u, 3) == pytest.approx(-3.0, abs=1e-11)
 
 
 def test_in_formulas_and_on_the_graph():
@@ -67,7 +68,10 @@ def test_in_formulas_and_on_the_graph():
     a = g.input("q", 0)
     slope = jacobian(g, [g.call(table.function, a)], [("q", 0)])[0]["q", 0]
     second = jacobian(g, [slope], [("q", 0)])[0]["q", 0]
-    assert [of_table(g.nodes[n].payload) for n in (slope, second)] == [("f", "slope"), ("f", "second")]
+    third = jacobian(g, [second], [("q", 0)])[0]["q", 0]
+    derived = [of_table(g.nodes[n].payload) for n in (slope, second, third)]
+    assert derived == [("f", "slope"), ("f", "second"), ("f", "third")]
+    assert jacobian(g, [third], [("q", 0)])[0] == {}  # it is constant between points
     straight = jacobian(g, [g.call("table:f'", a)], [("q", 0)])[0]
     assert straight == {}  # the slope of straight lines has none
 

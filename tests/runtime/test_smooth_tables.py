@@ -2,9 +2,12 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
 
 from symgen.api import Model
 from symgen.describe.builder import MechanismBuilder
+from symgen.describe.validate import validate
 from symgen.formulate.formulate import formulate
 from symgen.lower.model import lower_model
 
@@ -105,3 +108,71 @@ def test_programs_ask_for_the_derivatives_they_need():
     equations = formulate(cam_follower("cam(speed*t)").mechanism)
     asked = {what for block in lower_model(equations, digest="").blocks for what in block.tables}
     assert asked == {("cam", "value"), ("cam", "slope"), ("cam", "second")}
+
+
+HEIGHTS = (0.0, 0.1, 0.0, 0.1, 0.02)
+PLACES = (-1.0, 0.0, 1.0, 2.0, 3.0)
+
+
+def bead(lift=" - 0.02*f(2*t)"):
+    """A point on a wire whose height a table gives, as a knee's path is a table of its angle."""
+    return Model(
+        validate(
+            {
+                "mechanism": {"name": "bead", "gravity": [0.0, -9.81]},
+                "tables": {"f": {"x": list(PLACES), "y": list(HEIGHTS), "interpolation": "cubic"}},
+                "bodies": {"b": {"type": "point", "mass": 1.0, "position": [0.5, 0.1], "velocity": [0.4, 0.0]}},
+                "joints": {"wire": {"type": "rows", "rows": [{"position": f"b.y - f(b.x){lift}"}]}},
+            },
+            "bead",
+        )
+    )
+
+
+def on_the_wire(times):
+    """Return x of the bead by (1 + f'^2) x'' = -f' (f'' x'^2 + h'' + g), h being the lift of the wire."""
+    slope, second = (CubicSpline(PLACES, HEIGHTS).derivative(k) for k in (1, 2))
+
+    def rate(t, y):
+        x, v = y
+        lift = 0.02 * 4.0 * second(2.0 * t)
+        return [v, -slope(x) * (second(x) * v**2 + lift + 9.81) / (1.0 + slope(x) ** 2)]
+
+    start = bead().simulate(until=1e-9, method="lagrange", integrator="rk4")
+    begin = [start.q["b.x"][0], start.v["b.vx"][0]]
+    return solve_ivp(rate, (0.0, times[-1]), begin, "DOP853", t_eval=times, rtol=1e-12, atol=1e-13).y[0]
+
+
+@pytest.mark.parametrize("shape", ["straight", "looped"])
+@pytest.mark.parametrize(
+    ("method", "integrator"),
+    [
+        ("direct-correction", "radau5"),
+        ("direct-correction", "sdirk"),
+        ("direct-correction", "trapezoidal"),
+        ("direct-correction", "newmark"),
+        ("ggl", "radau5"),
+        ("generalized-alpha", "generalized-alpha"),
+    ],
+)
+def test_rows_of_tables_in_implicit_schemes(shape, method, integrator):
+    """Derivatives of gamma have the third derivative of the table; the motion is that of the wire's own equation."""
+    times = np.linspace(0.0, 0.5, 11)
+    keys = {"method": method, "integrator": integrator, "shape": shape, "times": times, "until": 0.5}
+    adaptive = {"rtol": 1e-9, "atol": 1e-10} if integrator == "radau5" else {"step": 1e-3}
+    run = bead().simulate(**keys, **adaptive)
+    assert run.status == "ok"
+    np.testing.assert_allclose(run.q["b.x"], on_the_wire(times), atol=1e-7 if integrator == "radau5" else 1e-4)
+
+
+def test_a_table_in_a_row_at_rest():
+    """The bead rests where the wire is level; there omega^2 is g f''."""
+    f = CubicSpline(PLACES, HEIGHTS)
+    low = min(f.derivative().roots(extrapolate=False), key=lambda x: abs(x - 1.0))
+    model = bead("")
+    rest = model.equilibrium(start={"b.x": 0.8})
+    assert rest.stability == "stable" and rest.q["b.x"] == pytest.approx(low, abs=1e-9)
+    square = 9.81 * float(f(low, 2))
+    assert rest.omega_squared == pytest.approx((square,), rel=1e-9)
+    about = model.linearise(start={"b.x": 0.8})
+    assert np.sort(about.eigenvalues().imag) == pytest.approx([-(square**0.5), square**0.5], rel=1e-9)

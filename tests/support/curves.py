@@ -30,7 +30,7 @@ def curve(
         beyond = at - inside
         if beyond == 0.0:
             return float(spline(inside, order))
-        straight = spline(inside) + spline(inside, 1) * beyond, spline(inside, 1), 0.0
+        straight = spline(inside) + spline(inside, 1) * beyond, spline(inside, 1), 0.0, 0.0
         return float(straight[order])
 
     return value

@@ -128,7 +128,7 @@ def shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
     yield f"  {result.iterations} steps, largest force that is not balanced {result.residual:.3g}"
     if result.not_unique:
         yield f"  reactions are not unique at {', '.join(result.not_unique)}"
-    for title, values in (("coordinate", result.q), ("multiplier", result.multipliers)):
+    for title, values in (("coordinate", result.q), ("state", result.states), ("multiplier", result.multipliers)):
         first = fitting(len(values), MOST)
         if values:
             kinds = {name: _kind(name) if title == "coordinate" else "" for name in values}

@@ -64,6 +64,8 @@ class IndependentEquations:
             *(row[3] for row in rows),
             *formulas.forces(),
         ]
+        # the second slope of a kink is zero but at the kink itself
+        outputs = [sp.sympify(e).replace(sp.DiracDelta, lambda *_: sp.S.Zero) for e in outputs]
         self._function = self._compile(formulas, outputs)
 
     def _weigh(self) -> None:

@@ -150,11 +150,12 @@ class CompiledEquations(IndependentEquations):
         names = [*(f"q{i} = q[{i}]" for i in range(self.n)), *(f"v{i} = v[{i}]" for i in range(self.n))]
         names += [f"p{i} = p[{i}]" for i in range(len(self.symbols))]
         lines = ["def equations(t, q, v, p, out):", *names]
-        lines += [f"{symbol} = {sp.pycode(e)}" for symbol, e in shared]
-        lines += [f"out[{i}] = {sp.pycode(e)}" for i, e in enumerate(results)]
         space: dict[str, Any] = {"math": math}
         for table in self.mechanism.tables:
             space |= {name: numba.njit(error_model="numpy")(f) for name, f in curves(table).items()}
+        own = {name: name for name in space}
+        lines += [f"{symbol} = {sp.pycode(e, user_functions=own)}" for symbol, e in shared]
+        lines += [f"out[{i}] = {sp.pycode(e, user_functions=own)}" for i, e in enumerate(results)]
         exec("\n    ".join([*lines, "return 0"]), space)  # SymPy's own printing of a checked mechanism
         signature = types.int64(_F8, _A, _A, _A, _A)
         function: Callable[..., Any] = numba.njit(signature, error_model="numpy", nogil=True)(space["equations"])
