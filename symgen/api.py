@@ -306,7 +306,7 @@ class Model(Analysed, Shown):
                 verification = replace(verification, note=note or None)
         # assembly calls emitted functions too: compiling them belongs to the run
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
-        return build_result(run, outcome, runs.spread, verification)
+        return build_result(run, outcome, runs.spread or 0.0, verification)
 
     @takes
     def start(self, settings: Settings | None = None, **changes: Unpack[RunKeywords]) -> SteppedRun:

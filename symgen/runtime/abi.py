@@ -50,6 +50,7 @@ PROBING = COUNTERS.index("probing")
 BALANCED = COUNTERS.index("balanced")
 LIGHT = COUNTERS.index("light")
 ITERATIONS = COUNTERS.index("iterations")
+LAW_ITERATIONS = COUNTERS.index("law_iterations")
 N_COUNTERS = len(COUNTERS)
 
 # -- control: integers of a run, shared with the thread that watches it ------------------------------------------------

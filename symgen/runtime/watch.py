@@ -35,6 +35,11 @@ def remember_rank(sizes: Any, run: Any) -> None:
     run.control[abi.LAST_RANK], run.control[abi.MASKED] = rank, masked
 
 
+def iterations_in(state: Any) -> int:
+    """Return the number of iterations of laws, corrections and implicit stages since the start of a state."""
+    return int(state.iw[abi.ITERATIONS] + state.iw[abi.LAW_ITERATIONS] + state.control[abi.NEWTON_ITERATIONS])
+
+
 def begin(run: Any) -> None:
     """Take the energies of the first accepted state as the beginning of the balance."""
     run.gauges[abi.ENERGY_START] = run.w[abi.KINETIC] + run.w[abi.POTENTIAL]
