@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
-from symgen.result.judge import judge
+from symgen.result.judge import judge, unchecked
 from symgen.result.labelled import labelled
 from symgen.result.reactions import Forces, seats
 from symgen.result.result import FAILED, UNVERIFIED, Rank, Result, Seconds
@@ -61,6 +61,7 @@ def build_result(
     forces = Forces(outcome, seats(mechanism, values))
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(run, outcome, verification)
+    unknown = None if verification is not None else unchecked(run, outcome) or "it went step by step"
     if verdict.status != FAILED and any(force.flexures for force in mechanism.forces):
         from symgen.result.bending import overbent
 
@@ -117,6 +118,7 @@ def build_result(
         velocity_violation_max=outcome.velocity_violation_max,
         energy_drift_max=outcome.energy_drift_max,
         error_estimate=None if verification is None or verdict.status == FAILED else verification.error,
+        unchecked="the run failed" if verdict.status == FAILED else unknown,
         proposals=("--integrator radau5",) if stiff else (),
         outcome=outcome,
         forces=forces,
