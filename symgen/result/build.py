@@ -18,6 +18,7 @@ from symgen.result.result import FAILED, UNVERIFIED, Rank, Result, Seconds
 from symgen.result.tables import Measured
 from symgen.running.automatic import stiff_by_steps
 from symgen.running.continuation import made_of
+from symgen.running.dead_centre import dead_centre_at_end
 from symgen.running.tree import CarriedOutcome
 from symgen.running.undefined import undefined_at_end
 from symgen.runtime import abi
@@ -69,6 +70,8 @@ def build_result(
         verdict = verdict if doubt is None else replace(verdict, status=UNVERIFIED, reason=doubt)
     if verdict.status == FAILED and (undefined := undefined_at_end(mechanism, outcome)):
         verdict = replace(verdict, reason=f"{str(verdict.reason).partition('; ')[0]}: {undefined}")
+    if verdict.status == FAILED and (locked := dead_centre_at_end(mechanism, outcome)):
+        verdict = replace(verdict, reason=locked)
     stiff = () if verdict.status == FAILED else stiff_by_steps(run, outcome)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome), *stiff)
     verdict = replace(verdict, notes=(*notes, *verdict.notes, *stopped(outcome)))
