@@ -284,8 +284,9 @@ class Model(Analysed, Shown):
         Result
             Also of a failed or interrupted run, with status and reason.
         """
-        from symgen.reruns.verification import is_verified, verified
+        from symgen.reruns.verification import verified
         from symgen.result.build import build_result
+        from symgen.result.judge import unchecked
         from symgen.runtime.timing import timed
         from symgen.store.stats import seconds_in_cache
 
@@ -295,7 +296,7 @@ class Model(Analysed, Shown):
         run = prepare(self.mechanism, settings)
         runs = timed(lambda: run.integrate(progress), settings.repeat)
         outcome, verification = runs.outcome, None
-        if is_verified(run, outcome.run_seconds):
+        if unchecked(run, outcome) is None:
             free = bool(run.plan.notes) and settings.rtol is None and settings.atol is None
             run, outcome, verification = verified(run, outcome, free)
             if settings.verify and run.plan.mechanism.beams:
@@ -306,7 +307,7 @@ class Model(Analysed, Shown):
                 verification = replace(verification, note=note or None)
         # assembly calls emitted functions too: compiling them belongs to the run
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
-        return build_result(run, outcome, runs.spread, verification)
+        return build_result(run, outcome, runs.spread or 0.0, verification)
 
     @takes
     def start(self, settings: Settings | None = None, **changes: Unpack[RunKeywords]) -> SteppedRun:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import arguments
-from symgen.analyses.prescribed import DRIVER, drivers_of, instantaneous, without
+from symgen.analyses.prescribed import drivers_of, instantaneous, without
 from symgen.compiling.side import compile_side
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.lengths import datum_of
@@ -27,6 +27,7 @@ from symgen.errors import InputError, nearest, quoted
 from symgen.lower.windings import winding_order
 from symgen.result.saved import Recorded
 from symgen.result.signals import accelerated
+from symgen.running.dead_centre import DRIVER
 from symgen.running.plan import Purpose
 from symgen.running.prepare import make_plan
 from symgen.running.starts import closed_by, compiled_for

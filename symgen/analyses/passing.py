@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import KroghInterpolator
 
+from symgen.running.dead_centre import dead_centre
 from symgen.runtime.model_arrays import velocity_of
 
 if TYPE_CHECKING:
@@ -49,8 +50,7 @@ class Passage:
         if self.kind == "passed":
             how = "passed on the smooth branch, though another one leaves it"
             return f"singular position at t = {self.t:.9g} s (drivers do not hold {free}): {how}"
-        who = " and ".join(f"'{name}'" for name in self.drivers)
-        return f"dead centre at t = {self.t:.9g} s: {who or 'the drivers'} can go no further; {free} would have to jump"
+        return dead_centre(self.t, self.drivers, self.coordinates)
 
 
 def curve_through(info: ModelInfo, nodes: Sequence[tuple[Array, ...]]) -> Curve:

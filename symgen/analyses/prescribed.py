@@ -15,6 +15,7 @@ from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.describe.start import described_start
 from symgen.errors import AssemblyError, InputError, nearest
+from symgen.running.dead_centre import DRIVER, jacobian_at
 from symgen.running.inputs import put_inputs
 from symgen.running.plan import Plan, Purpose
 from symgen.running.prepare import assemble, make_plan
@@ -36,7 +37,6 @@ Array = NDArray[np.float64]
 
 #: Singular values below this part of the largest one count as zero, and parts of a direction below this one's largest.
 CUTOFF = 1e-9
-DRIVER = "driver"
 #: Coordinates of joints on the ground, where motors sit, are named rather than others.
 ON_GROUND = 10.0
 #: Places that a mechanism is closed from, and those behind the last new way after which no more are looked for.
@@ -216,14 +216,6 @@ def _refuse_excess(
         words = "1 driver for 1 degree" if freedom == 1 else f"{freedom} drivers for {freedom} degrees"
         raise InputError(what, f"{words} of freedom", f"{len(drivers)}: {', '.join(drivers)}")
     return freedom
-
-
-def jacobian_at(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array) -> Array:
-    """Return D at a state, of numbers: angles count as the distance that they move a body's end; shape (m, nv)."""
-    w = w.copy()
-    Ready(compiled.model.geometry, abi.MEASURE)(t, y.copy(), p, w)
-    weights = np.array([w[abi.LENGTH] if row.unit == "rad" else 1.0 for row in compiled.info.rows])
-    return np.asarray(weights[:, np.newaxis] * compiled.jacobian(w) * np.sqrt(compiled.section(w, "gauge")))
 
 
 def free_coordinates(run: PrescribedRun, count: int) -> list[str]:

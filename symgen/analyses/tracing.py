@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.passing import Curve, Passage, curve_through, rates_of
-from symgen.analyses.prescribed import CUTOFF, DRIVER, PrescribedRun, jacobian_at
+from symgen.analyses.prescribed import PrescribedRun
+from symgen.running.dead_centre import free_and_held, jacobian_at
 from symgen.runtime import abi, decisions
 from symgen.runtime import following as f
 from symgen.runtime.exact import compiled_form
@@ -39,8 +40,6 @@ PIECE = 500_000
 LEAST = 1e-13
 #: A row that opens by more than this in the shortest step jumps [rad, or the length of the mechanism].
 JUMP = 1e-6
-#: Coordinates named of those that could move at a singular position, and the part of the largest from which one counts.
-MOST_NAMED, COUNTS = 3, 0.3
 
 
 class Traced(NamedTuple):
@@ -320,16 +319,8 @@ class Tracer:
     def _passage(self, t: float, kind: str, curve: Curve | None) -> Passage:
         """Return a singular position: of the curve there, or where the loop stands."""
         y = self.stand.y if curve is None else curve(np.array([t]))[0][0]
-        info = self.info
-        active = np.flatnonzero(self.compiled.section(self.w, "mask") == 0.0)
-        left, _, right = np.linalg.svd(jacobian_at(self.compiled, t, y, self.p, self.w)[active])
-        moving, holding = np.abs(right[-1]), np.abs(left[:, -1])
-        order = [j for j in np.argsort(-moving) if moving[j] > COUNTS * moving.max()]
-        drivers = dict.fromkeys(info.rows[i].joint for i in active[holding > CUTOFF**0.5 * holding.max()])
-        kinds = {joint.name: joint.kind for joint in self.motion.mechanism.joints}
-        positions = {velocity_of(i, info): c.name for i, c in enumerate(info.coordinates) if i not in self.spun}
-        names = [positions.get(int(j), info.velocities[j].name) for j in order[:MOST_NAMED]]
-        return Passage(float(t), kind, tuple(names), tuple(name for name in drivers if kinds[name] == DRIVER))
+        free, drivers = free_and_held(self.motion.mechanism, self.compiled, t, y, self.p, self.w)
+        return Passage(float(t), kind, free, drivers)
 
     def _reason(self, code: int) -> str:
         """Return the reason why the motion ends, in a sentence."""

@@ -147,6 +147,8 @@ _LABELS = ("x", "y", "z", "theta", "e0", "e1", "e2", "e3", "vx", "vy", "vz", "om
 
 def show_study(study: Study) -> None:
     """Print the rows of a study."""
+    from symgen.study.comparison.comparison_rows import ONE_RUN
+
     out = console()
     off = "" if study.how == "none" else f" (off by about {study.estimated_error:.1g} m)"
     out.print(f"{study.mechanism}, {study.until:g} s; reference: {study.how}{off}")
@@ -156,7 +158,9 @@ def show_study(study: Study) -> None:
     if any(row.below_reference for row in study.rows):
         out.print("* below what the reference itself may be off")
     spreads = study.ratio_spreads
-    if spreads is not None:
+    if not study.is_repeated:
+        out.print(ONE_RUN)
+    elif spreads is not None:
         out.print(
             f"ratios of run time may vary by {100 * spreads[0]:.1f} % (median row; worst {100 * spreads[1]:.0f} %)"
         )
@@ -193,7 +197,10 @@ def _cells(row: Row) -> tuple[str, ...]:
         "" if row.error is None else f"{row.error:.2e}" + (" *" if row.below_reference else ""),
         *(f"{1e3 * row.run_seconds:.3f}", row.status, "" if row.cost_ratio is None else f"{row.cost_ratio:.2f}"),
         *(f"{row.position_violation_max:.1e}", f"{row.energy_drift_max:.1e}", str(row.evaluations)),
-        *(f"{row.velocity_violation_max:.1e}", f"{1e3 * row.run_seconds_spread:.3f}"),
+        *(
+            f"{row.velocity_violation_max:.1e}",
+            "-" if row.run_seconds_spread is None else f"{1e3 * row.run_seconds_spread:.3f}",
+        ),
     )
 
 

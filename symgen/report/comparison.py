@@ -10,7 +10,7 @@ from symgen.report.document import Document, DocumentTable, Section, TableCell
 from symgen.report.figures import pictures
 from symgen.report.picture import sketched
 from symgen.report.source import beside_the_source
-from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study
+from symgen.study.comparison.comparison_rows import ONE_RUN, YARDSTICK, Row, Study
 from symgen.study.machine_class import machine_class, versions
 
 _MOODS = {"ok": "good", "unverified": "doubtful", "failed": "bad"}
@@ -170,7 +170,8 @@ def _all_rows(study: Study) -> DocumentTable:
     )
     rows = []
     for row in study.rows:
-        spread = row.run_seconds_spread / row.run_seconds if row.run_seconds > 0.0 else None
+        longer = row.run_seconds_spread
+        spread = longer / row.run_seconds if longer is not None and row.run_seconds > 0.0 else None
         both = words.with_spread(row.cost_ratio, row.cost_ratio_spread or None)
         rows.append(
             (
@@ -181,6 +182,7 @@ def _all_rows(study: Study) -> DocumentTable:
             )
         )
     notes = [BELOW] if any(row.below_reference for row in study.rows) else []
+    notes += [] if study.is_repeated else [ONE_RUN]
     for row in study.rows:
         notes += [f"{_where(row)}: {row.status}: {words.readable(row.reason)}"] if row.reason else []
     notes += _warnings(study)

@@ -1,7 +1,7 @@
 """The error of a run, estimated by a second run with finer steps.
 
 A second run is made on request (``--verify``), where anything was chosen automatically, and where a run with default
-tolerances took little time: who leaves the choice to the program has not looked at tolerances either.
+tolerances took few operations: who leaves the choice to the program has not looked at tolerances either.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.describe.evaluate import parameter_values
-from symgen.result import points
 from symgen.result.points import Agreement, Points, Verification, agreement
 from symgen.runtime import abi
 
@@ -85,19 +84,6 @@ def _comparable(first: Outcome, second: Outcome) -> tuple[NDArray[np.intp], NDAr
 def _steps_of(run: Prepared) -> str:
     """Return in words how the steps of a run are chosen."""
     return f"rtol = {run.spec.rtol:g}" if run.spec.adaptive else f"step = {run.spec.step:g} s"
-
-
-def is_verified(run: Prepared, seconds: float) -> bool:
-    """Return whether a second run estimates the error of a run that took so long [s].
-
-    Unless that is set, one does where something was chosen automatically, and where it takes little time and nobody
-    chose the steps or the tolerances.
-    """
-    wanted, settings = run.plan.verify, run.plan.settings
-    if wanted is not None:
-        return wanted
-    free = run.spec.adaptive and settings.rtol is None and settings.atol is None
-    return bool(run.plan.notes) or (free and seconds < points.QUICK)
 
 
 def verified(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Prepared, Outcome, Verification]:

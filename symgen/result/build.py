@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
-from symgen.result.judge import judge
+from symgen.result.judge import judge, unchecked
 from symgen.result.labelled import labelled
 from symgen.result.reactions import Forces, seats
 from symgen.result.result import FAILED, UNVERIFIED, Rank, Result, Seconds
 from symgen.result.tables import Measured
 from symgen.running.automatic import stiff_by_steps
 from symgen.running.continuation import made_of
+from symgen.running.dead_centre import dead_centre_at_end
 from symgen.running.tree import CarriedOutcome
 from symgen.running.undefined import undefined_at_end
 from symgen.runtime import abi
@@ -61,6 +62,7 @@ def build_result(
     forces = Forces(outcome, seats(mechanism, values))
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(run, outcome, verification)
+    unknown = None if verification is not None else unchecked(run, outcome) or "it went step by step"
     if verdict.status != FAILED and any(force.flexures for force in mechanism.forces):
         from symgen.result.bending import overbent
 
@@ -68,6 +70,8 @@ def build_result(
         verdict = verdict if doubt is None else replace(verdict, status=UNVERIFIED, reason=doubt)
     if verdict.status == FAILED and (undefined := undefined_at_end(mechanism, outcome)):
         verdict = replace(verdict, reason=f"{str(verdict.reason).partition('; ')[0]}: {undefined}")
+    if verdict.status == FAILED and (locked := dead_centre_at_end(mechanism, outcome)):
+        verdict = replace(verdict, reason=locked)
     stiff = () if verdict.status == FAILED else stiff_by_steps(run, outcome)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome), *stiff)
     verdict = replace(verdict, notes=(*notes, *verdict.notes, *stopped(outcome)))
@@ -117,6 +121,7 @@ def build_result(
         velocity_violation_max=outcome.velocity_violation_max,
         energy_drift_max=outcome.energy_drift_max,
         error_estimate=None if verification is None or verdict.status == FAILED else verification.error,
+        unchecked="the run failed" if verdict.status == FAILED else unknown,
         proposals=("--integrator radau5",) if stiff else (),
         outcome=outcome,
         forces=forces,

@@ -21,7 +21,7 @@ _FIRST = (
     *("status", "reason", "warnings", "notes", "parameters", "inputs"),
     *("steps", "rejected", "evaluations", "iterations", "vector_width"),
 )
-_SECOND = ("position_violation_max", "velocity_violation_max", "energy_drift_max", "error_estimate")
+_SECOND = ("position_violation_max", "velocity_violation_max", "energy_drift_max", "error_estimate", "unchecked")
 
 
 def contract(result: Result) -> dict[str, Any]:

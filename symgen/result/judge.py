@@ -24,6 +24,11 @@ if TYPE_CHECKING:
 #: Energy jump over a passage, as a fraction of the energy in motion: beyond the first a run is in doubt, beyond the
 #: second it has failed.
 JUMP_DOUBT, JUMP_FAILURE = 1e-5, 1e-3
+#: A run of adaptive steps with at most so many operations is checked by a second one by default; about 50 to 100 ms of
+#: explicit steps.
+MOST_OPERATIONS = 200_000_000
+#: Operations that an evaluation takes beside its formulas; and those of looped code for each number of its scratch.
+_CALL, _EACH = 100, 6
 #: Why a run whose velocities are scaled to its energy is not ok.
 HELD = "velocities are scaled to the energy, which then shows no error: a second run with finer steps has to agree"
 
@@ -36,6 +41,30 @@ class Verdict:
     reason: str | None
     warnings: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+
+
+def operations_of(run: Prepared, outcome: Outcome) -> int:
+    """Return the number of operations of a run: evaluations times those of the law's functions, on any machine."""
+    law = run.compiled.law
+    return outcome.evaluations * (_CALL + (sum(law.operations.values()) or _EACH * law.nw))
+
+
+def unchecked(run: Prepared, outcome: Outcome) -> str | None:
+    """Return why no second run estimates the error of a run; None where one does.
+
+    Unless that is set, one does where something was chosen automatically, and where it takes few operations and nobody
+    chose the steps or the tolerances.
+    """
+    wanted, settings, count = run.plan.verify, run.plan.settings, operations_of(run, outcome)
+    if wanted is False:
+        return "verify is off"
+    if wanted or run.plan.notes:
+        return None
+    if not run.spec.adaptive:
+        return "its steps are constant"
+    if settings.rtol is not None or settings.atol is not None:
+        return "its tolerances were set"
+    return None if count <= MOST_OPERATIONS else f"it took {count:.2g} operations, more than {MOST_OPERATIONS:.2g}"
 
 
 def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -> Verdict:

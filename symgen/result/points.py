@@ -105,8 +105,6 @@ def rotation_matrices(orientation: Array) -> Array:
     return np.stack([np.stack(row, 1) for row in matrix((e0, e1, e2, e3))], 1)
 
 
-#: A run of adaptive steps that takes fewer seconds is checked by a second one by default.
-QUICK = 0.05
 #: Two motions agree when no point of a body is farther from its counterpart than this share of the mechanism's size:
 #: of the longest body's own length, or of the extent of the motion where all bodies are point masses.
 AGREEMENT = 1e-4

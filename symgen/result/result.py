@@ -113,6 +113,8 @@ class Result(MotionTables):
     error_estimate : float or None
         About how far from the exact motion a point of a body is at worst [m], by a second run with finer steps; None
         where there was none.
+    unchecked : str or None
+        Why there was no second run, such as ``"it took 1.2e+10 operations, more than 2e+08"``; None where there was.
     proposals : tuple of str
         Options of a run that would take fewer steps, such as ``"--integrator radau5"`` where the motion was stiff.
 
@@ -161,6 +163,7 @@ class Result(MotionTables):
     velocity_violation_max: float
     energy_drift_max: float
     error_estimate: float | None
+    unchecked: str | None
     proposals: tuple[str, ...]
     outcome: Outcome
     forces: Forces

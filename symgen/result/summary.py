@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 from symgen.result.contract import finite
 from symgen.result.labelled import Labelled, html_table
-from symgen.result.points import QUICK
 from symgen.result.result import FAILED
 
 if TYPE_CHECKING:
@@ -69,8 +68,7 @@ def status_in_words(result: Result) -> str:
         parts.append(f"error about {result.error_estimate:.2g} m, from a run with {other}")
     else:
         whole, finer = ("global error", "a tenth of it") if adaptive else ("error", "half the step")
-        slow = adaptive and result.seconds.run >= QUICK
-        why = f" as the run took {result.seconds.run:.2g} s" if slow else ""
+        why = f" as {result.unchecked}" if adaptive and result.unchecked else ""
         parts.append(f"{whole} not estimated{why}: `verify` runs again with {finer}")
     parts += [
         f"stiff: {proposal.replace('--integrator', '`integrator`')} takes longer steps" for proposal in result.proposals

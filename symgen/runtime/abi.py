@@ -50,6 +50,7 @@ PROBING = COUNTERS.index("probing")
 BALANCED = COUNTERS.index("balanced")
 LIGHT = COUNTERS.index("light")
 ITERATIONS = COUNTERS.index("iterations")
+LAW_ITERATIONS = COUNTERS.index("law_iterations")
 N_COUNTERS = len(COUNTERS)
 
 # -- control: integers of a run, shared with the thread that watches it ------------------------------------------------
@@ -92,6 +93,8 @@ N_CLOCK = 6
 #: Times are equal if they differ by less than this part of a constant step or, if steps vary, of the time: shorter
 #: steps are lost in its rounding.
 SAME_TIME, RESOLVED_TIME = 1e-9, 4e-16
+#: Least step at time 0, which resolves any [s].
+SHORTEST_STEP = 1e-30
 
 # -- gauges: measures of the states of a run ---------------------------------------------------------------------------
 (

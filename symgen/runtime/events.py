@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Times until events accumulate below this part of the length of a run count as zero.
+#: Times until events accumulate below this part of the time count as zero.
 NOTHING_LEFT = 1e-9
 #: Number of intervals between events that must have shrunk, and largest difference of their ratios.
 _SHRINKING, _STEADY = 4, 0.2
-#: This many resets within this part of a run are an accumulation as well.
+#: This many resets within this part of the time are an accumulation as well.
 _CROWDED, _HEAP = 50, 1e-7
 
 
@@ -238,7 +238,6 @@ class Events:
 
     def _accumulates(self, numbers: Sequence[int]) -> bool:
         """Return whether resets accumulate; store the time at which they do."""
-        least = NOTHING_LEFT * self.until
         for number in numbers:
             name = self.watched.names[number]
             times = self._latest_resets(_SHRINKING + 2, name)
@@ -248,11 +247,11 @@ class Events:
                 ratios = last[1:] / last[:-1]
                 if ratios.max() < 1.0 and np.ptp(ratios) < _STEADY:
                     rest = _rest(float(last[-2]), float(last[-1]))
-                    if rest < least:
+                    if rest < NOTHING_LEFT * times[-1]:
                         self.accumulation = float(times[-1]) + rest
                         return True
         resets = self._latest_resets(_CROWDED + 1)
-        if len(resets) > _CROWDED and resets[-1] - resets[0] < _HEAP * self.until:
+        if len(resets) > _CROWDED and resets[-1] - resets[0] < _HEAP * resets[-1]:
             self.accumulation = float(resets[-1])
             return True
         return False

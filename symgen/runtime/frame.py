@@ -265,7 +265,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             following = t + h
             if t + 1.01 * h >= until:
                 h, following = until - t, until
-            if not h > abi.RESOLVED_TIME * max(abs(t), abs(until)):
+            if not h > max(abi.RESOLVED_TIME * abs(t), abi.SHORTEST_STEP):
                 return abi.TINY_STEP
         else:
             h, following = span.step, clock[abi.ORIGIN] + (control[abi.INDEX] + 1) * span.step

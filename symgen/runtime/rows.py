@@ -22,6 +22,7 @@ from symgen.runtime.observe import observe_rates, observe_rows
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, Observed, Outputs
 from symgen.runtime.redundancy import choose_rows
 from symgen.runtime.stopping import ROW, change, due, same, with_stops
+from symgen.runtime.watch import iterations_in
 from symgen.store.jit import jit
 
 _F8, _A = types.float64, types.float64[::1]
@@ -119,7 +120,7 @@ def summarise(code: int, state: Any, row: Any) -> None:
         float(control[abi.STEPS]),
         float(control[abi.REJECTED]),
         float(control[abi.EVALUATIONS]),
-        float(state.iw[abi.ITERATIONS]),
+        float(iterations_in(state)),
         float(state.iw[abi.LIGHT]),
         gauges[abi.MAX_PHI],
         gauges[abi.MAX_DRIFT],

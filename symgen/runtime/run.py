@@ -18,6 +18,7 @@ from symgen.runtime.assembly import Start
 from symgen.runtime.model_arrays import triplets_of
 from symgen.runtime.outcome import Outcome, RankEvent
 from symgen.runtime.simulation import Simulation
+from symgen.runtime.watch import iterations_in
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
@@ -158,7 +159,7 @@ def outcome_of(
     k = int(control[abi.OUTPUTS])
     before_it = simulation.before
     counters = {name: int(state.iw[i]) for i, name in enumerate(COUNTERS)}
-    counters["iterations"] -= simulation.iterations_before
+    counters["iterations"] = iterations_in(state) - simulation.iterations_before
     together = hasattr(simulation.scheme, "vector")  # nodes of a step
     counters["vector_width"] = vector_width() if together and simulation.scheme.vector else 0
     counters["slow_steps"] = int(control[abi.POINTS]) if together else 0

@@ -192,8 +192,9 @@ def look(hunt: A, n: int) -> int:
         if hunt[at + POINTS * n + k] > 0.0:
             arrive(hunt, n, k, 0.0)
             continue
-        if side == 0.0:  # not known yet: the run begins
-            hunt[at + SIDE * n + k] = side_of(g, side_of(rate, -1.0))
+        if side == 0.0:  # the run begins; an event at rest on zero is on no side until it leaves it
+            at_rest = -1.0 if hunt[at + ACTION * n + k] == float(ANEW) else 0.0
+            hunt[at + SIDE * n + k] = side_of(g, side_of(rate, at_rest))
         elif hunt[at + FIRED * n + k] != 0.0 and away(hunt, n, k, g) == 0:
             # the state lies on the event up to rounding, so the rate decides the side; at rest it may happen again
             side = side_of(rate, -side)

@@ -17,6 +17,7 @@ from symgen.runtime.changes import Changes
 from symgen.runtime.new_state import Snapshot, memory_fields, new_outputs, new_state, sizes_of, span_of, with_memory
 from symgen.runtime.probe import rates_of
 from symgen.runtime.redundancy import row_chooser
+from symgen.runtime.watch import iterations_in
 
 if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
@@ -145,7 +146,7 @@ class Simulation:
         self._shown = tuple(saved[name] for name in SHOWN)
         self.set_limits()
         state.control[[abi.STOP, abi.OUTPUTS]] = 0
-        self.before, self.iterations_before = state.control.copy(), int(state.iw[abi.ITERATIONS])
+        self.before, self.iterations_before = state.control.copy(), iterations_in(state)
 
     def store_first(self, outputs: Outputs) -> None:
         """Write the outputs up to the time of a continued run: the loop writes those behind it."""

@@ -64,14 +64,14 @@ def extremum(g0: float, d0: float, g1: float, d1: float, which: int) -> float:
 
 @plain
 def side_of(g: float, before: float) -> float:
-    """Return the side of g, 1 or -1; that of before where g is 0 or nan."""
+    """Return the side of g, 1 or -1; that of before where g is 0 or nan, which is 0 until g first leaves zero."""
     return 1.0 if g > 0.0 else -1.0 if g < 0.0 else before
 
 
 @plain
 def is_sought(direction: float, before: float, after: float) -> int:
-    """Return 1 where a change of sides is in the sought direction, else 0."""
-    return 1 if before != after and (direction == 0.0 or direction == after) else 0
+    """Return 1 where a change of sides is in the sought direction, else 0; the first side after none is no change."""
+    return 1 if before != after and before != 0.0 and (direction == 0.0 or direction == after) else 0
 
 
 @plain

@@ -30,9 +30,9 @@ class Timed:
     seconds: tuple[float, ...]
 
     @property
-    def spread(self) -> float:
-        """Longest minus shortest run time [s]; 0 for a single run."""
-        return max(self.seconds) - min(self.seconds) if self.seconds else 0.0
+    def spread(self) -> float | None:
+        """Longest minus shortest run time [s]; None for a single run."""
+        return max(self.seconds) - min(self.seconds) if len(self.seconds) > 1 else None
 
     @property
     def median(self) -> float:

@@ -13,6 +13,8 @@ _N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
 
 #: Least number of attempts over which progress is judged: as many as all before them.
 _WINDOW = 10_000
+#: The same near a singular position, which a motion passes in some tens of attempts, or where its drivers lock.
+_NEAR = 200
 #: A row on an angle has lost its gradient below this fraction of it.
 VANISHING = 1e-2
 #: An error of the energy below this fraction of kinetic and potential energy is no failure.
@@ -33,6 +35,11 @@ def remember_rank(sizes: Any, run: Any) -> None:
         elif run.w[sizes.pivots + i] >= SKIP:
             rank += 1
     run.control[abi.LAST_RANK], run.control[abi.MASKED] = rank, masked
+
+
+def iterations_in(state: Any) -> int:
+    """Return the number of iterations of laws, corrections and implicit stages since the start of a state."""
+    return int(state.iw[abi.ITERATIONS] + state.iw[abi.LAW_ITERATIONS] + state.control[abi.NEWTON_ITERATIONS])
 
 
 def begin(run: Any) -> None:
@@ -80,7 +87,7 @@ def stuck(span: Any, run: Any, t: float) -> bool:
     The rate is that of a window of attempts as long as all before it: a passage with many attempts does not decide it.
     """
     attempts, mark = run.control[abi.STEPS] + run.control[abi.REJECTED], run.control[abi.MARKED]
-    if attempts - mark < max(_WINDOW, mark):
+    if attempts - mark < (_NEAR if run.control[abi.IN_ZONE] == 1 else max(_WINDOW, mark)):
         return bool(attempts >= span.most)
     rate = (t - run.clock[abi.MARK]) / (attempts - mark)
     if mark > 0 and span.until - t > rate * (span.most - attempts):

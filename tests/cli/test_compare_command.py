@@ -41,6 +41,16 @@ def test_json_stays_alone_on_standard_output(cli, tmp_path):
     found = json.loads(out)
     assert code == 0 and len(found["rows"]) == 2
     assert all(row["cost_ratio"] is not None and row["acceleration_violation_rms"] >= 0.0 for row in found["rows"])
+    assert all(row["run_seconds_spread"] is None and row["cost_ratio_spread"] is None for row in found["rows"])
+
+
+def test_one_run_has_no_spread(cli, tmp_path):
+    report = tmp_path / "report.html"
+    for repeat, single in (("1", True), ("2", False)):
+        code, out, _ = cli("compare", "pendulum", *SMALL, "--repeat", repeat, "-o", report)
+        assert code == 0 and ("one run: no spread" in out) is single
+        text = report.read_text(encoding="utf-8")
+        assert ("one run: no spread" in text) is single and ("±" in text) is not single
 
 
 def test_a_file_that_is_no_journal_is_refused_and_left_alone(cli, tmp_path):

@@ -14,7 +14,7 @@ from symgen.cli import main
 from symgen.ensemble.sweep_plan import make_ensemble
 from symgen.errors import InputError
 from symgen.methods import METHODS
-from symgen.result import points
+from symgen.result import judge
 from symgen.running.prepare import make_plan
 from symgen.runtime.right_hand_side import at_nodes
 from symgen.settings import Settings
@@ -112,9 +112,9 @@ def test_a_file_names_integrator_step_and_second_run():
 # -- the second run ----------------------------------------------------------------------------------------------------
 
 
-def test_the_second_run_follows_the_time_of_the_first(monkeypatch):
+def test_the_second_run_follows_the_operations_of_the_first(monkeypatch):
     pendulum = symgen.load("pendulum")
-    monkeypatch.setattr(points, "QUICK", math.inf)
+    monkeypatch.setattr(judge, "MOST_OPERATIONS", math.inf)
     found = pendulum.simulate(until=1.0)
     assert found.ok and 0.0 < found.error_estimate < 1e-6 and not found.notes
     assert "error about" in repr(found)
@@ -122,18 +122,40 @@ def test_the_second_run_follows_the_time_of_the_first(monkeypatch):
     assert pendulum.simulate(until=1.0, integrator="rk4").error_estimate is None
     assert pendulum.simulate(until=1.0, verify=False).error_estimate is None
     assert pendulum.simulate(until=1.0, integrator="rk4", verify=True).error_estimate > 0.0
-    monkeypatch.setattr(points, "QUICK", 0.0)
-    monkeypatch.setattr("symgen.result.summary.QUICK", 0.0)
+    monkeypatch.setattr(judge, "MOST_OPERATIONS", 0)
     slow = pendulum.simulate(until=1.0)
-    assert slow.error_estimate is None and "not estimated as the run took " in repr(slow)
+    assert slow.error_estimate is None and f"global error not estimated as {slow.unchecked}: `verify`" in repr(slow)
+    assert slow.unchecked.startswith("it took ") and slow.unchecked.endswith(" operations, more than 0")
+    assert slow.to_json()["unchecked"] == slow.unchecked and found.to_json()["unchecked"] is None
+    assert pendulum.simulate(until=1.0, rtol=1e-8).unchecked == "its tolerances were set"
+    assert pendulum.simulate(until=1.0, integrator="rk4").unchecked == "its steps are constant"
+    assert pendulum.simulate(until=1.0, verify=False).unchecked == "verify is off"
+    run = pendulum.start(integrator="rk4", step=1e-3)
+    run.run(0.01)
+    assert run.result().unchecked == "its steps are constant"
+
+
+def test_the_clock_decides_on_no_second_run(monkeypatch):
+    """The operations of a run are its evaluations times those of its functions, and 100 for each call."""
+    from symgen.runtime import run as loops
+
+    pendulum, timed = symgen.load("pendulum"), loops._in_thread
+    alone = pendulum.simulate(until=1.0, verify=False)
+    functions = sum(alone.outcome.compiled.law.operations.values())
+    count = alone.evaluations * (100 + functions)
+    for seconds in (1e-9, 1e9):  # of machines of any speed
+        monkeypatch.setattr(loops, "_in_thread", lambda *a, s=seconds: (timed(*a)[0], s, False))
+        for limit, estimated in ((count, True), (count - 1, False)):
+            monkeypatch.setattr(judge, "MOST_OPERATIONS", limit)
+            assert (pendulum.simulate(until=1.0).error_estimate is not None) is estimated
 
 
 def test_the_file_and_the_run_switch_it(monkeypatch, capsys):
-    monkeypatch.setattr(points, "QUICK", math.inf)
+    monkeypatch.setattr(judge, "MOST_OPERATIONS", math.inf)
     off = model("-block.x", run={"verify": False, "until": 0.1})
     assert off.simulate().error_estimate is None and off.simulate(verify=True).error_estimate is not None
     on = model("-block.x", run={"verify": True, "until": 0.1})
-    monkeypatch.setattr(points, "QUICK", 0.0)
+    monkeypatch.setattr(judge, "MOST_OPERATIONS", 0)
     assert on.simulate().error_estimate is not None and on.simulate(verify=False).error_estimate is None
     assert main(["run", "pendulum", "--until", "0.1", "--no-verify", "--json"]) == 0
     assert '"error_estimate": null' in capsys.readouterr().out
@@ -144,7 +166,7 @@ def test_the_file_and_the_run_switch_it(monkeypatch, capsys):
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_run_that_goes_on_is_checked_from_where_it_begins(monkeypatch, coordinates):
     """A motor has done work until then."""
-    monkeypatch.setattr(points, "QUICK", math.inf)
+    monkeypatch.setattr(judge, "MOST_OPERATIONS", math.inf)
     wiper, settings = symgen.load("wiper"), {"coordinates": coordinates}
     first = wiper.simulate(until=0.5, **settings)
     second = wiper.simulate(until=1.0, start=first, **settings)
@@ -153,9 +175,12 @@ def test_a_run_that_goes_on_is_checked_from_where_it_begins(monkeypatch, coordin
 
 
 def test_a_chaotic_motion_beyond_its_horizon_is_unverified(monkeypatch):
-    monkeypatch.setattr(points, "QUICK", math.inf)
+    monkeypatch.setattr(judge, "MOST_OPERATIONS", math.inf)
     found = symgen.simulate("chain:2", until=60.0)
     assert found.status == "unverified" and "a run with rtol = 1e-09 differs by" in found.reason
+    monkeypatch.undo()
+    long = symgen.simulate("chain:2", until=4000.0, times=[0.0, 4000.0])
+    assert long.ok and long.unchecked.endswith(" operations, more than 2e+08") and long.unchecked in repr(long)
 
 
 def test_a_stiff_run_proposes_an_implicit_integrator():

@@ -234,6 +234,65 @@ def test_rates_are_those_behind_a_closer_look_where_a_pivot_is_suspicious():
         np.testing.assert_array_equal(rate, [4.0, 5.0])
 
 
+#: From rest at angle 0: theta = (t^2/2 - t^3/3)/0.35 where the push is 1, back at 0 at t = 3/2; and its mirror image.
+AT_ZERO = {
+    "mechanism": {"name": "at-zero"},
+    "parameters": {"push": 1.0},
+    "bodies": {"a": {"mass": 1.0, "inertia": 0.1, "points": {"o": [-0.5, 0.0]}, "position": [0.5, 0.0]}},
+    "joints": {"p": {"type": "revolute", "between": ["ground", "a"], "at": [[0.0, 0.0], "o"]}},
+    "forces": {"u": {"type": "torque", "body": "a", "torque": "push*(1 - 2*t)"}},
+}
+BACK = 1.5
+
+
+@pytest.mark.parametrize("push", [1.0, -1.0])
+@pytest.mark.parametrize(
+    ("integrator", "step", "coordinates"),
+    [
+        *[("picard", None, "absolute"), ("picard", None, "joint"), ("dop853", None, "absolute")],
+        *[("rk4", 1e-2, "joint"), ("radau5", None, "absolute"), ("abm", None, "absolute")],
+    ],
+)
+def test_what_leaves_zero_at_the_start_crosses_nothing_until_it_comes_back(integrator, step, coordinates, push):
+    whens = {"angle": "a.theta", "side": "a.theta > 0", "height": "a.y", "cube": "a.theta**3"}
+    events = {
+        f"{name}_{direction}": {"when": when, "direction": direction}
+        for name, when in whens.items()
+        for direction in ("rising", "falling", "any")
+        if name != "side"
+    }
+    events["side"] = {"when": whens["side"]}
+    model = symgen.load(mechanism_of({**AT_ZERO, "events": events}))
+    settings = {"integrator": integrator, "step": step, "coordinates": coordinates, "parameters": {"push": push}}
+    result = model.simulate(until=2.0, verify=False, **settings)
+    way = "falling" if push > 0.0 else "rising"
+    names = {f"{name}_{k}" for name in ("angle", "height", "cube") for k in (way, "any")}
+    names |= {"side"} if push < 0.0 else set()
+    assert result.status == "ok" and {event.name for event in result.events} == names
+    assert len(result.events) == len(names)
+    # the root of the cube is known to the cube root of rounding alone
+    for event in result.events:
+        assert abs(event.t - BACK) < (1e-4 if "cube" in event.name else 1e-7)
+
+
+@pytest.mark.parametrize("direction", ["rising", "falling", "any"])
+def test_stops_and_resets_that_start_at_zero_wait_for_a_crossing(direction):
+    turn = {"turn": {"when": "a.theta", "direction": direction, "reset": {"a.omega": "-a.omega/2"}}}
+    stop = {"stop": {"when": "a.theta", "direction": direction, "action": "stop"}}
+    for events in (turn, stop):
+        result = symgen.load(mechanism_of({**AT_ZERO, "events": events})).simulate(until=1.6)
+        assert result.status == "ok"
+        if direction == "rising":
+            assert result.events == () and result.end == 1.6
+        else:
+            assert [event.t for event in result.events] == pytest.approx([BACK], abs=1e-7)
+            assert result.end == (1.6 if "turn" in events else result.events[0].t)
+    free, met = (1.6 - 1.6**2) / 0.35, (BACK - BACK**2) / 0.35
+    expected = free if direction == "rising" else free - 1.5 * met
+    turned = symgen.load(mechanism_of({**AT_ZERO, "events": turn})).simulate(until=1.6)
+    assert turned["a.omega"][-1] == pytest.approx(expected, abs=1e-6)
+
+
 @pytest.mark.parametrize("when", ["t > 0.1234", "sin(t) > sin(0.1234)", "not t < 0.1234", "t > 0.1 and t > 0.1234"])
 def test_a_run_stops_inside_a_constant_step(when):
     result = spinning().simulate(integrator="rk4", step=1e-2, stop_when=when)

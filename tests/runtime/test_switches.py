@@ -328,3 +328,49 @@ def test_friction_that_sticks_says_why_nothing_goes_on(
     file.write_text(text.replace("LAW", "tanh(b.vx/1e-3)"))
     smooth = symgen.simulate(file, method="lagrange", integrator="radau5", until=3.0)
     assert smooth.status == "ok" and abs(smooth["b.x"][-1] - 0.25) < 1e-6
+
+
+LASH = """[mechanism]
+name = "lash"
+gravity = [0.0, -9.81]
+[bodies.arm]
+mass = 1.0
+inertia = 0.02
+points = { a = [-0.25, 0] }
+position = [0.25, 0]
+[bodies.horn]
+mass = 0.1
+inertia = 0.001
+[joints.pivot]
+type = "revolute"
+between = ["ground", "arm"]
+at = [[0, 0], "a"]
+[joints.shaft]
+type = "revolute"
+between = ["ground", "horn"]
+at = [[0, 0], "centre"]
+[forces.servo]
+type = "torque"
+body = "horn"
+torque = "-500*shaft.angle - 20*shaft.rate"
+[forces.lash]
+type = "torque"
+body = "arm"
+reaction = "horn"
+torque = "-2e4*(angle - 0.02) - 20*rate if angle > 0.02 else -2e4*(angle + 0.02) - 20*rate if angle < -0.02 else 0"
+"""
+
+
+@pytest.mark.parametrize("until", [2.0, 10.0, 50.0])
+@pytest.mark.parametrize("integrator", ["radau5", "dop853", "picard"])
+def test_the_end_of_a_run_decides_on_no_step_of_it(folder: Path, integrator: str, until: float) -> None:
+    """An arm falls through the lash of its servo at 0.037 s, and rests where gravity and both springs balance."""
+    file = folder / "lash.toml"
+    file.write_text(LASH, encoding="utf-8")
+    result = symgen.simulate(file, integrator=integrator, until=until, times=[0.0, 2.0], verify=False)
+    assert result.status == "ok", result.reason
+    moment, angle = 9.81 * 0.25, 0.0
+    for _ in range(20):
+        angle = -0.02 - moment * math.cos(angle) * (1.0 / 500.0 + 1.0 / 2e4)
+    # at 2 s a rest of exp(-500/20*2) of the motion is left
+    assert abs(result["arm.theta"][-1] - angle) < 1e-7

@@ -34,7 +34,7 @@ from symgen.runtime.manifold import advance
 from symgen.runtime.redundancy import leave_out_rest
 from symgen.runtime.scales import weights_of
 from symgen.runtime.scheme_records import ALPHA
-from symgen.runtime.schemes.implicit import ended
+from symgen.runtime.schemes.implicit import ended, is_settled
 from symgen.runtime.sparse import multiply, solve, turn_rows
 from symgen.runtime.vectors import weigh
 
@@ -160,7 +160,11 @@ def attempt(
         fresh, last = moved > 0.05 * last, moved
     if end <= 0:
         return DIVERGED
+    settled = is_settled(part(k, first, sizes.m), part(change, nv, sizes.m))
     move(system, scheme, run, h, k, a1, change)
+    if not settled:  # the work is that of the last multipliers
+        system.residual(following, run.trial, k, run.p, run.w, right)
+        run.control[abi.EVALUATIONS] += 1
     for i in range(sizes.ny - first):
         if 0 < i <= sizes.states:
             rest[i] = k[n - sizes.states + i - 1]

@@ -2,7 +2,9 @@
 
 Stages are solved one after the other where the scheme allows (diagonally implicit), else together. Newton's iteration
 uses the exact Jacobian that was emitted with the residual, evaluated at the stage's own iterate and kept while it
-converges fast. Rates of auxiliary states come with the residual, so each iteration has those of the iterate before.
+converges fast. It ends where the correction is small, or the residual is rounding of its terms. Rates of auxiliary
+states come with the residual, so each iteration has those of the iterate before: where the last correction changed the
+multipliers, whose work is among them, they are evaluated once more.
 """
 
 from __future__ import annotations
@@ -21,6 +23,10 @@ from symgen.runtime.sparse import solve
 from symgen.runtime.vectors import copied, weigh
 
 _MOST_ITERATIONS = 15
+#: Corrections of multipliers below this part of the largest one are rounding.
+_SETTLED = 1e-9
+#: Residuals below this part of their terms are rounding.
+_GRAIN = 1e-14
 #: As in the frame: whether steps follow the error estimate.
 ADAPTIVE = False
 
@@ -80,6 +86,34 @@ def ended(moved: float, last: float, least: float, poor: float, at_floor: bool) 
 
 
 @called
+def is_rounding(
+    system: Any, scheme: Any, run: Any, h: float, low: int, high: int, k: Any, rates: Any, right: Any, terms: Any
+) -> bool:
+    """Return whether the residuals `right` of some stages are rounding of their terms, as those of stiff forces are."""
+    n, count = system.sizes.unknowns, scheme.entries.shape[0] // 2
+    for s in range(low, high):
+        stage_state(system, scheme, run, h, s, k, rates)
+        for i in range(n):
+            terms[i] = 0.0
+        for e in range(count):
+            j = scheme.entries[count + e]
+            number = k[s * n + j] if j < n else run.trial[j - n]
+            terms[scheme.entries[e]] += abs(scheme.slopes[(s - low) * count + e] * number)
+        for i in range(n):
+            if abs(right[(s - low) * n + i]) > _GRAIN * terms[i]:
+                return False
+    return True
+
+
+def is_settled(multipliers: Any, change: Any) -> bool:
+    """Return whether the last correction of the multipliers, `change`, is rounding."""
+    largest = moved = 0.0
+    for c in range(multipliers.shape[0]):
+        largest, moved = max(largest, abs(multipliers[c])), max(moved, abs(change[c]))
+    return moved <= _SETTLED * largest
+
+
+@called
 def attempt(
     system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
 ) -> float:
@@ -95,7 +129,7 @@ def attempt(
     unknowns = s_count * n if scheme.together == 1 else n
     right, change = part(run.room, at, unknowns), part(run.room, at + unknowns, unknowns)
     factors = part(run.room, at + 2 * unknowns, s_count * s_count + 1)
-    factors[0] = 1.0
+    factors[0], terms = 1.0, part(run.room, at + 2 * unknowns + s_count * s_count + 1, n)
     for s in range(s_count):
         for i in range(n):
             k[s * n + i] = run.memory[i]
@@ -154,11 +188,24 @@ def attempt(
             at_floor = math.sqrt(moved) * h < 1e-12 * length
             moved = math.sqrt(moved) / (run.w[abi.SPEED] / run.w[abi.LENGTH] + math.sqrt(size))
             end = ended(moved, last, 1e-13, 1e-9, at_floor)
+            if end == 0 and moved > 0.3 * last:
+                end = 1 if is_rounding(system, scheme, run, h, low, high, k, rates, right, terms) else 0
             if end != 0:
                 break
             fresh, last = moved > 0.05 * last, moved
         if end <= 0:
             return DIVERGED
+        if sizes.m == 0 or tail > first + sizes.m:
+            continue
+        for s in range(low, high):
+            at_stage, at_change = s * n + first, (s - low) * n + first
+            if not is_settled(part(k, at_stage, sizes.m), part(change, at_change, sizes.m)):
+                stage_state(system, scheme, run, h, s, k, rates)
+                system.residual(t + scheme.c[s] * h, run.trial, part(k, s * n, n), run.p, run.w, part(right, 0, n))
+                run.control[abi.EVALUATIONS] += 1
+                for i in range(more):
+                    if i == 0 or i > states:
+                        rates[s * more + i] = run.w[sizes.auxiliary + (i - states if i > 0 else 0)]
     if tail > first + sizes.m:
         # multipliers of index 2 are of lower order than the state: these rates use those of the law
         of_law = part(run.room, 0, sizes.width)
@@ -237,7 +284,7 @@ def memory(width: int, unknowns: int, more: int, stages: int, together: bool) ->
     The memory holds the unknowns at the beginning of a step, and rates of `more` auxiliary states.
     """
     solved = max(width, unknowns, stages * unknowns if together else 0)
-    return unknowns + more, width + stages * (unknowns + more) + 2 * solved + stages * stages + 2
+    return unknowns + more, width + stages * (unknowns + more) + 2 * solved + stages * stages + 2 + unknowns
 
 
 _PARTS: dict[str, Any] = {"attempt": attempt, "renew": renew}

@@ -59,12 +59,14 @@ class Row:
         run that failed, and where there is no reference.
     below_reference : bool
         Whether the error is below the estimated error of the reference, which is then its only bound.
-    run_seconds, run_seconds_spread, run_seconds_median : float
-        Shortest of several runs after a warm-up, longest minus shortest, and median [s].
+    run_seconds, run_seconds_median : float
+        Shortest of several runs after a warm-up, and median [s].
+    run_seconds_spread : float or None
+        Longest minus shortest of them [s]; None for one run.
     cost_ratio, cost_ratio_spread : float or None
         Run time over that of `lagrange` with the same integrator and step or tolerance, and its spread: the ratio
         times the sum of both runs' median less shortest time over shortest time (the longest time shows only the
-        other load of the machine). None where one of them failed or `lagrange` was not run.
+        other load of the machine). None where one of them failed or `lagrange` was not run; of one run no spread.
     evaluations, iterations : int
         Right-hand sides, and iterations of laws, corrections and implicit stages.
     position_violation_max, velocity_violation_max, acceleration_violation_max : float
@@ -92,7 +94,7 @@ class Row:
     error: float | None
     below_reference: bool
     run_seconds: float
-    run_seconds_spread: float
+    run_seconds_spread: float | None
     evaluations: int
     position_violation_max: float
     velocity_violation_max: float
@@ -204,8 +206,13 @@ def with_ratios(rows: Sequence[Row]) -> tuple[Row, ...]:
         parts = [max(r.run_seconds_median - r.run_seconds, 0.0) / r.run_seconds for r in (row, other)]
         # the yardstick's ratio to itself is 1 however its run time varies
         spread = 0.0 if row is other else ratio * sum(parts)
-        rated.append(replace(row, cost_ratio=ratio, cost_ratio_spread=spread))
+        single = row.run_seconds_spread is None or other.run_seconds_spread is None
+        rated.append(replace(row, cost_ratio=ratio, cost_ratio_spread=None if single else spread))
     return tuple(rated)
+
+
+#: In place of the spread of run times, where each was measured once.
+ONE_RUN = "one run: no spread"
 
 
 @dataclass(frozen=True, repr=False)
@@ -295,6 +302,11 @@ class Study:
         """Warnings that every row has, such as those of the start, to be shown once."""
         first = self.rows[0].warnings if self.rows else ()
         return tuple(text for text in first if all(text in row.warnings for row in self.rows))
+
+    @property
+    def is_repeated(self) -> bool:
+        """Whether run times have a spread."""
+        return any(row.run_seconds_spread is not None for row in self.rows)
 
     @property
     def ratio_spreads(self) -> tuple[float, float] | None:
