@@ -7,7 +7,8 @@ import pytest
 
 from symgen.describe.load import LONGEST_KEY, load, parse_toml
 from symgen.describe.validate import validate
-from symgen.errors import LONGEST_PART, InputError, nearest, printable, quoted
+from symgen.errors import LONGEST_PART, InputError, nearest, quoted
+from symgen.escapes import printable
 
 HEAD = '[mechanism]\nname = "x"\n'
 BODY = "[bodies.b]\nmass = 1.0\ninertia = 1.0\n"
