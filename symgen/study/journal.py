@@ -21,6 +21,7 @@ from symgen.errors import InputError, SimulationError
 from symgen.files import check_name
 from symgen.plugins import stamps
 from symgen.store.identity import SOURCES, digest, sources_digest
+from symgen.store.locks import file_lock
 from symgen.version import __version__
 
 if TYPE_CHECKING:
@@ -173,8 +174,8 @@ class Journal:
         if not path.parent.is_dir():  # the lock would create it
             raise InputError(f"journal '{path}'", "a file in a folder that exists", f"no folder '{path.parent}'")
         _content(path)  # a file that is no journal gets no lock file
-        lock = filelock.FileLock(_lock_of(path))
         try:
+            lock = file_lock(_lock_of(path))
             lock.acquire(timeout=0)
         except filelock.Timeout:
             raise InputError(f"journal '{path}'", "one that no other process uses", "one in use") from None

@@ -236,3 +236,17 @@ def test_cells_are_those_of_the_code_that_made_them(edited, monkeypatch):
     after = code_identity()
     sources_digest.cache_clear()
     assert after != known
+
+
+@pytest.mark.parametrize("kind", ["link", "hard link", "content"])
+def test_a_lock_that_is_a_file_of_somebody_else_is_refused(kind, tmp_path):
+    """A lock is opened for writing: through a link `rows.lock` it emptied the file at its end."""
+    precious, lock = tmp_path / "precious.txt", tmp_path / "rows.lock"
+    precious.write_text("precious")
+    {"link": lock.symlink_to, "hard link": lock.hardlink_to, "content": lambda _: lock.write_text("mine")}[kind](
+        precious
+    )
+    before = lock.read_text()
+    with pytest.raises(InputError, match=r"got 'rows\.lock', which is no lock of symgen"):
+        Journal(tmp_path / "rows")
+    assert (lock.read_text(), precious.read_text()) == (before, "precious") and not (tmp_path / "rows").exists()
