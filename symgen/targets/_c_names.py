@@ -34,7 +34,7 @@ _DECLARED = frozenset(
     ).split()
 )
 #: Names that standards keep for libraries: of types, of functions for texts and memory, of mathematics.
-_KEPT = re.compile(r".*_[trl]|(str|mem|wcs)[a-z]\w*|\w+_(unlocked|np)|\w+64|f(32|64|128)\w+")
+_KEPT = re.compile(r".*_[trl]|(str|mem|wcs)[a-z0-9]+|.*_(unlocked|np)|.*64|f(32|64|128)[a-z0-9]+")
 _PRECISION = re.compile(r"(f|l|f32x?|f64x?|f128)$")
 _PREFIX = re.compile(r"\{\{ (prefix|upper) \}\}")
 _NO_CODE = re.compile(r"\{[%#{].*?[%#}]\}|/\*.*?\*/|//[^\n]*|\"(?:\\.|[^\"\\\n])*\"", re.DOTALL)
