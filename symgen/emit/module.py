@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import jinja2
 
-from symgen.escapes import comment_text
+from symgen.escapes import comment_text, markdown_text
 from symgen.files import templates_folder
 
 
@@ -77,7 +77,7 @@ class ModulePiece:
 
 @lru_cache(maxsize=1)
 def _environment() -> jinja2.Environment:
-    return jinja2.Environment(
+    environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(templates_folder()),
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
@@ -86,6 +86,8 @@ def _environment() -> jinja2.Environment:
         autoescape=False,
         finalize=lambda value: literal(value) if isinstance(value, float) else value,
     )
+    environment.filters |= {"comment": comment_text, "markdown": markdown_text}
+    return environment
 
 
 def literal(value: float) -> str:

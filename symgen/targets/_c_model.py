@@ -18,7 +18,6 @@ from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.mechanism import SpatialBody
 from symgen.emit.module import render
 from symgen.errors import InputError
-from symgen.escapes import comment_text
 from symgen.ir.program import COUNTERS, SETTLED
 from symgen.native.c99 import broken, c_functions, c_number
 from symgen.native.formula_lines import C, NotInLines
@@ -140,7 +139,7 @@ class CModel:
         ]
         return {
             "name": mechanism.name,
-            "title": comment_text(mechanism.title or mechanism.name),
+            "title": mechanism.title or mechanism.name,
             "method": law.method,
             "prefix": self.prefix,
             "upper": self.prefix.upper(),
@@ -155,7 +154,7 @@ class CModel:
             "stopping": [i for i in acting if mechanism.events[i].action == STOP],
             "resets": [{"event": i, "function": _reset(event), "columns": changed[i]} for i, event in resets],
             "parameters": [
-                {"name": q.name, "unit": comment_text(q.unit), "value": c_number(x), "input": q.name in info.inputs}
+                {"name": q.name, "unit": q.unit, "value": c_number(x), "input": q.name in info.inputs}
                 for q, x in zip(info.parameters, parameters.values(), strict=True)
             ],
             "inputs": _list(int(q.name in info.inputs) for q in info.parameters) or "0",
