@@ -18,6 +18,7 @@ from types import TracebackType
 from typing import IO, TYPE_CHECKING, Any
 
 from symgen.errors import InputError, SimulationError
+from symgen.escapes import printable
 from symgen.files import check_name
 from symgen.plugins import stamps
 from symgen.store.identity import SOURCES, digest, sources_digest
@@ -125,6 +126,10 @@ class Journal:
     def __iter__(self) -> Iterator[str]:
         return iter(self._done)
 
+    def drop(self, key: str) -> None:
+        """Forget a cell: it is computed again, and its new line counts."""
+        self._done.pop(key, None)
+
     def get(self, key: str) -> Outcome | None:
         """Return the outcome of a cell, None if it is not finished."""
         return self._done.get(key)
@@ -227,9 +232,18 @@ def _parsed(line: bytes) -> tuple[str, Outcome] | None:
     try:
         entry = json.loads(line)
         written = entry.pop("sha256")
-        return (entry["key"], entry["outcome"]) if written == _digest(entry) else None
+        return (entry["key"], _shown(entry["outcome"])) if written == _digest(entry) else None
     except (ValueError, RecursionError, AttributeError, LookupError, TypeError):
         return None
+
+
+def _shown(value: Any) -> Any:
+    """Return an outcome with printable texts, as those of symgen are: a journal may come from somebody else."""
+    if isinstance(value, str):
+        return printable(value)
+    if isinstance(value, dict):
+        return {key: _shown(each) for key, each in value.items()}
+    return [_shown(each) for each in value] if isinstance(value, list) else value
 
 
 def _digest(entry: Mapping[str, Any]) -> str:
