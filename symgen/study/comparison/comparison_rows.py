@@ -199,7 +199,8 @@ class _Entry(TypedDict):
 def check_entry(entry: Mapping[str, Any]) -> None:
     """Raise `ValueError` unless `from_entry` can read an entry of a journal."""
     row = msgspec.convert(entry, _Entry, strict=False)["row"]
-    if row.status not in (OK, UNVERIFIED, FAILED):
+    unknown = {*entry["row"], *entry["trace"]} - {f.name for part in (Row, Trace) for f in fields(part)}
+    if unknown or row.status not in (OK, UNVERIFIED, FAILED):
         raise ValueError(row.status)
 
 
