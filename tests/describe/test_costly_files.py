@@ -185,7 +185,7 @@ def test_words_of_messages():
 
 
 def test_a_number_of_too_many_digits_is_refused_in_a_sentence_of_symgen():
-    with pytest.raises(InputError, match="m.toml: expected whole numbers of at most [0-9]+ digits, got a longer one"):
+    with pytest.raises(InputError, match=r"m\.toml: expected whole numbers of at most [0-9]+ digits, got a longer one"):
         parse_toml(f"[parameters]\nk = {'9' * 200_000}\n", "m.toml")
 
 
