@@ -9,6 +9,8 @@ import difflib
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
+from symgen.escapes import printable
+
 #: Characters at most of a part of a message, such as what was found, of the place it begins with, whose names come from
 #: files, and of a text that it repeats in quotes.
 LONGEST_PART, LONGEST_PLACE, LONGEST_QUOTE = 1000, 240, 60
@@ -117,13 +119,6 @@ def finite_numbers(where: str, hint: str = "") -> Iterator[None]:
     except OverflowError:
         expected = "numbers whose products, sums and quotients are finite"
         raise InputError(where, expected, "some that overflow", hint) from None
-
-
-def printable(text: str) -> str:
-    """Return `text` on one line, with escapes in place of characters that a terminal would act on or not show."""
-    if text.isprintable():
-        return text
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
 def quoted(text: object, longest: int = LONGEST_QUOTE) -> str:

@@ -22,7 +22,8 @@ from typing import Any
 import click
 
 from symgen.analyses.kinds import ANALYSES
-from symgen.errors import CLOSE, SymgenError, nearest, printable
+from symgen.errors import CLOSE, SymgenError, nearest
+from symgen.escapes import printable
 from symgen.plugins import failure_of_plugin, load_plugins
 from symgen.registry import Registry
 from symgen.settings import flag, names

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import examples, json_option, setting_options
+from symgen.cli._options import examples, json_option, setting_options, tell
 from symgen.errors import InputError
 from symgen.registry import Registry
 
@@ -71,8 +71,17 @@ def command(
     if as_json:
         files = [{"path": str(path), "bytes": path.stat().st_size} for path in package.files]
         seconds = {"derive": package.derive_seconds, "emit": package.emit_seconds}
-        write_json({"mechanism": mechanism.name, "folder": str(package.folder), "files": files, "seconds": seconds})
+        write_json(
+            {
+                "mechanism": mechanism.name,
+                "folder": str(package.folder),
+                "files": files,
+                "seconds": seconds,
+                "notes": package.notes,
+            }
+        )
         return OK
     for path in package.files:
         click.echo(f"{path}  {path.stat().st_size} bytes")
+    tell(package.notes)
     return OK

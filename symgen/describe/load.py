@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -136,9 +137,12 @@ def parse_toml(text: str, source: str) -> dict[str, Any]:
     _check_text(text, source)
     try:
         raw = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, ValueError) as error:
+    except tomllib.TOMLDecodeError as error:
         slip = str(error)
         raise InputError(source, "a TOML file", f"a syntax error: {slip[:1].lower() + slip[1:]}") from None
+    except ValueError:  # of `int`
+        digits = sys.get_int_max_str_digits()
+        raise InputError(source, f"whole numbers of at most {digits} digits", "a longer one") from None
     except (RecursionError, MemoryError):
         raise _too_deep(source) from None
     _check_values(raw, source)

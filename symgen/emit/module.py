@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import jinja2
 
-from symgen.emit.printer import harmless
+from symgen.escapes import comment_text, markdown_text
 from symgen.files import templates_folder
 
 
@@ -77,7 +77,7 @@ class ModulePiece:
 
 @lru_cache(maxsize=1)
 def _environment() -> jinja2.Environment:
-    return jinja2.Environment(
+    environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(templates_folder()),
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
@@ -86,6 +86,8 @@ def _environment() -> jinja2.Environment:
         autoescape=False,
         finalize=lambda value: literal(value) if isinstance(value, float) else value,
     )
+    environment.filters |= {"comment": comment_text, "markdown": markdown_text}
+    return environment
 
 
 def literal(value: float) -> str:
@@ -129,7 +131,7 @@ def function(
     sections: Iterable[str] = (),
 ) -> ModulePiece:
     """Return a function; its purpose may come from anywhere, and `calls` may name libraries and their functions."""
-    first, *more = [harmless(line) for line in sentence(purpose).split("\n")]
+    first, *more = [comment_text(line) for line in sentence(purpose).split("\n")]
     document = [f'"""{first}', *more, '"""'] if more else [f'"""{first}"""']
     lines = [f"    {line}" if line else "" for line in (*document, *body)]
     text = "\n".join([decorator, f"def {name}({arguments}):", *lines])
@@ -190,8 +192,8 @@ def module(
     sections = frozenset[str]().union(*(code.sections for code in codes))
     libraries = frozenset[str]().union(*(code.libraries for code in codes))
     values = {
-        "title": harmless(title),
-        "header": [harmless(line) for line in header],
+        "title": comment_text(title),
+        "header": [comment_text(line) for line in header],
         "libraries": libraries,
         "numba": numba if codes else "",
         "imports": {stem: _listed(names) for stem, names in sorted(imports.items())},

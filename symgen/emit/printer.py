@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from symgen.escapes import comment_text
 from symgen.ir.program import STATUS, Block, JacobianEntry, ModelLayout, Target, of_table
 from symgen.vocabulary.functions import ELEMENTARY
 
@@ -140,7 +141,7 @@ class Printer:
                 space, index = payload
                 name, expression = self.access.read(space, index)
                 if name != expression:
-                    note = harmless(self.access.note(space, index))
+                    note = comment_text(self.access.note(space, index))
                     inputs.append(f"{name} = {expression}" + (f"  # {note}" if note else ""))
                 self.text[node] = (name, 5)
             else:
@@ -159,7 +160,7 @@ class Printer:
 
     def comment(self, target: Target) -> str:
         """Return the name of an output as a comment, empty where it has none."""
-        note = harmless(self.access.note(target.space, target.index))
+        note = comment_text(self.access.note(target.space, target.index))
         return f"  # {note}" if note else ""
 
     def operation(self, op: str, args: tuple[int, ...], payload: object) -> tuple[str, int]:
@@ -219,28 +220,6 @@ class Printer:
         text, own = self.text[node]
         return text if own >= level else f"({text})"
 
-
-#: Longest text that is emitted in one piece.
-LONGEST = 200
-
-
-def harmless(text: object) -> str:
-    """Return a text that cannot end the comment or docstring around it, nor be read as an escape.
-
-    Line ends and unprintable characters become spaces, double quotes single ones, and backslashes slashes.
-
-    Parameters
-    ----------
-    text : object
-        Text from a file, a method or an option.
-    """
-    words = str(text)[: LONGEST + 1].translate(_SIGNS)
-    if not words.isprintable():
-        words = "".join(c if c.isprintable() else " " for c in words)
-    return words if len(words) <= LONGEST else words[: LONGEST - 3] + "..."
-
-
-_SIGNS = str.maketrans('"\\', "'/")
 
 #: Prefixes of the name of a table in the emitted names: no other emitted name begins with them.
 _OF_TABLE = {

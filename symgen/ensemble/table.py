@@ -23,6 +23,7 @@ from symgen.ensemble.chunks import Chunk
 from symgen.errors import InputError, SimulationError
 from symgen.files import check_name, why, write_whole
 from symgen.runtime.ensemble_abi import N_SUMMARY
+from symgen.store.locks import file_lock
 
 if TYPE_CHECKING:
     from filelock import BaseFileLock
@@ -167,7 +168,7 @@ class FolderTable(RowTable):
         begun = check_folder(self.folder, self._resume)
         try:
             self.folder.mkdir(exist_ok=True)
-            lock = filelock.FileLock(self.folder / LOCK)
+            lock = file_lock(self.folder / LOCK)
             lock.acquire(timeout=0)
             self._lock = lock
         except filelock.Timeout:

@@ -12,6 +12,9 @@ from symgen.describe.scope import Scope
 from symgen.vocabulary.expressions import Expr, Reading, call, number
 from symgen.vocabulary.measures import FormulaMeasure, Holonomic, Measure, Sum
 
+#: Maximum number of coefficients: as deep as a formula may be nested, 100 levels.
+MOST_COEFFICIENTS = 50
+
 
 class Coupling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A sum of joint coordinates, each with a factor: as tendons, differentials and gear trains tie them together.
@@ -25,7 +28,7 @@ class Coupling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     of : str
         Another coordinate, written the same way, of which a polynomial is added to `value`.
     polynomial : list of scalars
-        Its coefficients, the constant first.
+        Its coefficients, the constant first; at most 50.
 
     Notes
     -----
@@ -54,6 +57,9 @@ class Coupling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
             terms.append((scope.constant(f"terms.{name}", factor), measure))
             units.append(Joint.unit(label))
         if self.of is not None:
+            if self.polynomial is not None and len(self.polynomial) > MOST_COEFFICIENTS:
+                expected = f"at most {MOST_COEFFICIENTS} coefficients"
+                raise scope.error("polynomial", expected, f"{len(self.polynomial)}")
             joint, label, measure = self._coordinate(scope, "of", self.of)
             bodies += joint.bodies
             coefficients = [scope.constant("polynomial", c) for c in self.polynomial or ()]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass
@@ -20,6 +19,7 @@ from symgen.drawing.paper import View
 from symgen.drawing.scene import Array, Disc, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
 from symgen.drawing.traced import traced_points
 from symgen.drawing.viewpoint import viewpoint
+from symgen.escapes import script_json
 from symgen.files import check_path, write_whole
 from symgen.player.live import Live
 from symgen.player.recording import (
@@ -92,7 +92,7 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
             data["note"] = "; ".join(dict.fromkeys([*filter(None, [data["note"]]), words]))
         data["motions"].append(packed(shown, keep, coarse) | _gaps(scene, each.q[keep]))
     text = _web("page.html")
-    parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": as_json(data), "SCRIPT": script}
+    parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": script_json(data), "SCRIPT": script}
     for name, part in parts.items():
         text = text.replace(f"<!--{name}-->", part, 1) if name != "TITLE" else text.replace("<!--TITLE-->", part)
     return Page(text, recording.mechanism.name, live is not None)
@@ -104,12 +104,6 @@ def _gaps(scene: Scene, q: Array) -> dict[str, Any]:
         return {}
     gaps = np.array([scene.gaps(row) for row in q])
     return {"gaps": {"names": [item.name for item in scene.pins], **shorts(np.log10(np.maximum(gaps, 1e-17)))}}
-
-
-def as_json(data: Any) -> str:
-    """Return JSON that cannot end the element it stands in."""
-    text = json.dumps(data, separators=(",", ":"), allow_nan=False, ensure_ascii=False)
-    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
 def _script(live: Live | None, spatial: bool) -> str:
@@ -134,7 +128,7 @@ def model_script(live: Live) -> str:
 def rates_script(live: Live) -> str:
     """Return a script that is a function: the rates of a state, given time, state and parameters."""
     code = _emitted(live, "confirm rhs masses prepareModel prepareLaw", "derive: () => {}")
-    return f"(() => {{\n'use strict';\n{code}return makeRates({as_json(live.spec)}, emitted).rates;\n}})()"
+    return f"(() => {{\n'use strict';\n{code}return makeRates({script_json(live.spec)}, emitted).rates;\n}})()"
 
 
 def scene_data(scene: Scene, view: View) -> dict[str, Any]:

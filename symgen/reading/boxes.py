@@ -10,6 +10,8 @@ from html import escape
 from itertools import pairwise
 from typing import ClassVar
 
+from symgen.escapes import latex_text
+
 #: Letters that names of quantities stand for: LaTeX, and the character.
 GREEK = {
     **{"theta": (r"\theta", "θ"), "omega": (r"\omega", "ω"), "lambda": (r"\lambda", "λ"), "gamma": (r"\gamma", "γ")},
@@ -18,10 +20,6 @@ GREEK = {
 }
 #: Widths in units of the type's size, on the safe side.
 _LETTER, _SMALL, _DIGIT, _SIGN = 0.6, 0.42, 0.51, 1.25
-_SPECIAL = {
-    **{"\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}"},
-    **{c: "\\" + c for c in "_&%$#"},
-}
 #: Fractions with these denominators read better with a point.
 _DECIMAL = (2, 4, 5, 8, 10, 16, 20, 25, 40, 50, 80)
 
@@ -211,11 +209,6 @@ _TEX_FUNCTIONS = frozenset("sin cos tan sinh cosh tanh exp log min max".split())
 _TEX_AROUND = {"sqrt": r"\sqrt{%s}", "abs": r"\left| %s \right|"}
 
 
-def escaped(text: str) -> str:
-    """Return a text as LaTeX prints it."""
-    return "".join(_SPECIAL.get(c, c if c.isprintable() and ord(c) < 128 else f"[U+{ord(c):04X}]") for c in text)
-
-
 class _Latex(_Notation):
     forms: ClassVar = {
         **{"over": r"\frac{%s}{%s}", "power": "{%s}^{%s}", "bracket": r"\left( %s \right)", "dot": r"\dot {%s}"}
@@ -239,7 +232,7 @@ class _Latex(_Notation):
         inside = self.listed(box)
         if box.text in _TEX_AROUND:
             return _TEX_AROUND[box.text] % inside
-        head = f"\\{box.text}" if box.text in _TEX_FUNCTIONS else rf"\operatorname{{{escaped(box.text)}}}"
+        head = f"\\{box.text}" if box.text in _TEX_FUNCTIONS else rf"\operatorname{{{latex_text(box.text)}}}"
         return rf"{head} {inside}" if bare(box) else rf"{head}\left( {inside} \right)"
 
     def cases(self, box: Box) -> str:
@@ -257,7 +250,7 @@ class _Latex(_Notation):
 
 
 def _upright(text: str) -> str:
-    return rf"\mathrm{{{escaped(text)}}}"
+    return rf"\mathrm{{{latex_text(text)}}}"
 
 
 def _index(text: str) -> str:

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from symgen.errors import InputError, nearest
-from symgen.reading.boxes import escaped, latex
+from symgen.escapes import latex_text
+from symgen.reading.boxes import latex
 from symgen.reading.sheet import LINE, Equation, Sheet
 from symgen.reading.typeset import broken
 
@@ -104,7 +105,7 @@ def _head(mechanism: Mechanism, sheet: Sheet) -> list[str]:
     kind = "bodies" if mechanism.topology is None else "the joints of a tree"
     return [
         _HEAD,
-        rf"\title{{{escaped(mechanism.title or mechanism.name)}}}",
+        rf"\title{{{latex_text(mechanism.title or mechanism.name)}}}",
         r"\author{}\date{}",
         r"\begin{document}",
         r"\maketitle",
@@ -139,12 +140,12 @@ def _section(title: str, body: Iterable[str]) -> list[str]:
 
 
 def _breakable(text: str) -> str:
-    return escaped(text).replace("-", r"-\allowbreak ")
+    return latex_text(text).replace("-", r"-\allowbreak ")
 
 
 def _words(text: str) -> str:
     """Return a sentence with names in it; long names may be broken."""
-    return escaped(text).replace(r"\_", r"\_\allowbreak ").replace(".", r".\allowbreak ")
+    return latex_text(text).replace(r"\_", r"\_\allowbreak ").replace(".", r".\allowbreak ")
 
 
 def _aligned(rows: Sequence[str]) -> list[str]:

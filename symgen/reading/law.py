@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from symgen.escapes import latex_text
 from symgen.lower.record import Part, RecordedLaw, record_law
 from symgen.methods import METHODS
 from symgen.methods._formula import FormulaStep, needed
@@ -13,7 +14,6 @@ from symgen.reading.boxes import (
     bracket,
     call,
     dot,
-    escaped,
     latex,
     name,
     number,
@@ -108,7 +108,7 @@ class Law:
         """Return the steps as lines of LaTeX, for an environment such as ``aligned``."""
         lines = list[str]()
         for function, _, steps in self.parts:
-            lines += [rf"&\text{{{escaped(function)}}}", *(step.latex for step in steps)]
+            lines += [rf"&\text{{{latex_text(function)}}}", *(step.latex for step in steps)]
         return " \\\\\n".join(lines)
 
     def _repr_latex_(self) -> str:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from symgen import catalogue
 from symgen.emit.printer import ElementAccess
-from symgen.errors import printable
+from symgen.escapes import printable
 from symgen.ir.program import Target
 from symgen.reading.html import attribute, fold
 

@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING, Any
 from symgen.drawing import sketch
 from symgen.emit.emit import emit_law, emit_model
 from symgen.errors import InputError
+from symgen.escapes import script_json
 from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
 from symgen.player.live import rates_part
-from symgen.player.motion_page import as_json, rates_script
+from symgen.player.motion_page import rates_script
 from symgen.reading.boxes import dot, name, row, sign, transposed
 from symgen.reading.html import (
     attribute,
@@ -191,7 +192,7 @@ class EquationPage:
             f"<title>{escape(title)}: equations</title><style>{_web('style.css')}</style></head><body>"
         )
         code = f"const rates = {script or 'null'};\n{_web('script.js')}"
-        tail = f'<script type="application/json" id="data">{as_json(data)}</script><script>{code}</script>'
+        tail = f'<script type="application/json" id="data">{script_json(data)}</script><script>{code}</script>'
         return "\n".join([head, *body, tail, "</body></html>\n"])
 
     # -- sections --------------------------------------------------------------------------------------------------

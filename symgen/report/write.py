@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from symgen.errors import InputError
+from symgen.escapes import markdown_text
 from symgen.files import Content, check_path, templates_folder, why, write_all, write_whole
 from symgen.report.document import Document, DocumentTable, Picture, Section, TableCell
 
@@ -98,25 +99,10 @@ def html(document: Document) -> str:
 # -- Markdown ----------------------------------------------------------------------------------------------------------
 
 
-#: What Markdown takes for more than text: emphasis, code, tags, entities, links, the columns of a table, and marks at
-#: the beginning of a line. Underscores inside words, brackets that no address follows, and numbers that no space
-#: follows, are text.
-_MARKED = re.compile(
-    r"[\\`*<|~$]|&(?=\w+;|#)|(?<![^\W_])_|_(?![^\W_])|\[(?=[^\]]*\]\s*[(\[:])"
-    r"|^(?:#{1,6}(?=\s|$)|>|\+(?=\s|$)|-(?=[\s-]|$)|\d+(?=[.)](?:\s|$)))",
-    re.MULTILINE,
-)
-
-
-def escaped(text: str) -> str:
-    """Return plain text escaped for a line of Markdown."""
-    return _MARKED.sub(lambda mark: f"\\{mark[0]}" if not mark[0].isdigit() else f"{mark[0]}\\", " ".join(text.split()))
-
-
 def markdown(document: Document, folder: str) -> str:
     """Return a document as Markdown with tables, pictures being files in `folder`."""
-    lines = [f"# {escaped(document.title)}", ""]
-    lines += [x for text in document.lead for x in (escaped(text), "")]
+    lines = [f"# {markdown_text(document.title)}", ""]
+    lines += [x for text in document.lead for x in (markdown_text(text), "")]
     lines += _table(DocumentTable("", ("made with", ""), document.facts, words=2))
     if document.command:
         fence = "`" * max(3, 1 + max(map(len, re.findall("`+", document.command)), default=0))
@@ -127,15 +113,15 @@ def markdown(document: Document, folder: str) -> str:
 
 
 def _section(section: Section, level: int, folder: str) -> list[str]:
-    lines = [f"{'#' * level} {escaped(section.title)}", ""]
-    lines += [x for text in section.text for x in (escaped(text), "")]
-    lines += [f"- {escaped(text)}" for text in section.findings]
+    lines = [f"{'#' * level} {markdown_text(section.title)}", ""]
+    lines += [x for text in section.text for x in (markdown_text(text), "")]
+    lines += [f"- {markdown_text(text)}" for text in section.findings]
     lines += [""] if section.findings else []
     for table in section.tables:
         lines += _table(table)
     for picture in section.pictures:
         address = quote(f"{folder}/{picture.name}.{picture.kind}")
-        lines += [f"![{escaped(picture.alternative)}]({address})", "", escaped(picture.caption), ""]
+        lines += [f"![{markdown_text(picture.alternative)}]({address})", "", markdown_text(picture.caption), ""]
     for part in section.parts:
         lines += _section(part, level + 1, folder)
     return lines
@@ -144,9 +130,9 @@ def _section(section: Section, level: int, folder: str) -> list[str]:
 def _table(table: DocumentTable) -> list[str]:
     def row(cells: tuple[str | TableCell, ...]) -> str:
         texts = [cell.text if isinstance(cell, TableCell) else cell for cell in cells]
-        return f"| {' | '.join(map(escaped, texts))} |"
+        return f"| {' | '.join(map(markdown_text, texts))} |"
 
     marks = ["---" if i < table.words else "---:" for i in range(len(table.headings))]
-    lines = [escaped(table.caption), ""] if table.caption else []
+    lines = [markdown_text(table.caption), ""] if table.caption else []
     lines += [row(table.headings), f"| {' | '.join(marks)} |", *(row(cells) for cells in table.rows), ""]
-    return [*lines, *(x for note in table.notes for x in (escaped(note), ""))]
+    return [*lines, *(x for note in table.notes for x in (markdown_text(note), ""))]

@@ -124,7 +124,11 @@ def dataset_of(path: Path) -> xr.Dataset:
 
     with h5py.File(path) as file:
         file["/"]  # without it, h5netcdf leaves an object that prints a traceback when it is deleted
-    return xr.load_dataset(path, engine="h5netcdf")
+    with xr.open_dataset(path, engine="h5netcdf") as dataset:
+        sizes = json.loads(dataset.attrs.get(LAST_HEADER, "{}")).get("sizes", {})
+        last = {LAST_PREFIX + name: size for name, (_, size) in sizes.items()}
+        own = [name for name, v in dataset.data_vars.items() if name in TABLES or last.get(str(name)) == v.size]
+        return dataset[own].load()  # other variables may be larger than the memory
 
 
 def _of_dataset(path: Path, whence: str) -> Recorded:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,8 +19,8 @@ from symgen.compiling.pipeline import MethodChoice, choose_method, for_coordinat
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import DOES
 from symgen.emit.module import render
-from symgen.emit.printer import harmless
 from symgen.errors import AssemblyError, InputError
+from symgen.escapes import markdown_text
 from symgen.files import Content, check_name, templates_folder, why, write_all
 from symgen.ir.program import COUNTERS, SETTLED, STATUS, SUFFIXES
 from symgen.lower.looped.law import is_loopable
@@ -33,7 +34,10 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.store.entries import Modules
 
-_MARK = "Written by symgen"
+#: What the first lines of all written files say, and the number of characters that these have at most.
+_MARK, _HEAD = re.compile(r"\b(written|emitted) by symgen\b", re.IGNORECASE), 1000
+#: Keys of the metadata of looped code.
+_KEYS = {"kernels", "methods"}
 
 
 @dataclass(frozen=True)
@@ -48,12 +52,15 @@ class Package:
         All that were written.
     derive_seconds, emit_seconds : float
         Time that deriving the equations and emitting the code took.
+    notes : tuple of str
+        What else there is to know of them.
     """
 
     folder: Path
     files: tuple[Path, ...]
     derive_seconds: float
     emit_seconds: float
+    notes: tuple[str, ...] = ()
 
 
 def write_package(
@@ -106,13 +113,13 @@ def write_package(
     modules, laws = _by_method(generated.modules, choices, SUFFIXES[target])
     files: dict[str, Content] = {f"{stem}.py": source for stem, (source, _) in modules.items()}
     files["model.json"] = _metadata(modules, laws, run)
-    beside = {"README.md": _readme(mechanism, modules, reason)}
+    files["README.md"] = _readme(mechanism, modules, reason)
+    script = folder / "simulate.py"
     if run is not None:
-        beside["simulate.py"] = (templates_folder() / "package" / "simulate.py").read_text(encoding="utf-8")
-    files |= {name: text for name, text in beside.items() if _may_write(folder / name)}
-    written = write_folder(folder, files)
-    if run is None and _may_write(folder / "simulate.py"):  # of another package
-        (folder / "simulate.py").unlink(missing_ok=True)
+        files[script.name] = (templates_folder() / "package" / script.name).read_text(encoding="utf-8")
+    written = write_folder(folder, files, beside=("README.md", script.name))
+    if run is None and script.exists() and is_own(script):  # of another package
+        script.unlink()
     return Package(folder, written, generated.derive_seconds, generated.emit_seconds)
 
 
@@ -173,14 +180,14 @@ def _started(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] | None, 
     try:
         assembled = assemble(usual)
     except AssemblyError as error:
-        return list(plans), None, harmless(error)
+        return list(plans), None, markdown_text(str(error))
     solver = assembled.compiled.law.options.get("solver", "")
     if usual.solver_is_free and solver != usual.choice.options["solver"]:
         plans = [replace(p, choice=p.choice.with_options(solver=solver)) if p.solver_is_free else p for p in plans]
     try:
         refuse_jumps(usual.mechanism, {}, usual.spec.until)
     except InputError as error:
-        return list(plans), None, harmless(error)
+        return list(plans), None, markdown_text(str(error))
     simulation = begin(usual, assembled).simulation()
     simulation.enter(simulation.outputs(np.zeros(0)), until=0.0)
     state, info, defaults = simulation.state, assembled.compiled.info, usual.mechanism.defaults
@@ -223,22 +230,54 @@ def _readme(mechanism: Mechanism, modules: Modules, reason: str) -> str:
         files["model.json"] += "; parameters and a consistent start"
         files["simulate.py"] = "A run from that start"
     events = ", ".join(f"`{e.name}` {DOES[e.action]}" for e in mechanism.events if e.action in DOES)
-    title = harmless(mechanism.title or mechanism.name)
-    values = {"name": harmless(mechanism.name), "title": title, "files": list(files.items()), "reason": reason}
+    title = markdown_text(mechanism.title or mechanism.name)
+    values = {"name": markdown_text(mechanism.name), "title": title, "files": list(files.items()), "reason": reason}
     return render("package/README.md.j2", values | {"events": events})
 
 
-def _may_write(path: Path) -> bool:
-    """Whether a file may be written: it is not there, or symgen wrote it."""
+def is_own(path: Path) -> bool:
+    """Whether symgen wrote a file: the first lines say so, or, in JSON, all keys are of its metadata.
+
+    Parameters
+    ----------
+    path : Path
+        A file that exists.
+    """
     try:
-        return not path.exists() or _MARK in path.read_text(encoding="utf-8")
-    except (OSError, ValueError):
+        text = path.read_text(encoding="utf-8")
+        if path.suffix == ".json":
+            keys = set(json.loads(text))
+            return keys == _KEYS or keys - {"run"} >= {"name", "digest", "parameters", "coordinates", "methods"}
+    except (OSError, ValueError, TypeError, RecursionError):
         return False
+    return _MARK.search(text[:_HEAD]) is not None
 
 
-def write_folder(folder: Path, files: Mapping[str, Content]) -> tuple[Path, ...]:
-    """Write files, all of them or none, and return them in order."""
-    paths = {folder / name: content for name, content in files.items()}
+def write_folder(folder: Path, files: Mapping[str, Content], beside: Collection[str] = ()) -> tuple[Path, ...]:
+    """Write files, all of them or none, and return them in order.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder, which is made if need be.
+    files : mapping of str to Content
+        Content by the name of the file.
+    beside : collection of str
+        Names of files that are left out where the folder has others of these names.
+
+    Raises
+    ------
+    InputError
+        If the folder cannot be written, or has a file of one of the names that symgen did not write.
+    """
+    paths = dict[Path, Content]()
+    for name, content in files.items():
+        path = folder / name
+        if not os.path.lexists(path) or is_own(path):
+            paths[path] = content
+        elif name not in beside:
+            hint = "nothing was written; name another folder, or move the file"
+            raise InputError("-o", f"a folder whose {name}, if any, is of symgen", f"another '{path}'", hint)
     absent = [f for f in (folder, *folder.parents) if not f.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -156,8 +156,9 @@ class Entries:
         Call `get` again inside: the first process may have made the entry. Where files cannot be locked, no process
         waits; both then do the work and write the same. Not to be nested for one folder.
         """
-        lock = upkeep.folder_lock(self.root, _checked(folder))
+        name = _checked(folder)
         try:
+            lock = upkeep.folder_lock(self.root, name)
             lock.acquire(poll_interval=0.02)
         except (OSError, NotImplementedError):
             yield

@@ -19,7 +19,7 @@ from typing import Any
 #: Sources of symgen by their dependents: the text of emitted code and its metadata, loops and their helpers,
 #: the compiler, rows of sweeps, and cells of studies, whose run times are kept as well.
 SOURCES: Mapping[str, tuple[str, ...]] = {
-    "code": ("describe", "vocabulary", "formulate", "ir", "lower", "emit", "methods", "compiling"),
+    "code": ("describe", "vocabulary", "formulate", "ir", "lower", "emit", "methods", "compiling", "escapes.py"),
     "loops": ("runtime", "integrators"),
     "compiler": ("native",),
     "rows": ("ensemble", "integrators", "result", "running", "runtime"),

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from symgen.store import private
+from symgen.store.locks import file_lock
 from symgen.store.paths import private_folder
 
 if TYPE_CHECKING:
@@ -83,8 +84,8 @@ def clear(root: Path) -> None:
     different files.
     """
     for folder in _model_folders(root):
-        lock = folder_lock(root, folder.name)
         try:
+            lock = folder_lock(root, folder.name)
             lock.acquire(timeout=0)
         except (OSError, NotImplementedError):  # Timeout is an OSError: another process is at work there
             continue
@@ -135,10 +136,8 @@ def note_written(root: Path, size: int) -> None:
 
 def folder_lock(root: Path, folder: str) -> BaseFileLock:
     """Return the lock of a model's folder, not yet taken."""
-    import filelock
-
     private_folder(root / LOCKS)
-    return filelock.FileLock(root / LOCKS / f"{folder}.lock", mode=0o600)
+    return file_lock(root / LOCKS / f"{folder}.lock", mode=0o600)
 
 
 def _model_folders(root: Path) -> Iterator[Path]:

@@ -18,9 +18,11 @@ from types import TracebackType
 from typing import IO, TYPE_CHECKING, Any
 
 from symgen.errors import InputError, SimulationError
+from symgen.escapes import printable
 from symgen.files import check_name
 from symgen.plugins import stamps
 from symgen.store.identity import SOURCES, digest, sources_digest
+from symgen.store.locks import file_lock
 from symgen.version import __version__
 
 if TYPE_CHECKING:
@@ -124,6 +126,10 @@ class Journal:
     def __iter__(self) -> Iterator[str]:
         return iter(self._done)
 
+    def drop(self, key: str) -> None:
+        """Forget a cell: it is computed again, and its new line counts."""
+        self._done.pop(key, None)
+
     def get(self, key: str) -> Outcome | None:
         """Return the outcome of a cell, None if it is not finished."""
         return self._done.get(key)
@@ -173,8 +179,8 @@ class Journal:
         if not path.parent.is_dir():  # the lock would create it
             raise InputError(f"journal '{path}'", "a file in a folder that exists", f"no folder '{path.parent}'")
         _content(path)  # a file that is no journal gets no lock file
-        lock = filelock.FileLock(_lock_of(path))
         try:
+            lock = file_lock(_lock_of(path))
             lock.acquire(timeout=0)
         except filelock.Timeout:
             raise InputError(f"journal '{path}'", "one that no other process uses", "one in use") from None
@@ -226,9 +232,18 @@ def _parsed(line: bytes) -> tuple[str, Outcome] | None:
     try:
         entry = json.loads(line)
         written = entry.pop("sha256")
-        return (entry["key"], entry["outcome"]) if written == _digest(entry) else None
+        return (entry["key"], _shown(entry["outcome"])) if written == _digest(entry) else None
     except (ValueError, RecursionError, AttributeError, LookupError, TypeError):
         return None
+
+
+def _shown(value: Any) -> Any:
+    """Return an outcome with printable texts, as those of symgen are: a journal may come from somebody else."""
+    if isinstance(value, str):
+        return printable(value)
+    if isinstance(value, dict):
+        return {key: _shown(each) for key, each in value.items()}
+    return [_shown(each) for each in value] if isinstance(value, list) else value
 
 
 def _digest(entry: Mapping[str, Any]) -> str:

@@ -40,12 +40,15 @@ class Cell:
         Argument of `compute`; it is sent to processes.
     cost : float
         Expected work relative to other cells, for the estimate of the remaining time.
+    check : callable
+        Raises `ValueError` for an entry of a journal that is no outcome of such a cell; it is computed again.
     """
 
     key: str
     group: str
     task: Any
     cost: float = 1.0
+    check: Callable[[Outcome], object] = dict
 
 
 @dataclass(frozen=True)
@@ -129,6 +132,12 @@ def run_cells(
         If a process dies.
     """
     unique = list({cell.key: cell for cell in cells}.values())
+    for cell in unique:
+        if (entry := journal.get(cell.key)) is not None:
+            try:
+                cell.check(entry)
+            except ValueError:
+                journal.drop(cell.key)
     missing = sorted((cell for cell in unique if cell.key not in journal), key=lambda cell: cell.group)
     work = sum(cell.cost for cell in unique)
     behind = work - sum(cell.cost for cell in missing)

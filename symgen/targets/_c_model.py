@@ -17,10 +17,9 @@ from symgen.describe.formula_text import to_text
 from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.mechanism import SpatialBody
 from symgen.emit.module import render
-from symgen.emit.printer import harmless
 from symgen.errors import InputError
 from symgen.ir.program import COUNTERS, SETTLED
-from symgen.native.c99 import RESERVED, broken, c_functions, c_number
+from symgen.native.c99 import broken, c_functions, c_number
 from symgen.native.formula_lines import C, NotInLines
 from symgen.native.read import Foreign
 from symgen.running.plan import Purpose
@@ -28,6 +27,7 @@ from symgen.running.prepare import Prepared, prepare
 from symgen.running.start_lines import derived_lines, fixed_velocities, independent_places, lines_for, start_lines
 from symgen.runtime import abi
 from symgen.runtime.model_arrays import lengths_of
+from symgen.targets._c_names import prefix_of
 from symgen.vocabulary.expressions import ZERO
 
 if TYPE_CHECKING:
@@ -89,11 +89,23 @@ class CModel:
         """Whether the state has joint coordinates."""
         return self.run.tree is not None
 
-    @property
+    @cached_property
     def prefix(self) -> str:
         """Prefix of the names of the C functions."""
+        return prefix_of(self.mechanism.name, self.text)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Another name of the mechanism in C, in words."""
         name = self.mechanism.name.replace("-", "_")
-        return f"{name}_model" if name in RESERVED else name
+        if self.prefix == name:
+            return ()
+        return (f"in C, names of '{self.mechanism.name}' begin with {self.prefix}: {name} has another meaning there",)
+
+    @cached_property
+    def text(self) -> str:
+        """Emitted functions in C."""
+        return c_functions(self.functions)
 
     @property
     def columns(self) -> tuple[Quantity, ...]:
@@ -125,10 +137,9 @@ class CModel:
             f"{c_number(constant or 0.0)}}}"
             for row, column, constant, slot in info.jacobian
         ]
-        functions = self._functions()
         return {
             "name": mechanism.name,
-            "title": harmless(mechanism.title or mechanism.name),
+            "title": mechanism.title or mechanism.name,
             "method": law.method,
             "prefix": self.prefix,
             "upper": self.prefix.upper(),
@@ -143,7 +154,7 @@ class CModel:
             "stopping": [i for i in acting if mechanism.events[i].action == STOP],
             "resets": [{"event": i, "function": _reset(event), "columns": changed[i]} for i, event in resets],
             "parameters": [
-                {"name": q.name, "unit": harmless(q.unit), "value": c_number(x), "input": q.name in info.inputs}
+                {"name": q.name, "unit": q.unit, "value": c_number(x), "input": q.name in info.inputs}
                 for q, x in zip(info.parameters, parameters.values(), strict=True)
             ],
             "inputs": _list(int(q.name in info.inputs) for q in info.parameters) or "0",
@@ -162,9 +173,9 @@ class CModel:
                 **{name: info.sections[name][0] for name in ("residual", "nu", "change", "gauge", "mass")},
                 **{"length": abi.LENGTH, "step": abi.STEP_STATUS},
             },
-            "functions": c_functions(functions),
-            "confirm": "confirm" in functions,
-            "move": "move" in functions,
+            "functions": self.text,
+            "confirm": "confirm" in self.functions,
+            "move": "move" in self.functions,
             "joint": self.joint,
             "signs": _list(int(x) for x in self.run.tree.signs) if self.run.tree is not None else "",
             "observed": of_bodies.nq + 2 * of_bodies.nv,
@@ -174,8 +185,9 @@ class CModel:
             **self._start(),
         }
 
-    def _functions(self) -> dict[str, Function]:
-        """Return checked functions by their names in C."""
+    @cached_property
+    def functions(self) -> dict[str, Function]:
+        """Checked functions by their names in C."""
         try:
             functions = checked(self.compiled, _NAMES)
         except Foreign as error:

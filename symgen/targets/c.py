@@ -14,7 +14,8 @@ def _write(request: Request) -> Package:
     files["main.c"] = render("c/main.c.j2", model.values)
     files["README.md"] = render("c/README.md.j2", model.values)
     compiled = model.compiled
-    return Package(request.path, write_folder(request.path, files), compiled.derive_seconds, compiled.emit_seconds)
+    written = write_folder(request.path, files, beside=("README.md",))
+    return Package(request.path, written, compiled.derive_seconds, compiled.emit_seconds, model.notes)
 
 
 KIND = Target(_write)

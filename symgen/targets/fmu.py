@@ -75,7 +75,7 @@ def _write(request: Request) -> Package:
             archive.writestr(entry, data)
     write_all({request.path: content.getvalue()})
     compiled = model.compiled
-    return Package(request.path.parent, (request.path,), compiled.derive_seconds, compiled.emit_seconds)
+    return Package(request.path.parent, (request.path,), compiled.derive_seconds, compiled.emit_seconds, model.notes)
 
 
 def _files(model: CModel, fmi: int) -> dict[str, bytes]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from symgen.errors import InputError
+from symgen.escapes import script_json
 from symgen.player.live import live_part
-from symgen.player.motion_page import as_json, model_script
+from symgen.player.motion_page import model_script
 from symgen.running.package import Package, write_folder
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
@@ -25,7 +26,7 @@ def _write(request: Request) -> Package:
     if live is None:
         raise InputError("--target javascript", "a mechanism that a page can work out", f"{mechanism.name}: {reason}")
     words = {"name": mechanism.name, "method": run.compiled.law.method}
-    text = _MODULE.format(script=model_script(live), spec=as_json(live.spec), **words)
+    text = _MODULE.format(script=model_script(live), spec=script_json(live.spec), **words)
     files = write_folder(request.path, {f"{mechanism.name}.mjs": text})
     return Package(request.path, files, run.compiled.derive_seconds, run.compiled.emit_seconds)
 

@@ -287,3 +287,40 @@ def test_the_method_that_a_package_starts_is_in_it(coordinates, tmp_path):
     assert main(["generate", "pendulum", "-o", str(folder), *arguments]) == 0
     about = json.loads((folder / "model.json").read_text())
     assert about["run"]["method"] in about["methods"] and (folder / "direct_correction.py").exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "name"),
+    [
+        ((), "model.py"),
+        ((), "direct_correction.py"),
+        ((), "model.json"),
+        (("--shape", "looped"), "machine.py"),
+        (("--target", "c"), "main.c"),
+        (("--target", "c"), "pendulum.c"),
+        (("--target", "c"), "pendulum.h"),
+        (("--target", "javascript"), "pendulum.mjs"),
+    ],
+)
+def test_a_file_of_somebody_else_is_left_alone(options, name, tmp_path, capsys):
+    """Every file of a folder that symgen writes is replaced by the next one, and none that somebody else wrote."""
+    folder = tmp_path / "emitted"
+    command = ["generate", "pendulum", *options, "-o", str(folder)]
+    assert main(command) == main(command) == 0
+    files = {path.name: path.read_bytes() for path in folder.iterdir()}
+    for path in folder.iterdir():
+        path.unlink()
+    (folder / name).write_text('{"parameters": 1}' if name.endswith("json") else "precious\n")
+    capsys.readouterr()
+    assert main(command) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and f"another '{folder / name}'; nothing was written" in said
+    assert [path.name for path in folder.iterdir()] == [name]
+    (folder / name).unlink()
+    (folder / name).symlink_to(tmp_path / "nowhere")
+    assert main(command) == 2
+    assert not (tmp_path / "nowhere").exists()
+    (folder / name).unlink()
+    (folder / "README.md").write_text("mine")
+    assert main(command) == 0
+    assert {p.name: p.read_bytes() for p in folder.iterdir()} == files | {"README.md": b"mine"}

@@ -4,10 +4,13 @@ import sys
 import tomllib
 
 import pytest
+from support.emitted import mechanism_of
 
 from symgen.describe.load import LONGEST_KEY, load, parse_toml
 from symgen.describe.validate import validate
-from symgen.errors import LONGEST_PART, InputError, nearest, printable, quoted
+from symgen.errors import LONGEST_PART, InputError, nearest, quoted
+from symgen.escapes import printable
+from symgen.formulate.formulate import formulate
 
 HEAD = '[mechanism]\nname = "x"\n'
 BODY = "[bodies.b]\nmass = 1.0\ninertia = 1.0\n"
@@ -179,3 +182,27 @@ def test_words_of_messages():
     assert len(place) < 300 and place.startswith("crane.toml: bodies.b") and "b.mass: expected b" in place
     assert nearest("q", [f"name{i}" for i in range(100)]).endswith(", name61, name62 and 40 more")
     assert nearest("name7x", [f"name{i}" for i in range(3000)]) == "did you mean 'name7'?"
+
+
+def test_a_number_of_too_many_digits_is_refused_in_a_sentence_of_symgen():
+    with pytest.raises(InputError, match=r"m\.toml: expected whole numbers of at most [0-9]+ digits, got a longer one"):
+        parse_toml(f"[parameters]\nk = {'9' * 200_000}\n", "m.toml")
+
+
+@pytest.mark.parametrize("count", [50, 51, 100])
+def test_a_coupling_has_as_many_coefficients_as_can_be_derived(count):
+    """A hundred ended in a RecursionError."""
+    description = {
+        "mechanism": {"name": "m"},
+        "bodies": {"rod": {"mass": 2.0, "inertia": 0.5}},
+        "joints": {
+            "pin": {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], [0.5, 0.0]]},
+            "c": {"type": "coupling", "terms": {"pin": 1.0}, "of": "pin", "polynomial": [1e-3] * count},
+        },
+    }
+    if count > 50:
+        expected = f"polynomial: expected at most 50 coefficients, got {count}"
+        with pytest.raises(InputError, match=expected):
+            mechanism_of(description)
+    else:
+        assert formulate(mechanism_of(description)).rows[-1].name == "c.coupling"

@@ -21,8 +21,9 @@ from support.random_space import make
 from symgen.compiling.pipeline import MethodChoice, choose_method, generate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.sections import SECTIONS
-from symgen.emit.printer import LONGEST, harmless, table_name
+from symgen.emit.printer import table_name
 from symgen.errors import InputError
+from symgen.escapes import LONGEST, comment_text
 from symgen.methods._base import MethodOption, MethodParameter, MultiplierMethod
 from symgen.store.modules import load_module
 
@@ -169,9 +170,9 @@ def test_words_of_methods_are_harmless(monkeypatch, tmp_path):
 
 def test_harmless_text_is_left_alone():
     for text in ("kg m^2", "N m s/rad", "m/s²", "Bayo, García de Jalón (1988) 'x'", "{{ a }}", "# % $"):
-        assert harmless(text) == text
-    assert harmless('5" \\ a\nb') == "5' / a b"
-    assert len(harmless("m" * 10**6)) == LONGEST
+        assert comment_text(text) == text
+    assert comment_text('5" \\ a\nb') == "5' / a b"
+    assert len(comment_text("m" * 10**6)) == LONGEST
 
 
 # -- names -------------------------------------------------------------------------------------------------------------

@@ -13,11 +13,12 @@ from markdown_it import MarkdownIt
 
 from report.made import row, study, trace
 from symgen.errors import InputError
+from symgen.escapes import markdown_text
 from symgen.report import comparison as sections
 from symgen.report import picture
 from symgen.report.comparison import comparison
 from symgen.report.figures import pictures
-from symgen.report.write import check_report, escaped, html, markdown, write
+from symgen.report.write import check_report, html, markdown, write
 
 VOID = {"meta", "img", "br", "hr", "link", "input"}
 
@@ -209,9 +210,9 @@ def test_studies_with_nothing_to_draw_still_make_a_page():
 
 def test_markdown_escapes_what_would_be_more_than_text():
     for plain in ("7.3×10⁻¹²", "-0.5 of it", "3.1 and 4)", "a_b", "#x", "2.", "+5"):
-        assert escaped(plain) == plain.replace("2.", "2\\.")
+        assert markdown_text(plain) == plain.replace("2.", "2\\.")
     for text, expected in (("- a", "\\- a"), ("1. a", "1\\. a"), ("# a", "\\# a"), ("a*b", "a\\*b"), ("---", "\\---")):
-        assert escaped(text) == expected
+        assert markdown_text(text) == expected
 
 
 def test_markdown_says_the_same_with_pictures_beside_it(document, tmp_path):

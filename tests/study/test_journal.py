@@ -12,8 +12,10 @@ from pathlib import Path
 import pytest
 
 from symgen.errors import InputError, SimulationError
+from symgen.study.comparison.comparison_rows import check_entry, to_entry
 from symgen.study.journal import HEADER, Journal, cell_key
 from symgen.study.runner import Cell, run_cells
+from tests.report.made import row, trace
 from tests.study import killed_study
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -236,3 +238,45 @@ def test_cells_are_those_of_the_code_that_made_them(edited, monkeypatch):
     after = code_identity()
     sources_digest.cache_clear()
     assert after != known
+
+
+@pytest.mark.parametrize("kind", ["link", "hard link", "content"])
+def test_a_lock_that_is_a_file_of_somebody_else_is_refused(kind, tmp_path):
+    """A lock is opened for writing: through a link `rows.lock` it emptied the file at its end."""
+    precious, lock = tmp_path / "precious.txt", tmp_path / "rows.lock"
+    precious.write_text("precious")
+    {"link": lock.symlink_to, "hard link": lock.hardlink_to, "content": lambda _: lock.write_text("mine")}[kind](
+        precious
+    )
+    before = lock.read_text()
+    with pytest.raises(InputError, match=r"got 'rows\.lock', which is no lock of symgen"):
+        Journal(tmp_path / "rows")
+    assert (lock.read_text(), precious.read_text()) == (before, "precious") and not (tmp_path / "rows").exists()
+
+
+def test_an_entry_of_somebody_else_is_shown_printable_or_computed_again(tmp_path):
+    """Texts may hold what terminals act on; an entry of another form was a KeyError of the report."""
+    path = tmp_path / "rows"
+    with Journal(path) as journal:
+        journal.add("a", {"status": "no such", "reason": "\x1b]0;owned\x07\u202e", "more": [{"note": "\x9b31m"}]})
+    with Journal(path) as journal:
+        entry = journal.get("a")
+        assert entry["reason"] == "\\x1b]0;owned\\x07\\u202e" and entry["more"] == [{"note": "\\x9b31m"}]
+
+        def check(outcome):
+            if outcome["status"] != "ok":
+                raise ValueError
+
+        for _ in range(2):
+            outcomes, _ = run_cells([Cell("a", "", 3, check=check)], lambda task: {"status": "ok", "n": task}, journal)
+            assert outcomes == {"a": {"status": "ok", "n": 3}}
+    with Journal(path) as journal:
+        assert journal.get("a") == {"status": "ok", "n": 3}
+
+
+@pytest.mark.parametrize("change", [{"status": "no such"}, {"status": 3}, {"run_seconds": "much"}, {"unknown": 1}])
+def test_a_row_of_a_comparison_that_is_none_is_refused(change):
+    entry = to_entry(row("lagrange", 1e-3, float("nan"), 0.1), trace())
+    check_entry(json.loads(json.dumps(entry)))
+    with pytest.raises(ValueError):
+        check_entry({**entry, "row": {**entry["row"], **change}})

@@ -6,8 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
+import msgspec
 import numpy as np
 from msgspec import structs
 
@@ -25,7 +26,16 @@ from symgen.runtime.timing import timed
 from symgen.settings import Settings, default
 from symgen.store.paths import cache_location
 from symgen.study.comparison.combinations import Combinations, words_of_variant
-from symgen.study.comparison.comparison_rows import Row, Study, Trace, from_entry, save_csv, to_entry, with_ratios
+from symgen.study.comparison.comparison_rows import (
+    Row,
+    Study,
+    Trace,
+    check_entry,
+    from_entry,
+    save_csv,
+    to_entry,
+    with_ratios,
+)
 from symgen.study.comparison.measured_runs import measured
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
 from symgen.study.machine_class import machine_class, versions
@@ -231,7 +241,7 @@ class _Work:
     def reference(self) -> Cell:
         """Cell of the reference."""
         task = ReferenceTask(self.model.mechanism, self.settings[0], self.times, self.reference_by)
-        return Cell(cell_key(what="reference", **self._parts), self.model.name, task)
+        return Cell(cell_key(what="reference", **self._parts), self.model.name, task, check=_check_motion)
 
     @cached_property
     def rows(self) -> list[Cell]:
@@ -239,7 +249,7 @@ class _Work:
         cells = []
         for i, settings in enumerate(self.settings):
             own = {f.name: getattr(settings, f.name) for f in fields(settings) if f.name not in self._parts}
-            cells.append(Cell(cell_key(what="comparison", **self._parts, **own), "", i))
+            cells.append(Cell(cell_key(what="comparison", **self._parts, **own), "", i, check=check_entry))
         return cells
 
     def ahead(self) -> list[Cell]:
@@ -302,6 +312,22 @@ class _Work:
             repeat=base.repeat,
             start=dict(base.start),
         )
+
+
+class _Motion(TypedDict):
+    how: str
+    estimated_error: float
+    q: list[list[float]]
+    note: str
+
+
+class _Unusable(TypedDict):
+    unusable: str
+
+
+def _check_motion(entry: Outcome) -> None:
+    """Raise `ValueError` unless an entry of a journal is that of a reference."""
+    msgspec.convert(entry, _Unusable if "unusable" in entry else _Motion)
 
 
 def _reference(entry: Outcome, times: Array) -> Reference | None:

@@ -8,7 +8,9 @@ from dataclasses import asdict, dataclass, field, fields, replace
 from os import PathLike
 from pathlib import Path
 from statistics import median
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, TypedDict, cast
+
+import msgspec
 
 from symgen.arguments import one_of, words
 from symgen.arguments import path as argument_path
@@ -17,7 +19,7 @@ from symgen.files import check_path, check_writable, headed, write_csv
 from symgen.result.contract import finite
 from symgen.result.export import PLOTTED
 from symgen.result.labelled import html_table
-from symgen.result.result import FAILED
+from symgen.result.result import FAILED, OK, UNVERIFIED
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -189,6 +191,19 @@ def from_entry(entry: Mapping[str, Any]) -> tuple[Row, Trace]:
 
     values, curves = ({name: plain(value) for name, value in entry[what].items()} for what in ("row", "trace"))
     return Row(**values), Trace(**curves)
+
+
+class _Entry(TypedDict):
+    row: Row
+    trace: Trace
+
+
+def check_entry(entry: Mapping[str, Any]) -> None:
+    """Raise `ValueError` unless `from_entry` can read an entry of a journal."""
+    row = msgspec.convert(entry, _Entry, strict=False)["row"]
+    unknown = {*entry["row"], *entry["trace"]} - {f.name for part in (Row, Trace) for f in fields(part)}
+    if unknown or row.status not in (OK, UNVERIFIED, FAILED):
+        raise ValueError(row.status)
 
 
 def with_ratios(rows: Sequence[Row]) -> tuple[Row, ...]:

@@ -7,7 +7,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypedDict, TypeVar
+
+import msgspec
 
 from symgen import arguments
 from symgen.describe.digest import identity
@@ -15,12 +17,14 @@ from symgen.describe.mechanism import bounded
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
+from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.running.automatic import AUTO, constant_integrator
 from symgen.running.plan import refuse_events, refuse_weightless
 from symgen.settings import Settings, default
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
 from symgen.study.runner import Cell, Status, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable
+from symgen.study.stress.cell_outcome import OUTCOMES
 from symgen.study.stress.cell_references import without_reference
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
 from symgen.study.stress.effort import BUDGET, left_out
@@ -274,7 +278,38 @@ def _cell(task: CellReference | RunTask) -> Cell:
     limits = [task.common.max_violation, task.common.max_energy_error, task.common.max_attempts]
     # roughly how long a run takes, in steps
     cost = 50.0 + steps * (10.0 if task.integrator == "radau5" else 1.0)
-    return Cell(cell_key(**parts, limits=limits), f"{name} {task.method}", task, cost)
+    check = _check_limit if isinstance(task, LimitTask) else _check_run
+    return Cell(cell_key(**parts, limits=limits), f"{name} {task.method}", task, cost, check)
+
+
+class _Run(TypedDict):
+    outcome: str
+    error: float | None
+    status: str
+    reason: str | None
+    evaluations: int
+    position_violation_max: float | None
+    velocity_violation_max: float | None
+    energy_drift_max: float | None
+    chosen: str
+    note: str
+
+
+class _Steps(TypedDict):
+    stable_step: float | None
+    accurate_step: float | None
+
+
+def _check_run(entry: Outcome) -> None:
+    """Raise `ValueError` unless an entry of a journal is that of a run."""
+    run = msgspec.convert(entry, _Run)
+    if run["outcome"] not in OUTCOMES or run["status"] not in (OK, UNVERIFIED, FAILED, "not run"):
+        raise ValueError(run["status"])
+
+
+def _check_limit(entry: Outcome) -> None:
+    """Raise `ValueError` unless an entry of a journal is that of a search."""
+    msgspec.convert(entry, _Steps)
 
 
 def _row(task: RunTask, outcome: Outcome) -> StressRow:
