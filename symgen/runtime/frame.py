@@ -13,6 +13,7 @@ and so does the target: a processor, vector lanes, a CUDA device.
 | `happened` | system, run, t, following, h, hunting | tests whether an event lies inside an acceptable step |
 | `attend` | system, run, doing | other work for events (`symgen.runtime.hunting`): `LOOK`, `REMEMBER`, `RECALL` |
 | `aimed` | system, run, h | a step that ends where the state passes a point of a table, in place of one of `h` |
+| `is_astray` | span, run, adaptive | whether an accepted state was corrected by more than its error explains |
 
 `attempt` returns its error estimate over the tolerance, 0 without an estimate, and changes no data of the run: it may
 be repeated with a shorter step. All data for the next step are in the arrays of `symgen.runtime.records.State`, so a
@@ -113,6 +114,11 @@ def attend(system: Any, run: Any, doing: int) -> int:
 def aimed(system: Any, run: Any, h: float) -> float:
     """Return the step to try in place of one of `h` seconds, proposed by the error estimate."""
     return h
+
+
+def is_astray(span: Any, run: Any, adaptive: bool) -> bool:
+    """Return False: only rows that may jump are examined."""
+    return False
 
 
 # -- parts that depend on the target -----------------------------------------------------------------------------------
@@ -340,6 +346,8 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         setting_out = (not ADAPTIVE or ROUGH) and control[abi.STEPS] <= SETTING_OUT
         if setting_out and code == abi.ENERGY and following < span.end - tiny:
             code = abi.DONE
+        if EVENTS and code == abi.DONE and is_astray(span, run, ADAPTIVE):
+            code = abi.JUMPED
         if code != abi.DONE:
             return code
         if EVENTS and hunting == MEET:

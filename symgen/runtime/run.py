@@ -212,6 +212,10 @@ def reason_of(simulation: Simulation, code: int, end: float) -> str:
     scale = float(state.gauges[abi.ENERGY_SCALE])
     if code in (abi.GATHERED, abi.UNDEFINED) and simulation.events is not None:
         return simulation.events.reason(code, state, end)
+    failed = code not in (abi.DONE, abi.STOPPED, abi.GATHERED)
+    jump = simulation.events.jump(state) if failed and simulation.events is not None else ""
+    if jump:  # whatever it has led to
+        return jump
     reason = end_reason(code, end, tuple(float(state.w[i]) for i in measures), scale, attempts, simulation.spec)
     return reason + (f" (row {_shortest_row(simulation.compiled, state.w)})" if code == abi.VANISHED else "")
 
