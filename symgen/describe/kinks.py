@@ -39,6 +39,8 @@ from symgen.vocabulary.measures import Effort, FormulaMeasure, FormulaSpeed, Hol
 #: Functions that may jump, and those that compare a value with zero, or two values with each other.
 _SIDES = ("lt", "le", "gt", "ge", "sign")
 _COMPARED = (*_SIDES, *BENT)
+#: Inverses of functions, and the function that is 0 where they have kinks or jump.
+_INVERSE = {("acos", "cos"): "sin", ("asin", "sin"): "cos", ("atan", "tan"): "cos"}
 #: How these are written where a formula is encoded: with their lengths, as `le` stands in other words too.
 _COMPARED_TEXTS = tuple(map(msgspec.msgpack.encode, _COMPARED))
 
@@ -148,10 +150,27 @@ def changes_of(formula: Expr) -> tuple[Expr, ...]:
 
 
 def _passed_at(e: Call) -> tuple[Expr, ...]:
-    """Return the expressions that are 0 where a call jumps or has a kink: of `atan2` both, its cut is within y = 0."""
+    """Return the expressions that are 0 where a call jumps or has a kink.
+
+    Of `atan2` these are both arguments, as its cut lies where y is 0. An inverse of a function that is not monotonic
+    has kinks: the root of a square is an absolute value.
+    """
     if e.function in _COMPARED:
         return (compared(e),)
-    return e.arguments if e.function == "atan2" else ()
+    if e.function == "atan2":
+        return e.arguments
+    inner = e.arguments[0]
+    if not isinstance(inner, Call):
+        return ()
+    if e.function == "sqrt" or (e.function == "pow" and not _is_whole(e.arguments[1])):
+        squared = inner.function == "pow" and isinstance(n := inner.arguments[1], Number) and n.value % 2.0 == 0.0
+        return inner.arguments[:1] if squared or (inner.function == "mul" and len({*inner.arguments}) == 1) else ()
+    turning = _INVERSE.get((e.function, inner.function))
+    return () if turning is None else (Call(turning, inner.arguments),)
+
+
+def _is_whole(e: Expr) -> bool:
+    return isinstance(e, Number) and e.value.is_integer()
 
 
 @dataclass(frozen=True)

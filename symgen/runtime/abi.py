@@ -142,7 +142,8 @@ MAX_EVENTS = 1000
     UNDEFINED,
     UNPREPARED,
     JUMPED,
-) = range(15)
+    TURNED,
+) = range(16)
 #: The loop can be entered again: after a number of steps, once a matrix has more room, or once other independent rows
 #: are chosen; `LEFT`: a run in a lane is left to the loop over single runs.
 PAUSED, NO_ROOM, LEFT, CHOOSE = -1, -2, -3, -4
@@ -165,6 +166,7 @@ REASONS = {
     GATHERED: "events accumulate",
     UNDEFINED: "the condition of an event is undefined",
     UNPREPARED: "inputs: expected values for which every formula is finite, got others",
-    JUMPED: "a row jumps or has a kink: a correction moved bodies by much more than the error of a step explains",
+    JUMPED: "a row jumps or has a kink, which would take an impulse; a run by itself names the row",
+    TURNED: "a constant step turns a body too far for the angle of a place to count turns: take shorter ones",
     VANISHED: "a row that is an angle has lost its gradient: the joint stands where it determines nothing",
 }

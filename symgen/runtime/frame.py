@@ -174,6 +174,15 @@ def taken_back(run: Any, times: Any, out: int, t: float) -> int:
     return out
 
 
+def largest_turn(sizes: Any, span: Any, run: Any) -> float:
+    """Return the largest change of an angle from the state to the trial state [rad]."""
+    largest = 0.0
+    for i in range(sizes.nq):
+        if run.metric[i] == 0.0:
+            largest = max(largest, abs(run.trial[i] - run.y[i]))
+    return largest
+
+
 def refused(run: Any, times: Any, out: int, t: float, phi: float, drift: float, energy: float) -> int:
     """Refuse the step from the time `t` [s]; restore the largest violations and energy error from before it.
 
@@ -288,6 +297,14 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         kinetic, potential = run.w[abi.KINETIC], run.w[abi.POTENTIAL]
         error = attempt(system, scheme, span, run, t, following, h, probing)
         # -- is it good enough?
+        turn = largest_turn(sizes, span, run) if math.isfinite(span.turn) and error >= 0.0 else 0.0
+        if turn > span.turn:
+            if not ADAPTIVE:
+                return abi.TURNED
+            clock[abi.NEXT] = _SHORT_OF * h * span.turn / turn
+            refuse(run)
+            hunting, out = NOTHING, refused(run, times, out, t, phi, drift, energy)
+            continue
         if error < 0.0:
             if error == TOO_LARGE:
                 return abi.NO_ROOM

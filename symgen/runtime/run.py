@@ -59,6 +59,8 @@ class RunSpec:
         Output times, increasing.
     largest_step : float
         Bound of adaptive steps [s].
+    largest_turn : float
+        Bound of the change of an angle in a step, as angles that count turns follow it [rad].
     max_violation : float
         Largest tolerated |Phi| (times the scale of lengths) and |D v - nu| (times the largest speed).
     max_velocity_violation : float or None
@@ -89,6 +91,7 @@ class RunSpec:
     atol: float = 1e-10
     relative: bool = False
     largest_step: float = np.inf
+    largest_turn: float = np.inf
     max_violation: float = 1e-6
     max_velocity_violation: float | None = None
     max_energy_error: float = 0.05
