@@ -59,6 +59,12 @@ def counts_turns(mechanism: Mechanism) -> bool:
     return mechanism.space != "planar" or any(isinstance(m, Turning) for m in reported)
 
 
+def follows_places(mechanism: Mechanism) -> bool:
+    """Return whether joints without rows report angles whose turns are counted: nothing else bounds their changes."""
+    places = (joint for joint in mechanism.joints if not joint.rows)
+    return any(isinstance(m, Turning) for joint in places for _, m in joint.coordinates)
+
+
 def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
     """Return the angles of the section ``winding`` in its order.
 

@@ -19,7 +19,7 @@ from symgen.describe.holds import holds_of
 from symgen.describe.kinks import discontinuities_of, longest_step
 from symgen.errors import InputError, quoted
 from symgen.integrators import INTEGRATORS
-from symgen.lower.windings import counts_turns
+from symgen.lower.windings import follows_places
 from symgen.methods import METHODS
 from symgen.running.automatic import usual_integrator
 from symgen.running.options import split_options
@@ -219,7 +219,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         atol=ATOL / RTOL * rtol if s.atol is None else s.atol,
         relative=s.atol is None,
         largest_step=min(own or np.inf, longest),
-        largest_turn=LARGEST_TURN if mechanism.space == "planar" and counts_turns(mechanism) else np.inf,
+        largest_turn=LARGEST_TURN if follows_places(mechanism) else np.inf,
         max_violation=s.max_violation,
         max_velocity_violation=limit_of_velocities(method, s.max_violation),
         max_energy_error=np.inf if method.correction(choice.options).energy else s.max_energy_error,

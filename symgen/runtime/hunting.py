@@ -28,9 +28,9 @@ from symgen.runtime.vectors import copied, largest
 
 Array = NDArray[np.float64]
 
-#: Largest correction of an accepted state in units of the tolerance of its step; and one that is always allowed to a
-#: constant step, of angles and of coordinates over the length of the mechanism.
-FAR, SMALL = 1e4, 1e-3
+#: Largest correction of an accepted state in units of the tolerance of its step (over the catalogue they are below 1);
+#: and one that is always allowed to a constant step, of angles and of coordinates over the length of the mechanism.
+FAR, SMALL = 1e3, 1e-3
 
 #: A `State` with `hunt`, the data of events (`symgen.runtime.searching`).
 HuntingState = record("HuntingState", *State._fields, "hunt", module=__name__)
