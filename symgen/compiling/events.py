@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from symgen.compiling.side import Side, compile_side
 from symgen.describe.evaluate import evaluate
 from symgen.describe.formula_text import to_text
-from symgen.describe.kinks import Discontinuity, discontinuities_of
+from symgen.describe.kinks import Discontinuity, changing_rows, discontinuities_of
 from symgen.describe.mechanism import Event, Mechanism, SpatialBody
 from symgen.ir.interpolation import Interpolation
 from symgen.runtime.abi import OBSERVE
@@ -19,6 +19,7 @@ from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.events import Switch, Watched
 from symgen.runtime.probe import Ready
 from symgen.runtime.resets import Masses, Reset, linear_in_v
+from symgen.runtime.row_jumps import RowJumps
 
 Array = NDArray[np.float64]
 
@@ -49,8 +50,9 @@ def compile_events(
         Values of the parameters.
     rtol : float, optional
         Tolerance of adaptive steps, which end where formulas jump or have kinks over the state; constant steps do not.
+        In either, rows that change are examined there.
     """
-    passed = () if rtol is None else discontinuities_of(mechanism)
+    passed = tuple(x for x in discontinuities_of(mechanism) if rtol is not None or x.holds)
     if not (events or passed):
         return None
     functions = [(f"{event.name}: {event.text}", event.when) for event in events]
@@ -70,9 +72,20 @@ def compile_events(
         needs_rates="ydot" in side.reads,
         resets=resets,
         masses=masses_of(mechanism, values) if resets else None,
-        switches=tuple(switch_of(x, rtol or 0.0) for x in passed),
+        switches=tuple(switch_of(x, 1.0 if rtol is None else rtol) for x in passed),
         jumps=any(x.jumps for x in passed),
+        rows=row_jumps(mechanism, compiled) if any(x.holds for x in passed) else None,
+        adaptive=rtol is not None,
     )
+
+
+def row_jumps(mechanism: Mechanism, compiled: CompiledModel) -> RowJumps:
+    """Return the rows whose formulas may jump or have kinks over the state."""
+    rows = tuple(row for row in changing_rows(mechanism) if row.switches)
+    formulas = [(to_text(e), e) for row in rows for e in row.switches]
+    formulas += [(row.name, row.formula) for row in rows]
+    side = compile_side(mechanism, compiled, "rows", "Rows that may jump", formulas)
+    return RowJumps(rows, side, mechanism.defaults.until)
 
 
 def velocities_at(mechanism: Mechanism, compiled: CompiledModel, event: Event) -> Side:
@@ -91,7 +104,7 @@ def switch_of(passed: Discontinuity, rtol: float) -> Switch:
     """
     table = passed.table
     if table is None:
-        return Switch(rtol)
+        return Switch(rtol, holds=passed.holds)
     period = table.x[-1] - table.x[0] if table.periodic else 0.0
     own = table.x[:-1] if table.periodic else table.x
     points = tuple(x for x, size in zip(own, sizes_of_kinks(table.interpolated), strict=False) if size > rtol)

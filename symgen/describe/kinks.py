@@ -18,13 +18,29 @@ from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.readings import integrated
 from symgen.describe.remembered import remembered
 from symgen.describe.tables import Table
-from symgen.vocabulary.expressions import BENT, Call, Expr, Name, Number, Reading, names, readings, table_of
+from symgen.vocabulary.expressions import (
+    BENT,
+    ZERO,
+    Call,
+    Expr,
+    Name,
+    Number,
+    Reading,
+    call,
+    difference,
+    names,
+    readings,
+    table_of,
+    total,
+)
 from symgen.vocabulary.functions import ELEMENTARY
-from symgen.vocabulary.measures import Effort
+from symgen.vocabulary.measures import Effort, FormulaMeasure, FormulaSpeed, Holonomic
 
 #: Functions that may jump, and those that compare a value with zero, or two values with each other.
 _SIDES = ("lt", "le", "gt", "ge", "sign")
 _COMPARED = (*_SIDES, *BENT)
+#: Inverses of functions, and the function that is 0 where they have kinks or jump.
+_INVERSE = {("acos", "cos"): "sin", ("asin", "sin"): "cos", ("atan", "tan"): "cos"}
 #: How these are written where a formula is encoded: with their lengths, as `le` stands in other words too.
 _COMPARED_TEXTS = tuple(map(msgspec.msgpack.encode, _COMPARED))
 
@@ -89,11 +105,14 @@ class Discontinuity:
         The table whose points it passes; None where it is compared with zero.
     jumps : bool
         Whether a formula may jump there, and not only have a kink.
+    holds : bool
+        Whether it is in the formula of a row.
     """
 
     argument: Expr
     table: Table | None = None
     jumps: bool = False
+    holds: bool = False
 
 
 def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
@@ -114,7 +133,10 @@ def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
         argument = argument if effort is None else _of_a_run(argument, effort)
         if any(readings(argument)) or not set(names(argument)) <= plain:
             jumping[argument, table] = jumping.get((argument, table), False) or e.function in _SIDES
-    return tuple(Discontinuity(*key, jumps) for key, jumps in jumping.items())
+    held = dict.fromkeys((e, None) for row in changing_rows(mechanism) for e in row.switches)
+    for key in held:
+        jumping.setdefault(key, False)
+    return tuple(Discontinuity(*key, jumps, key in held) for key, jumps in jumping.items())
 
 
 def compares_state(mechanism: Mechanism) -> bool:
@@ -122,10 +144,107 @@ def compares_state(mechanism: Mechanism) -> bool:
     return any(x.table is None for x in discontinuities_of(mechanism))
 
 
-def changes_of(formula: Expr) -> tuple[Jump, ...]:
-    """Return the comparisons with zero in a formula of time that depend on t, each once, without a switch."""
-    compares = (e for e, _ in _calls(formula) if e.function in _COMPARED and "t" in set(names(e)))
-    return tuple(dict.fromkeys(Jump(compared(e)) for e in compares))
+def changes_of(formula: Expr) -> tuple[Expr, ...]:
+    """Return expressions that are 0 wherever a formula jumps or has a kink, tables aside, each once."""
+    return tuple(dict.fromkeys(x for e, _ in _calls(formula) for x in _passed_at(e)))
+
+
+def _passed_at(e: Call) -> tuple[Expr, ...]:
+    """Return the expressions that are 0 where a call jumps or has a kink.
+
+    Of `atan2` these are both arguments, as its cut lies where y is 0. An inverse of a function that is not monotonic
+    has kinks: the root of a square is an absolute value.
+    """
+    if e.function in _COMPARED:
+        return (compared(e),)
+    if e.function == "atan2":
+        return e.arguments
+    inner = e.arguments[0]
+    if not isinstance(inner, Call):
+        return ()
+    if e.function == "sqrt" or (e.function == "pow" and not _is_whole(e.arguments[1])):
+        squared = inner.function == "pow" and isinstance(n := inner.arguments[1], Number) and n.value % 2.0 == 0.0
+        return inner.arguments[:1] if squared or (inner.function == "mul" and len({*inner.arguments}) == 1) else ()
+    turning = _INVERSE.get((e.function, inner.function))
+    return () if turning is None else (Call(turning, inner.arguments),)
+
+
+def _is_whole(e: Expr) -> bool:
+    return isinstance(e, Number) and e.value.is_integer()
+
+
+@dataclass(frozen=True)
+class ChangingRow:
+    """A row of a joint that compares something, or reads `atan2`: it may jump or have kinks.
+
+    Attributes
+    ----------
+    name, key : str
+        ``JOINT.LABEL``, and the key of its formula in a file.
+    unit : str
+        Of the row.
+    formula : Expr
+        What is held at 0.
+    motion : Expr
+        The terms of the formula that depend on time alone.
+    switches : tuple of Expr
+        Expressions that are 0 where the other terms may jump or have a kink.
+    is_speed : bool
+        Whether the row holds a velocity, whose rate may jump.
+    """
+
+    name: str
+    key: str
+    unit: str
+    formula: Expr
+    motion: Expr
+    switches: tuple[Expr, ...]
+    is_speed: bool
+
+
+@remembered
+def changing_rows(mechanism: Mechanism) -> tuple[ChangingRow, ...]:
+    """Return the rows of joints whose formulas may jump or have kinks."""
+    result, timely = list[ChangingRow](), {p.name for p in mechanism.parameters} | {"t"}
+    for joint in mechanism.joints:
+        for i, row in enumerate(joint.rows):
+            measure = row.measure if isinstance(row, Holonomic) else row.speed
+            if not (changes_of(row.value) or any(True for _ in _changing_calls(measure))):
+                continue
+            own = isinstance(measure, FormulaMeasure | FormulaSpeed)
+            held = measure.of if isinstance(measure, FormulaMeasure | FormulaSpeed) else Reading(row.label, measure)
+            motion, rest = _parted(held, timely)
+            switches = tuple(dict.fromkeys(x for e, _ in _calls(rest) for x in _passed_at(e)))
+            moves = tuple(x for x in switches if any(readings(x)) or not set(names(x)) <= timely - {"t"})
+            key = "value" if not own else f"rows[{i}].{'position' if isinstance(row, Holonomic) else 'velocity'}"
+            result.append(
+                ChangingRow(
+                    f"{joint.name}.{row.label}",
+                    f"joints.{joint.name}.{key}",
+                    row.unit,
+                    difference(held, row.value),
+                    total(motion, row.value),
+                    moves,
+                    not isinstance(row, Holonomic),
+                )
+            )
+    return tuple(result)
+
+
+def _changing_calls(part: Any) -> Iterator[Call]:
+    """Yield the calls in a part of a mechanism that may jump or have kinks."""
+    return (e for e, _ in _calls(part) if _passed_at(e))
+
+
+def _parted(e: Expr, timely: set[str], sign: float = 1.0) -> tuple[Expr, Expr]:
+    """Return the sum of those terms of a formula, times a sign, that depend on time alone, and the sum of the others."""
+    if not any(readings(e)) and set(names(e)) <= timely:
+        return (e if sign > 0.0 else call("neg", e)), ZERO
+    if isinstance(e, Call) and e.function in ("add", "sub", "neg"):
+        signs = (-sign,) if e.function == "neg" else (sign, sign if e.function == "add" else -sign)
+        parts = [_parted(a, timely, x) for a, x in zip(e.arguments, signs, strict=True)]
+        return total(*(motion for motion, _ in parts)), total(*(rest for _, rest in parts))
+    return ZERO, e if sign > 0.0 else call("neg", e)
 
 
 def changing(part: Any) -> Iterator[Expr]:

@@ -231,14 +231,16 @@ def make_ensemble(
     kept_names, events = _events(mechanism, plan, quantities)
     acting = mechanism if target == "cpu" else structs.replace(mechanism, outputs=())  # others integrate no outputs
     passed_times = foreseen(acting, events)
-    looks = spec.adaptive and bool(discontinuities_of(acting))
+    passed_places = discontinuities_of(acting)
+    examined = any(x.holds for x in passed_places)  # rows that may jump, also by constant steps
+    looks = (spec.adaptive and bool(passed_places)) or examined
     driving = Driving(plan.inputs, grid.names, spec.until, passed_times if spec.adaptive else None, moving)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)
     targets = targets_of(names, grid.names, plan.holds, compiled.info)
     if target != "cpu":
         inputs, passed = replace(driving, foreseen=None).jumps, looks or driving.jumps
-        _check_target(target, inputs, passed, bool(events))
+        _check_target(target, inputs, examined, passed, bool(events))
     name = plan.integrator.name
     if target not in plan.integrator.row_targets:
         others = ", ".join(other for other, kind in INTEGRATORS.items() if target in kind.row_targets)
@@ -256,7 +258,7 @@ def make_ensemble(
     late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in kept)
     # what Python does something between; and measures behind the loops know the inputs of one part
     measured = driving.changes and any(q.source >= SIDE for q in kept)
-    parts = resets or late or measured
+    parts = resets or late or measured or examined
     alone = parts or (joint and not {q.source for q in kept} <= PLAIN)
     watch = Watch(mechanism, events, ends, alone) if parts or joint or events or looks else None
     # single runs add up all that outputs ask for, which their steps follow, too
@@ -360,11 +362,12 @@ def _check_method(method: Method, grid: Grid) -> None:
             raise InputError(f"vary '{name}'", f"at least {parameter.minimum:g}", f"{least:g}")
 
 
-def _check_target(target: str, jumps: bool, passed: bool, events: bool) -> None:
+def _check_target(target: str, jumps: bool, examined: bool, passed: bool, events: bool) -> None:
     """Refuse what needs something to be done between two parts of a run, where nothing but loops can run."""
     constant = "leave `target` out, or take constant steps: integrator.adaptive=false with `step`"
     for what, there, hint in (
         ("inputs that jump", jumps, "leave `target` out"),
+        ("rows with jumps or kinks", examined, "leave `target` out"),
         ("jumps and kinks of formulas, at which adaptive steps end", passed, constant),
         ("events", events, "leave `target` out"),
     ):

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+from symgen.describe.fields import Axis, Flag
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
+from symgen.describe.triads import make_triad
 from symgen.joints._paired import Paired
-from symgen.vocabulary.measures import Component, axes
+from symgen.vocabulary.measures import Bearing, Component, Direction, Marker, Measure, axes
 
 
 class PointPlace(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -22,21 +24,47 @@ class PointPlace(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
         The body whose frame it is, and the body with the point.
     at : pair of points
         The origin, a point of the first body, and the point.
+    angle : bool
+        Whether the direction from the origin to the point is reported too: its angle to the x axis of the first body's
+        frame, in space about an axis.
+    axis : direction
+        In space: what the angle is about, in the frame of the first body. Its length does not matter.
+    reference : direction
+        In space: where the angle is 0; a direction across the axis by default.
 
     Notes
     -----
-    No rows. Reports ``NAME.x``, ``NAME.y``, in space ``NAME.z`` [m].
+    No rows. Reports ``NAME.x``, ``NAME.y``, in space ``NAME.z`` [m], and with `angle` ``NAME.angle`` [rad], turns
+    counted. The angle is not defined where the point is at the origin, or in space on the axis through it.
     """
 
     SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
+    angle: Flag = False
+    axis: Axis | None = None
+    reference: Axis | None = None
+
     def build(self, scope: Scope) -> Joint:
-        """Resolve to the components of the vector between the points."""
+        """Resolve to the components of the vector between the points, and its direction."""
         bodies, ends = self.ends(scope, turns=(False, False))
         along = zip("xyz", axes(bodies[0], scope.dimension), strict=False)
-        return Joint(
-            scope.name, scope.kind, bodies, (), tuple((label, Component(*ends, axis)) for label, axis in along)
-        )
+        coordinates: list[tuple[str, Measure]] = [(label, Component(*ends, axis)) for label, axis in along]
+        for key, value in (("axis", self.axis), ("reference", self.reference)):
+            if value is not None and not (self.angle and scope.spatial):
+                raise scope.error(key, "no such key but in space with angle = true", "a direction")
+        if self.angle:
+            coordinates.append(("angle", Bearing(*ends, *self._across(scope, ends[0]))))
+        return Joint(scope.name, scope.kind, bodies, (), tuple(coordinates))
+
+    def _across(self, scope: Scope, origin: Marker) -> tuple[Direction, Direction]:
+        """Return the directions at the angles 0 and 90 degrees."""
+        if not scope.spatial:
+            zero, quarter = axes(origin.body, 2)
+            return zero, quarter
+        if self.axis is None:
+            raise scope.error("axis", "an axis, as an angle in space is about one", "no such key")
+        triad = make_triad(scope, origin.body, self.axis, self.reference)
+        return triad.first, triad.second
 
 
 KIND = PointPlace

@@ -53,6 +53,18 @@ def measures_of(element: Joint | Force) -> list[Any]:
     return [m for e in element.efforts for m in (e.measure, *(r.source for r in readings(e.magnitude)))]
 
 
+def counts_turns(mechanism: Mechanism) -> bool:
+    """Return whether a mechanism may have angles whose turns are counted; in the plane only joints report these."""
+    reported = (m for joint in mechanism.joints for _, m in joint.coordinates)
+    return mechanism.space != "planar" or any(isinstance(m, Turning) for m in reported)
+
+
+def follows_places(mechanism: Mechanism) -> bool:
+    """Return whether joints without rows report angles whose turns are counted: nothing else bounds their changes."""
+    places = (joint for joint in mechanism.joints if not joint.rows)
+    return any(isinstance(m, Turning) for joint in places for _, m in joint.coordinates)
+
+
 def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
     """Return the angles of the section ``winding`` in its order.
 
@@ -64,7 +76,7 @@ def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
         Straight code derives the rows of all joints first and reported quantities last, looped code derives element by
         element.
     """
-    if mechanism.space == "planar":
+    if not counts_turns(mechanism):
         return ()
     coordinates = {} if mechanism.topology is None else state_measures(mechanism, mechanism.topology)
     distinct, _ = without_repeats(mechanism)

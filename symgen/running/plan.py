@@ -20,6 +20,7 @@ from symgen.describe.kinks import discontinuities_of, longest_step
 from symgen.describe.lengths import longest_body
 from symgen.errors import InputError, quoted
 from symgen.integrators import INTEGRATORS
+from symgen.lower.windings import follows_places
 from symgen.methods import METHODS
 from symgen.running.automatic import usual_integrator
 from symgen.running.options import split_options
@@ -41,6 +42,9 @@ if TYPE_CHECKING:
 ADAPTIVE_EVALUATIONS = 2000.0
 #: Default tolerances of adaptive runs.
 RTOL, ATOL = 1e-8, 1e-10
+#: Largest change of an angle in a step where the angle of a place counts turns [rad]: less than half a turn, in which
+#: such an angle may change by nearly twice as much.
+LARGEST_TURN = 1.0
 
 
 class Purpose(Enum):
@@ -216,6 +220,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         atol=ATOL / RTOL * rtol if s.atol is None else s.atol,
         relative=s.atol is None,
         largest_step=min(own or np.inf, longest),
+        largest_turn=LARGEST_TURN if follows_places(mechanism) else np.inf,
         max_violation=s.max_violation,
         max_velocity_violation=limit_of_velocities(method, s.max_violation),
         max_energy_error=np.inf if method.correction(choice.options).energy else s.max_energy_error,

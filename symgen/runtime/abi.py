@@ -117,8 +117,8 @@ SHORTEST_STEP = 1e-30
     LAST_SHORT,  # root of the shortest row at the previous accepted state, and its rate of fall
     SHORT_FALL,
     CHOSEN,  # largest value of the smallest pivot since independent rows were last chosen
-    LAST_KINETIC,  # kinetic energy at the previous accepted state
-    FORCE,  # largest change of kinetic energy or work over distance, where the balance of energy was in doubt
+    LAST_POTENTIAL,  # potential energy less work at the previous accepted state
+    FORCE,  # largest change of that or of the work over distance, where the balance of energy was in doubt
     LARGEST_SINE,  # largest root of the smallest pivot so far
 ) = range(22)
 N_GAUGES = 22
@@ -144,7 +144,9 @@ MAX_EVENTS = 1000
     GATHERED,
     UNDEFINED,
     UNPREPARED,
-) = range(14)
+    JUMPED,
+    TURNED,
+) = range(16)
 #: The loop can be entered again: after a number of steps, once a matrix has more room, or once other independent rows
 #: are chosen; `LEFT`: a run in a lane is left to the loop over single runs.
 PAUSED, NO_ROOM, LEFT, CHOOSE = -1, -2, -3, -4
@@ -167,5 +169,7 @@ REASONS = {
     GATHERED: "events accumulate",
     UNDEFINED: "the condition of an event is undefined",
     UNPREPARED: "inputs: expected values for which every formula is finite, got others",
+    JUMPED: "a row jumps or has a kink, which would take an impulse; a run by itself names the row",
+    TURNED: "a constant step turns a body too far for the angle of a place to count turns: take shorter ones",
     VANISHED: "a row that is an angle has lost its gradient: the joint stands where it determines nothing",
 }

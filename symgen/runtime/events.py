@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo
     from symgen.runtime.outcome import Outcome
     from symgen.runtime.records import Sizes, State
+    from symgen.runtime.row_jumps import RowJumps
 
 Array = NDArray[np.float64]
 
@@ -41,11 +42,14 @@ class Switch:
         Kinks of the table that is read; none for comparisons with zero.
     period : float
         Period of the table, 0 if it is not periodic.
+    holds : bool
+        Whether a row changes there, which is then examined.
     """
 
     missed: float = 0.0
     points: tuple[float, ...] = ()
     period: float = 0.0
+    holds: bool = False
 
 
 @dataclass(frozen=True)
@@ -72,6 +76,10 @@ class Watched:
         Comparisons in formulas.
     jumps : bool
         Whether rates may jump at a switch, and not only have a kink.
+    rows : RowJumps or None
+        Rows that change at a switch.
+    adaptive : bool
+        Whether steps are adaptive: these end at switches, constant ones behind them.
     """
 
     names: tuple[str, ...]
@@ -83,6 +91,8 @@ class Watched:
     masses: Masses | None = None
     switches: tuple[Switch, ...] = ()
     jumps: bool = False
+    rows: RowJumps | None = None
+    adaptive: bool = True
 
     def impact(self, compiled: CompiledModel, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array) -> Impact:
         """Return the effect of resets at one time on a state; see `symgen.runtime.resets.impact_of`.
@@ -106,14 +116,18 @@ class Watched:
         events, n = len(self.names), len(self.names) + len(self.switches)
         points = [x for switch in self.switches for x in switch.points]
         first = hunting.notes_at(n, sizes.width, len(state.w))
-        tables = first + ((searching.NOTES + 2 * events) * (2 + sizes.width) if events else 0)
-        hunt = np.zeros(tables + len(points))
+        noted = events + sum(switch.holds for switch in self.switches)
+        tables = first + ((searching.NOTES + 2 * noted) * (2 + sizes.width) if noted else 0)
+        beginning = tables + len(points)
+        hunt = np.zeros(beginning + (0 if self.rows is None else 1 + 2 * sizes.width))
         hunt[searching.COUNT], hunt[searching.NEEDS_RATES] = n, self.needs_rates
-        hunt[searching.TABLES], hunt[tables:] = tables, points
+        hunt[searching.TABLES], hunt[tables:beginning] = tables, points
+        hunt[searching.BEGINNING] = 0 if self.rows is None else beginning
+        hunt[searching.REACH] = 0.0 if self.adaptive else np.inf
         columns = hunt[searching.N_HEAD :][: searching.N_COLUMNS * n].reshape(-1, n)
         columns[searching.DIRECTION, :events] = self.directions
         columns[searching.ACTION, :events] = [action != RECORD for action in self.actions]
-        columns[searching.ACTION, events:] = searching.ANEW
+        columns[searching.ACTION, events:] = [(searching.ANEW, searching.EXAMINE)[x.holds] for x in self.switches]
         columns[searching.MISSED, events:] = [switch.missed for switch in self.switches]
         columns[searching.PERIOD, events:] = [switch.period for switch in self.switches]
         sizes_of_tables = [len(switch.points) for switch in self.switches]
@@ -172,6 +186,7 @@ class Events:
         self.compiled, self.watched, self.until = compiled, watched, until
         self.happened: list[Happening] = []
         self.accumulation: float | None = None
+        self._jump, self._changes = "", False
 
     def forget_after(self, t: float) -> None:
         """Remove later events, as a run continues from an earlier state."""
@@ -181,10 +196,13 @@ class Events:
     def take(self, state: hunting.HuntingState) -> list[tuple[int, Happening]]:
         """Store and return the passages noted by a loop since the last call, with numbers of events."""
         names, actions, size = self.watched.names, self.watched.actions, self.compiled.info.work
+        notes = hunting.taken_notes(state.hunt, len(state.y), len(state.w))
         events = [
             (number, Happening(t, names[number], actions[number], y[:size]))
-            for t, number, y in hunting.taken_notes(state.hunt, len(state.y), len(state.w))
+            for t, number, y in notes
+            if number < len(names)
         ]
+        self._changes = len(events) < len(notes)
         self.happened += (event for _, event in events)
         return events
 
@@ -204,6 +222,11 @@ class Events:
             If the constraints, or other resets at the same time, do not allow the velocities of a reset.
         """
         now = float(state.clock[abi.TIME])
+        if self._changes:  # of formulas of rows
+            if self._finds_jump(state):
+                return abi.JUMPED
+            if self.watched.adaptive:
+                self._begin_anew(state)
         here = [(number, event) for number, event in events if event.t == now]
         resets = [number for number, event in here if event.action == RESET]
         if resets:
@@ -214,6 +237,17 @@ class Events:
             return abi.GATHERED
         return abi.DONE
 
+    def _begin_anew(self, state: hunting.HuntingState) -> None:
+        """Discard what schemes keep of past steps."""
+        state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
+        state.clock[abi.ALLOWED] = 0.0
+
+    def _finds_jump(self, state: hunting.HuntingState) -> bool:
+        """Return whether a row jumps or has a kink in the last step, and store the sentence on it."""
+        rows = self.watched.rows
+        self._jump = "" if rows is None else rows.sentence(self.compiled, state)
+        return bool(self._jump)
+
     # -- resets --------------------------------------------------------------------------------------------------------
 
     def _reset(self, state: hunting.HuntingState, numbers: Sequence[int]) -> None:
@@ -223,8 +257,7 @@ class Events:
         state.y[info.nq : info.nq + info.nv] = impact.v
         state.y[info.work] += impact.energy  # work of the impulses: the energy balance continues
         state.w[abi.KINETIC] += impact.energy
-        state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
-        state.clock[abi.ALLOWED] = 0.0
+        self._begin_anew(state)
         names, energy = {watched.names[number] for number in numbers}, impact.energy
         first = len(self.happened)
         while first > 0 and self.happened[first - 1].t == now:
@@ -290,6 +323,11 @@ class Events:
         if code == abi.GATHERED:
             return gathered(self.recent, self.accumulation or t)
         return undefined(self.watched.names[hunting.undefined_event(state)], t)
+
+    def jump(self, state: Any) -> str:
+        """Return the sentence on a row that jumps or has a kink where a run failed; empty without one."""
+        _ = self._jump or self._finds_jump(state)
+        return self._jump
 
 
 def _rest(before: float, last: float) -> float:

@@ -13,6 +13,7 @@ and so does the target: a processor, vector lanes, a CUDA device.
 | `happened` | system, run, t, following, h, hunting | tests whether an event lies inside an acceptable step |
 | `attend` | system, run, doing | other work for events (`symgen.runtime.hunting`): `LOOK`, `REMEMBER`, `RECALL` |
 | `aimed` | system, run, h | a step that ends where the state passes a point of a table, in place of one of `h` |
+| `is_astray` | span, run, adaptive | whether an accepted state was corrected by more than its error explains |
 
 `attempt` returns its error estimate over the tolerance, 0 without an estimate, and changes no data of the run: it may
 be repeated with a shorter step. All data for the next step are in the arrays of `symgen.runtime.records.State`, so a
@@ -115,6 +116,11 @@ def aimed(system: Any, run: Any, h: float) -> float:
     return h
 
 
+def is_astray(span: Any, run: Any, adaptive: bool) -> bool:
+    """Return False: only rows that may jump are examined."""
+    return False
+
+
 # -- parts that depend on the target -----------------------------------------------------------------------------------
 
 
@@ -166,6 +172,15 @@ def taken_back(run: Any, times: Any, out: int, t: float) -> int:
         out -= 1
     run.control[abi.OUTPUTS] = out
     return out
+
+
+def largest_turn(sizes: Any, span: Any, run: Any) -> float:
+    """Return the largest change of an angle from the state to the trial state [rad]."""
+    largest = 0.0
+    for i in range(sizes.nq):
+        if run.metric[i] == 0.0:
+            largest = max(largest, abs(run.trial[i] - run.y[i]))
+    return largest
 
 
 def refused(run: Any, times: Any, out: int, t: float, phi: float, drift: float, energy: float) -> int:
@@ -282,6 +297,14 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         kinetic, potential = run.w[abi.KINETIC], run.w[abi.POTENTIAL]
         error = attempt(system, scheme, span, run, t, following, h, probing)
         # -- is it good enough?
+        turn = largest_turn(sizes, span, run) if math.isfinite(span.turn) and error >= 0.0 else 0.0
+        if turn > span.turn:
+            if not ADAPTIVE:
+                return abi.TURNED
+            clock[abi.NEXT] = _SHORT_OF * h * span.turn / turn
+            refuse(run)
+            hunting, out = NOTHING, refused(run, times, out, t, phi, drift, energy)
+            continue
         if error < 0.0:
             if error == TOO_LARGE:
                 return abi.NO_ROOM
@@ -340,6 +363,8 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         setting_out = (not ADAPTIVE or ROUGH) and control[abi.STEPS] <= SETTING_OUT
         if setting_out and code == abi.ENERGY and following < span.end - tiny:
             code = abi.DONE
+        if EVENTS and code == abi.DONE and is_astray(span, run, ADAPTIVE):
+            code = abi.JUMPED
         if code != abi.DONE:
             return code
         if EVENTS and hunting == MEET:

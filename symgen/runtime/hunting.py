@@ -19,14 +19,18 @@ from symgen.runtime import abi, frame
 from symgen.runtime import search_records as searching
 from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import LOOK, TRY
+from symgen.runtime.frame import correct as plain_correct
 from symgen.runtime.frame import opened as plain_opened
 from symgen.runtime.loop_instances import called
 from symgen.runtime.loop_instances import loop as compiled_loop
 from symgen.runtime.records import OUTPUTS, SPAN, STATE, ModelSystem, Run, State, record
-from symgen.runtime.vectors import copied
+from symgen.runtime.vectors import copied, largest
 
 Array = NDArray[np.float64]
 
+#: Largest correction of an accepted state in units of the tolerance of its step (over the catalogue they are below 1);
+#: and one that is always allowed to a constant step, of angles and of coordinates over the length of the mechanism.
+FAR, SMALL = 1e3, 1e-3
 
 #: A `State` with `hunt`, the data of events (`symgen.runtime.searching`).
 HuntingState = record("HuntingState", *State._fields, "hunt", module=__name__)
@@ -97,6 +101,39 @@ def aimed(system: Any, run: Any, h: float) -> float:
     return float(run.hunt[TRY])
 
 
+def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
+    """Correct and measure a state; store how far that moves it where rows may jump."""
+    hunt, sizes = run.hunt, system.sizes
+    at, width = int(hunt[searching.BEGINNING]), sizes.width
+    if at == 0:
+        return int(plain_correct(system, run, t, y, between))
+    before, began = part(hunt, at + 1 + width, width), part(hunt, at + 1, width)
+    copied(width, y, before)
+    went = 0.0
+    for i in range(sizes.nq):
+        went = max(went, abs(y[i] - began[i]) * run.scales[i])
+    bits = plain_correct(system, run, t, y, between)
+    for i in range(width):
+        before[i] -= y[i]
+    hunt[searching.WENT], hunt[searching.MOVED] = went, largest(width, before, run.scales, 0, sizes.nq)
+    hunt[searching.SPED] = largest(width, before, run.metric, sizes.nq, sizes.nq + sizes.nv)
+    return int(bits)
+
+
+def is_astray(span: Any, run: Any, adaptive: bool) -> bool:
+    """Return whether a correction moved the accepted state by much more than the error of its step explains.
+
+    The error of a constant step is unknown; it moves no coordinate farther than the step itself moves one.
+    """
+    hunt = run.hunt
+    if hunt[searching.BEGINNING] == 0.0:
+        return False
+    if adaptive:
+        most = FAR * span.rtol
+        return bool(hunt[searching.MOVED] > most or hunt[searching.SPED] > most * run.w[abi.SPEED])
+    return bool(hunt[searching.MOVED] > SMALL + hunt[searching.WENT])
+
+
 def notes_at(n: int, width: int, nw: int) -> int:
     """Return the index of the first note."""
     return searching.N_HEAD + (searching.N_COLUMNS + searching.N_VALUES) * n + 2 * width + 2 * (nw + abi.N_COUNTERS)
@@ -104,7 +141,7 @@ def notes_at(n: int, width: int, nw: int) -> int:
 
 _MEANINGS: dict[str, Any] = {
     **{"EVENTS": True, "opened": opened, "ModelSystem": HuntingSystem},
-    **{"happened": happened, "attend": attend, "aimed": aimed},
+    **{"happened": happened, "attend": attend, "aimed": aimed, "correct": correct, "is_astray": is_astray},
 }
 _loops: dict[Any, Any] = {}
 
@@ -148,6 +185,13 @@ def undefined_event(state: Any) -> int:
     """Return the number of the first event whose condition is undefined at the last evaluation."""
     n = int(state.hunt[searching.COUNT])
     return int(np.argmax(np.isnan(state.hunt[searching.N_HEAD + searching.N_COLUMNS * n :][:n])))
+
+
+def beginning_of(hunt: Array, width: int, nw: int) -> tuple[float, Array, Array]:
+    """Return time, state and ``w`` at the beginning of the last step."""
+    n, at = int(hunt[searching.COUNT]), int(hunt[searching.BEGINNING])
+    kept = searching.N_HEAD + (searching.N_COLUMNS + searching.N_VALUES) * n + 2 * width
+    return float(hunt[at]), hunt[at + 1 :][:width].copy(), hunt[kept:][:nw].copy()
 
 
 def taken_notes(hunt: Array, width: int, nw: int) -> list[tuple[float, int, Array]]:

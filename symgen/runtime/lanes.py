@@ -100,6 +100,15 @@ def note_step(run: Any, h: float) -> None:
         run.w[_STEP_STATUS + lane] = h
 
 
+def largest_turn(sizes: Any, span: Any, run: Any) -> float:
+    """Return 0: lanes in which an angle changes by too much in a step are left to single runs."""
+    for i in range(sizes.nq):
+        for lane in range(_L):
+            turn = abs(run.trial[i * _L + lane] - run.y[i * _L + lane]) * (1.0 - run.metric[i])
+            run.gauges[_ODD + lane] = run.gauges[_ODD + lane] if turn <= span.turn else 1.0
+    return 0.0
+
+
 def remember_rank(sizes: Any, run: Any) -> None:
     """Do nothing: each lane has the rank of its own start."""
 
@@ -191,7 +200,14 @@ def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
 
 _MEANINGS: dict[str, Any] = {
     **{"opened": opened, "evaluate": evaluate, "correct": correct, "note_step": note_step, "store": store},
-    **{"settle": settle, "remember_rank": remember_rank, "begin": begin, "keep_maxima": keep_maxima, "watch": watch},
+    **{
+        "largest_turn": largest_turn,
+        "settle": settle,
+        "remember_rank": remember_rank,
+        "begin": begin,
+        "keep_maxima": keep_maxima,
+        "watch": watch,
+    },
     # emitted code for lanes writes whole vectors, which are read as such
     **{"rows_fell": never, "attempt": explicit.attempt_constant, "follow": combine},
 }

@@ -1,7 +1,8 @@
-"""Motions of drivers with jumps in value or rate, which would take an impulse that no method computes.
+"""Formulas of rows, drivers and couplings with jumps in value or rate: these take an impulse that no method computes.
 
-A formula of time may jump where conditions, signs, minima, maxima and absolute values change, but need not: a ramp may
-end smoothly. So the formula is evaluated on both sides of these times.
+A formula may jump where conditions, signs, minima, maxima and absolute values change, and at the cut of `atan2`, but
+need not: a ramp may end smoothly. So the formula is evaluated on both sides. Terms of time alone are examined before a
+run, all others by `symgen.runtime.row_jumps` where a run passes such a place.
 """
 
 from __future__ import annotations
@@ -14,17 +15,16 @@ from itertools import pairwise
 
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import Jump
-from symgen.describe.kinks import changes_of
+from symgen.describe.kinks import ChangingRow, changes_of, changing_rows
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.remembered import remembered
 from symgen.errors import InputError
 from symgen.runtime.in_time import InTime
-from symgen.vocabulary.expressions import Expr, names
-from symgen.vocabulary.measures import Holonomic
+from symgen.vocabulary.expressions import names
 
 #: Distance of evaluations, as a part of the run, and at most of the time to the next change; and the factor by which a
 #: second one is nearer: differences that stay are jumps, those that shrink are curvature.
-_NEAR, _APART, _NEARER = 1e-5, 0.125, 16.0
+NEAR, _APART, _NEARER = 1e-5, 0.125, 16.0
 #: Largest negligible jump of a value, as a part of its range, and of a rate, as a part of the speeds on both sides; and
 #: relative rounding error of differences, in units of the last digit.
 _SMALL, _ROUNDING = 1e-6, 64.0 * sys.float_info.epsilon
@@ -33,7 +33,7 @@ _STAYS = 0.2
 
 
 def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: float) -> None:
-    """Refuse motions of drivers that jump within a run.
+    """Refuse rows, drivers and couplings whose terms of time jump within a run.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: f
     Raises
     ------
     InputError
-        With the driver, and time and size of the jump of its value or rate.
+        With the formula, and time and size of the jump of its value or rate.
     """
     if (
         _moved(mechanism)
@@ -57,12 +57,12 @@ def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: f
 
 
 def names_of_motions(mechanism: Mechanism) -> frozenset[str]:
-    """Return the names in the formulas of drivers that may jump."""
-    return frozenset(name for *_, formula, _ in _moved(mechanism) for name in names(formula))
+    """Return the names in the terms of time that may jump."""
+    return frozenset(name for row, _ in _moved(mechanism) for name in names(row.motion))
 
 
 def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> InputError | None:
-    """Return the error for the first jump of a driver within a run, with its time and size, or None.
+    """Return the error for the first jump of a term of time within a run, with its time and size, or None.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> 
         End of the run [s].
     """
     formulas = InTime(mechanism, values)
-    for joint, unit, formula, changes in _moved(mechanism):
+    for row, changes in _moved(mechanism):
         crossings = set[float]()
         for change in changes:
             try:
@@ -83,29 +83,52 @@ def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> 
                 continue
         times = [0.0, *sorted(t for t in crossings if 1e-9 * until < t < (1.0 - 1e-9) * until), until]
         for (before, t), (_, after) in zip(pairwise(times), pairwise(times[1:]), strict=False):
-            h = min(_NEAR * until, _APART * (t - before), _APART * (after - t))
-            kind, size = _jump(partial(formulas.at, formula), t, h, until)
+            h = min(NEAR * until, _APART * (t - before), _APART * (after - t))
+            kind, size = jump_at(partial(formulas.at, row.motion), t, h, (0.0, until), row.is_speed)
             if kind:
                 return InputError(
-                    f"{mechanism.name}: joints.{joint}.value",
+                    f"{mechanism.name}: {row.key}",
                     "a motion whose value and rate do not jump",
-                    f"a {kind} that jumps by {size:.6g} {unit if kind == 'value' else f'{unit}/s'} at t = {t:.6g} s",
+                    f"a {kind} that jumps by {size:.6g} {row.unit if kind == 'value' else f'{row.unit}/s'} "
+                    f"at t = {t:.6g} s",
                     "it would take an impulse; a ramp such as a cubic table takes forces",
                 )
     return None
 
 
-def _jump(f: Callable[[float], float], t: float, h: float, until: float) -> tuple[str, float]:
-    """Return kind and size of the jump of a function's value or slope at a time; an empty kind without a jump."""
+def jump_at(
+    f: Callable[[float], float],
+    t: float,
+    h: float,
+    extent: tuple[float, float],
+    value_alone: bool = False,
+    scales: tuple[float, float] = (0.0, 0.0),
+) -> tuple[str, float]:
+    """Return kind and size of the jump of a function's value or slope at a time; an empty kind without a jump.
+
+    Parameters
+    ----------
+    f : callable
+        The function.
+    t, h : float
+        The time, and the larger distance of evaluations from it [s].
+    extent : pair of float
+        Begin and end of the range whose values and slopes say what is negligible [s].
+    value_alone : bool
+        Whether the slope may jump.
+    scales : pair of float
+        Further values and slopes of which negligible jumps are a part.
+    """
     h /= _NEARER
     (value, slope, speed), (far_value, far_slope, _) = _sides(f, t, h), _sides(f, t, _NEARER * h)
-    for kind, near, far in (("value", value, far_value), ("rate", slope, far_slope)):
+    for kind, near, far in (("value", value, far_value), ("rate", slope, far_slope))[: 1 if value_alone else 2]:
         if near != 0.0 and abs(near - far) <= _STAYS * abs(near):
-            samples = [x for i in range(33) if math.isfinite(x := f(until * i / 32))]
-            extent = max(samples, default=0.0) - min(samples, default=0.0)
-            rounding = _ROUNDING * max(map(abs, samples), default=0.0)
-            small, size = (rounding, extent) if kind == "value" else (rounding / h, max(speed, extent / until))
-            if abs(near) > max(small, _SMALL * size):
+            begin, end = extent
+            samples = [x for i in range(33) if math.isfinite(x := f(begin + (end - begin) * i / 32))]
+            spread = max(samples, default=0.0) - min(samples, default=0.0)
+            rounding = _ROUNDING * max(scales[0], *map(abs, samples), 0.0)
+            small, size = (rounding, spread) if kind == "value" else (rounding / h, max(speed, spread / (end - begin)))
+            if abs(near) > max(small, _SMALL * max(size, scales[kind == "rate"])):
                 return kind, near
     return "", 0.0
 
@@ -121,11 +144,7 @@ def _sides(f: Callable[[float], float], t: float, h: float) -> tuple[float, floa
 
 
 @remembered
-def _moved(mechanism: Mechanism) -> tuple[tuple[str, str, Expr, tuple[Jump, ...]], ...]:
-    """Return drivers whose formulas may jump: name, unit, formula, and its changes."""
-    drivers = list[tuple[str, str, Expr, tuple[Jump, ...]]]()
-    for joint in mechanism.joints:
-        row = joint.rows[0] if joint.kind in ("driver", "coupling") and joint.rows else None
-        if isinstance(row, Holonomic) and (changes := changes_of(row.value)):
-            drivers.append((joint.name, row.unit, row.value, changes))
-    return tuple(drivers)
+def _moved(mechanism: Mechanism) -> tuple[tuple[ChangingRow, tuple[Jump, ...]], ...]:
+    """Return rows whose terms of time may jump, with the changes of these."""
+    rows = ((row, [e for e in changes_of(row.motion) if "t" in set(names(e))]) for row in changing_rows(mechanism))
+    return tuple((row, tuple(map(Jump, changes))) for row, changes in rows if changes)

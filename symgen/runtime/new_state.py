@@ -30,7 +30,7 @@ def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: floa
     end = spec.until if until is None else until
     duration = spec.until if spec.duration is None else spec.duration
     numbers = setup.step, spec.largest_step, end, spec.until, duration, spec.rtol, spec.atol, spec.relative
-    return Span(*(float(number) for number in (*numbers, setup.safety, spec.max_attempts, pause)))
+    return Span(*(float(number) for number in (*numbers, setup.safety, spec.max_attempts, pause, spec.largest_turn)))
 
 
 def sizes_of(compiled: CompiledModel) -> Sizes:

@@ -82,6 +82,8 @@ class Span(NamedTuple):
         Largest number of attempts at an adaptive step.
     pause : float
         Number of accepted steps at which the loop is left.
+    turn : float
+        Largest change of an angle of a body or joint in a step [rad].
     """
 
     step: float
@@ -95,6 +97,7 @@ class Span(NamedTuple):
     safety: float
     most: float
     pause: float
+    turn: float
 
 
 class State(NamedTuple):

@@ -60,6 +60,8 @@ class RunSpec:
         Output times, increasing.
     largest_step : float
         Bound of adaptive steps [s].
+    largest_turn : float
+        Bound of the change of an angle in a step, as angles that count turns follow it [rad].
     max_violation : float
         Largest tolerated |Phi| (times the scale of lengths) and |D v - nu| (times the largest speed).
     max_velocity_violation : float or None
@@ -90,6 +92,7 @@ class RunSpec:
     atol: float = 1e-10
     relative: bool = False
     largest_step: float = np.inf
+    largest_turn: float = np.inf
     max_violation: float = 1e-6
     max_velocity_violation: float | None = None
     max_energy_error: float = 0.05
@@ -213,6 +216,10 @@ def reason_of(simulation: Simulation, code: int, end: float) -> str:
     scale = float(state.gauges[abi.ENERGY_SCALE])
     if code in (abi.GATHERED, abi.UNDEFINED) and simulation.events is not None:
         return simulation.events.reason(code, state, end)
+    failed = code not in (abi.DONE, abi.STOPPED, abi.GATHERED)
+    jump = simulation.events.jump(state) if failed and simulation.events is not None else ""
+    if jump:  # whatever it has led to
+        return jump
     reason = end_reason(code, end, tuple(float(state.w[i]) for i in measures), scale, attempts, simulation.spec)
     return reason + (f" (row {_shortest_row(simulation.compiled, state.w)})" if code == abi.VANISHED else "")
 

@@ -2,7 +2,8 @@
 
 Numbers of the step; columns with one number for each function; the output of the emitted function (values, rates, and
 the magnitude on which the rounding of each value depends); a state and its rate; ``w`` and ``iw`` at the beginning of
-the step and at the examined state; notes (time, number of the event, state); points of tables.
+the step and at the examined state; notes (time, number of the event, state); points of tables; the beginning of the
+step and its end before the correction.
 """
 
 from __future__ import annotations
@@ -14,8 +15,11 @@ from symgen.runtime.frame import LOW, RECALL
 DOING, COUNT, NEEDS_RATES, HIGH, WHOLE, RESOLUTION = range(LOW + 1, LOW + 7)
 #: ... attempts at extrema, rounds in a bracket, its width three rounds ago, notes, those of accepted steps, switches
 #: passed since some time, that time, the step that the error estimate proposes, first index of the points of tables,
-#: and the time in which rounding hides a root.
+#: the time in which rounding hides a root, ...
 PROBES, ROUNDS, WIDTH, NOTED, ACCEPTED, PASSED, SINCE, REACH, TABLES, BLUR = range(LOW + 7, LOW + 17)
+#: ... first index of time and state at the beginning of the step and of the state before its correction (0: rows have
+#: no switches), how far the step has moved coordinates, and by how far its correction coordinates and velocities.
+BEGINNING, WENT, MOVED, SPED = range(LOW + 17, LOW + 21)
 #: Columns of each function: direction (0: any), action, number of points of its table (0: it is passed at zero), first
 #: index of these, period of the table, fraction of a step by which a passage may be missed; ...
 DIRECTION, ACTION, POINTS, FIRST, PERIOD, MISSED = range(6)
@@ -28,9 +32,10 @@ SIDE, FIRED, GRAZING, LOCAL, SIZE, GRAIN = range(6, 12)
 PLACE, LEVEL, WAY, ARGUMENT, SLOPE, ARGUMENT_START, SLOPE_START, CURVE = range(12, 20)
 #: ... g and g' at the beginning and at the end of the step and of the bracket.
 G_START, D_START, G_END, D_END, G_LOW, D_LOW, G_HIGH, D_HIGH = range(20, 28)
-N_HEAD, N_COLUMNS, N_VALUES = LOW + 17, 28, 3
-#: Actions: the passage is noted; it is noted and ends the loop; the step ends there and the scheme restarts.
-NOTE, LEAVE, ANEW = range(3)
+N_HEAD, N_COLUMNS, N_VALUES = LOW + 21, 28, 3
+#: Actions: the passage is noted; it is noted and ends the loop; the step ends there and the scheme restarts; the same,
+#: noted, after the caller has examined the rows that change there.
+NOTE, LEAVE, ANEW, EXAMINE = range(4)
 #: Tasks in addition to `LOOK`, `REMEMBER` and `RECALL`: save and restore the memory of emitted functions at an examined
 #: state, and end the next step at a point of a table.
 KEEP, GIVE_BACK, AIM = range(RECALL + 1, RECALL + 4)

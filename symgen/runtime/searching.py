@@ -22,6 +22,7 @@ from symgen.runtime.search_records import (
     ACTION,
     AIM,
     ANEW,
+    BEGINNING,
     BLUR,
     D_END,
     D_HIGH,
@@ -212,7 +213,7 @@ def is_undefined(hunt: A, n: int) -> int:
     """Return 1 where a switching function is nan at the trial state, else 0."""
     for k in range(n):
         g = hunt[N_HEAD + N_COLUMNS * n + k]
-        if not g == g and hunt[N_HEAD + ACTION * n + k] != float(ANEW):
+        if not g == g and hunt[N_HEAD + ACTION * n + k] < float(ANEW):
             return 1
     return 0
 
@@ -224,6 +225,16 @@ def keep(hunt: A, first: int, nw: int, w: A, iw: A) -> int:
         hunt[first + i] = w[i]
     for i in range(_COUNTERS):
         hunt[first + nw + i] = iw[i]
+    return 0
+
+
+@plain
+def begin_step(hunt: A, t: float, width: int, y: A) -> int:
+    """Save time and state at the beginning of a step, from which rows that may jump are examined."""
+    at = int(hunt[BEGINNING])
+    hunt[at] = t
+    for j in range(width):
+        hunt[at + 1 + j] = y[j]
     return 0
 
 
@@ -242,14 +253,14 @@ def ended(hunt: A, n: int, notes: int, following: float, width: int, y: A) -> in
     """Return the action at the end of a step that ends at a passage."""
     action = crossed(hunt, n, G_HIGH, NOTE)
     note(hunt, n, notes, following, width, y)
-    if action == ANEW:
+    if action >= ANEW:
         if following - hunt[SINCE] > _HEAP * following:
             hunt[SINCE], hunt[PASSED] = following, 0.0
         hunt[PASSED] += 1.0
     settle(hunt, n, 0)
-    if action != ANEW or hunt[NOTED] > NOTES:
-        return MEET
-    return HOLD if hunt[PASSED] > _CROWDED else RESTART
+    if action >= ANEW and hunt[PASSED] > _CROWDED:
+        return HOLD
+    return MEET if action != ANEW or hunt[NOTED] > NOTES else RESTART
 
 
 @plain
@@ -295,6 +306,8 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
             return int(aim(hunt, n, h))
         if hunting == REMEMBER:
             hunt[NOTED] = hunt[ACCEPTED]  # notes of a refused attempt are dropped
+            if hunt[BEGINNING] != 0.0:
+                begin_step(hunt, following, width, y)
         first = N_HEAD + (N_COLUMNS + N_VALUES) * n + 2 * width
         size = (notes - first) // 2
         first += size if hunting == KEEP or hunting == GIVE_BACK else 0
@@ -309,7 +322,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
     take_in(hunt, n, h, following, hunting)
     if hunting == TAKE:
         return int(ended(hunt, n, notes, following, width, y))
-    if hunting == DOUBT and crossed(hunt, n, G_HIGH, NOTE) != ANEW:
+    if hunting == DOUBT and crossed(hunt, n, G_HIGH, NOTE) < ANEW:
         return NOTHING
     while True:
         high = hunt[HIGH]

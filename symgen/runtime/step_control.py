@@ -33,5 +33,5 @@ def with_step(span: Any, step: float) -> Any:
     """Return a span with this first step."""
     return Span(
         *(step, span.largest, span.until, span.end, span.duration, span.rtol, span.atol, span.relative),
-        *(span.safety, span.most, span.pause),
+        *(span.safety, span.most, span.pause, span.turn),
     )

@@ -75,7 +75,7 @@ def until_stop(span: Any, until: float) -> Any:
     """Return a span that ends at a time [s]."""
     return Span(
         *(span.step, span.largest, until, span.end, span.duration, span.rtol, span.atol, span.relative),
-        *(span.safety, span.most, span.pause),
+        *(span.safety, span.most, span.pause, span.turn),
     )
 
 

@@ -171,7 +171,7 @@ def candidate(hunt: A, n: int) -> float:
             side, g1 = hunt[at + LOCAL * n + k], hunt[at + G_HIGH * n + k]
             d0, d1 = width * hunt[at + D_LOW * n + k], width * hunt[at + D_HIGH * n + k]
             root = first_root(hunt[at + G_LOW * n + k], d0, g1, d1, side) if is_finite(d0 + d1) == 1 else 0.5
-            if rounds % 2 == 1 and hunt[at + ACTION * n + k] == float(ANEW):
+            if rounds % 2 == 1 and hunt[at + ACTION * n + k] >= float(ANEW):
                 root = beyond_low(hunt, n, k, root)
             x = min(x, root)
     x = low + x * width

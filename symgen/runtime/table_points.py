@@ -194,7 +194,7 @@ def aim(hunt: A, n: int, h: float) -> int:
     first, least = 2.0 * h, _LEAST * h
     hunt[REACH] = h
     for k in range(n):
-        if hunt[N_HEAD + ACTION * n + k] != float(ANEW):
+        if hunt[N_HEAD + ACTION * n + k] < float(ANEW):
             continue
         curve = hunt[N_HEAD + CURVE * n + k]
         if hunt[N_HEAD + POINTS * n + k] == 0.0:
@@ -228,7 +228,7 @@ def switch_values(hunt: A, n: int, h: float, hunting: int) -> int:
     """Set the effective values of switches: those within rounding of zero, or undefined, stay on the same side."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     for k in range(n):
-        if hunt[at + ACTION * n + k] != float(ANEW):
+        if hunt[at + ACTION * n + k] < float(ANEW):
             continue
         if hunt[at + POINTS * n + k] > 0.0:
             s, rate = hunt[out + k], hunt[out + n + k]
@@ -253,7 +253,7 @@ def ends_near(hunt: A, n: int) -> int:
             if hunt[N_HEAD + POINTS * n + k] > 0.0:
                 if ends_at(hunt, n, k, hunt[HIGH]) == 0:
                     return 0
-            elif hunt[N_HEAD + ACTION * n + k] != float(ANEW) or hunt[HIGH] > 2.0 * short(hunt, n, k):
+            elif hunt[N_HEAD + ACTION * n + k] < float(ANEW) or hunt[HIGH] > 2.0 * short(hunt, n, k):
                 return 0
     return 1
 
@@ -264,7 +264,7 @@ def is_before(hunt: A, n: int) -> int:
     jumps = 0
     for k in range(n):
         if passes(hunt, n, k, G_HIGH) == 1:
-            if hunt[N_HEAD + ACTION * n + k] != float(ANEW):
+            if hunt[N_HEAD + ACTION * n + k] < float(ANEW):
                 return 0
             if hunt[N_HEAD + POINTS * n + k] == 0.0 and hunt[LOW] > short(hunt, n, k):
                 jumps = 1

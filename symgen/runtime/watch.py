@@ -97,20 +97,22 @@ def stuck(span: Any, run: Any, t: float) -> bool:
 
 
 def force(sizes: Any, run: Any, y: Any, before: float) -> float:
-    """Return the force in a step [N]: its change of kinetic energy or work over the largest displacement of a body.
+    """Return the force in a step [N]: its change of potential energy or work over the largest displacement of a body.
+
+    What the balance lost in the step is no force: a switch at which velocities change takes no time and no way.
 
     Parameters
     ----------
     sizes, run, y
         As for `watch`; `run` has the state before as well.
     before : float
-        Kinetic energy of the state before [J].
+        Potential energy less work in the state before [J].
     """
     way = 0.0
     for i in range(sizes.nq):
         way = max(way, abs(y[i] - run.y[i]) * run.metric[i])
     behind = sizes.nq + sizes.nv
-    change = max(abs(run.w[abi.KINETIC] - before), abs(y[behind] - run.y[behind]))
+    change = max(abs(run.w[abi.POTENTIAL] - y[behind] - before), abs(y[behind] - run.y[behind]))
     return change / way if way > 0.0 else 0.0
 
 
@@ -139,8 +141,8 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     scale = max(w[abi.KINETIC], abs(w[abi.POTENTIAL] - gauges[abi.POTENTIAL_START]), abs(work))
     if scale > gauges[abi.ENERGY_SCALE]:
         gauges[abi.ENERGY_SCALE] = scale
-    before = gauges[abi.LAST_KINETIC]
-    gauges[abi.LAST_KINETIC] = w[abi.KINETIC]
+    before = gauges[abi.LAST_POTENTIAL]
+    gauges[abi.LAST_POTENTIAL] = w[abi.POTENTIAL] - work
 
     pivot, rank = w[abi.PIVOT], int(w[abi.RANK])
     if pivot < gauges[abi.SMALLEST_PIVOT]:

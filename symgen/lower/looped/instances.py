@@ -125,7 +125,8 @@ class _Rewriting:
         frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
         nothing = (ZERO,) * len(self.mechanism.gravity)
         instance = self.instance(kind, element.name, element.kind, nothing, frames, content)
-        return instance if self.mechanism.space == "planar" else replace(instance, angles=turns(measures_of(element)))
+        angles = turns(measures_of(element))
+        return replace(instance, angles=angles) if angles else instance
 
     def instance(
         self, kind: str, name: str, label: str, gravity: Any, frames: tuple[Any, ...], content: Any = None
