@@ -91,13 +91,16 @@ def starts(case: Case, monkeypatch: pytest.MonkeyPatch, other: Callable[..., Non
 
     def both(*arguments: Any) -> int:
         before = printed.copied(arguments)
+        alone = printed.copied(arguments)
         done = compiled_form(starting.close_rows)(*arguments)
+        assert compiled_form(starting.close_alone)(*alone) == done
+        printed.assert_same_bits(printed.arrays(alone), printed.arrays(arguments))
         other(before, done, printed.arrays(arguments))
         summaries.append(arguments[2].summary.copy())
         return done
 
     monkeypatch.setattr(decisions, "LARGEST_INTERPRETED", -1)
-    monkeypatch.setattr(assembler, "close_rows", both)
+    monkeypatch.setattr(assembler, "close_alone", both)
     y = model.assemble(compiled).y
     if away or values:
         model.assemble(compiled, held=dict(values) if values else Held({i: y[i] + x for i, x in away.items()}))
