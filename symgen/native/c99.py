@@ -11,7 +11,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import pairwise
-from typing import Any
+from typing import Any, ClassVar
 
 from symgen.native import language as lang
 from symgen.native.printing import FunctionPrinter, ordered
@@ -26,6 +26,11 @@ HELPERS = {
     "square": "static real square(real x) { return x*x; }",
     "floored": "static real floored(real a, real b) { return M(floor)(a/b); }",
     "rest": "static real rest(real a, real b) { return a - b*M(floor)(a/b); }",
+    "quotient_of_integers": "static int quotient_of_integers(int a, int b) "
+    "{ return b == 0 ? 0 : a/b - (a % b && (a < 0) != (b < 0)); }",
+    "rest_of_integers": "static int rest_of_integers(int a, int b) "
+    "{ return b == 0 ? 0 : a % b + ((a % b && (a < 0) != (b < 0)) ? b : 0); }",
+    "size_of_integer": "static int size_of_integer(int a) { return a < 0 ? -a : a; }",
     "power": "static real power(real x, int n) {\n"
     "real result = 1.0;\nfor (; n; n >>= 1) {\nif (n & 1) result *= x;\nx *= x;\n}\nreturn result;\n}",
 }
@@ -41,14 +46,17 @@ _LIBRARY = (
     "sincos sinh sqrt tan tanh tgamma trunc y0 y1 yn significand drem finite isinf isnan isfinite abs abort exit main "
     "printf memcpy memset div labs atoi atof system time clock signal index double_t float_t"
 )
-_OWN = ("real", "M", "I", "EOF", "NULL", "NAN", "SMALL", "LARGE")
+_OWN = ("end", "real", "M", "I", "EOF", "NULL", "NAN", "SMALL", "LARGE")
 #: Reserved words: keywords, names of the library, and the files' own names.
 RESERVED = frozenset((*_KEYWORDS.split(), *_LIBRARY.split(), *HELPERS, *_OWN))
 
 _CALLED = {"floordiv": "floored", "mod": "rest", "min": "least", "max": "greatest", "abs": "fabs"}
-_CALLED |= {"math.fabs": "fabs", "pow": "pow"}
+_CALLED |= {"math.fabs": "fabs", "pow": "pow", "round": "rint"}
 _OF_INTEGERS = {"min": "least_of_integers", "max": "greatest_of_integers", "floordiv": "floored_quotient", "abs": "abs"}
+_OF_INTEGERS |= {"quotient": "quotient_of_integers", "rest": "rest_of_integers", "mod": "rest_of_integers"}
 _TYPES = {"float": "real", "int": "int", "bool": "int"}
+#: Types of functions with the arguments of machine code.
+_WIDE = {"float": "real", "int": "long long", "bool": "int"}
 #: Most characters of a line; C's compilers need not take lines of more than 4095.
 _WIDTH = 120
 #: Most statements of a function: the time that compilers spend on one function grows faster than its length.
@@ -67,8 +75,26 @@ def c_functions(functions: Mapping[str, lang.Function]) -> str:
     written: dict[object, frozenset[str]] = {}
     for function in order:
         written[function.key] = _written(function, written)
-    text = "\n\n".join(_Printer(function, names, written).text() for function in order)
-    helpers = [helper for name, helper in HELPERS.items() if re.search(rf"\b{name}\(", text)]
+    return _with_helpers([_Printer(function, names, written).text() for function in order])
+
+
+def c_loops(functions: Mapping[str, lang.Function]) -> str:
+    """Return the text of functions of the runtime with the arguments of machine code; else as `c_functions`.
+
+    An array is the address of its elements and its lengths, another function its address, integers have 64 bits. The
+    functions of the mapping have external linkage, so that machine code may call them, and they may call machine code.
+    """
+    order, names = ordered(functions, RESERVED)
+    outside = {function.key for function in functions.values()}
+    texts = [_LoopPrinter(function, names, external=function.key in outside).text() for function in order]
+    return _with_helpers(texts, _WIDE["int"])
+
+
+def _with_helpers(texts: Sequence[str], integer: str = "int") -> str:
+    """Return functions after the helpers that they call."""
+    text = "\n\n".join(texts)
+    used = (helper for name, helper in HELPERS.items() if re.search(rf"\b{name}\(", text))
+    helpers = [helper.replace("int ", f"{integer} ") for helper in used]
     return "\n\n".join([*helpers, text])
 
 
@@ -141,6 +167,8 @@ class _Printer(FunctionPrinter):
     """Prints one function."""
 
     reserved = RESERVED
+    types: ClassVar[Mapping[str, str]] = _TYPES
+    of_integers: ClassVar[Mapping[str, str]] = _OF_INTEGERS
 
     def __init__(
         self, function: lang.Function, names: Mapping[object, str], written: Mapping[object, frozenset[str]]
@@ -151,25 +179,30 @@ class _Printer(FunctionPrinter):
     def text(self) -> str:
         """Return the definition, after the tables that it reads and after its parts where it is long."""
         f, own = self.function, self.names[self.function.key]
-        lines = []
-        for name, values in f.tables.items():
-            numbers = ", ".join(self.literal(x)[0] for x in values)
-            lines.append(f"static const real {self.names[f.key, name]}[{len(values)}] = {{{numbers}}};")
+        lines = self.tables()
         parts = _parts(f)
         if len(parts) > 1:
             return "\n".join(map(broken, [*lines, *self._in_parts(own, parts)]))
         used = _names(f.body)
-        lines.append(f"static {_TYPES[f.returned]} {own}({', '.join(map(self._parameter, f.parameters))}) {{")
+        lines.append(f"static {self.types[f.returned]} {own}({', '.join(map(self._parameter, f.parameters))}) {{")
         lines += [f"(void){self.word(p.name)};" for p in f.parameters if p.name not in used]
         return "\n".join(map(broken, [*lines, *self._locals(used), *self.lines(f.body), "}"]))
+
+    def tables(self) -> list[str]:
+        """Return the tables that the function reads."""
+        f, lines = self.function, list[str]()
+        for name, values in f.tables.items():
+            numbers = ", ".join(self.literal(x)[0] for x in values)
+            lines.append(f"static const real {self.names[f.key, name]}[{len(values)}] = {{{numbers}}};")
+        return lines
 
     def _locals(self, used: Collection[str]) -> list[str]:
         """Return declarations of variables that are assigned several times."""
         f, parameters = self.function, {p.name for p in self.function.parameters}
         return [
-            f"{_TYPES[kind]} {self.word(name)} = 0;"
+            f"{self.types[kind]} {self.word(name)} = 0;"
             for name, kind in f.variables.items()
-            if name in used and name not in parameters and name not in f.fixed and name not in self.shared
+            if name in used and name not in parameters and name not in self.once and name not in self.shared
         ]
 
     def _in_parts(self, own: str, parts: Sequence[tuple[lang.Statement, ...]]) -> list[str]:
@@ -192,7 +225,7 @@ class _Printer(FunctionPrinter):
             lines += [f"static void {own}_part{k}({', '.join(heads)}) {{", *self._locals(used), *body, "}", ""]
             calls.append(f"{own}_part{k}({', '.join([*(self.word(p.name) for p in own_arguments), *arrays])});")
         every = frozenset[str]().union(*names)
-        lines.append(f"static {_TYPES[f.returned]} {own}({', '.join(map(self._parameter, f.parameters))}) {{")
+        lines.append(f"static {self.types[f.returned]} {own}({', '.join(map(self._parameter, f.parameters))}) {{")
         lines += [f"(void){self.word(p.name)};" for p in f.parameters if p.name not in every]
         lines += [f"{'real' if a == 'values' else 'int'} {a}[{size}];" for a, size in sizes.items()]
         return [*lines, *calls, *self.lines(parts[-1]), "}"]
@@ -202,7 +235,7 @@ class _Printer(FunctionPrinter):
         return self.shared.get(name) or super().word(name)
 
     def _parameter(self, parameter: lang.FunctionParameter) -> str:
-        kind, name = _TYPES[parameter.type], self.word(parameter.name)
+        kind, name = self.types[parameter.type], self.word(parameter.name)
         if not parameter.array:
             return f"{kind} {name}"
         return f"{'' if parameter.name in self.written else 'const '}{kind} *restrict {name}"
@@ -214,23 +247,106 @@ class _Printer(FunctionPrinter):
 
     def defined(self, s: lang.Assign) -> str:
         """Return the words before the name of a variable that is assigned once, at its assignment."""
-        return "" if s.name in self.shared else f"const {_TYPES[self.function.variables[s.name]]} "
+        return "" if s.name in self.shared else f"const {self.types[self.function.variables[s.name]]} "
 
     def loop_head(self, s: lang.For, counter: str) -> str:
         """Return the head of a loop whose counter has its own name."""
         first, last, sign = self.value(s.start), self.value(s.stop), "<" if s.step > 0 else ">"
-        return f"for (int {counter} = {first}, end = {last}; {counter} {sign} end; {counter} += {s.step}) {{"
+        kind = self.types["int"]
+        return f"for ({kind} {counter} = {first}, end = {last}; {counter} {sign} end; {counter} += {s.step}) {{"
 
     def called(self, e: lang.ScalarOperation) -> str:
         """Return the name of an operation's function."""
         if e.type == "int" and e.arguments[0].type == "int":
-            return _OF_INTEGERS[e.name]
+            return self.of_integers[e.name]
         name = _CALLED.get(e.name, e.name.removeprefix("math."))
         name = name if name in HELPERS else f"M({name})"
-        return f"(int){name}" if e.type == "int" else name
+        return f"({self.types['int']}){name}" if e.type == "int" else name
 
     def converted(self, kind: str, value: lang.Expression) -> tuple[str, int]:
         """Return a value in another type."""
         if kind == "bool":
             return f"{self.value(value, 10)} != 0", 9
-        return f"({_TYPES[kind]}){self.value(value, 15)}", 14
+        return f"({self.types[kind]}){self.value(value, 15)}", 14
+
+    def block(self, number: int, lines: list[str]) -> list[str]:
+        """Return the statements of a block that may be left before its end."""
+        return ["{", *lines, "}", f"end{number}:;"]
+
+    def left(self, number: int) -> str:
+        """Return the statement that leaves a block."""
+        return f"goto end{number};"
+
+    def length(self, array: str, axis: int) -> str:
+        """Return the length of an array along an axis, an argument or a variable."""
+        return self.word(f"{array}.n{axis}")
+
+    def handed(self, array: str) -> list[str]:
+        """Return the arguments of a call for an array."""
+        return [self.word(array)]
+
+    def named(self, name: str, array: str, first: lang.Expression | None, lengths: list[str]) -> list[str]:
+        """Return the statements that give a name to an array, or to the elements from one on."""
+        kind, _ = self.arrays[name]
+        address, sizes = self.word(name), [self.length(name, axis) for axis in range(len(lengths))]
+        self.views |= dict.fromkeys(
+            [f"{self.types[kind]} *{address} = 0;", *(f"{self.types['int']} {n} = 0;" for n in sizes)]
+        )
+        begin = f" + {self.value(first, 13)}" if first is not None else ""
+        return [f"{address} = {self.word(array)}{begin};", *map("{} = {};".format, sizes, lengths)]
+
+    def invoked(self, e: lang.Invoke) -> str:
+        """Return the call of a function by its address."""
+        address = self.word(e.function) if isinstance(e.function, str) else self.value(e.function)
+        kinds = [kind for a in e.arguments for kind in self.kinds(a)]
+        return f"(({self.types[e.type]} (*)({', '.join(kinds)})){address})({', '.join(self.arguments(e.arguments))})"
+
+    def kinds(self, argument: lang.Expression | str) -> list[str]:
+        """Return the types of the arguments of a call for one value."""
+        if not isinstance(argument, str):
+            return [self.types[argument.type]]
+        if argument not in self.arrays:
+            return ["void *"]
+        kind, _ = self.arrays[argument]
+        return [f"{self.types[kind]} *", *(self.types["int"] for _ in self.handed(argument)[1:])]
+
+
+class _LoopPrinter(_Printer):
+    """Prints one function with the arguments of machine code.
+
+    Parameters
+    ----------
+    function, names
+        As for `FunctionPrinter`.
+    external : bool
+        Whether other texts may call it.
+    """
+
+    types = _WIDE
+    of_integers: ClassVar = {**_OF_INTEGERS, "abs": "size_of_integer"}
+
+    def __init__(self, function: lang.Function, names: Mapping[object, str], external: bool) -> None:
+        super().__init__(function, names, {function.key: frozenset()})
+        self.external = external
+
+    def text(self) -> str:
+        """Return the definition, after the tables that it reads."""
+        f, own = self.function, self.names[self.function.key]
+        body, every = self.lines(f.body), f.variables.keys()
+        head = f"{self.types[f.returned]} {own}({', '.join(map(self._parameter, f.parameters))}) {{"
+        lines = [*self.tables(), head if self.external else f"static {head}", *self._locals(every), *self.views]
+        return "\n".join(map(broken, [*lines, *body, "}"]))
+
+    def handed(self, array: str) -> list[str]:
+        """Return the arguments of a call for an array: its address and its lengths."""
+        _, rank = self.arrays[array]
+        return [self.word(array), *(self.length(array, axis) for axis in range(rank))]
+
+    def _parameter(self, parameter: lang.FunctionParameter) -> str:
+        if parameter.address:
+            return f"void *{self.word(parameter.name)}"
+        kind = self.types[parameter.type]
+        if not parameter.array:
+            return f"{kind} {self.word(parameter.name)}"
+        address, *lengths = self.handed(parameter.name)
+        return ", ".join([f"{kind} *{address}", *(f"{self.types['int']} {n}" for n in lengths)])

@@ -65,16 +65,27 @@ function quarter(x, k, otherwise) {
 const sine = (x) => (x === 0 ? x : quarter(x, 0, Math.sin));
 const cosine = (x) => quarter(x, 1, Math.cos);
 """
+#: Helpers of printed functions of the runtime, beside `HELPERS`.
+LOOP_HELPERS = """\
+const quotient = (a, b) => (b === 0 ? 0 : Math.floor(a / b));
+const modulus = (a, b) => (b === 0 ? 0 : a - b * Math.floor(a / b));
+const nearest = (x) => {
+  const n = Math.round(x);
+  return n - x === 0.5 && n % 2 !== 0 ? n - 1 : n;
+};
+const part = (array, first, size) => array.subarray(first, first + size);
+"""
 #: Reserved words; emitted code uses none of them today.
 RESERVED = frozenset(
     "arguments await break case catch class const debugger default delete enum eval export extends function implements "
     "in instanceof interface let new package private protected public static super switch this throw typeof undefined "
     "var void with yield Math copysign floored rest least greatest square power "
-    "low times sineOf cosineOf quarter sine cosine".split()
+    "end quotient modulus nearest part low times sineOf cosineOf quarter sine cosine".split()
 )
 
 _CALLED = {"floordiv": "floored", "mod": "rest", "min": "least", "max": "greatest", "abs": "Math.abs"}
 _CALLED |= {"math.sin": "sine", "math.cos": "cosine", "pow": "Math.pow"}
+_CALLED |= {"quotient": "quotient", "round": "nearest"}
 _CALLED |= {"math.fabs": "Math.abs", "math.copysign": "copysign", "math.pow": "Math.pow"}
 
 
@@ -104,11 +115,12 @@ class _Printer(FunctionPrinter):
             for name, values in f.tables.items()
         ]
         parameters = {p.name for p in f.parameters}
-        local = [self.word(name) for name in f.variables if name not in parameters and name not in f.fixed]
-        lines = [f"let {', '.join(local)};"] if local else []
-        lines += self.lines(f.body)
-        head = f"function {self.names[f.key]}({', '.join(self.word(p.name) for p in f.parameters)}) {{"
-        return "\n".join([*tables, head, *lines, "}"])
+        local = [self.word(name) for name in f.variables if name not in parameters and name not in self.once]
+        body = self.lines(f.body)
+        lines = [f"let {', '.join([*local, *self.views])};"] if local or self.views else []
+        arguments = (a for p in f.parameters for a in (self.handed(p.name) if p.array else [self.word(p.name)]))
+        head = f"function {self.names[f.key]}({', '.join(arguments)}) {{"
+        return "\n".join([*tables, head, *lines, *body, "}"])
 
     def literal(self, value: float | int | bool) -> tuple[str, int]:
         """Return a number and the precedence of its text."""
@@ -130,6 +142,8 @@ class _Printer(FunctionPrinter):
 
     def called(self, e: lang.ScalarOperation) -> str:
         """Return the name of an operation's function."""
+        if e.name == "rest" and e.type == "int":
+            return "modulus"
         return _CALLED.get(e.name, f"Math.{e.name.removeprefix('math.')}")
 
     def converted(self, kind: str, value: lang.Expression) -> tuple[str, int]:
@@ -139,3 +153,36 @@ class _Printer(FunctionPrinter):
         if value.type == "bool":
             return f"({self.value(value)} ? 1 : 0)", 20
         return (f"Math.trunc({self.value(value)})", 20) if kind == "int" else self.expression(value)
+
+    def block(self, number: int, lines: list[str]) -> list[str]:
+        """Return the statements of a block that may be left before its end."""
+        return [f"block{number}: {{", *lines, "}"]
+
+    def left(self, number: int) -> str:
+        """Return the statement that leaves a block."""
+        return f"break block{number};"
+
+    def length(self, array: str, axis: int) -> str:
+        """Return the length of an array along an axis: the elements of an array know the first one."""
+        if axis > 0:
+            return self.word(f"{array}.n{axis}")
+        _, *inner = self.handed(array)
+        return f"({self.word(array)}.length / ({'*'.join(inner)}))" if inner else f"{self.word(array)}.length"
+
+    def handed(self, array: str) -> list[str]:
+        """Return the arguments of a call for an array: itself, and its lengths but the first."""
+        _, rank = self.arrays[array]
+        return [self.word(array), *(self.length(array, axis) for axis in range(1, rank))]
+
+    def named(self, name: str, array: str, first: lang.Expression | None, lengths: list[str]) -> list[str]:
+        """Return the statements that give a name to an array, or to the elements from one on."""
+        view, *inner = self.handed(name)
+        self.views |= dict.fromkeys([view, *inner])
+        size = "*".join(f"({n})" if i == 0 and len(lengths) > 1 else n for i, n in enumerate(lengths))
+        elements = self.word(array) if first is None else f"part({self.word(array)}, {self.value(first)}, {size})"
+        return [f"{view} = {elements};", *map("{} = {};".format, inner, lengths[1:])]
+
+    def invoked(self, e: lang.Invoke) -> str:
+        """Return the call of a function by its address, here the function itself."""
+        function = self.word(e.function) if isinstance(e.function, str) else self.value(e.function)
+        return f"{function}({', '.join(self.arguments(e.arguments))})"

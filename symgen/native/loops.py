@@ -13,6 +13,7 @@ from __future__ import annotations
 import ast
 import math
 import types as python
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from symgen.native import language as lang
@@ -37,8 +38,11 @@ from symgen.native.pieces import Piece, inserted
 from symgen.native.read import Renamed, body_of, returns, tree_of
 from symgen.native.read_values import Foreign, as_type, truth_of
 
+#: Makes the compiled function of the plain form of a piece; None: pieces are inserted in LLVM's language.
+Pieces = Callable[[Piece], Any] | None
 
-def read_loop(function: Any, arguments: tuple[types.Kind, ...]) -> lang.Function:
+
+def read_loop(function: Any, arguments: tuple[types.Kind, ...], pieces: Pieces = None) -> lang.Function:
     """Return a loop with the types that follow from those of its arguments.
 
     Parameters
@@ -47,6 +51,8 @@ def read_loop(function: Any, arguments: tuple[types.Kind, ...]) -> lang.Function
         Its Python function is the loop.
     arguments : tuple of types
         Types of its arguments (`symgen.native.types`).
+    pieces : callable, optional
+        Makes the compiled function of the plain form of a piece, for languages other than LLVM's.
 
     Raises
     ------
@@ -56,7 +62,7 @@ def read_loop(function: Any, arguments: tuple[types.Kind, ...]) -> lang.Function
     names = function.py_func.__code__.co_varnames
     pairs = [laid_out(name, kind) for name, kind in zip(names, arguments, strict=False)]
     parameters = tuple(p for _, ps in pairs for p in ps)
-    return LoopReader(function, tuple(v for v, _ in pairs), parameters, {}).function()
+    return LoopReader(function, tuple(v for v, _ in pairs), parameters, {}, pieces).function()
 
 
 class _Copied(NamedTuple):
@@ -79,6 +85,8 @@ class LoopReader(LoopValues):
         Their parameters.
     shared : dict
         Called parts read so far, by their arguments.
+    pieces : callable, optional
+        As for `read_loop`.
     """
 
     def __init__(
@@ -87,6 +95,7 @@ class LoopReader(LoopValues):
         arguments: tuple[Value, ...],
         parameters: tuple[lang.FunctionParameter, ...],
         shared: dict[Any, lang.Function],
+        pieces: Pieces = None,
     ) -> None:
         tree = tree_of(function)
         names = [x.arg for x in tree.args.args]
@@ -95,7 +104,7 @@ class LoopReader(LoopValues):
         # an argument that is a number has its own name, and may be given another value
         bound = {n: v for n, v in zip(names, arguments, strict=True) if not isinstance(v, lang.Variable)}
         super().__init__(function, tree, bound, parameters)
-        self.shared = shared
+        self.shared, self.plain_piece = shared, pieces
         self.copies: list[_Copied] = []
 
     def function(self) -> lang.Function:
@@ -276,7 +285,7 @@ class LoopReader(LoopValues):
         return lang.Invoke(result, called.name, handed_on(called.signature.arguments, arguments))
 
     def insert(self, called: Piece, arguments: list[Value], node: ast.Call) -> Value:
-        """Return the result of a function in LLVM's language."""
+        """Return the result of a function in LLVM's language, or of its plain form."""
         if called.name == "bare" and len(arguments) == 1:
             return arguments[0]  # no reference counting here
         if called.name == "part" and len(arguments) == 3 and isinstance(arguments[0], Array):
@@ -285,6 +294,8 @@ class LoopReader(LoopValues):
             size = self.named(size, node)
             self.pending.append(lang.ArrayView(view, source.name, first, size))
             return Array(view, source.type)
+        if self.plain_piece is not None:
+            return self.call_part(self.plain_piece(called), arguments, node)
         kinds: list[types.NumberType | types.ArrayType] = []
         for value in arguments:
             if isinstance(value, Array):
@@ -306,7 +317,7 @@ class LoopReader(LoopValues):
         inside, parameters = tuple(v for v, _ in pairs), tuple(p for _, ps in pairs for p in ps)
         key = (called, parameters)
         if key not in self.shared:
-            reader = LoopReader(called, inside, parameters, self.shared)
+            reader = LoopReader(called, inside, parameters, self.shared, self.plain_piece)
             self.shared[key] = reader.function()
         function = self.called[called, parameters] = self.shared[key]  # type: ignore[index]  # its identity
         leaf_arguments = (v.name if isinstance(v, Array | Address) else v for v in leaves(Record(tuple(arguments))))

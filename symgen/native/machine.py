@@ -65,7 +65,7 @@ def _engine() -> Any:
     return llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine(3))
 
 
-def compiled(text: str, symbol: str, vectors: bool = True) -> bytes:
+def compiled(text: str, symbol: str, once: bool = False) -> bytes:
     """Return the object file of a module in LLVM's language.
 
     Parameters
@@ -74,12 +74,14 @@ def compiled(text: str, symbol: str, vectors: bool = True) -> bytes:
         The module.
     symbol : str
         Its function, divided into blocks if it is long.
-    vectors : bool
-        Whether operations may be joined to vectors, which takes a third of the compiler's time.
+    once : bool
+        Whether the function is called about once, so that passes would take longer than they save.
     """
     from symgen.native.blocks import split
 
-    module = optimised(text, vectors)
+    if once:
+        return bytes(_machine(0).emit_object(_parsed(text)))
+    module = optimised(text)
     machine = _best_machine()
     divided = split(str(module), symbol, LARGEST_BLOCK)
     if divided is not None:
@@ -88,16 +90,22 @@ def compiled(text: str, symbol: str, vectors: bool = True) -> bytes:
     return bytes(machine.emit_object(module))
 
 
-def optimised(text: str, vectors: bool = True) -> Any:
+def _parsed(text: str) -> Any:
+    """Return a module for this processor, before all passes."""
+    module = llvm.parse_assembly(text)
+    module.triple, module.data_layout = _host()[0], str(_best_machine().target_data)
+    return module
+
+
+def optimised(text: str) -> Any:
     """Return a module after the passes of the highest level.
 
     For straight code a few of these give the result of all: instructions in their plainest form, operands in
     the order that decides which product a sum is contracted with.
     """
-    module = llvm.parse_assembly(text)
-    module.triple, module.data_layout = _host()[0], str(_best_machine().target_data)
+    module = _parsed(text)
     options = llvm.create_pipeline_tuning_options(speed_level=3)
-    options.loop_vectorization, options.slp_vectorization = vectors, False
+    options.loop_vectorization, options.slp_vectorization = True, False
     builder = llvm.create_pass_builder(_best_machine(), options)
     # the function of `symgen.native.sines` jumps by a ``switch``: it needs no more than straight code
     if " br " not in text and "available_externally" not in text:

@@ -67,6 +67,11 @@ class FunctionPrinter(ABC):
         The function.
     names : mapping of object to str
         Names of functions and tables, as `ordered` returns them.
+
+    Attributes
+    ----------
+    arrays : dict of str to tuple
+        Type of the elements and number of dimensions of arrays that are no tables.
     """
 
     #: Reserved words.
@@ -77,6 +82,10 @@ class FunctionPrinter(ABC):
     def __init__(self, function: lang.Function, names: Mapping[object, str]) -> None:
         self.function, self.names = function, names
         self.counters = 0
+        self.arrays = {p.name: (p.type, p.rank) for p in function.parameters if p.array}
+        self.views = dict[str, None]()  # names of arrays and of lengths that are assigned
+        #: Variables whose only assignment is a statement of the body itself.
+        self.once = function.fixed & {s.name for s in function.body if isinstance(s, lang.Assign)}
 
     @abstractmethod
     def text(self) -> str:
@@ -102,6 +111,30 @@ class FunctionPrinter(ABC):
     def converted(self, kind: str, value: lang.Expression) -> tuple[str, int]:
         """Return a value in another type."""
 
+    @abstractmethod
+    def block(self, number: int, lines: list[str]) -> list[str]:
+        """Return the statements of a block that may be left before its end."""
+
+    @abstractmethod
+    def left(self, number: int) -> str:
+        """Return the statement that leaves a block."""
+
+    @abstractmethod
+    def length(self, array: str, axis: int) -> str:
+        """Return the length of an array along an axis, which binds as strongly as a name."""
+
+    @abstractmethod
+    def handed(self, array: str) -> list[str]:
+        """Return the arguments of a call for an array."""
+
+    @abstractmethod
+    def named(self, name: str, array: str, first: lang.Expression | None, lengths: list[str]) -> list[str]:
+        """Return the statements that give a name to an array, or to the elements from one on."""
+
+    @abstractmethod
+    def invoked(self, e: lang.Invoke) -> str:
+        """Return the call of a function by its address."""
+
     def word(self, name: str) -> str:
         """Return the name of a variable."""
         return word(name, self.reserved)
@@ -113,7 +146,7 @@ class FunctionPrinter(ABC):
     def statement(self, s: lang.Statement) -> list[str]:
         """Return one statement."""
         if isinstance(s, lang.Assign):
-            once = self.defined(s) if s.name in self.function.fixed else ""
+            once = self.defined(s) if s.name in self.once else ""
             return [f"{once}{self.word(s.name)} = {self.value(s.value)};"]
         if isinstance(s, lang.Store):
             return [f"{self.word(s.array)}[{self.value(s.index)}] = {self.value(s.value)};"]
@@ -122,7 +155,19 @@ class FunctionPrinter(ABC):
         if isinstance(s, lang.Return):
             return [f"return {self.value(s.value)};"]
         if isinstance(s, lang.Leave):
-            return [f"{s.how};"]
+            return [self.left(s.block) if s.how == "block" else f"{s.how};"]
+        if isinstance(s, lang.StatementBlock):
+            return self.block(s.number, self.lines(s.body))
+        if isinstance(s, lang.ArrayView):
+            kind, rank = self.arrays[s.array]
+            inner = [self.length(s.array, axis) for axis in range(1 if s.size is not None else s.indices, rank)]
+            lengths = inner if s.size is None else [self.value(s.size), *inner]
+            self.arrays[s.name] = kind, len(lengths)
+            return self.named(s.name, s.array, s.first, lengths)
+        if isinstance(s, lang.Pick):
+            self.arrays[s.name] = self.arrays[s.chosen]
+            then, otherwise = (self.named(s.name, a, None, [self.length(a, 0)]) for a in (s.chosen, s.otherwise))
+            return [f"if ({self.value(s.test)}) {{", *then, "} else {", *otherwise, "}"]
         if isinstance(s, lang.If):
             lines = [f"if ({self.value(s.test)}) {{", *self.lines(s.then)]
             return [*lines, *(["} else {", *self.lines(s.otherwise)] if s.otherwise else []), "}"]
@@ -132,6 +177,14 @@ class FunctionPrinter(ABC):
         self.counters += 1
         counter = f"counter{self.counters}"
         return [self.loop_head(s, counter), f"{self.word(s.name)} = {counter};", *self.lines(s.body), "}"]
+
+    def arguments(self, arguments: tuple[lang.Expression | str, ...]) -> list[str]:
+        """Return the arguments of a call: numbers, or by their names arrays and functions."""
+        lists = (
+            [self.value(a)] if not isinstance(a, str) else self.handed(a) if a in self.arrays else [self.word(a)]
+            for a in arguments
+        )
+        return [argument for each in lists for argument in each]
 
     def value(self, e: lang.Expression, level: int = 0) -> str:
         """Return an expression, in parentheses where it binds more weakly than `level`."""
@@ -149,13 +202,16 @@ class FunctionPrinter(ABC):
             array = self.names[self.function.key, e.array] if constant else self.word(e.array)
             return f"{array}[{self.value(e.index)}]", 20
         if isinstance(e, lang.FunctionCall):
-            arguments = (self.word(a) if isinstance(a, str) else self.value(a) for a in e.arguments)
-            return f"{self.names[e.function.key]}({', '.join(arguments)})", 20
+            return f"{self.names[e.function.key]}({', '.join(self.arguments(e.arguments))})", 20
+        if isinstance(e, lang.ArrayLength):
+            return self.length(e.array, e.axis), 20
+        if isinstance(e, lang.Invoke):
+            return self.invoked(e), 20
         if isinstance(e, lang.Logic):
             return self.binary(e.name, e.first, e.second)
         if isinstance(e, lang.Choice):
             return f"{self.value(e.test, 4)} ? {self.value(e.chosen, 3)} : {self.value(e.otherwise, 3)}", 2
-        assert isinstance(e, lang.ScalarOperation), "emitted functions have no other expressions"
+        assert isinstance(e, lang.ScalarOperation), "functions in LLVM's language are read by their plain form"
         return self.operation(e)
 
     def binary(self, name: str, first: lang.Expression, second: lang.Expression) -> tuple[str, int]:

@@ -21,7 +21,7 @@ from symgen.runtime.manifold import stay
 from symgen.runtime.model_arrays import entries_of, joints_of, lengths_of, spins_of, velocity_of
 from symgen.runtime.probe import Ready
 from symgen.runtime.start_records import Instant, Layout, StartConditions, Work, new_work
-from symgen.runtime.starting import close_rows, follow_nothing, observe_nothing, prepare_rows
+from symgen.runtime.starting import close_alone, close_rows, follow_nothing, observe_nothing, prepare_rows
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
@@ -155,10 +155,10 @@ class Assembly:
         joints, work = self.memory()
         flat, (*functions, observe), form = self.prepare(now, selected, len(work.right))
         model, all_conditions = ((self.layout, *functions), observe, joints), (array.ravel() for array in conditions)
-        done = len(selected)
+        done, close = len(selected), form(close_rows if len(now.y) > 1 else close_alone)
         with np.errstate(all="ignore"):  # undefined numbers are nan or infinite in compiled code, without a warning
             try:
-                done = int(form(close_rows)(model, flat, StartConditions(*all_conditions), work, selected, control))
+                done = int(close(model, flat, StartConditions(*all_conditions), work, selected, control))
             except (ArithmeticError, ValueError):  # of one row, where nothing is compiled
                 conditions.summary[:, e.START] = e.UNDEFINED
         self._judge(now.w, conditions.summary)

@@ -10,7 +10,7 @@ and so does the target: a processor, vector lanes, a CUDA device.
 | `renew` | system, scheme, span, run, t, changed | updates the scheme's memory after the state at `t` was accepted |
 | `shrunk`, `grown` | span, run, [h,] error | ratio of the next step to a refused or accepted one |
 | `interpolate` | system, scheme, span, run, outputs, t, following, h | outputs inside a step, from its ends |
-| `happened` | system, run, t, following, h, hunting | tests whether an event lies inside an acceptable step |
+| `happened` | system, run, following, h, hunting | tests whether an event lies inside an acceptable step |
 | `attend` | system, run, doing | other work for events (`symgen.runtime.hunting`): `LOOK`, `REMEMBER`, `RECALL` |
 | `aimed` | system, run, h | a step that ends where the state passes a point of a table, in place of one of `h` |
 | `is_astray` | span, run, adaptive | whether an accepted state was corrected by more than its error explains |
@@ -71,6 +71,8 @@ DIVERGED, TOO_LARGE = -1.0, -2.0
 NOTHING, SEEK, TAKE, MEET, CROWD, RESTART, HOLD, FAIL = range(8)
 #: Test of a step that is not good enough: whether its error is that of a switch inside, which is then sought.
 DOUBT = FAIL + 1
+#: Judgements of a step beside the codes of an end: try another one from the same state; the same, as it is refused.
+AGAIN, REFUSE = 101, 102
 #: Other work for events: find the side of each on which a run begins; save the memory of emitted functions at the
 #: beginning of a step; restore it.
 LOOK, REMEMBER, RECALL = range(DOUBT + 1, DOUBT + 4)
@@ -101,7 +103,7 @@ def interpolate(
     """Stand for the dense output of a scheme."""
 
 
-def happened(system: Any, run: Any, t: float, following: float, h: float, hunting: int) -> int:
+def happened(system: Any, run: Any, following: float, h: float, hunting: int) -> int:
     """Return `NOTHING`: placeholder for events, between a good attempt and its acceptance."""
     return NOTHING
 
@@ -162,16 +164,24 @@ def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
         outputs.status[k, i] = w[abi.WINDING - abi.N_STATUS + i]
 
 
-def taken_back(run: Any, times: Any, out: int, t: float) -> int:
-    """Remove those of the first `out` outputs that are after the time `t` [s]; return the number left.
+def store_between(sizes: Any, run: Any, outputs: Any) -> None:
+    """Measure and store the trial state as an output between steps."""
+    out = run.control[abi.OUTPUTS]
+    keep_maxima(sizes, run, run.trial)
+    store(sizes, run.w, outputs, out, run.trial)
+    run.control[abi.OUTPUTS] = out + 1
+
+
+def taken_back(run: Any, times: Any, t: float) -> None:
+    """Remove the outputs after the time `t` [s].
 
     Outputs inside a step are written before its end is fixed: a step that is refused, or shortened to an event, has
     others.
     """
+    out = run.control[abi.OUTPUTS]
     while out > 0 and times[out - 1] > t:
         out -= 1
     run.control[abi.OUTPUTS] = out
-    return out
 
 
 def largest_turn(sizes: Any, span: Any, run: Any) -> float:
@@ -183,18 +193,266 @@ def largest_turn(sizes: Any, span: Any, run: Any) -> float:
     return largest
 
 
-def refused(run: Any, times: Any, out: int, t: float, phi: float, drift: float, energy: float) -> int:
-    """Refuse the step from the time `t` [s]; restore the largest violations and energy error from before it.
-
-    Returns the number of the first `out` outputs that are left.
-    """
+def refused(run: Any, times: Any, t: float, phi: float, drift: float, energy: float) -> None:
+    """Refuse the step from the time `t` [s]; restore the largest violations and energy error from before it."""
     run.control[abi.REJECTED] += 1
     run.control[abi.REFUSED] = 1
     run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY] = phi, drift, energy
-    return taken_back(run, times, out, t)
+    taken_back(run, times, t)
 
 
 # -- the frame ---------------------------------------------------------------------------------------------------------
+
+
+def begin_loop(system: Any, scheme: Any, span: Any, run: Any, outputs: Any) -> int:
+    """Measure and store the first state of a run, if it is new; begin the scheme, or discard its past steps.
+
+    Returns the code of an end, `DONE` to continue.
+    """
+    sizes, clock, control, times = system.sizes, run.clock, run.control, outputs.times
+    if control[abi.BEGUN] == 0:
+        remember_rank(sizes, run)
+        settle(sizes, span, run)
+        copied(sizes.width, run.y, run.trial)
+        correct(system, run, clock[abi.TIME], run.trial, False)
+        copied(sizes.width, run.trial, run.y)
+        begin(run)
+        code = watch(sizes, run, run.y, clock[abi.TIME])
+        if code != abi.DONE:
+            return code
+        out, latest = control[abi.OUTPUTS], clock[abi.TIME] + resolution(span)
+        while out < times.shape[0] and times[out] <= latest:
+            store(sizes, run.w, outputs, out, run.y)
+            out += 1
+        control[abi.OUTPUTS] = out
+    if control[abi.BEGUN] != 1:
+        clock[abi.ALLOWED] = 0.0
+        control[abi.REFUSED] = control[abi.BARRED] = control[abi.KNOWN] = 0
+        if ADAPTIVE:
+            clock[abi.NEXT] = span.step
+        # laws whose gains follow the step are evaluated before the first step
+        note_step(run, span.step if span.step > 0.0 else _BEFORE * span.duration)
+        prepare(system, scheme, span, run)
+        if attend(system, run, LOOK) == FAIL:
+            return abi.UNDEFINED
+        control[abi.BEGUN] = 1
+    return abi.DONE
+
+
+def resolution(span: Any) -> float:
+    """Return the difference below which times of a grid of constant steps are equal [s]."""
+    return 0.0 if ADAPTIVE else abi.SAME_TIME * span.step
+
+
+def choose_step(
+    system: Any, span: Any, run: Any, outputs: Any, t: float
+) -> tuple[int, float, float, bool, bool, float]:
+    """Choose the step from the time `t` [s].
+
+    Returns
+    -------
+    tuple
+        Code of an end, `DONE` to continue; the step and its end [s]; whether it ends at an output between steps;
+        whether it crosses a singular position; the step that the error estimate proposes [s].
+    """
+    clock, control, times, until = run.clock, run.control, outputs.times, span.until
+    code, h, following, crossing, wanted = abi.DONE, 0.0, 0.0, False, 0.0
+    if control[abi.STOP] != 0:
+        code = abi.STOPPED
+    elif control[abi.STEPS] >= span.pause:
+        code = abi.PAUSED
+    elif not ADAPTIVE:
+        h, following = span.step, clock[abi.ORIGIN] + (control[abi.INDEX] + 1) * span.step
+        if following > until + resolution(span):
+            h, following = until - t, until
+    elif stuck(span, run, t):
+        code = abi.NO_PROGRESS
+    else:
+        crossing = control[abi.BARRED] == 0 and control[abi.IN_ZONE] == 1 and run.gauges[abi.FALL] > 0.0
+        h = approach(min(clock[abi.NEXT], span.largest), run.gauges)
+        if crossing:
+            h = min(span.largest, _ACROSS * run.gauges[abi.LAST_SINE] / run.gauges[abi.FALL])
+        wanted = h
+        if EVENTS and not crossing:
+            h = aimed(system, run, h)
+        following = t + h
+        if t + 1.01 * h >= until:
+            h, following = until - t, until
+        if not h > max(abi.RESOLVED_TIME * abs(t), abi.SHORTEST_STEP):
+            code = abi.TINY_STEP
+    between, out = False, control[abi.OUTPUTS]
+    if not DENSE and out < times.shape[0] and times[out] < following - resolution(span):
+        between, h, following = True, times[out] - t, times[out]
+    return code, h, following, between, crossing, wanted
+
+
+def judge_attempt(
+    system: Any, span: Any, run: Any, step: Any, error: float, hunting: int, doubtful: bool
+) -> tuple[int, int, bool]:
+    """Judge the attempt at a step by its error estimate.
+
+    Parameters
+    ----------
+    step : tuple
+        The step and its end [s]; whether it ends at an output between steps; whether it crosses a singular position.
+    error : float
+        Error over the tolerance; negative if the attempt has no result.
+    hunting : int
+        Last result of `happened`.
+    doubtful : bool
+        Whether the error of the whole step may be that of a switch inside, which is sought.
+
+    Returns
+    -------
+    tuple
+        `DONE` for a good one, `AGAIN`, `REFUSE` or the code of an end; then `hunting` and `doubtful`.
+    """
+    h, following, between, crossing = step
+    verdict = abi.DONE
+    good = error <= 1.0 or (crossing and error <= max(_HOPELESS, _ASTRAY / span.rtol))
+    turn = largest_turn(system.sizes, span, run) if math.isfinite(span.turn) and error >= 0.0 else 0.0
+    if turn > span.turn and not ADAPTIVE:
+        verdict = abi.TURNED
+    elif turn > span.turn:
+        verdict = REFUSE
+        run.clock[abi.NEXT] = _SHORT_OF * h * span.turn / turn
+        refuse(run)
+    elif error == TOO_LARGE:
+        verdict = abi.NO_ROOM
+    elif error < 0.0 and not ADAPTIVE:
+        verdict = abi.NEWTON
+    elif error < 0.0:
+        verdict = REFUSE
+        run.clock[abi.NEXT] = 0.25 * h
+    elif ADAPTIVE and not good and not between:
+        if EVENTS and (hunting == NOTHING or doubtful):
+            if hunting != TAKE and math.isfinite(error):  # a switch inside may cause the error
+                hunting = happened(system, run, following, h, DOUBT if hunting == NOTHING else hunting)
+                doubtful = hunting != NOTHING
+                if doubtful and run.hunt[LOW] != h:  # an attempt that ends before the switch has its own error
+                    verdict = AGAIN
+            if verdict != AGAIN:
+                hunting = NOTHING
+        if verdict != AGAIN and hunting != SEEK:
+            verdict = REFUSE
+            if crossing:
+                run.control[abi.BARRED] = 1
+            change = shrunk(span, run, error)
+            if EVENTS and doubtful:  # its end is near a switch, and some stages are beyond it
+                change = _SHORT_OF
+            run.clock[abi.NEXT] = h * change
+            refuse(run)
+    return verdict, hunting, doubtful
+
+
+def judge_state(system: Any, run: Any, h: float, following: float, bits: int, hunting: int) -> tuple[int, int]:
+    """Judge the state at the end of a good attempt: its correction, and events that its step may pass.
+
+    Parameters
+    ----------
+    h, following : float
+        The step and its end [s].
+    bits : int
+        Result of `correct`.
+    hunting : int
+        Last result of `happened`.
+
+    Returns
+    -------
+    tuple
+        `DONE` for a good one, `AGAIN`, `REFUSE` or the code of an end; then `hunting`.
+    """
+    verdict = abi.DONE
+    if bits & 1 != 0 and not ADAPTIVE:
+        verdict = abi.CORRECTION if math.isfinite(run.w[abi.PHI]) else abi.NOT_FINITE
+    elif bits & 1 != 0 or (ADAPTIVE and hunting == NOTHING and meets(run)):
+        verdict = REFUSE
+        run.control[abi.BARRED] = 1
+        run.clock[abi.NEXT] = 0.5 * h
+    elif EVENTS:
+        hunting = happened(system, run, following, h, hunting)
+        if hunting == SEEK or hunting == TAKE:
+            verdict = AGAIN
+        elif hunting == FAIL:
+            run.clock[abi.TIME] = following
+            verdict = abi.UNDEFINED
+        elif hunting == HOLD:
+            verdict = abi.TINY_STEP
+    return verdict, hunting
+
+
+def accept_step(
+    system: Any, scheme: Any, span: Any, run: Any, outputs: Any, t: float, step: Any, trial: Any, hunting: int
+) -> int:
+    """Accept the trial state at the end of a step from the time `t` [s], with the outputs inside.
+
+    Parameters
+    ----------
+    step : tuple
+        The step and its end [s]; whether it crosses a singular position; the step that the error estimate proposed and
+        the one without events [s].
+    trial : tuple
+        Error of the trial state over the tolerance; whether its correction changed it.
+    hunting : int
+        Last result of `happened`.
+
+    Returns
+    -------
+    int
+        Code of an end, `DONE` to continue.
+    """
+    h, following, crossing, wanted, whole = step
+    error, changed = trial
+    control, times, width = run.control, outputs.times, system.sizes.width
+    met, restart = EVENTS and hunting == MEET, EVENTS and hunting == RESTART
+    control[abi.STEPS] += 1
+    code = watch(system.sizes, run, run.trial, following)
+    setting_out = (not ADAPTIVE or ROUGH) and control[abi.STEPS] <= SETTING_OUT
+    if code != abi.DONE and not (setting_out and code == abi.ENERGY and following < span.end - resolution(span)):
+        return code
+    if EVENTS and is_astray(span, run, ADAPTIVE):
+        return abi.JUMPED
+    if met or restart:
+        taken_back(run, times, following)
+    if DENSE and control[abi.OUTPUTS] < times.shape[0] and times[control[abi.OUTPUTS]] < following:
+        interpolate(system, scheme, span, run, outputs, t, following, h)
+    received(width, run.trial, run.y)
+    propose_step(span, run, h, following, crossing, wanted, error, met)
+    out = control[abi.OUTPUTS]
+    if out < times.shape[0] and times[out] <= following + resolution(span):
+        store(system.sizes, run.w, outputs, out, run.y)
+        control[abi.OUTPUTS] = out + 1
+    if restart:  # rates jump at a switch, so that data of past steps are useless
+        run.clock[abi.NEXT], run.clock[abi.ALLOWED] = max(run.clock[abi.NEXT], whole), 0.0
+        prepare(system, scheme, with_step(span, run.clock[abi.NEXT]), run)
+    else:
+        renew(system, scheme, span, run, following, changed)
+    if met:
+        return abi.MET
+    if EVENTS and hunting == CROWD:
+        return abi.NOTED
+    return abi.CHOOSE if rows_fell(run) else abi.DONE
+
+
+def propose_step(
+    span: Any, run: Any, h: float, following: float, crossing: bool, wanted: float, error: float, met: bool
+) -> None:
+    """Propose the step after an accepted one, with the names of `accept_step`; `met`: the run ends in an event."""
+    clock, control = run.clock, run.control
+    if not ADAPTIVE:
+        control[abi.INDEX] += 1
+        grid = clock[abi.ORIGIN] + control[abi.INDEX] * span.step
+        if met or (following == span.until and following < grid - resolution(span)):
+            clock[abi.ORIGIN], control[abi.INDEX] = following, 0  # a continued run has its grid from here
+    elif crossing:
+        clock[abi.ALLOWED] = 0.0
+    else:
+        grow = grown(span, run, h, error)
+        clock[abi.NEXT] = h * (min(1.0, grow) if control[abi.REFUSED] == 1 else grow)
+        if EVENTS and h < wanted and control[abi.REFUSED] == 0:  # it was not shortened by its error
+            clock[abi.NEXT] = max(clock[abi.NEXT], wanted)
+    control[abi.REFUSED] = control[abi.BARRED] = 0
+    clock[abi.STEP] = h
 
 
 def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> int:
@@ -220,195 +478,53 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         Code of its end, see `symgen.runtime.abi`.
     """
     system = ModelSystem(*model)
-    sizes, scheme, outputs = system.sizes, bare(scheme), bare(outputs)
-    run, until, times, width = opened(sizes, state), span.until, outputs.times, sizes.width
-    clock, control, asked = run.clock, run.control, times.shape[0]
-    tiny = 0.0 if ADAPTIVE else abi.SAME_TIME * span.step
-    if control[abi.BEGUN] == 0:
-        remember_rank(sizes, run)
-        settle(sizes, span, run)
-        copied(width, run.y, run.trial)
-        correct(system, run, clock[abi.TIME], run.trial, False)
-        copied(width, run.trial, run.y)
-        begin(run)
-        code = watch(sizes, run, run.y, clock[abi.TIME])
-        if code != abi.DONE:
-            return code
-        out = control[abi.OUTPUTS]
-        while out < asked and times[out] <= clock[abi.TIME] + tiny:
-            store(sizes, run.w, outputs, out, run.y)
-            out += 1
-        control[abi.OUTPUTS] = out
-    if control[abi.BEGUN] != 1:  # a scheme begins, or discards past steps
-        clock[abi.ALLOWED] = 0.0
-        control[abi.REFUSED] = control[abi.BARRED] = control[abi.KNOWN] = 0
-        if ADAPTIVE:
-            clock[abi.NEXT] = span.step
-        # laws whose gains follow the step are evaluated before the first step
-        note_step(run, span.step if span.step > 0.0 else _BEFORE * span.duration)
-        prepare(system, scheme, span, run)
-        if attend(system, run, LOOK) == FAIL:
-            return abi.UNDEFINED
-        control[abi.BEGUN] = 1
-    t, out = clock[abi.TIME], control[abi.OUTPUTS]
-    hunting, crossing, doubtful = NOTHING, False, False
+    scheme, outputs, run = bare(scheme), bare(outputs), opened(system.sizes, state)
+    code = begin_loop(system, scheme, span, run, outputs)
+    if code != abi.DONE:
+        return code
+    t, hunting, crossing, doubtful = run.clock[abi.TIME], NOTHING, False, False
     whole, whole_following, wanted = 0.0, 0.0, 0.0
     phi, drift, energy = run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY]
-    while t < until - tiny:
-        if hunting == NOTHING:
-            doubtful = False
-            if control[abi.STOP] != 0:
-                return abi.STOPPED
-            if control[abi.STEPS] >= span.pause:
-                return abi.PAUSED
-            crossing = False
-        # -- the step to try
+    while t < span.until - resolution(span):
         if EVENTS and hunting != NOTHING:
             attend(system, run, RECALL)
-            h = run.hunt[TRY]
+            h, between = run.hunt[TRY], False
             following = whole_following if h == whole else t + h
-        elif ADAPTIVE:
-            if stuck(span, run, t):
-                return abi.NO_PROGRESS
-            crossing = control[abi.BARRED] == 0 and control[abi.IN_ZONE] == 1 and run.gauges[abi.FALL] > 0.0
-            h = approach(min(clock[abi.NEXT], span.largest), run.gauges)
-            if crossing:
-                h = min(span.largest, _ACROSS * run.gauges[abi.LAST_SINE] / run.gauges[abi.FALL])
-            wanted = h
-            if EVENTS and not crossing:
-                h = aimed(system, run, h)
-            following = t + h
-            if t + 1.01 * h >= until:
-                h, following = until - t, until
-            if not h > max(abi.RESOLVED_TIME * abs(t), abi.SHORTEST_STEP):
-                return abi.TINY_STEP
         else:
-            h, following = span.step, clock[abi.ORIGIN] + (control[abi.INDEX] + 1) * span.step
-            if following > until + tiny:
-                h, following = until - t, until
-        between = not DENSE and hunting == NOTHING and out < asked and times[out] < following - tiny
-        if between:
-            h, following = times[out] - t, times[out]
-        elif hunting == NOTHING:
-            whole, whole_following = h, following
-            attend(system, run, REMEMBER)
-        probing = between or hunting == SEEK
+            code, h, following, between, crossing, wanted = choose_step(system, span, run, outputs, t)
+            if code != abi.DONE:
+                return code
+            doubtful = False
+            if not between:
+                whole, whole_following = h, following
+                attend(system, run, REMEMBER)
+        probing, bits = between or hunting == SEEK, 0
         note_step(run, h)
         kinetic, potential = run.w[abi.KINETIC], run.w[abi.POTENTIAL]
         error = attempt(system, scheme, span, run, t, following, h, probing)
-        # -- is it good enough?
-        turn = largest_turn(sizes, span, run) if math.isfinite(span.turn) and error >= 0.0 else 0.0
-        if turn > span.turn:
-            if not ADAPTIVE:
-                return abi.TURNED
-            clock[abi.NEXT] = _SHORT_OF * h * span.turn / turn
-            refuse(run)
-            hunting, out = NOTHING, refused(run, times, out, t, phi, drift, energy)
-            continue
-        if error < 0.0:
-            if error == TOO_LARGE:
-                return abi.NO_ROOM
-            if not ADAPTIVE:
-                return abi.NEWTON
-            clock[abi.NEXT] = 0.25 * h
-            hunting, out = NOTHING, refused(run, times, out, t, phi, drift, energy)
-            continue
-        good = error <= 1.0 or (crossing and error <= max(_HOPELESS, _ASTRAY / span.rtol))
-        if EVENTS and ADAPTIVE and not good and not between and (hunting == NOTHING or doubtful):
-            if hunting != TAKE and math.isfinite(error):  # a switch inside may cause the error
-                hunting = happened(system, run, t, following, h, DOUBT if hunting == NOTHING else hunting)
-                doubtful = hunting != NOTHING
-                if doubtful and run.hunt[LOW] != h:  # an attempt that ends before the switch has its own error
-                    continue
-            hunting = NOTHING
-        if ADAPTIVE and not between and hunting != SEEK and not good:
-            hunting = NOTHING
-            if crossing:
-                control[abi.BARRED] = 1
-            change = shrunk(span, run, error)
-            if EVENTS and doubtful:  # its end is near a switch, and some stages are beyond it
-                change = _SHORT_OF
-            clock[abi.NEXT] = h * change
-            refuse(run)
-            out = refused(run, times, out, t, phi, drift, energy)
-            continue
-        bits = correct(system, run, following, run.trial, probing)
-        if between:
-            keep_maxima(sizes, run, run.trial)
-            store(sizes, run.w, outputs, out, run.trial)
-            out += 1
-            control[abi.OUTPUTS] = out
-            # the work's error is judged by the energies at the beginning of the step, whatever outputs it has
-            run.w[abi.KINETIC], run.w[abi.POTENTIAL] = kinetic, potential
-            continue
-        if bits & 1 != 0 or (ADAPTIVE and hunting == NOTHING and meets(run)):
-            if not ADAPTIVE:
-                return abi.CORRECTION if math.isfinite(run.w[abi.PHI]) else abi.NOT_FINITE
-            control[abi.BARRED] = 1
-            clock[abi.NEXT] = 0.5 * h
-            hunting, out = NOTHING, refused(run, times, out, t, phi, drift, energy)
-            continue
-        if EVENTS:
-            hunting = happened(system, run, t, following, h, hunting)
-            if hunting == SEEK or hunting == TAKE:
+        step = h, following, between, crossing
+        code, hunting, doubtful = judge_attempt(system, span, run, step, error, hunting, doubtful)
+        if code == abi.DONE:
+            bits = correct(system, run, following, run.trial, probing)
+            if between:
+                store_between(system.sizes, run, outputs)
+                # the work's error is judged by the energies at the beginning of the step, whatever outputs it has
+                run.w[abi.KINETIC], run.w[abi.POTENTIAL] = kinetic, potential
                 continue
-            if hunting == FAIL:
-                clock[abi.TIME] = following
-                return abi.UNDEFINED
-            if hunting == HOLD:
-                return abi.TINY_STEP
-        # -- it is: the state at `following` is accepted
-        control[abi.STEPS] += 1
-        code = watch(sizes, run, run.trial, following)
-        setting_out = (not ADAPTIVE or ROUGH) and control[abi.STEPS] <= SETTING_OUT
-        if setting_out and code == abi.ENERGY and following < span.end - tiny:
-            code = abi.DONE
-        if EVENTS and code == abi.DONE and is_astray(span, run, ADAPTIVE):
-            code = abi.JUMPED
+            code, hunting = judge_state(system, run, h, following, bits, hunting)
+        if code == AGAIN:
+            continue
+        if code == REFUSE:
+            hunting = NOTHING
+            refused(run, outputs.times, t, phi, drift, energy)
+            continue
+        if code == abi.DONE:
+            taken, trial = (h, following, crossing, wanted, whole), (error, bits & 2 != 0)
+            code = accept_step(system, scheme, span, run, outputs, t, taken, trial, hunting)
         if code != abi.DONE:
             return code
-        if EVENTS and hunting == MEET:
-            code = abi.MET
-            out = taken_back(run, times, out, following)
-        elif EVENTS and hunting == CROWD:
-            code = abi.NOTED
-        restart = EVENTS and hunting == RESTART
-        if restart:
-            out = taken_back(run, times, out, following)
-        hunting = NOTHING
-        if DENSE and out < asked and times[out] < following:
-            interpolate(system, scheme, span, run, outputs, t, following, h)
-            out = control[abi.OUTPUTS]
-        received(width, run.trial, run.y)
-        if not ADAPTIVE:
-            control[abi.INDEX] += 1
-            early = following == until and following < clock[abi.ORIGIN] + control[abi.INDEX] * span.step - tiny
-            if early or (EVENTS and code == abi.MET):
-                clock[abi.ORIGIN], control[abi.INDEX] = following, 0  # a continued run has its grid from here
-        elif crossing:
-            clock[abi.ALLOWED] = 0.0
-        else:
-            grow = grown(span, run, h, error)
-            clock[abi.NEXT] = h * (min(1.0, grow) if control[abi.REFUSED] == 1 else grow)
-            if EVENTS and h < wanted and control[abi.REFUSED] == 0:  # it was not shortened by its error
-                clock[abi.NEXT] = max(clock[abi.NEXT], wanted)
-        control[abi.REFUSED] = control[abi.BARRED] = 0
-        t = following
+        t, hunting = following, NOTHING
         phi, drift, energy = run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY]
-        clock[abi.STEP] = h
-        if out < asked and times[out] <= t + tiny:
-            store(sizes, run.w, outputs, out, run.y)
-            out += 1
-            control[abi.OUTPUTS] = out
-        if restart:  # rates jump at a switch, so that data of past steps are useless
-            clock[abi.NEXT], clock[abi.ALLOWED] = max(clock[abi.NEXT], whole), 0.0
-            prepare(system, scheme, with_step(span, clock[abi.NEXT]), run)
-        else:
-            renew(system, scheme, span, run, t, bits & 2 != 0)
-        if code != abi.DONE:
-            return code
-        if rows_fell(run):
-            return abi.CHOOSE
     return abi.DONE
 
 

@@ -79,7 +79,7 @@ def evaluate_events(system: Any, run: Any, t: float, y: Any) -> None:
         decided(system, run, t, 0.0, searching.GIVE_BACK, y)
 
 
-def happened(system: Any, run: Any, t: float, following: float, h: float, hunting: int) -> int:
+def happened(system: Any, run: Any, following: float, h: float, hunting: int) -> int:
     """Search an acceptable step for events; return the decision of `decide`."""
     evaluate_events(system, run, following, run.trial)
     return decided(system, run, following, h, hunting, run.trial)

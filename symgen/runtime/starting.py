@@ -31,7 +31,7 @@ _A, _I = types.float64[::1], types.int64[::1]
 _HOLDING = types.RecordType((MODEL, abi.OBSERVE, JOINTS))
 
 
-@exact(types.int64(_HOLDING, INSTANT, START_CONDITIONS, WORK), once=True)
+@exact(types.int64(_HOLDING, INSTANT, START_CONDITIONS, WORK))
 def close_row(model: Any, now: Any, conditions: Any, work: Any) -> int:
     """Make the start of a run consistent.
 
@@ -210,7 +210,10 @@ def _close_at_once(closing: Any, layout: Any, now: Any, conditions: Any, work: A
     return False
 
 
-@exact(types.int64(_HOLDING, INSTANT, START_CONDITIONS, WORK, _I, _I))
+_CLOSE_ROWS = types.int64(_HOLDING, INSTANT, START_CONDITIONS, WORK, _I, _I)
+
+
+@exact(_CLOSE_ROWS)
 def close_rows(model: Any, all_of_now: Any, all_conditions: Any, work: Any, selected: Any, control: Any) -> int:
     """Make the starts of many rows consistent.
 
@@ -246,6 +249,10 @@ def close_rows(model: Any, all_of_now: Any, all_conditions: Any, work: Any, sele
         conditions = StartConditions(part(rest.velocities, r * n, n), part(rest.targets, r * h, h), summary)
         close_row(model, now, conditions, work)
     return int(selected.shape[0])
+
+
+#: The same for a single start: machine code that is made in less time.
+close_alone = exact(_CLOSE_ROWS, once=True)(getattr(close_rows, "py_func", close_rows))
 
 
 @exact(types.int64(e.PREPARE, e.PREPARE, abi.MOVE, _A, _A, _A, types.int64, _I))

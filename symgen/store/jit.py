@@ -187,7 +187,8 @@ class RuntimeFunction(MachineFunction):
     signature : Signature, optional
         Types of a loop; by default those of the arguments of a call.
     once : bool
-        Whether it is called about once a run: then it is compiled faster, without operations in vectors.
+        Whether it is called about once a run: then it is compiled without optimisation; its bits are the same
+        unless operations are contracted.
     """
 
     def __init__(
@@ -231,7 +232,7 @@ class RuntimeFunction(MachineFunction):
         from symgen.native.machine import compiled
 
         function = read_loop(self, arguments)
-        code = compiled(loop_module(function, symbol), symbol, vectors=not self._once)
+        code = compiled(loop_module(function, symbol), symbol, once=self._once)
         return CacheEntry(function.returned, (), code)
 
 
