@@ -119,7 +119,7 @@ def named_states(
         soon = _later(subject, x)
         names = _steady_quantities(subject, x, soon)
         speeds = x.changes_of(names)[:, x.positions : x.positions + x.velocities]
-        if np.linalg.matrix_rank(speeds) < x.velocities:  # some of them changes
+        if speeds.size and np.linalg.matrix_rank(speeds) < x.velocities:  # some of them changes
             _check_steady(subject, x, _determining(subject, x), where)
             expected = "a steady motion, or states that are named"
             raise InputError(where, expected, "one in which not all velocities stay as they are")
