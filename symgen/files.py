@@ -155,7 +155,7 @@ def write_all(files: Mapping[Path, Content]) -> None:
 
 
 def write_csv(path: Path, heading: Sequence[str], rows: Iterable[Sequence[object]]) -> Path:
-    """Write a table as CSV; None is empty."""
+    """Write a table as CSV with the ends of lines of RFC 4180; None is empty."""
     import csv
 
     text = io.StringIO(newline="")

@@ -189,6 +189,11 @@ def in_order(values: Array | Complex) -> Complex:
     return (np.asarray(values, dtype=np.complex128) + 0.0)[ranking(values)]
 
 
+def rank(matrix: Array, least: float | None = None) -> int:
+    """Return the number of singular values above a limit, NumPy's by default; 0 of an empty matrix in every NumPy."""
+    return int(np.linalg.matrix_rank(matrix, tol=least)) if matrix.size else 0
+
+
 def largest(matrix: Any) -> float:
     """Return the largest magnitude of an element of a dense or sparse matrix, 0 of an empty one."""
     return float(abs(matrix).max()) if matrix.shape[0] else 0.0

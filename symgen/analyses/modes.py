@@ -32,6 +32,8 @@ Complex = NDArray[np.complex128]
 
 #: What a total may be of the largest one, and a rest of its total, where there is none.
 NONE, REST = 1e-12, 1e-9
+#: Eigenvalues apart by less than this part of themselves are one.
+ALIKE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -96,9 +98,22 @@ class Modes:
         values = self.of_shapes
         return np.asarray(-values.real / np.maximum(np.abs(values), 1e-300) + 0.0)
 
+    @property
+    def multiple(self) -> tuple[tuple[int, ...], ...]:
+        """Numbers, from 1 on, of shapes that belong to one eigenvalue: each alone, and its shares, are not unique."""
+        values, groups = self.of_shapes, list[tuple[int, ...]]()
+        left = np.arange(len(values))
+        while len(left):
+            first = values[left[0]]
+            one = np.abs(values[left] - first) <= ALIKE * np.maximum(np.abs(values[left]), abs(first))
+            groups.append(tuple((left[one] + 1).tolist()))
+            left = left[~one]
+        return tuple(group for group in groups if len(group) > 1)
+
     def to_dict(self) -> dict[str, Any]:
         """Return the fields in types of JSON."""
-        return {**plain(self), "frequencies": plain(self.frequencies), "damping": plain(self.damping)}
+        derived = {name: plain(getattr(self, name)) for name in ("frequencies", "damping", "multiple")}
+        return {**plain(self), **derived}
 
     def __repr__(self) -> str:
         shown = ", ".join(f"{x:.4g}" for x in self.eigenvalues[:4]) + ", ..." * (len(self.eigenvalues) > 4)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import ROUNDED, split
+from symgen.analyses.algebra import ROUNDED, rank, split
 from symgen.analyses.reduced import StateQuantity, StateTangent, quantities_of, tangent
 from symgen.analyses.settle import TOLERANCE
 from symgen.analyses.subject import RATE, Subject
@@ -119,7 +119,7 @@ def named_states(
         soon = _later(subject, x)
         names = _steady_quantities(subject, x, soon)
         speeds = x.changes_of(names)[:, x.positions : x.positions + x.velocities]
-        if np.linalg.matrix_rank(speeds) < x.velocities:  # some of them changes
+        if rank(speeds) < x.velocities:  # some of them changes
             _check_steady(subject, x, _determining(subject, x), where)
             expected = "a steady motion, or states that are named"
             raise InputError(where, expected, "one in which not all velocities stay as they are")
@@ -131,7 +131,7 @@ def named_states(
 def _rank(x: StateTangent, names: Sequence[str]) -> int:
     """Return the number of independent states among some."""
     rows = x.changes_of(names)[:, : x.size] * x.sizes / x.sizes_of(names)[:, np.newaxis]
-    return int(np.linalg.matrix_rank(rows, tol=1e-9 * np.abs(rows).max(initial=1e-300)))
+    return rank(rows, 1e-9 * np.abs(rows).max(initial=1e-300))
 
 
 def _rate_of(subject: Subject, name: str) -> str | None:

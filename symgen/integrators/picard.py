@@ -25,7 +25,7 @@ def lobatto(n: int) -> tuple[Array, Array]:
 
     Points are the ends and the zeros of P_n', weights 2 / (n (n + 1) P_n(x)^2).
     """
-    inner = np.sort(legendre.Legendre.basis(n).deriv().roots())
+    inner = np.sort(legendre.Legendre.basis(n).deriv().roots().real)  # all are; from NumPy 2.5 on the type is complex
     slope, bend = legendre.Legendre.basis(n).deriv(), legendre.Legendre.basis(n).deriv(2)
     for _ in range(2):
         inner = inner - slope(inner) / bend(inner)

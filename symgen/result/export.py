@@ -1,4 +1,4 @@
-"""Results as data frames, datasets and files, through pandas and xarray, which are imported only here."""
+"""Results as data frames, datasets and files; pandas and xarray are imported only here, and not for CSV."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.describe.columns import column_name
-from symgen.files import headed, need, write_whole
+from symgen.files import headed, need, write_csv, write_whole
 from symgen.result.contract import contract
 from symgen.result.signals import TABLES
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 SAVED: Mapping[str, tuple[str, ...]] = {
     ".nc": ("xarray", "h5netcdf", "h5py"),
     ".parquet": ("pandas", "pyarrow"),
-    ".csv": ("pandas",),
+    ".csv": (),
 }
 COLUMNS: Mapping[str, tuple[str, ...]] = {ending: SAVED[ending] for ending in (".csv", ".parquet")}
 #: Endings of plots -> the libraries needed.
@@ -70,23 +70,38 @@ def with_last_state(dataset: xr.Dataset, result: Result) -> xr.Dataset:
     return extended
 
 
-def data_frame(t: Array, columns: Labelled, units: bool = False) -> pd.DataFrame:
-    """Return columns over time, their units in the names where these are wanted; ``attrs["units"]`` holds units."""
+def data_frame(t: Array, columns: Labelled) -> pd.DataFrame:
+    """Return columns over time; ``attrs["units"]`` holds units."""
     need("to_dataframe", "pandas")
     import pandas as pd
 
-    names = [headed(*of) if units else of[0] for of in zip(columns.names, columns.units, strict=True)]
-    index = pd.Index(t, name=headed("t", "s") if units else "t")
-    frame = pd.DataFrame(columns.values, columns=names, index=index)
-    frame.attrs["units"] = dict(zip(names, columns.units, strict=True))
+    frame = pd.DataFrame(columns.values, columns=list(columns.names), index=pd.Index(t, name="t"))
+    frame.attrs["units"] = dict(zip(columns.names, columns.units, strict=True))
     return frame
 
 
-def write_frame(frame: pd.DataFrame, path: Path) -> Path:
-    """Write a data frame to a Parquet or CSV file, as the ending of the path says."""
+def write_columns(path: Path, t: Array, columns: Labelled, units: bool, facts: Mapping[str, Any]) -> Path:
+    """Write columns over time to a Parquet or CSV file, as the ending of the path says.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    t, columns : Array, Labelled
+        Times [s], and the columns.
+    units : bool
+        Whether headings of a CSV file carry units. Cells of numbers that are none are empty there.
+    facts : mapping
+        What a Parquet file holds beside its columns.
+    """
     if path.suffix.lower() == ".parquet":
+        frame = data_frame(t, columns)
+        frame.attrs.update(facts)
         return write_whole(path, lambda file: frame.to_parquet(file, engine="pyarrow"))
-    return write_whole(path, lambda file: frame.to_csv(file, mode="wb"))
+    names, units_of = ("t", *columns.names), ("s", *columns.units)
+    heading = [headed(*of) for of in zip(names, units_of, strict=True)] if units else names
+    rows = ([time, *row] for time, row in zip(t.tolist(), columns.values.tolist(), strict=True))
+    return write_csv(path, heading, ([x if x == x else None for x in row] for row in rows))
 
 
 def to_xarray(result: Result) -> xr.Dataset:

@@ -18,7 +18,7 @@ from symgen.errors import InputError, nearest
 from symgen.files import check_path, write_whole
 from symgen.memory import require
 from symgen.result.contract import contract
-from symgen.result.export import SAVED, data_frame, netcdf, to_xarray, with_last_state, write_frame
+from symgen.result.export import SAVED, netcdf, to_xarray, with_last_state, write_columns
 from symgen.result.labelled import Array, Labelled
 from symgen.result.signals import TABLES, accelerations
 from symgen.result.tables import MotionTables
@@ -310,13 +310,12 @@ class Result(MotionTables):
         if headed and ending != ".csv":
             raise InputError("save: units", "a file ending in .csv, whose headings carry them", f"'{file}'")
         if chosen and ending != ".nc":
-            return write_frame(data_frame(self.t, self.select(chosen), ending == ".csv"), file)
+            return write_columns(file, self.t, self.select(chosen), True, {})
         size = 40.0 * len(self.t) * sum(len(self.columns(table)) for table in self.names)
         require("save", f"{len(self.t)} outputs of {self.mechanism}", size)
         if ending == ".nc":
             return write_whole(file, netcdf(with_last_state(to_xarray(self), self)))
-        frame = data_frame(self.t, self.whole(), True) if headed else self.to_dataframe()
-        return write_frame(frame, file)
+        return write_columns(file, self.t, self.whole(), headed, {"run": self.to_json()})
 
     def __repr__(self) -> str:
         from symgen.result.summary import status_in_words

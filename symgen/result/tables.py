@@ -20,7 +20,7 @@ from symgen.describe.readings import TABLES as FORMULAS
 from symgen.errors import InputError
 from symgen.files import check_path
 from symgen.result.contract import series
-from symgen.result.export import COLUMNS, PLOTTED, data_frame, write_frame
+from symgen.result.export import COLUMNS, PLOTTED, data_frame, write_columns
 from symgen.result.labelled import Array, Labelled, labelled
 from symgen.result.plots import drawing, write_figure
 from symgen.result.signals import SignalTables, check_single, choose, of_formulas
@@ -248,7 +248,7 @@ class Tables(ABC):
         check_path("save", where, COLUMNS, "data")
         names = words("quantities", quantities)
         chosen = self.select(names) if names else self.whole()
-        return write_frame(data_frame(self.t, chosen, where.suffix.lower() == ".csv"), where)
+        return write_columns(where, self.t, chosen, True, {})
 
     def series(self, table: str) -> dict[str, list[float | None]]:
         """Return a table as JSON has it: lists by key; numbers that are not finite are None."""

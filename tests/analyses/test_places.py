@@ -28,7 +28,7 @@ def poles() -> np.ndarray:
     cart, pole, inertia, half = 1.0, 0.2, 0.006, 0.3
     mass = np.array([[cart + pole, pole * half], [pole * half, inertia + pole * half**2]])
     stiffness = np.array([[0.0, 0.0], [0.0, pole * 9.81 * half]])
-    return np.sort(np.linalg.eigvals(np.linalg.solve(mass, stiffness)))
+    return np.sort(np.linalg.eigvals(np.linalg.solve(mass, stiffness)).real)
 
 
 @pytest.mark.parametrize(("at", "sign"), [({"pole.theta": 0}, 1.0), ({"pole.theta": 0.05, "cart.x": 1.0}, 1.0)])

@@ -6,8 +6,59 @@ from numpy.testing import assert_allclose
 
 import symgen
 from analyses import rods
+from symgen.analyses.kinds.modes import shown
 
 MASSES, STIFFNESS, DAMPING = (2.0, 1.0), (40.0, 25.0), (0.6, 0.2)
+
+
+def beside_each_other(stiffness, damping):
+    """Bodies of 1 kg on a rail, each on the ground's spring and damper: every one is a mode of its own."""
+    names = [f"m{i}" for i in range(len(stiffness))]
+    bodies = {
+        name: {"mass": 1.0, "inertia": 1.0, "position": [1.0, 0.0], "points": {"P": [0.0, 0.0]}} for name in names
+    }
+    joints = {
+        f"r{name}": rods.pin("ground", name, rods.GROUND2, "centre", "translational", axis=[1.0, 0.0]) for name in names
+    }
+    spring = {"type": "spring-damper", "at": [[0.0, 0.0], "P"], "free_length": 1.0}
+    forces = {
+        f"s{name}": {**spring, "between": ["ground", name], "stiffness": k, "damping": c}
+        for name, k, c in zip(names, stiffness, damping, strict=True)
+    }
+    return rods.model(bodies, joints, gravity=[0.0, 0.0], forces=forces)
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.6])
+@pytest.mark.parametrize(
+    ("stiffness", "groups"),
+    [((40.0, 90.0, 40.0), ((1, 2),)), ((40.0, 40.001, 90.0), ()), ((25.0, 25.0, 25.0), ((1, 2, 3),))],
+)
+def test_modes_of_one_eigenvalue_are_named(stiffness, damping, groups):
+    """Squares of frequencies are the stiffnesses of masses of 1 kg; the sum of shares over a group is unique."""
+    model = beside_each_other(stiffness, (damping,) * 3)
+    found = model.modes()
+    expected = np.sort(stiffness) - damping**2 / 4.0
+    rates = 2.0 * np.pi * found.frequencies
+    assert_allclose(np.sort(rates), np.sqrt(expected), rtol=1e-9)
+    numbers = np.argsort(rates, kind="stable") + 1  # damped modes come by their real parts
+    assert {frozenset(group) for group in found.multiple} == {
+        frozenset(numbers[i - 1].item() for i in group) for group in groups
+    }
+    assert found.to_dict()["multiple"] == [list(group) for group in found.multiple]
+    said = [line for line in shown(found) if isinstance(line, str) and "not unique" in line]
+    assert len(said) == bool(groups)
+    for group in found.multiple:
+        of_one = stiffness[0]
+        sums = {name: sum(share[i - 1] for i in group) for name, share in found.participation.items()}
+        assert sums == pytest.approx({f"m{i}": float(k == of_one) for i, k in enumerate(stiffness)}, abs=1e-9)
+
+
+def test_shares_of_the_governor_at_rest_are_said_to_be_not_unique(cli):
+    """Both arms hang alike: one frequency, and two shapes of many."""
+    code, out, _ = cli("modes", "flyball-governor")
+    assert code == 0
+    assert "not unique: modes 1, 2" in out
+    assert "not unique" not in cli("modes", "four-bar", "--start", "crank.theta=4")[1]
 
 
 def two_masses():

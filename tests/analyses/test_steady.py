@@ -303,3 +303,16 @@ def test_wheels_in_mesh_turn_on_together(driven):
         stiff += (2.0 * mass * radius * speed) ** 2 / (0.2 + 0.01 + 0.02 * 3.0**2 + mass * radius**2)
     moving = [x for x in model.linearise(at="steady").eigenvalues() if x != 0.0]
     assert_allclose(moving, [1j * math.sqrt(stiff / mass), -1j * math.sqrt(stiff / mass)], rtol=1e-9)
+
+
+@pytest.mark.parametrize(("matrix", "expected"), [(np.zeros((0, 3)), 0), (np.zeros((3, 0)), 0), (np.ones((2, 2)), 1)])
+def test_the_rank_of_an_empty_matrix_is_0(matrix, expected, monkeypatch):
+    """NumPy 2.0 has no largest singular value of an empty matrix."""
+    of_numpy = np.linalg.matrix_rank
+
+    def as_numpy_2_0(a, tol=None):
+        assert np.linalg.svd(a, compute_uv=False).max() >= 0.0
+        return of_numpy(a, tol)
+
+    monkeypatch.setattr(np.linalg, "matrix_rank", as_numpy_2_0)
+    assert rank(matrix) == rank(matrix, 1e-9) == expected

@@ -1,5 +1,6 @@
 """Files are read back with other libraries than ours; nothing half-written is ever left."""
 
+import csv
 import importlib.util
 import json
 
@@ -11,6 +12,8 @@ import xarray as xr
 import symgen
 from symgen import files
 from symgen.errors import InputError
+from symgen.result.export import write_columns
+from symgen.result.labelled import Labelled
 from symgen.result.saved import dataset_of, read_last_state
 
 
@@ -26,6 +29,26 @@ def test_csv(result, tmp_path):
     assert np.array_equal(frame["crank.theta"].to_numpy(), result["crank.theta"])
     assert np.array_equal(frame["multiplier.motor.driver"].to_numpy(), result.lam["motor.driver"])
     assert np.array_equal(frame["B.Fx"].to_numpy(), result.reactions["B.Fx"])
+
+
+def test_csv_needs_no_extra(result, tmp_path, monkeypatch):
+    """All digits of all numbers, by the standard library alone."""
+    monkeypatch.setattr(files, "find_spec", lambda name: None)
+    rows = rows_of(result.save(tmp_path / "run.csv", units=True))
+    assert rows[0][:2] == ["t [s]", "crank.x [m]"]
+    assert np.array_equal(np.array(rows[1:], dtype=float), np.column_stack([result.t, result.whole().values]))
+    assert rows_of(result.save(tmp_path / "some.csv", ("crank.theta",)))[0] == ["t [s]", "crank.theta [rad]"]
+
+
+def test_cells_of_numbers_that_are_none_are_empty(tmp_path):
+    columns = Labelled(np.array([[np.nan, 0.1], [-np.inf, -0.0]]), ("a", "b"), ("m", "1"))
+    path = write_columns(tmp_path / "some.csv", np.array([0.0, 1e-17]), columns, True, {})
+    assert rows_of(path) == [["t [s]", "a [m]", "b [1]"], ["0.0", "", "0.1"], ["1e-17", "-inf", "-0.0"]]
+
+
+def rows_of(path):
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.reader(file))
 
 
 def test_parquet(result, tmp_path):

@@ -177,6 +177,9 @@ def shown(result: Modes) -> Iterator[str | AnalysisTable]:
     yield AnalysisTable(("mode", "eigenvalue [1/s]", "frequency [Hz]", "damping", *tables), rows, left=(*tables,))
     if len(result.of_shapes) > first:
         yield f"... and {len(result.of_shapes) - first} more; --json has all"
+    if result.multiple:
+        groups = "; ".join(f"modes {', '.join(map(str, group))}" for group in result.multiple)
+        yield f"of one eigenvalue, so that each shape alone and its shares are not unique: {groups}"
 
 
 def _shares(parts: Mapping[str, Any], k: int, most: int = 4) -> str:
