@@ -24,9 +24,9 @@ from rich.table import Table
 
 from symgen.api import load
 from symgen.compiling.checked import checked
+from symgen.layout import abi
 from symgen.native import types
 from symgen.native.c99 import c_functions
-from symgen.runtime import abi
 from symgen.store.jit import jit
 
 #: As the README of the C target has it, and with the liberty that emitted code has.

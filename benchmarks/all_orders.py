@@ -31,11 +31,12 @@ from benchmarks.orders import ABOVE_FLOOR, HALVINGS
 from benchmarks.pairs import allowed_pairs
 from benchmarks.show import show
 from symgen.api import Model, load
+from symgen.base.settings import Settings
 from symgen.integrators import INTEGRATORS
+from symgen.loops.run_spec import RunSpec
 from symgen.methods import METHODS
 from symgen.running.prepare import prepare
-from symgen.runtime.run import RunSpec, integrate
-from symgen.settings import Settings
+from symgen.runs.run import integrate
 
 Array = NDArray[np.float64]
 

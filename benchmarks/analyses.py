@@ -28,7 +28,7 @@ from benchmarks.peers.analyses import CATENARY, CHAINS, FOUR_BAR, GRAVITY, SLOPE
 from benchmarks.show import show
 from symgen.analyses.modes import modes
 from symgen.analyses.places import NamedPlace, subject_at
-from symgen.settings import Settings
+from symgen.base.settings import Settings
 
 ROOT = Path(__file__).resolve().parents[1]
 LARGE = 1000

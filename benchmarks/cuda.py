@@ -27,11 +27,11 @@ from rich.table import Table
 
 import symgen
 from benchmarks.show import show
+from symgen.base.memory import processors
+from symgen.base.settings import Settings
 from symgen.ensemble.device_runs import DeviceRuns, compilable, usable
 from symgen.ensemble.kernel import kernel_of
 from symgen.ensemble.sweep_plan import make_ensemble
-from symgen.memory import processors
-from symgen.settings import Settings
 
 #: Compute capability that is compiled for where there is no device: that of an A100.
 CAPABILITY = (8, 0)
@@ -97,7 +97,7 @@ def compile_all() -> None:
     from numba import cuda
     from numba.cuda import dispatcher
 
-    from symgen.runtime.device import SIGNATURE, make_kernel
+    from symgen.rows.device import SIGNATURE, make_kernel
 
     ptxas = assembler()
     arch = ".".join(str(n) for n in CAPABILITY)

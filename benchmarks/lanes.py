@@ -21,11 +21,11 @@ from benchmarks.show import show
 from symgen.api import load
 from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.ir.program import LANES, lane_bases
+from symgen.layout import abi
+from symgen.loopcode.bare import bare
+from symgen.loopcode.padding import aligned
 from symgen.native import types
-from symgen.runtime import abi
-from symgen.runtime.bare import bare
-from symgen.runtime.lanes import LANE_FUNCTION
-from symgen.runtime.padding import aligned
+from symgen.rows.lanes import LANE_FUNCTION
 from symgen.store.jit import jit
 
 METHOD = "direct-correction"

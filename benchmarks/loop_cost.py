@@ -22,8 +22,8 @@ from rich.table import Table
 
 from benchmarks.against_gcc import _repeat_emitted
 from symgen.api import load
+from symgen.layout import abi
 from symgen.native import types
-from symgen.runtime import abi
 from symgen.store.jit import jit
 
 MODELS = ("four-bar", "andrews", "bricard")

@@ -43,8 +43,9 @@ def factors(model: str, pair: str, shape: str = "looped") -> dict[str, int]:
     from symgen.api import load
     from symgen.compiling.pipeline import choose_method, compile_model
     from symgen.integrators import INTEGRATORS
-    from symgen.runtime import abi, sparse
-    from symgen.runtime.newton import Pattern, alpha_plan, stage_plan
+    from symgen.layout import abi
+    from symgen.loops import sparse
+    from symgen.loops.newton import Pattern, alpha_plan, stage_plan
 
     method, integrator, _ = PAIRS[pair]
     loaded = load(model)

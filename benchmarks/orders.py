@@ -20,7 +20,8 @@ from rich.table import Table
 
 from symgen.api import Model, load
 from symgen.integrators import INTEGRATORS
-from symgen.runtime.run import RunSpec, integrate
+from symgen.loops.run_spec import RunSpec
+from symgen.runs.run import integrate
 
 Array = NDArray[np.float64]
 

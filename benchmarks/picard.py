@@ -27,7 +27,7 @@ from benchmarks.extended import reference
 from benchmarks.show import show
 from symgen import MechanismBuilder, Settings
 from symgen.running.prepare import Prepared, prepare
-from symgen.runtime.outcome import Outcome
+from symgen.runs.outcome import Outcome
 
 Array = NDArray[Any]
 INTEGRATORS = ("dop853", "picard")

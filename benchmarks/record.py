@@ -23,7 +23,7 @@ import numpy as np
 
 from symgen import catalogue
 from symgen.api import Model, load
-from symgen.errors import InputError, SymgenError
+from symgen.base.errors import InputError, SymgenError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 

@@ -25,8 +25,8 @@ from scipy.integrate import solve_ivp
 from benchmarks.motions import fine_integrator, motion, positions, run, second_order
 from benchmarks.show import show
 from symgen.api import Model, load
+from symgen.base.errors import InputError
 from symgen.describe import MechanismBuilder
-from symgen.errors import InputError
 from symgen.methods import METHODS
 from symgen.result.points import Points
 from symgen.result.result import Result

@@ -22,8 +22,8 @@ from typing import Any
 
 import numpy as np
 
+from symgen.layout import abi
 from symgen.native import types
-from symgen.runtime import abi
 from symgen.store.jit import jit
 
 #: Straight code of larger mechanisms takes many minutes to compile.

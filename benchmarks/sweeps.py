@@ -23,10 +23,10 @@ from rich.table import Table
 
 import symgen
 from benchmarks.show import show
+from symgen.base.memory import processors
+from symgen.base.settings import Settings
 from symgen.ensemble.kernel import kernel_of
-from symgen.memory import processors
 from symgen.running.prepare import prepare
-from symgen.settings import Settings
 
 #: Single runs that are timed from Python; the time of one does not depend on their number.
 SINGLE = 200

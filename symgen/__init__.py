@@ -13,46 +13,46 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from symgen.version import __version__
+from symgen.base.version import __version__
 
 if TYPE_CHECKING:
     from symgen.api import Model, load
     from symgen.api import simulate as simulate
+    from symgen.base.errors import AssemblyError, InputError, SimulationError, StepError, SymgenError
+    from symgen.base.plugins import load_plugin
+    from symgen.base.settings import Settings
     from symgen.describe.builder import MechanismBuilder
     from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.sweep import sweep
     from symgen.ensemble.sweep_study import Sweep
-    from symgen.errors import AssemblyError, InputError, SimulationError, StepError, SymgenError
     from symgen.integrators import list_integrators
     from symgen.methods import list_methods
-    from symgen.plugins import load_plugin
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
-    from symgen.settings import Settings
     from symgen.stepping.run import SteppedRun
     from symgen.study.comparison.compare import Study, compare
 
 #: Public name -> its module.
 _WHERE = {
-    "AssemblyError": "symgen.errors",
-    "InputError": "symgen.errors",
+    "AssemblyError": "symgen.base.errors",
+    "InputError": "symgen.base.errors",
     "Labelled": "symgen.result.labelled",
     "Mechanism": "symgen.describe.mechanism",
     "MechanismBuilder": "symgen.describe.builder",
     "Model": "symgen.api",
     "Result": "symgen.result.result",
-    "Settings": "symgen.settings",
-    "SimulationError": "symgen.errors",
-    "StepError": "symgen.errors",
+    "Settings": "symgen.base.settings",
+    "SimulationError": "symgen.base.errors",
+    "StepError": "symgen.base.errors",
     "SteppedRun": "symgen.stepping.run",
     "Study": "symgen.study.comparison.compare",
     "Sweep": "symgen.ensemble.sweep_study",
-    "SymgenError": "symgen.errors",
+    "SymgenError": "symgen.base.errors",
     "compare": "symgen.study.comparison.compare",
     "list_integrators": "symgen.integrators",
     "list_methods": "symgen.methods",
     "load": "symgen.api",
-    "load_plugin": "symgen.plugins",
+    "load_plugin": "symgen.base.plugins",
     "simulate": "symgen.api",
     "sweep": "symgen.ensemble.sweep",
 }

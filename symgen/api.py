@@ -10,22 +10,22 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
-from symgen import arguments
 from symgen.analyses.model_methods import Analysed
+from symgen.base import arguments
+from symgen.base.errors import InputError, nearest
+from symgen.base.keywords import RunKeywords, takes
+from symgen.base.settings import COORDINATES, SHAPES, Settings, changed, is_set
 from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.holds import holds_of
 from symgen.describe.load import load as load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
-from symgen.errors import InputError, nearest
-from symgen.keywords import RunKeywords, takes
+from symgen.layout.compiled import CompiledModel
 from symgen.reading.model_views import Shown
 from symgen.running.prepare import Prepared, prepare
 from symgen.running.starts import start_of
-from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.run import Array
-from symgen.settings import COORDINATES, SHAPES, Settings, changed, is_set
+from symgen.runs.run import Array
 
 if TYPE_CHECKING:
     from symgen import compare as _compare
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.result.result import Result
     from symgen.running.package import Package
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.held import Held
+    from symgen.starts.assembly import Start
+    from symgen.starts.held import Held
     from symgen.stepping.run import SteppedRun
 
 
@@ -287,7 +287,7 @@ class Model(Analysed, Shown):
         from symgen.reruns.verification import verified
         from symgen.result.build import build_result
         from symgen.result.judge import unchecked
-        from symgen.runtime.timing import timed
+        from symgen.runs.timing import timed
         from symgen.store.stats import seconds_in_cache
 
         arguments.function("progress", progress)

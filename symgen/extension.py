@@ -5,6 +5,8 @@ Worked examples are the guides "own method", "own joint" and "own integrator"; t
 """
 
 from symgen.analyses.kinds import ANALYSES, Analysis, AnalysisOutput, AnalysisTable, Option
+from symgen.base.plugins import load_plugin
+from symgen.base.registry import Registry
 from symgen.describe.fields import (
     Axis,
     AxisPair,
@@ -25,6 +27,13 @@ from symgen.integrators import INTEGRATORS
 from symgen.integrators._tableau import Tableau
 from symgen.ir.program import Correction
 from symgen.joints import JOINTS
+from symgen.layout import abi
+from symgen.layout.records import Sizes, Span, State
+from symgen.loopcode.bare import part
+from symgen.loopcode.padding import padded
+from symgen.loopcode.vectors import copied
+from symgen.loops.frame import evaluate, loop
+from symgen.loops.integrator import Integrator, IntegratorParameter, Setup, law_functions
 from symgen.methods import METHODS
 from symgen.methods._base import (
     Acceleration,
@@ -42,15 +51,6 @@ from symgen.methods._formula import Scalar as FormulaScalar
 from symgen.methods._formula import System
 from symgen.methods._formula import Vector as FormulaVector
 from symgen.native import types
-from symgen.plugins import load_plugin
-from symgen.registry import Registry
-from symgen.runtime import abi
-from symgen.runtime.bare import part
-from symgen.runtime.frame import evaluate, loop
-from symgen.runtime.integrator import Integrator, IntegratorParameter, Setup, law_functions
-from symgen.runtime.padding import padded
-from symgen.runtime.records import Sizes, Span, State
-from symgen.runtime.vectors import copied
 from symgen.vocabulary.expressions import ONE, ZERO, call, number
 from symgen.vocabulary.measures import (
     GROUND,

@@ -69,7 +69,7 @@ def _warmed() -> None:
     import symgen.api
     import symgen.formulate.formulate
     import symgen.joints
-    import symgen.runtime.assembly  # noqa: F401  # loaded beforehand: its time is not that of a file
+    import symgen.starts.assembly  # noqa: F401  # loaded beforehand: its time is not that of a file
 
     Path("file.toml").write_text('[mechanism]\nname = "a"\n[bodies.b]\ntype = "point"\nmass = 1\n', encoding="utf-8")
     _answer(["check", "file.toml"])
@@ -90,8 +90,8 @@ def _answer(words: list[str]) -> tuple[Any, str, str, str]:
 
 def _read(path: str) -> tuple[Any, str, str, str]:
     """Return the same for reading the file alone."""
+    from symgen.base.errors import SymgenError
     from symgen.describe.load import load
-    from symgen.errors import SymgenError
 
     try:
         load(path)

@@ -26,16 +26,16 @@ import numpy as np
 
 from benchmarks.against_gcc import FLAGS, REPEATS, _repeat_emitted, c_function
 from benchmarks.trees import AXES, GRAVITY, TREES, Array, Limb, mechanism
+from symgen.base.settings import Settings
 from symgen.compiling.choices import on_tree
 from symgen.describe.mechanism import Mechanism
 from symgen.formulate.formulate import formulate
+from symgen.layout import abi
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
 from symgen.methods import METHODS
 from symgen.running.prepare import prepare
 from symgen.running.tree import TreeRun
-from symgen.runtime import abi
-from symgen.settings import Settings
 
 
 def mjcf(limbs: list[Limb]) -> str:

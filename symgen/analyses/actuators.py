@@ -16,14 +16,15 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen import arguments
 from symgen.analyses.prescribed import drivers_of, instantaneous, without
+from symgen.base import arguments
+from symgen.base.errors import InputError, nearest, quoted
 from symgen.compiling.side import compile_side
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.lengths import datum_of
 from symgen.describe.mechanism import Force, Joint, Mechanism, Parameter
 from symgen.describe.readings import is_turning
-from symgen.errors import InputError, nearest, quoted
+from symgen.layout import abi
 from symgen.lower.windings import winding_order
 from symgen.result.saved import Recorded
 from symgen.result.signals import accelerated
@@ -31,16 +32,15 @@ from symgen.running.dead_centre import DRIVER
 from symgen.running.plan import Purpose
 from symgen.running.prepare import make_plan
 from symgen.running.starts import closed_by, compiled_for
-from symgen.runtime import abi
-from symgen.runtime.assembly import assemble
-from symgen.runtime.outcome import PrescribedMotion
+from symgen.runs.outcome import PrescribedMotion
+from symgen.starts.assembly import assemble
 from symgen.vocabulary.expressions import ZERO, Expr, Name, Number, Reading
 from symgen.vocabulary.measures import Effort, Exerted, Holonomic
 
 if TYPE_CHECKING:
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.settings import Settings
+    from symgen.base.settings import Settings
+    from symgen.layout.compiled import CompiledModel
+    from symgen.starts.assembly import Start
 
 Array = NDArray[np.float64]
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symgen.base.errors import InputError
 from symgen.describe.evaluate import parameter_values
 from symgen.drawing.mechanism_scene import SHARE, build_scene
-from symgen.errors import InputError
 from symgen.player.motion_page import Page, page
 from symgen.player.recording import Recording, position_groups
 

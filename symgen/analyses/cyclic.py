@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import Settled, settle
 from symgen.analyses.subject import Subject
-from symgen.errors import InputError, nearest
+from symgen.base.errors import InputError, nearest
 
 Array = NDArray[np.float64]
 

@@ -17,11 +17,11 @@ from symgen.analyses.edges import edges
 from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import Settled, at_balance, settle
 from symgen.analyses.subject import Subject
-from symgen.errors import AnalysisError, InputError
+from symgen.base.errors import AnalysisError, InputError
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.compiled import ModelInfo
+    from symgen.layout.compiled import ModelInfo
 
 Array = NDArray[np.float64]
 

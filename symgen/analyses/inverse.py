@@ -10,25 +10,25 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen import arguments
 from symgen.analyses.actuators import WHERE, actuated, balance
 from symgen.analyses.kinematics import Kinematics, kinematics
 from symgen.analyses.prescribed import drivers_of
+from symgen.base import arguments
+from symgen.base.errors import InputError
+from symgen.breaks.stops import stops_of
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import are_words_of_data
-from symgen.errors import InputError
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.reactions import Forces, seats
 from symgen.result.saved import Recorded, read_recorded, recorded
 from symgen.result.tables import Tables
 from symgen.running.inputs import put_inputs
-from symgen.runtime.stops import stops_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
+    from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
-    from symgen.settings import Settings
 
 Array = NDArray[np.float64]
 #: What every second time may change of an integral before it is said; an error about three times smaller is left.

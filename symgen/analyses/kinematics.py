@@ -13,25 +13,25 @@ import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from symgen import arguments
 from symgen.analyses.own_states import states_along
 from symgen.analyses.passing import Passage
 from symgen.analyses.prescribed import drivers_of, make_driven
 from symgen.analyses.tracing import trace
 from symgen.analyses.transmission import transmission_angles
-from symgen.errors import InputError, nearest
-from symgen.memory import require
+from symgen.base import arguments
+from symgen.base.errors import InputError, nearest
+from symgen.base.memory import require
+from symgen.layout import abi
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.reactions import Forces, seats
 from symgen.result.signals import accelerations, multiplier_unit
 from symgen.result.tables import Measured, MotionTables
 from symgen.running.outputs import multiples, output_size
-from symgen.runtime import abi
-from symgen.runtime.outcome import PrescribedMotion
+from symgen.runs.outcome import PrescribedMotion
 
 if TYPE_CHECKING:
+    from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
-    from symgen.settings import Settings
 
 Array = NDArray[np.float64]
 
@@ -198,7 +198,7 @@ class Kinematics(MotionTables):
         points : sequence of str, optional
             Such as ``leg.foot``; all by default.
         """
-        from symgen.files import check_path
+        from symgen.base.files import check_path
         from symgen.result.export import PLOTTED
         from symgen.result.plots import paths, write_figure
 

@@ -18,15 +18,15 @@ from symgen.analyses.equilibrium import Equilibrium, not_unique, reduced_squares
 from symgen.analyses.modes import Modes
 from symgen.analyses.settle import search
 from symgen.analyses.subject import Yardsticks, at_start, inputs_at_start
-from symgen.errors import AnalysisError, InputError
-from symgen.runtime import abi
-from symgen.runtime.newton import Pattern
-from symgen.runtime.probe import Ready
-from symgen.settings import Settings
+from symgen.base.errors import AnalysisError, InputError
+from symgen.base.settings import Settings
+from symgen.layout import abi
+from symgen.layout.probe import Ready
+from symgen.loops.newton import Pattern
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.layout.compiled import CompiledModel
 
 Array = NDArray[np.float64]
 

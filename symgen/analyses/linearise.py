@@ -18,8 +18,8 @@ from symgen.analyses.edges import edges
 from symgen.analyses.reduced import StateTangent, tangent
 from symgen.analyses.steady import at_rest, named_states, system
 from symgen.analyses.subject import Subject
-from symgen.digits import without_rounding
-from symgen.errors import InputError
+from symgen.base.digits import without_rounding
+from symgen.base.errors import InputError
 
 if TYPE_CHECKING:
     from scipy.signal import StateSpace

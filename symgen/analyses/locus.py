@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen import arguments
 from symgen.analyses.algebra import plain
 from symgen.analyses.places import Array, NamedPlace, modes_at, range_of
+from symgen.base import arguments
+from symgen.base.errors import InputError, SymgenError
+from symgen.base.files import check_path
 from symgen.describe.evaluate import parameter_values
-from symgen.errors import InputError, SymgenError
-from symgen.files import check_path
 from symgen.result.export import PLOTTED
 from symgen.result.plots import COLOURS, write_figure
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from symgen.analyses.kinds import ANALYSES
-from symgen.keywords import takes
+from symgen.base.keywords import takes
 
 if TYPE_CHECKING:
     from symgen.analyses.kinds import equilibrium as _equilibrium
@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     from symgen.analyses.kinds import kinematics as _kinematics
     from symgen.analyses.kinds import linearise as _linearise
     from symgen.analyses.kinds import modes as _modes
+    from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
     from symgen.result.result import Result
-    from symgen.settings import Settings
 
 
 class Analysed:

@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from symgen.analyses.passing import rates_of
 from symgen.analyses.prescribed import PrescribedRun
 from symgen.analyses.tracing import trace
+from symgen.base.errors import AnalysisError
+from symgen.breaks.in_time import InTime
 from symgen.compiling.side import Side, compile_side
 from symgen.describe.kinks import jumps_in_time
-from symgen.errors import AnalysisError
-from symgen.runtime import abi
-from symgen.runtime.in_time import InTime
+from symgen.layout import abi
 
 Array = NDArray[np.float64]
 

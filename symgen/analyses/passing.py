@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import KroghInterpolator
 
+from symgen.layout.model_arrays import velocity_of
 from symgen.running.dead_centre import dead_centre
-from symgen.runtime.model_arrays import velocity_of
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import ModelInfo
+    from symgen.layout.compiled import ModelInfo
 
 Array = NDArray[np.float64]
 

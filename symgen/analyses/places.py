@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen import arguments
 from symgen.analyses.cyclic import steady_motion
 from symgen.analyses.equilibrium import Equilibrium, judged, rest_of, scanned_rests, stability_in_motion, value_of
 from symgen.analyses.linearise import LinearSystem, eigenvectors, linear_system
@@ -20,12 +19,13 @@ from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import Settled, settle
 from symgen.analyses.steady import at_rest, named_states
 from symgen.analyses.subject import LARGE, Subject, subject_of
-from symgen.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
+from symgen.base import arguments
+from symgen.base.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
 
 if TYPE_CHECKING:
+    from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
     from symgen.result.result import Result
-    from symgen.settings import Settings
 
 Array = NDArray[np.float64]
 

@@ -11,27 +11,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import apart
+from symgen.base.errors import AssemblyError, InputError, nearest
+from symgen.breaks.stops import stops_of
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.describe.start import described_start
-from symgen.errors import AssemblyError, InputError, nearest
+from symgen.layout import abi
+from symgen.layout.probe import Ready
 from symgen.running.dead_centre import DRIVER, jacobian_at
 from symgen.running.inputs import put_inputs
 from symgen.running.plan import Plan, Purpose
 from symgen.running.prepare import assemble, make_plan
 from symgen.running.starts import compiled_for, start_of
-from symgen.runtime import abi
-from symgen.runtime.probe import Ready
-from symgen.runtime.stops import stops_of
 from symgen.vocabulary.expressions import readings
 from symgen.vocabulary.measures import GROUND, Integral
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.settings import Settings
+    from symgen.base.settings import Settings
+    from symgen.layout.compiled import CompiledModel
+    from symgen.starts.assembly import Start
 
 Array = NDArray[np.float64]
 
@@ -56,7 +56,7 @@ class PrescribedRun:
     compiled, start : CompiledModel, Start
         Its code, and its consistent start at t = 0.
     held : tuple of (float, Array)
-        Parameters of earlier stops, see `symgen.runtime.outcome.Motion`.
+        Parameters of earlier stops, see `symgen.runs.outcome.Motion`.
     p : Array
         Parameters of the last stop.
     inputs : mapping

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.subject import RATE, Subject
+from symgen.base.errors import AnalysisError, InputError, nearest
 from symgen.compiling.linearised import Evaluated
-from symgen.errors import AnalysisError, InputError, nearest
 
 Array = NDArray[np.float64]
 

@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 from symgen.analyses.algebra import Solver, largest, level, solver
 from symgen.analyses.subject import Subject
+from symgen.base.errors import AnalysisError
 from symgen.compiling.linearised import Evaluated
-from symgen.errors import AnalysisError
 
 if TYPE_CHECKING:
     from symgen.analyses.large import Sparse

@@ -17,10 +17,10 @@ from symgen.analyses.algebra import ROUNDED, rank, split
 from symgen.analyses.reduced import StateQuantity, StateTangent, quantities_of, tangent
 from symgen.analyses.settle import TOLERANCE
 from symgen.analyses.subject import RATE, Subject
-from symgen.errors import AnalysisError, InputError
+from symgen.base.errors import AnalysisError, InputError
 from symgen.ir.program import COUNTERS
-from symgen.runtime.model_arrays import velocity_of
-from symgen.runtime.probe import rate_function
+from symgen.layout.model_arrays import velocity_of
+from symgen.layout.probe import rate_function
 
 Array = NDArray[np.float64]
 

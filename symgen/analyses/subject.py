@@ -11,6 +11,8 @@ from msgspec.structs import replace as replaced
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import split
+from symgen.base.errors import AssemblyError, InputError, nearest
+from symgen.base.settings import Settings
 from symgen.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
 from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import compile_side
@@ -18,23 +20,21 @@ from symgen.describe.evaluate import evaluate, parameter_values, scalars
 from symgen.describe.holds import holds_of
 from symgen.describe.lengths import datum_of
 from symgen.describe.start import described_start
-from symgen.errors import AssemblyError, InputError, nearest
+from symgen.layout import abi
+from symgen.layout.model_arrays import lengths_of
+from symgen.layout.probe import Ready
 from symgen.lower.windings import winding_order
 from symgen.running.inputs import Inputs, put_inputs
 from symgen.running.plan import Purpose
 from symgen.running.prepare import make_plan, prepare
 from symgen.running.starts import held_of, states_at_start
-from symgen.runtime import abi
-from symgen.runtime.assembly import Start
-from symgen.runtime.model_arrays import lengths_of
-from symgen.runtime.probe import Ready
-from symgen.settings import Settings
+from symgen.starts.assembly import Start
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.layout.compiled import CompiledModel
 
 Array = NDArray[np.float64]
 

@@ -10,14 +10,15 @@ from numpy.typing import NDArray
 
 from symgen.analyses.passing import Curve, Passage, curve_through, rates_of
 from symgen.analyses.prescribed import PrescribedRun
+from symgen.layout import abi
+from symgen.layout.manifold import stay
+from symgen.layout.model_arrays import entries_of, lengths_of, velocity_of
+from symgen.layout.probe import Ready
+from symgen.loopcode.exact import compiled_form
+from symgen.loops import following as f
 from symgen.running.dead_centre import free_and_held, jacobian_at
-from symgen.runtime import abi, decisions
-from symgen.runtime import following as f
-from symgen.runtime.exact import compiled_form
-from symgen.runtime.manifold import stay
-from symgen.runtime.model_arrays import entries_of, lengths_of, velocity_of
-from symgen.runtime.probe import Ready
-from symgen.runtime.redundancy import row_chooser
+from symgen.starts import decisions
+from symgen.starts.assembler import row_chooser
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -146,7 +147,7 @@ class Tracer:
 
     @property
     def clock(self) -> Array:
-        """Time, sine and the like, see `symgen.runtime.following`."""
+        """Time, sine and the like, see `symgen.loops.following`."""
         clock: Array = self.stand.clock
         return clock
 

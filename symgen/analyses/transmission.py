@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.evaluate import evaluate
-from symgen.errors import InputError, nearest, quoted
 from symgen.result.labelled import Labelled
 from symgen.vocabulary.measures import GROUND, Component
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Joint, Mechanism
-    from symgen.runtime.outcome import Motion
+    from symgen.runs.outcome import Motion
 
 Array = NDArray[np.float64]
 

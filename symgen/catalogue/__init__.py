@@ -3,6 +3,10 @@
 A file ``name.toml`` is the entry ``name``. A module ``n_four_bar.py`` is the sized entry ``n-four-bar``, its `KIND` a
 `Sized` that makes the description for a size. Entries are of two groups: those of this folder are studied with every
 method, in the gallery and in ``generated/``; those of the folder ``machines``, with motor and load, are to start from.
+
+In: a name, with a size for sized entries.
+Out: the description as a nested dictionary, not yet validated.
+Imports: msgspec; `base` and `vocabulary`.
 """
 
 from __future__ import annotations
@@ -13,8 +17,8 @@ from typing import Any, cast
 
 import msgspec
 
-from symgen.errors import InputError
-from symgen.registry import Registry
+from symgen.base.errors import InputError
+from symgen.base.registry import Registry
 
 
 def _folder() -> Path:

@@ -2,6 +2,10 @@
 
 Exit codes: 0 done, 1 a simulation or study failed, 2 bad input, 130 interrupted. Results go to standard output, and
 with ``--json`` nothing but JSON does; everything else goes to standard error. SIGTERM interrupts as Ctrl-C does.
+
+In: arguments of the command line.
+Out: text, JSON and files, an exit code.
+Imports: click, NumPy; rich for tables; all rooms.
 """
 
 from __future__ import annotations
@@ -22,12 +26,12 @@ from typing import Any
 import click
 
 from symgen.analyses.kinds import ANALYSES
-from symgen.errors import CLOSE, SymgenError, nearest
-from symgen.escapes import printable
-from symgen.plugins import failure_of_plugin, load_plugins
-from symgen.registry import Registry
-from symgen.settings import flag, names
-from symgen.version import __version__
+from symgen.base.errors import CLOSE, SymgenError, nearest
+from symgen.base.escapes import printable
+from symgen.base.plugins import failure_of_plugin, load_plugins
+from symgen.base.registry import Registry
+from symgen.base.settings import flag, names
+from symgen.base.version import __version__
 
 OK, FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 #: Number of new objects before the first garbage collection; imports create about as many.

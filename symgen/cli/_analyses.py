@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.analyses.kinds import ANALYSES, AnalysisTable, Option
+from symgen.base.errors import InputError, quoted
+from symgen.base.settings import Settings
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
 from symgen.cli._options import (
     assignments,
@@ -21,8 +23,6 @@ from symgen.cli._options import (
     time_list,
     words,
 )
-from symgen.errors import InputError, quoted
-from symgen.settings import Settings
 
 if TYPE_CHECKING:
     import numpy as np

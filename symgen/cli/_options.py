@@ -11,11 +11,11 @@ from typing import Any, TypeVar
 
 import click
 
-from symgen import arguments
 from symgen.analyses.kinds import check_over
+from symgen.base import arguments
+from symgen.base.errors import InputError, quoted
+from symgen.base.settings import about, default, flag
 from symgen.cli import in_options
-from symgen.errors import InputError, quoted
-from symgen.settings import about, default, flag
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -226,7 +226,7 @@ def output_file(option: str, text: str | None, kind: str = "") -> Path | None:
     """
     if text is None:
         return None
-    from symgen.files import check_path, check_writable
+    from symgen.base.files import check_path, check_writable
     from symgen.result.export import COLUMNS, PLOTTED, SAVED
 
     path = Path(text)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from symgen.settings import Settings
+    from symgen.base.settings import Settings
 
 
 def latex_of(name: str, settings: Settings, select: str | None, symbols: bool, whole: bool) -> str:

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import click
 
+from symgen.base.errors import InputError
 from symgen.cli import INTERRUPTED, complain
 from symgen.cli._options import differ, output_file, units_option
-from symgen.errors import InputError
 
 if TYPE_CHECKING:
     from symgen.api import Model

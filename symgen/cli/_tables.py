@@ -10,8 +10,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from symgen.digits import column, digits, scale_of
-from symgen.errors import fitting
+from symgen.base.digits import column, digits, scale_of
+from symgen.base.errors import fitting
 
 if TYPE_CHECKING:
     from symgen.ensemble.sweep_study import Sweep

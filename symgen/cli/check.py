@@ -7,9 +7,9 @@ from typing import Any
 
 import click
 
+from symgen.base.errors import counted
 from symgen.cli import OK, write_json
 from symgen.cli._options import examples, json_option, setting_options
-from symgen.errors import counted
 
 
 @click.command(
@@ -34,8 +34,8 @@ def command(
     """
     if picture is not None:
         from symgen.api import load
+        from symgen.base.files import check_path
         from symgen.drawing.drawing import PICTURES
-        from symgen.files import check_path
 
         file = check_path("--draw", Path(picture), PICTURES, "plot")
         load(model).draw(parameters, start).save(file)

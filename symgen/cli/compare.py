@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from symgen.base.errors import InputError
+from symgen.base.settings import Settings
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
 from symgen.cli._options import (
     examples,
@@ -20,8 +22,6 @@ from symgen.cli._options import (
     words,
 )
 from symgen.cli._report import StudyFiles, command_again, interrupted, sketches_of, study_files
-from symgen.errors import InputError
-from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.study.comparison.compare import Study
@@ -107,8 +107,8 @@ def command(
         raise InputError("--quantity", "--plot FILE, which draws it", "no --plot")
 
     from symgen.api import load
+    from symgen.base.memory import processors
     from symgen.cli._progress import Lines
-    from symgen.memory import processors
     from symgen.study.comparison.combinations import Combinations
     from symgen.study.comparison.compare import compare_all, save_csv
     from symgen.study.comparison.comparison_rows import check_columns_of_rows, plot_rows

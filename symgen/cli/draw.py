@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from symgen.base.errors import InputError, SimulationError, quoted
 from symgen.cli import BAD_INPUT, OK, complain, write_json
 from symgen.cli._options import examples, json_option, setting_options
-from symgen.errors import InputError, SimulationError, quoted
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -52,8 +52,8 @@ def command(
     then 2.
     """
     from symgen.api import load
+    from symgen.base.files import check_path
     from symgen.drawing.drawing import PICTURES
-    from symgen.files import check_path
 
     view = _view(angles)
     loaded = load(model)

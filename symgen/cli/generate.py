@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import click
 
+from symgen.base.errors import InputError
+from symgen.base.registry import Registry
 from symgen.cli import OK, write_json
 from symgen.cli._options import examples, json_option, setting_options, tell
-from symgen.errors import InputError
-from symgen.registry import Registry
 
 #: By name alone: files of targets are imported when one is chosen.
 _TARGETS: Registry[object] = Registry("symgen.targets", "target")

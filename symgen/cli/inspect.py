@@ -6,9 +6,9 @@ from pathlib import Path
 
 import click
 
+from symgen.base.errors import InputError
 from symgen.cli import OK, write_json
 from symgen.cli._options import examples, setting_options
-from symgen.errors import InputError
 
 
 @click.command(
@@ -51,8 +51,8 @@ def command(
     of freedom, redundant rows, operation counts before and after common subexpressions, and what was left out and why.
     """
     from symgen.api import load
+    from symgen.base.settings import Settings
     from symgen.reading.inspection import as_text, facts_of, method_of, write_page
-    from symgen.settings import Settings
 
     named = method or "direct-correction"
     own = {f"method.{key}": value for key, value in _own(options, named).items()}

@@ -7,9 +7,9 @@ from typing import Any
 
 import click
 
+from symgen.base.registry import Registry
 from symgen.cli import OK, write_json
 from symgen.cli._options import examples, json_option
-from symgen.registry import Registry
 
 #: Terminals of this width show sources in a further column.
 WIDE = 120

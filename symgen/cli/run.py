@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from symgen.base.errors import InputError
+from symgen.base.settings import Settings
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
 from symgen.cli._options import (
     examples,
@@ -19,8 +21,6 @@ from symgen.cli._options import (
     tell,
     units_option,
 )
-from symgen.errors import InputError
-from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.api import Model

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from symgen import arguments
+from symgen.base import arguments
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
 from symgen.cli._options import examples, jobs_option, json_option, setting_options, words
 from symgen.cli._report import StudyFiles, command_again, interrupted, sketches_of, study_files
@@ -55,9 +55,9 @@ def command(
         arguments.number("--compilation", compilation, positive=True)
     case_list, method_list = words("--cases", cases), words("--methods", methods)
 
+    from symgen.base.memory import processors
     from symgen.catalogue import names
     from symgen.cli._progress import Lines
-    from symgen.memory import processors
     from symgen.study.journal import Journal
     from symgen.study.stress.stress_rows import save_csv
     from symgen.study.stress.study import stress

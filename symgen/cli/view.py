@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from symgen.base.errors import InputError
+from symgen.base.settings import Settings, flag, is_set, names
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
 from symgen.cli._options import examples, json_option, setting_options
-from symgen.errors import InputError
-from symgen.settings import Settings, flag, is_set, names
 
 if TYPE_CHECKING:
     from symgen.player.recording import Recording
@@ -89,7 +89,7 @@ def command(
         _refuse(settings, () if stored else _OF_MODES, "a saved result" if stored else "a mode shape")
 
     from symgen.api import load
-    from symgen.files import check_path
+    from symgen.base.files import check_path
     from symgen.player.motion_page import PAGES, Page
     from symgen.player.moving import check_film, write_film
     from symgen.result.viewed import mechanism_name, recorded, recorded_file, view_file

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.topology import state_names
+from symgen.layout import abi
+from symgen.layout.compiled import CompiledModel, ModelInfo
 from symgen.lower.windings import winding_order
-from symgen.runtime import abi
-from symgen.runtime.compiled import CompiledModel, ModelInfo
-from symgen.runtime.tree_start import Carrying
+from symgen.starts.tree_start import Carrying
 
 
 def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, compiled: CompiledModel) -> Carrying:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Container
 from typing import TYPE_CHECKING, Any
 
+from symgen.layout import abi
+from symgen.layout.ensemble_abi import PREPARE
 from symgen.native.language import Function
 from symgen.native.read import Foreign
-from symgen.runtime import abi
-from symgen.runtime.ensemble_abi import PREPARE
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.layout.compiled import CompiledModel
 
 _LAW = {"rhs": abi.RHS, "accept": abi.ACCEPT, "geometry": abi.MEASURE, "confirm": abi.RHS}
 _MODEL = {"masses": abi.MOVE, "move": abi.MOVE, "bodies": abi.OBSERVE, "measure": abi.MEASURE}

@@ -19,11 +19,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from symgen.base.errors import InputError
 from symgen.compiling.pipeline import MethodChoice, for_coordinates, refuse_loops
 from symgen.compiling.side import module_beside
 from symgen.describe.mechanism import Mechanism, Topology
 from symgen.describe.topology import loops_of, spanning_tree, state_names, with_joint_coordinates
-from symgen.errors import InputError
 
 #: Lengths of bodies between which corrections in the metric of the identity keep at least four digits [m].
 LENGTHS_OF_IDENTITY = 1e-6, 1e6
@@ -68,7 +68,7 @@ def choose_coordinates(mechanism: Mechanism, coordinates: str, shape: str) -> Ta
     mechanism : Mechanism
         The mechanism.
     coordinates : str
-        One of `symgen.settings.COORDINATES`.
+        One of `symgen.base.settings.COORDINATES`.
     shape : str
         The requested shape of code, or that of the bodies' own coordinates.
 
@@ -145,7 +145,7 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
     choice : MethodChoice
         The method with its options.
     shape : str
-        One of `symgen.settings.SHAPES`.
+        One of `symgen.base.settings.SHAPES`.
     evaluations : float
         Expected number of evaluations.
 

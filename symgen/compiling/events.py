@@ -14,12 +14,12 @@ from symgen.describe.formula_text import to_text
 from symgen.describe.kinks import Discontinuity, changing_rows, discontinuities_of
 from symgen.describe.mechanism import Event, Mechanism, SpatialBody
 from symgen.ir.interpolation import Interpolation
-from symgen.runtime.abi import OBSERVE
-from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.events import Switch, Watched
-from symgen.runtime.probe import Ready
-from symgen.runtime.resets import Masses, Reset, linear_in_v
-from symgen.runtime.row_jumps import RowJumps
+from symgen.layout.abi import OBSERVE
+from symgen.layout.compiled import CompiledModel
+from symgen.layout.probe import Ready
+from symgen.loops.run_spec import Masses, Reset, Switch, Watched
+from symgen.runs.resets import linear_in_v
+from symgen.runs.row_jumps import RowJumps
 
 Array = NDArray[np.float64]
 

@@ -15,14 +15,14 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import finite_numbers
 from symgen.compiling.side import beside, module_beside
 from symgen.describe.evaluate import derived
 from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import finite_numbers
-from symgen.runtime.abi import OBSERVE
-from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.probe import Few
+from symgen.layout.abi import OBSERVE
+from symgen.layout.compiled import CompiledModel
+from symgen.layout.probe import Few
 from symgen.store.modules import load_module
 from symgen.vocabulary.infos import BY, LinearisedInfo
 

@@ -13,10 +13,10 @@ from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import quantities
+from symgen.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
 from symgen.lower.looped.layout import GENERIC, HEAD
 from symgen.lower.looped.shape import LoopedShape
 from symgen.lower.looped.tables import IndexTables
-from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, RowInfo
 from symgen.store.modules import interpreted
 from symgen.vocabulary.measures import Holonomic
 from symgen.vocabulary.quantities import Quantity
@@ -45,8 +45,8 @@ class LoopedModel(CompiledModel):
     def scratch(self) -> Array:
         """Return a new scratch array ``w`` with the tables in it."""
         # these import Numba, which emitting code does without
-        from symgen.runtime.kernel_addresses import GENERIC as GENERIC_CODE
-        from symgen.runtime.kernel_addresses import address
+        from symgen.layout.kernel_addresses import GENERIC as GENERIC_CODE
+        from symgen.layout.kernel_addresses import address
 
         w = np.zeros(self.law.nw)
         offset, size = self.tables.sections["tables"]

@@ -21,14 +21,14 @@ from typing import TYPE_CHECKING, Any, final
 import msgspec
 import numpy as np
 
+from symgen.base.errors import InputError, finite_numbers
+from symgen.base.files import templates_folder
 from symgen.describe.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import InputError, finite_numbers
-from symgen.files import templates_folder
 from symgen.ir.program import FORMAT, SUFFIXES
+from symgen.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
 from symgen.methods import METHODS
 from symgen.methods._base import EXPLICIT_FORMS, Method
-from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, RowInfo
 from symgen.store.entries import Entries, Modules, folder_name
 from symgen.store.identity import SOURCES, TEMPLATES, digest, sources_digest
 from symgen.store.modules import load_module

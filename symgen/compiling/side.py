@@ -19,20 +19,20 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import InputError, finite_numbers
 from symgen.compiling.pipeline import folder_of, generator_digest
 from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.readings import integrals
-from symgen.errors import InputError, finite_numbers
+from symgen.layout import abi
+from symgen.layout.compiled import CompiledModel
 from symgen.lower.windings import Beside, winding_order
-from symgen.runtime import abi
-from symgen.runtime.compiled import CompiledModel
 from symgen.store.entries import Entries
 from symgen.store.modules import interpreted, load_module
 from symgen.vocabulary.expressions import Expr
 
 if TYPE_CHECKING:
-    from symgen.runtime.probe import Few
+    from symgen.layout.probe import Few
 
 Array = NDArray[np.float64]
 
@@ -47,7 +47,7 @@ class Side:
     Parameters
     ----------
     function : compiled function
-        ``(t, y, p, w, ydot, out)``, of type `symgen.runtime.abi.OBSERVE`; nothing is compiled before a loop takes it.
+        ``(t, y, p, w, ydot, out)``, of type `symgen.layout.abi.OBSERVE`; nothing is compiled before a loop takes it.
     path : Path
         Its module.
     labels : tuple of str
@@ -68,8 +68,8 @@ class Side:
 
     @cached_property
     def _few(self) -> Few:
-        from symgen.runtime.abi import OBSERVE  # which need Numba: code is written without it
-        from symgen.runtime.probe import Few
+        from symgen.layout.abi import OBSERVE  # which need Numba: code is written without it
+        from symgen.layout.probe import Few
 
         return Few(self.function, OBSERVE)
 

@@ -15,6 +15,7 @@ from typing import Any
 
 import msgspec
 
+from symgen.base.errors import nearest, quoted
 from symgen.describe.beam_lines import CrossSection, cross_sections, segments
 from symgen.describe.beam_sections import BeamSection, Properties, properties_of
 from symgen.describe.bodies import shifted
@@ -25,7 +26,6 @@ from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.mechanism import AnyBody, Body, Vec
 from symgen.describe.scope import CENTRE, Scope
 from symgen.describe.start import euler_parameters
-from symgen.errors import nearest, quoted
 from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, cross, difference, dot, number, product, total
 from symgen.vocabulary.measures import GROUND
 from symgen.vocabulary.rotations import matrix

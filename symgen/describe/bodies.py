@@ -6,13 +6,13 @@ import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from symgen.base.errors import nearest, quoted
 from symgen.describe.fields import read, words_of
 from symgen.describe.mechanism import Body, Shape, SpatialBody, Vec
 from symgen.describe.names import check_identifier
 from symgen.describe.scope import CENTRE
 from symgen.describe.sections import BodySection, OrientationSection, ShapeSection, SpatialBodySection
 from symgen.describe.start import Scalars, euler_parameters
-from symgen.errors import nearest, quoted
 from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, number, product, total
 from symgen.vocabulary.rotations import CONVENTIONS, IDENTITY, Matrix, Orientation, matrix
 

@@ -7,13 +7,13 @@ import re
 from collections.abc import Mapping
 from typing import Any, Self, Unpack
 
-from symgen.arguments import shown, text
+from symgen.base.arguments import shown, text
+from symgen.base.errors import InputError
+from symgen.base.keywords import explicit
 from symgen.describe.builder_keys import BodyKeys, EventKeys, ForceKeys, JointKeys, MechanismKeys, RunKeys, TableKeys
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.sections import NAMED, SECTIONS
 from symgen.describe.validate import validate
-from symgen.errors import InputError
-from symgen.keywords import explicit
 
 
 class MechanismBuilder:

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism

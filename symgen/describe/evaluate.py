@@ -6,12 +6,12 @@ import math
 from collections.abc import Container, Iterable, Mapping
 from graphlib import CycleError, TopologicalSorter
 
-from symgen import arguments
+from symgen.base import arguments
+from symgen.base.errors import InputError, nearest
 from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Mechanism, Parameter
 from symgen.describe.start import Scalars
 from symgen.describe.tables import Table
-from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, names, table_of
 
 #: Exception of an evaluation -> description of the error.

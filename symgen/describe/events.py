@@ -7,13 +7,13 @@ from typing import Any, Literal
 
 import msgspec
 
+from symgen.base.errors import InputError, quoted
 from symgen.describe.fields import Condition, NewVelocities, read, words_of
 from symgen.describe.formula_text import to_text
 from symgen.describe.inputs import put
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.names import check_identifier
 from symgen.describe.scope import Context, Scope
-from symgen.errors import InputError, quoted
 from symgen.vocabulary.expressions import Call, Expr, Name, Number, call, names
 
 RISING, FALLING, ANY = "rising", "falling", "any"

@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
 import msgspec
 from msgspec import Meta
 
-from symgen.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, nearest, quoted
 
 Text = Annotated[str, Meta(description="a text")]
 Scalar = Annotated[float | str, Meta(description="a number or an expression of parameters")]

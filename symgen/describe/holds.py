@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.mechanism import AnyBody, Hold, Joint, Mechanism, SpatialBody
-from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import Number
 from symgen.vocabulary.measures import GROUND, Angle
 

@@ -17,14 +17,14 @@ from typing import Any, TypeVar
 
 import msgspec
 
-from symgen import arguments
+from symgen.base import arguments
+from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.files import check_rows
 from symgen.describe.mechanism import Mechanism, Parameter
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import Readings
 from symgen.describe.scope import Context
 from symgen.describe.tables import Table
-from symgen.errors import InputError, nearest, quoted
-from symgen.files import check_rows
 from symgen.vocabulary.expressions import BENT, ZERO, Call, Expr, Name, Number, call, names, table_of
 
 T = TypeVar("T")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar, Protocol
 
-from symgen.registry import Registry
+from symgen.base.registry import Registry
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Force, Joint

@@ -15,11 +15,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from symgen import arguments
+from symgen.base import arguments
+from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parser import LONGEST_TEXT
 from symgen.describe.validate import DEEPEST, validate
-from symgen.errors import InputError, nearest, quoted
 
 _CATALOGUE = re.compile(r"(?P<name>[a-z][a-z0-9-]*)(:(?P<size>[0-9]{1,9}))?")
 

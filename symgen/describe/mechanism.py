@@ -7,9 +7,9 @@ from typing import TypeVar
 
 import msgspec
 
-from symgen.arguments import shown
+from symgen.base.arguments import shown
+from symgen.base.errors import InputError, nearest
 from symgen.describe.tables import Table
-from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import ZERO, Expr
 from symgen.vocabulary.measures import GROUND, Direction, Effort, Flexure, Marker, Measure, Row
 from symgen.vocabulary.rotations import IDENTITY, Orientation

@@ -5,8 +5,8 @@ from __future__ import annotations
 import keyword
 import re
 
-from symgen.errors import InputError, quoted
-from symgen.escapes import printable
+from symgen.base.errors import InputError, quoted
+from symgen.base.escapes import printable
 from symgen.vocabulary.expressions import FUNCTIONS
 
 #: Tree functions that are written as operators, not by name.

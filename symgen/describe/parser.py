@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.names import CALLABLE, INTEGRAL
-from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import (
     FUNCTIONS,
     Call,

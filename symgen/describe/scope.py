@@ -10,13 +10,13 @@ from functools import cached_property
 
 import msgspec
 
+from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.evaluate import evaluate
 from symgen.describe.fields import words_of
 from symgen.describe.mechanism import ACCELERATIONS, AnyBody, Force, Joint, Mechanism, Vec
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import OUTPUT, Readings
 from symgen.describe.tables import Table
-from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import ZERO, Expr, Number, call, dot, moving, readings
 from symgen.vocabulary.measures import GROUND, Direction, Marker, Measure
 

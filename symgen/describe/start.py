@@ -1,7 +1,7 @@
 """The described start of a mechanism: coordinates before closing, and velocities; displacements by closing.
 
 Algorithms are written once, with the operators of Python and the functions of formulas, over the numbers of one run
-(`Scalars`) or arrays with an element for each of many (`symgen.runtime.array_formulas`). Euler parameters (e0, e1, e2,
+(`Scalars`) or arrays with an element for each of many (`symgen.breaks.array_formulas`). Euler parameters (e0, e1, e2,
 e3) have length 1; the rotation matrix A that they stand for takes body to ground axes.
 """
 
@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from symgen.base.errors import InputError
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
-from symgen.errors import InputError
 from symgen.vocabulary.expressions import FUNCTIONS, Expr
 from symgen.vocabulary.rotations import EulerParameters, Matrix, Orientation, matrix, multiply, rotate
 

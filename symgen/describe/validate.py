@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
+from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.memory import uncollected
 from symgen.describe.bodies import planar_body, shapes_of, spatial_body
 from symgen.describe.columns import check_columns
 from symgen.describe.evaluate import evaluate, in_order
@@ -43,8 +45,6 @@ from symgen.describe.sections import (
 )
 from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
-from symgen.errors import InputError, nearest, quoted
-from symgen.memory import uncollected
 from symgen.vocabulary.expressions import ONE, call, names
 from symgen.vocabulary.measures import Marker
 

@@ -1,4 +1,9 @@
-"""Pictures of mechanisms: a frozen scene of bodies, joints and forces, seen from somewhere, written as SVG or PNG."""
+"""Pictures of mechanisms: a frozen scene of bodies, joints and forces, as SVG or pixels.
+
+In: a mechanism and positions of its bodies.
+Out: a scene, and its view as SVG or PNG.
+Imports: NumPy; matplotlib for pixels; `describe` and rooms below.
+"""
 
 from symgen.drawing.drawing import Drawing, sketch
 from symgen.drawing.mechanism_scene import build_scene

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.arguments import path as argument_path
+from symgen.base.arguments import path as argument_path
+from symgen.base.files import check_path, write_whole
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.start import described_start
 from symgen.drawing.mechanism_scene import build_scene
@@ -21,7 +22,6 @@ from symgen.drawing.pictures import svg, write_pixels
 from symgen.drawing.scene import COLOURS, Array, Item, Look, Point, Scene
 from symgen.drawing.traced import traced_points
 from symgen.drawing.viewpoint import USUAL, viewpoint
-from symgen.files import check_path, write_whole
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism

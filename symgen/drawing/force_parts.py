@@ -6,11 +6,11 @@ from contextlib import suppress
 
 import numpy as np
 
+from symgen.base.errors import InputError
 from symgen.describe.mechanism import Force
 from symgen.drawing.joint_parts import DRIVE, turned_about
 from symgen.drawing.pen import PLAIN, BodyPoint, Pen, across
 from symgen.drawing.scene import GROUNDED, INK, Array, BodyFrame, Item, Line, Look, Mark, Poses
-from symgen.errors import InputError
 from symgen.vocabulary.expressions import ZERO, Number, names
 from symgen.vocabulary.measures import (
     Angle,

@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from symgen.base.errors import InputError
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.mechanism import AnyBody, Mechanism, Shape, SpatialBody, Vec
 from symgen.describe.start import described_start
@@ -29,7 +30,6 @@ from symgen.drawing.scene import (
     upwards,
 )
 from symgen.drawing.symbols import gap_item, joint_item
-from symgen.errors import InputError
 from symgen.vocabulary.measures import Marker, parts
 
 #: A symbol in parts of the picture's diagonal, and of the usual distance between points of a body.

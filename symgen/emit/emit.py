@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from symgen.base.errors import InputError
 from symgen.emit.module import PLATFORMS, ModulePiece, function, module, render, sentence, templates_digest
 from symgen.emit.parts import PartsLayout, law_modules
 from symgen.emit.printer import ElementAccess, Names, Printer, of_hoisted, of_model, of_observed, table_name
 from symgen.emit.whole import Places, model_name
-from symgen.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.interpolation import Interpolation
 from symgen.ir.program import DERIVATIVES, FORMAT, SUFFIXES, Block, LawProgram, ModelLayout, ModelProgram

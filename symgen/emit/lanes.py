@@ -6,11 +6,11 @@ import math
 from collections.abc import Container
 from dataclasses import replace
 
+from symgen.base.errors import InputError
 from symgen.emit.emit import LiteralLayout, law_header, table_codes, table_names, versions
 from symgen.emit.module import ModulePiece, function, module
 from symgen.emit.parts import Parts, PartsLayout, accept_kind
 from symgen.emit.printer import LaneAccess, Printer
-from symgen.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.program import LANE_COUNTERS, LANES, STATUS, SUFFIXES, Block, Correction, LawProgram, ModelProgram
 from symgen.ir.program import lane_bases as bases_of

@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 import jinja2
 
-from symgen.escapes import comment_text, markdown_text
-from symgen.files import templates_folder
+from symgen.base.escapes import comment_text, markdown_text
+from symgen.base.files import templates_folder
 
 
 class Platform(NamedTuple):

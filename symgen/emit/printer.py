@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from symgen.escapes import comment_text
+from symgen.base.escapes import comment_text
 from symgen.ir.program import STATUS, Block, JacobianEntry, ModelLayout, Target, of_table
 from symgen.vocabulary.functions import ELEMENTARY
 

@@ -1,1 +1,6 @@
-"""Many runs of one compiled model over parameters and starts: on all cores, and through Dask on other machines."""
+"""Ensembles: sweeps of one model over its parameters, on threads, a CUDA device or a cluster.
+
+In: a mechanism, settings and axes.
+Out: a `Sweep` with a row of numbers for each run.
+Imports: filelock, msgspec, Numba, NumPy; distributed, xarray when needed; `study` and rooms below.
+"""

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from symgen.arguments import shown
-from symgen.errors import InputError, nearest, quoted
-from symgen.memory import require
+from symgen.base.arguments import shown
+from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.memory import require
 
 Array = NDArray[np.float64]
 

@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.breaks.array_formulas import Columns
 from symgen.describe.evaluate import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
-from symgen.runtime.array_formulas import Columns
 from symgen.vocabulary.expressions import Expr
 
 if TYPE_CHECKING:
-    from symgen.runtime.stops import Stop
+    from symgen.loops.run_spec import Stop
     from symgen.vocabulary.infos import LawInfo
 
 Array = NDArray[np.float64]
@@ -133,7 +133,7 @@ class Chunk:
     values : Array, shape (k, quantities, times)
         Quantities at the output times; nan where a run did not get there.
     summary : Array, shape (k, N_SUMMARY + width)
-        See `symgen.runtime.ensemble_abi`.
+        See `symgen.layout.ensemble_abi`.
     complete : bool
         Whether all rows were run.
     """
@@ -152,7 +152,7 @@ class Results:
     values : Array, shape (k, columns, times)
         Columns that loops write at the output times.
     summary : Array, shape (k, N_SUMMARY)
-        See `symgen.runtime.ensemble_abi`.
+        See `symgen.layout.ensemble_abi`.
     events : Array, shape (k, width)
         Events of the rows; see there.
     behind : Array, shape (k, quantities, times)

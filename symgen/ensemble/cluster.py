@@ -11,11 +11,11 @@ from contextlib import suppress
 from secrets import token_hex
 from typing import TYPE_CHECKING, Any
 
+from symgen.base.errors import InputError, SimulationError
+from symgen.base.plugins import load_plugins
 from symgen.ensemble.chunks import Chunk, Rows
 from symgen.ensemble.kernel import kernel_of, new_control
 from symgen.ensemble.recipe import Recipe, code_identity
-from symgen.errors import InputError, SimulationError
-from symgen.plugins import load_plugins
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -37,7 +37,7 @@ def connect(address: str) -> Client:
     InputError
         If there is none, or the library is missing.
     """
-    from symgen.files import need
+    from symgen.base.files import need
 
     need("scheduler", "distributed", extra="dask")
     from distributed import Client

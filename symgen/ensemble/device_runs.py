@@ -13,22 +13,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.arguments import one_of
-from symgen.errors import InputError, SimulationError
+from symgen.base.arguments import one_of
+from symgen.base.errors import InputError, SimulationError
 from symgen.ir.program import TARGETS
-from symgen.runtime import abi
-from symgen.runtime import ensemble_abi as e
-from symgen.runtime.new_state import metric_of, share_of, sizes_of
-from symgen.runtime.padding import padded
+from symgen.layout import abi
+from symgen.layout import ensemble_abi as e
+from symgen.loopcode.padding import padded
+from symgen.runs.new_state import metric_of, share_of, sizes_of
 
 if TYPE_CHECKING:
     from symgen.ensemble.chunks import Results, Rows
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.device import Need
-    from symgen.runtime.integrator import Setup
-    from symgen.runtime.records import Span
-    from symgen.runtime.scheme_records import TableauRecord
-    from symgen.runtime.start_records import Instant
+    from symgen.layout.compiled import CompiledModel
+    from symgen.layout.records import Span
+    from symgen.layout.scheme_records import TableauRecord
+    from symgen.layout.start_records import Instant
+    from symgen.loops.integrator import Setup
+    from symgen.rows.device import Need
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -76,7 +76,7 @@ def compilable() -> bool:
 
 def usable() -> bool:
     """Return whether there is a device with what it needs, or the simulator."""
-    from symgen.runtime.device import simulated
+    from symgen.rows.device import simulated
 
     if simulated():
         return True
@@ -99,15 +99,15 @@ def need_of(compiled: CompiledModel, setup: Setup, adaptive: bool, wants: set[in
     adaptive : bool
         Whether its steps are.
     wants : set of int
-        Sources of the quantities that are kept, as in `symgen.runtime.ensemble_abi`.
+        Sources of the quantities that are kept, as in `symgen.layout.ensemble_abi`.
 
     Raises
     ------
     InputError
         If a run needs more memory than a thread of a device can have, or the integrator is of another family.
     """
-    from symgen.runtime.device import Need
-    from symgen.runtime.scheme_records import TableauRecord
+    from symgen.layout.scheme_records import TableauRecord
+    from symgen.rows.device import Need
 
     if not isinstance(setup.scheme, TableauRecord):
         raise InputError("target 'cuda'", "an explicit Runge-Kutta scheme", "an integrator with a loop of its own")
@@ -141,7 +141,7 @@ class DeviceRuns:
     scheme, span : record
         As for the loops on a processor.
     limits : Array
-        As in `symgen.runtime.records.Chunk`.
+        As in `symgen.layout.records.Chunk`.
     times : Array
         Output times [s].
     picks : Array of int
@@ -168,7 +168,7 @@ class DeviceRuns:
     def _kernel(self) -> Any:
         from numba import cuda
 
-        from symgen.runtime.device import SIGNATURE, ForgivingMath, make_kernel, simulated
+        from symgen.rows.device import SIGNATURE, ForgivingMath, make_kernel, simulated
 
         law, model = self.compiled.law_module, self.compiled.model
         if simulated():
@@ -221,7 +221,7 @@ class DeviceRuns:
         """
         from numba import cuda
 
-        from symgen.runtime.device import simulated
+        from symgen.rows.device import simulated
 
         if simulated():
             return 1 << 30
@@ -274,7 +274,7 @@ class DeviceRuns:
         """Run rows that fit into the device's memory; return their quantities and numbers."""
         from numba import cuda
 
-        from symgen.runtime.device import DeviceResults, Starts, simulated
+        from symgen.rows.device import DeviceResults, Starts, simulated
 
         k = len(ys)
         inputs = [cuda.to_device(np.ascontiguousarray(array.T)) for array in (ys, ps, ws)]

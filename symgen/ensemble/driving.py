@@ -10,20 +10,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.base.errors import InputError
+from symgen.breaks.motions import jump_of, names_of_motions
+from symgen.breaks.stops import merged, stops_of
 from symgen.describe.evaluate import derived, parameter_values
-from symgen.errors import InputError
-from symgen.runtime.motions import jump_of, names_of_motions
-from symgen.runtime.stops import Stop, merged, stops_of
+from symgen.loops.run_spec import Stop
 from symgen.vocabulary.expressions import names
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from symgen.breaks.stops import Foreseen
     from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.chunks import Rows
     from symgen.ensemble.sweep_plan import Ensemble
     from symgen.running.inputs import Inputs
-    from symgen.runtime.stops import Foreseen
 
 
 @dataclass(frozen=True)

@@ -16,18 +16,18 @@ from symgen.ensemble.device_runs import DeviceRuns, need_of
 from symgen.ensemble.loop_runs import LoopRuns, TreeRuns
 from symgen.ensemble.recipe import Code, Recipe
 from symgen.integrators import INTEGRATORS
+from symgen.layout import ensemble_abi as e
+from symgen.layout.compiled import CompiledModel
+from symgen.layout.model_arrays import joints_of
+from symgen.layout.start_records import Instant, StartConditions
+from symgen.loops.integrator import Integrator
 from symgen.running.tree import carried_of
-from symgen.runtime import ensemble_abi as e
-from symgen.runtime.assembler import Assembly
-from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.integrator import Integrator
-from symgen.runtime.model_arrays import joints_of
-from symgen.runtime.new_state import span_of
-from symgen.runtime.start_records import Instant, StartConditions
+from symgen.runs.new_state import span_of
+from symgen.starts.assembler import Assembly
 
 if TYPE_CHECKING:
     from symgen.ensemble.measures import Measures
-    from symgen.runtime.compiled import ModelInfo
+    from symgen.layout.compiled import ModelInfo
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -94,8 +94,8 @@ class RowKernel:
         rows : Rows
             Data by which the runs differ.
         control : Array of int
-            From `new_control`: raising its flag `symgen.runtime.abi.STOP` from another thread stops the run that is
-            being worked on; `symgen.runtime.ensemble_abi.RUNS_DONE` counts finished ones.
+            From `new_control`: raising its flag `symgen.layout.abi.STOP` from another thread stops the run that is
+            being worked on; `symgen.layout.ensemble_abi.RUNS_DONE` counts finished ones.
         """
         recipe, k, n_times = self.recipe, len(rows), len(self.recipe.spec.times)
         values, behind = (np.full((k, len(q), n_times), np.nan) for q in (recipe.columns, recipe.behind))

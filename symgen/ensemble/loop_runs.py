@@ -9,27 +9,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.ir.program import LANES, lane_bases
-from symgen.runtime import abi
-from symgen.runtime import ensemble_abi as e
-from symgen.runtime.hunting import with_events
-from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
-from symgen.runtime.padding import aligned
-from symgen.runtime.probe import rates_of
-from symgen.runtime.records import Kept, Observed, RowChunk
-from symgen.runtime.redundancy import room_of_choice
-from symgen.runtime.rows import observe_nothing, over_rows
-from symgen.runtime.searching import decide
-from symgen.runtime.start_records import Instant
-from symgen.runtime.stopping import with_table
-from symgen.runtime.tree_start import TURNED_OVER, Carried
+from symgen.layout import abi
+from symgen.layout import ensemble_abi as e
+from symgen.layout.probe import rates_of
+from symgen.layout.records import Kept, Observed, RowChunk
+from symgen.layout.redundancy import room_of_choice
+from symgen.layout.start_records import Instant
+from symgen.loopcode.padding import aligned
+from symgen.loops.hunting import with_events
+from symgen.loops.searching import decide
+from symgen.loops.stopping import with_table
+from symgen.rows.rows import observe_nothing, over_rows
+from symgen.runs.events import event_state
+from symgen.runs.new_state import new_outputs, new_state, sizes_of, span_of
+from symgen.starts.assembler import layout_of
+from symgen.starts.tree_start import TURNED_OVER, Carried
 
 if TYPE_CHECKING:
     from symgen.ensemble.chunks import Results, Rows
     from symgen.ensemble.recipe import Recipe
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.events import Watched
-    from symgen.runtime.integrator import Integrator, Setup
-    from symgen.runtime.records import Span, State
+    from symgen.layout.compiled import CompiledModel
+    from symgen.layout.records import Span, State
+    from symgen.loops.integrator import Integrator, Setup
+    from symgen.loops.run_spec import Watched
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -96,7 +98,7 @@ class LoopRuns:
             int(e.JOINT in sources),
         )
         masked = bool(np.any(compiled.section(starts.w.T, "mask")[:, selected]))
-        places = compiled.layout, np.zeros(room_of_choice(info.m, info.nv) if masked else 0)
+        places = layout_of(compiled), np.zeros(room_of_choice(info.m, info.nv) if masked else 0)
         results = out.values.reshape(-1), summary.reshape(-1), out.events.reshape(-1)
         arrays = (selected, *(x.ravel() for x in starts), recipe.limits, self.picks, *results)
         chunk = RowChunk._make((*arrays, *wants, *places))
@@ -111,7 +113,7 @@ class LoopRuns:
         system, inner = (sizes, *setup.functions), self.integrator.loop(adaptive)
         if self.watched is not None:
             system, inner = (*system, self.watched.function, decide, rates[0]), with_events(inner)
-            state = self.watched.hunting_state(sizes, state)
+            state = event_state(self.watched, sizes, state)
             if out.events.shape[1]:
                 out.events[selected] = np.nan
                 out.events[selected, e.HEAD_OF_EVENTS :: e.OF_EVENT] = 0.0
@@ -141,14 +143,14 @@ class LoopRuns:
             The sizes of the model, and what single runs call at outputs: rates and their confirmation, ``accept``,
             ``observe``.
         span, chunk, state, series
-            As for `symgen.runtime.rows.run_rows`.
+            As for `symgen.rows.rows.run_rows`.
 
         Returns
         -------
         int
             Number of rows that were worked on.
         """
-        from symgen.runtime.lanes import lane_runs, room_of_lanes
+        from symgen.rows.lanes import lane_runs, room_of_lanes
 
         info, law, scheme, (sizes, *others) = lanes.info, lanes.law_module, self.setup.scheme, observers
         lengths = len(state.p), len(state.w), info.windings, len(series.outputs.times)

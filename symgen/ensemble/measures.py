@@ -1,7 +1,7 @@
 """Points, force elements, drivers, formulas of ``[outputs]`` and reactions of the runs of an ensemble.
 
 Loops write the states and other inputs of formulas as further columns of each run. Behind the loops, one compiled loop
-(`symgen.runtime.observe`) calls the side module of single runs for all of them. The loops of all targets are the same
+(`symgen.runs.observe`) calls the side module of single runs for all of them. The loops of all targets are the same
 with and without such quantities.
 """
 
@@ -18,16 +18,16 @@ from numpy.typing import NDArray
 
 from symgen.compiling.side import compile_side
 from symgen.describe.readings import TABLES
+from symgen.layout import abi
+from symgen.layout import ensemble_abi as e
 from symgen.result.reactions import Acting, Seat
 from symgen.result.signals import Signal
-from symgen.runtime import abi
-from symgen.runtime import ensemble_abi as e
 from symgen.vocabulary.expressions import readings
 from symgen.vocabulary.measures import GROUND, Integral
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.layout.compiled import CompiledModel, ModelInfo
     from symgen.vocabulary.expressions import Expr
 
 Array = NDArray[np.float64]
@@ -96,7 +96,7 @@ class Measures:
     reads : tuple of Signal
         Columns of the loops that it reads.
     places : tuple of int
-        Where each of these goes, see `symgen.runtime.observe.Left`.
+        Where each of these goes, see `symgen.runs.observe.Left`.
     joints : mapping of str to Place
         Where reactions act; empty where none are kept.
     """
@@ -154,8 +154,8 @@ class Measures:
         ps, ws : Array, shapes (runs, np), (runs, nw)
             Parameters, and scratch, which is overwritten.
         """
-        from symgen.runtime.observe import Left, measure_rows
-        from symgen.runtime.rows import observe_nothing
+        from symgen.rows.rows import observe_nothing
+        from symgen.runs.observe import Left, measure_rows
 
         info, runs, n_times = compiled.info, len(ps), len(times)
         y, rates, places = np.zeros(info.ny), np.zeros(info.ny), np.array(self.places, dtype=np.int64)

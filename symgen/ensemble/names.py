@@ -6,14 +6,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from symgen.base.errors import InputError, nearest
 from symgen.describe.holds import ORIENTATION, joint_names
-from symgen.errors import InputError, nearest
-from symgen.runtime.held import Held
-from symgen.runtime.model_arrays import velocity_of
+from symgen.layout.model_arrays import velocity_of
+from symgen.starts.held import Held
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Hold, Mechanism
-    from symgen.runtime.compiled import ModelInfo
+    from symgen.layout.compiled import ModelInfo
     from symgen.vocabulary.expressions import Expr
 
 #: What names of the method's parameters begin with.

@@ -16,6 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.plugins import stamps
+from symgen.base.version import __version__
 from symgen.compiling.pipeline import load_compiled
 from symgen.describe.digest import identity
 from symgen.describe.events import in_words
@@ -23,15 +25,13 @@ from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.sides import SidedJoint
 from symgen.ensemble.measures import Measures, stored
 from symgen.ir.numerics import WARN
-from symgen.plugins import stamps
+from symgen.layout import ensemble_abi as e
+from symgen.layout.compiled import CompiledModel
+from symgen.layout.ensemble_abi import SIDE
+from symgen.loops.run_spec import RunSpec
 from symgen.result.signals import Signal
-from symgen.runtime import ensemble_abi as e
-from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.ensemble_abi import SIDE
-from symgen.runtime.held import Held
-from symgen.runtime.run import RunSpec
+from symgen.starts.held import Held
 from symgen.store.identity import SOURCES, digest, sources_digest
-from symgen.version import __version__
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -212,7 +212,7 @@ class Recipe:
 
     @property
     def limits(self) -> Array:
-        """Limits by which runs are judged: see `symgen.runtime.records.RowChunk`."""
+        """Limits by which runs are judged: see `symgen.layout.records.RowChunk`."""
         return np.array([self.spec.max_violation, self.spec.velocity_limit, self.spec.max_energy_error, WARN])
 
     @property

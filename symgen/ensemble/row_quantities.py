@@ -9,14 +9,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from symgen.layout import abi
+from symgen.layout import ensemble_abi as e
 from symgen.result.signals import TABLES, UNSWEPT, Signal, choose, of_run
-from symgen.runtime import abi
-from symgen.runtime import ensemble_abi as e
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.axes import Axis
-    from symgen.runtime.compiled import ModelInfo
+    from symgen.layout.compiled import ModelInfo
 
 
 #: How near an output is to a singular position: of the table of quantities, what results have as an attribute.

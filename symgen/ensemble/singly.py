@@ -17,29 +17,29 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import InputError
 from symgen.compiling.events import compile_events, masses_of
 from symgen.describe.events import RESET
-from symgen.errors import InputError
+from symgen.layout import abi
+from symgen.layout import ensemble_abi as e
+from symgen.loops.hunting import undefined_event
+from symgen.rows.rows import summarise
 from symgen.running.tree import TreeRun, begin_on_tree
-from symgen.runtime import abi
-from symgen.runtime import ensemble_abi as e
-from symgen.runtime.assembly import Start
-from symgen.runtime.hunting import undefined_event
-from symgen.runtime.rows import summarise
-from symgen.runtime.run import outcome_of
-from symgen.runtime.simulation import Simulation
+from symgen.runs.run import outcome_of
+from symgen.runs.simulation import Simulation
+from symgen.starts.assembly import Start
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.chunks import Results, Rows
     from symgen.ensemble.measures import Measures
     from symgen.ensemble.recipe import Recipe, Watch
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.events import Watched
-    from symgen.runtime.integrator import Integrator
-    from symgen.runtime.outcome import Outcome
-    from symgen.runtime.start_records import Instant
-    from symgen.runtime.tree_start import Carried
+    from symgen.layout.compiled import CompiledModel
+    from symgen.layout.start_records import Instant
+    from symgen.loops.integrator import Integrator
+    from symgen.loops.run_spec import Watched
+    from symgen.runs.outcome import Outcome
+    from symgen.starts.tree_start import Carried
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -206,7 +206,7 @@ class SingleRuns:
 
 
 def note_events(row: Array, outcome: Outcome, code: int) -> None:
-    """Write the events of a run into its numbers (`symgen.runtime.ensemble_abi`)."""
+    """Write the events of a run into its numbers (`symgen.layout.ensemble_abi`)."""
     watch = outcome.simulation.events
     if watch is None:
         return

@@ -15,20 +15,20 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 from numpy.typing import ArrayLike
 
-from symgen import arguments
+from symgen.base import arguments
+from symgen.base.errors import InputError
+from symgen.base.files import check_path
+from symgen.base.keywords import RunKeywords, takes
+from symgen.base.memory import processors, require, require_disk
+from symgen.base.settings import Settings, changed
 from symgen.ensemble.axes import RUN_SIZE
 from symgen.ensemble.chunks import Chunk
 from symgen.ensemble.kernel import Integers, kernel_of, new_control
 from symgen.ensemble.sweep_plan import Ensemble, make_ensemble
 from symgen.ensemble.sweep_study import SAVED, Sweep
 from symgen.ensemble.table import FolderTable, RowTable, check_folder
-from symgen.errors import InputError
-from symgen.files import check_path
-from symgen.keywords import RunKeywords, takes
-from symgen.memory import processors, require, require_disk
-from symgen.runtime import abi
-from symgen.runtime.ensemble_abi import N_SUMMARY, RUNS_DONE
-from symgen.settings import Settings, changed
+from symgen.layout import abi
+from symgen.layout.ensemble_abi import N_SUMMARY, RUNS_DONE
 
 if TYPE_CHECKING:
     from distributed import Client

@@ -12,6 +12,11 @@ from typing import TYPE_CHECKING, Any
 from msgspec import structs
 from numpy.typing import ArrayLike
 
+from symgen.base.errors import InputError, nearest
+from symgen.base.plugins import loaded_files
+from symgen.base.settings import Settings
+from symgen.breaks.motions import refuse_jumps
+from symgen.breaks.stops import Foreseen, foreseen
 from symgen.compiling.choices import LARGEST_STRAIGHT, on_tree
 from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import can_integrate, with_integrals
@@ -30,26 +35,21 @@ from symgen.ensemble.measures import integrated, make_measures
 from symgen.ensemble.names import METHOD, Names, Targets, targets_of
 from symgen.ensemble.recipe import Code, Module, Recipe, Watch, code_identity
 from symgen.ensemble.row_quantities import choose_quantities
-from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import LANES
-from symgen.plugins import loaded_files
+from symgen.layout.ensemble_abi import SIDE
 from symgen.running.automatic import AUTO, CONSTANT, EXPLICIT
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import make_plan
 from symgen.running.tree import tree_code
-from symgen.runtime.ensemble_abi import SIDE
-from symgen.runtime.motions import refuse_jumps
-from symgen.runtime.stops import Foreseen, foreseen
-from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.api import Model
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Event, Mechanism
+    from symgen.layout.compiled import CompiledModel
     from symgen.methods._base import Method
     from symgen.result.signals import Signal
-    from symgen.runtime.compiled import CompiledModel
 
 #: A chunk should take about so many seconds, and its arrays no more than so many bytes.
 CHUNK_SECONDS, CHUNK_BYTES = 0.2, 32e6

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, nearest, quoted
 from symgen.result.plots import LONGEST_LEGEND, empty, label, legend, style
 from symgen.result.signals import TABLES, Signal, choose
 

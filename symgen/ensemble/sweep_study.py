@@ -15,19 +15,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.arguments import path as argument_path
-from symgen.arguments import shown, text, whole, words
+from symgen.base.arguments import path as argument_path
+from symgen.base.arguments import shown, text, whole, words
+from symgen.base.errors import InputError, nearest
+from symgen.base.files import check_path, headed, need, write_csv, write_whole
+from symgen.base.version import __version__
 from symgen.ensemble.names import Names
 from symgen.ensemble.row_quantities import NUMBERS, event_columns, of_dimension, of_number, of_quantities, of_varied
 from symgen.ensemble.verdicts import NOT_RUN, column, judge_all, warnings_all
-from symgen.errors import InputError, nearest
-from symgen.files import check_path, headed, need, write_csv, write_whole
+from symgen.layout.ensemble_abi import ASSEMBLED
 from symgen.result.contract import finite
 from symgen.result.export import PLOTTED, netcdf
 from symgen.result.labelled import html_table
 from symgen.result.result import FAILED, OK, UNVERIFIED
-from symgen.runtime.ensemble_abi import ASSEMBLED
-from symgen.version import __version__
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -52,7 +52,7 @@ class Sweep:
     values : Array, shape (runs, quantities, times)
         Quantities at the output times; nan where a run did not get there.
     summary : Array, shape (runs, N_SUMMARY + width)
-        Numbers of every run; see `symgen.runtime.ensemble_abi`.
+        Numbers of every run; see `symgen.layout.ensemble_abi`.
     done : Array of bool, shape (runs,)
         Which runs have been done: all, unless it was interrupted.
     seconds : float

@@ -19,10 +19,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import InputError, SimulationError
+from symgen.base.files import check_name, why, write_whole
 from symgen.ensemble.chunks import Chunk
-from symgen.errors import InputError, SimulationError
-from symgen.files import check_name, why, write_whole
-from symgen.runtime.ensemble_abi import N_SUMMARY
+from symgen.layout.ensemble_abi import N_SUMMARY
 from symgen.store.locks import file_lock
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ class RowTable:
     values : Array, shape (runs, quantities, times)
         Quantities at the output times.
     summary : Array, shape (runs, N_SUMMARY + further)
-        See `symgen.runtime.ensemble_abi`.
+        See `symgen.layout.ensemble_abi`.
     """
 
     def __init__(self, runs: int, quantities: int, times: int, chunk: int, further: int = 0) -> None:

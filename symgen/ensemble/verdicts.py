@@ -9,18 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.ir.numerics import WARN
+from symgen.layout import abi
+from symgen.layout import ensemble_abi as e
 from symgen.result.judge import JUMP_DOUBT, judge_alone
 from symgen.result.result import FAILED, OK
-from symgen.runtime import abi
-from symgen.runtime import ensemble_abi as e
-from symgen.runtime.events import gathered, undefined
-from symgen.runtime.outcome import Ended, RankEvent
-from symgen.runtime.run import end_reason
-from symgen.runtime.start_words import refusal
+from symgen.runs.events import gathered, undefined
+from symgen.runs.outcome import Ended, RankEvent
+from symgen.runs.run import end_reason
+from symgen.starts.start_words import refusal
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import ModelInfo
-    from symgen.runtime.run import RunSpec
+    from symgen.layout.compiled import ModelInfo
+    from symgen.loops.run_spec import RunSpec
     from symgen.vocabulary.infos import LawInfo
 
 Array = NDArray[np.float64]
@@ -44,7 +44,7 @@ def judge_all(
     Parameters
     ----------
     summary : Array, shape (n, N_SUMMARY + width)
-        See `symgen.runtime.ensemble_abi`.
+        See `symgen.layout.ensemble_abi`.
     done : Array of bool, shape (n,)
         Which runs have been done.
     info, law : ModelInfo, LawInfo

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from symgen.base.errors import finite_numbers
 from symgen.describe.mechanism import Mechanism, Rotor, SpatialBody
 from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import UNITS, quantities
-from symgen.errors import finite_numbers
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, mass_blocks
 from symgen.formulate.flexure import exertions
 from symgen.formulate.measures import DerivedMeasure, ModelNodes

@@ -8,7 +8,7 @@ from typing import Any
 
 import sympy as sp
 
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 from symgen.ir.formula import Functions
 from symgen.ir.graph import Graph
 from symgen.ir.program import derived_table, of_table

@@ -1,13 +1,18 @@
-"""Integrators, one file each; `INTEGRATORS` finds them."""
+"""Integrators, one file each; `INTEGRATORS` finds them.
+
+In: coefficients and parameters of a scheme.
+Out: a `Setup`: a loop with its arguments.
+Imports: NumPy; `loops` and rooms below.
+"""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from symgen.registry import Listing, Registry
+from symgen.base.registry import Listing, Registry
 
 if TYPE_CHECKING:
-    from symgen.runtime.integrator import Integrator
+    from symgen.loops.integrator import Integrator
 
 INTEGRATORS: Registry[Integrator] = Registry("symgen.integrators", "integrator", beside="symgen.methods")
 

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
-from symgen.runtime.padding import padded
+from symgen.loopcode.padding import padded
+from symgen.loops.integrator import Array, IntegratorParameter, Setup, law_functions
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.run import RunSpec
+    from symgen.layout.compiled import CompiledModel
+    from symgen.loops.run_spec import RunSpec
 
 
 @dataclass(frozen=True)
@@ -48,14 +48,14 @@ class Adams:
 
     def loop(self, adaptive: bool) -> Any:
         """Return the loop for all orders."""
-        from symgen.runtime.schemes import adams
+        from symgen.loops.schemes import adams
 
         return adams.adaptive if adaptive else adams.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
-        from symgen.runtime.scheme_records import Multistep
-        from symgen.runtime.schemes import adams
+        from symgen.layout.scheme_records import Multistep
+        from symgen.loops.schemes import adams
 
         nodes, factors = np.polynomial.legendre.leggauss(5)  # exact for polynomials up to degree 9
         scheme = Multistep(nodes, factors, np.arange(adams.DEPTH, dtype=np.int64), self.order)

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
-from symgen.runtime.padding import padded
+from symgen.loopcode.padding import padded
+from symgen.loops.integrator import Array, IntegratorParameter, Setup, law_functions
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.run import RunSpec
+    from symgen.layout.compiled import CompiledModel
+    from symgen.loops.run_spec import RunSpec
 
 
 @dataclass(frozen=True)
@@ -58,15 +58,15 @@ class AlphaFamily:
 
     def loop(self, adaptive: bool) -> Any:
         """Return the loop of the family."""
-        from symgen.runtime.schemes import alpha
+        from symgen.loops.schemes import alpha
 
         return alpha.adaptive if adaptive else alpha.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
-        from symgen.runtime.newton import Pattern, alpha_plan
-        from symgen.runtime.scheme_records import Alpha
-        from symgen.runtime.schemes import alpha
+        from symgen.layout.scheme_records import Alpha
+        from symgen.loops.newton import Pattern, alpha_plan
+        from symgen.loops.schemes import alpha
 
         values = {q.name: spec.integrator_parameters.get(q.name, q.default) for q in self.parameters}
         step = spec.step if spec.step is not None else 1e-5 * spec.until

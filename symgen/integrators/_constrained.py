@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
-from symgen.runtime.padding import padded
+from symgen.loopcode.padding import padded
+from symgen.loops.integrator import Array, IntegratorParameter, Setup, law_functions
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.run import RunSpec
+    from symgen.layout.compiled import CompiledModel
+    from symgen.loops.run_spec import RunSpec
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class ConstrainedTableau:
     forms : tuple of str
         Problem forms that it solves.
     scheme : str
-        Its module in `symgen.runtime.schemes`.
+        Its module in `symgen.loops.schemes`.
     a, c : Array, shapes (s, s), (s,)
         Row i yields the state after stage i, the last one the end of the step; nodes of these states.
     real_boundary : float
@@ -64,13 +64,13 @@ class ConstrainedTableau:
         """Return the loop of the scheme."""
         from importlib import import_module
 
-        return import_module(f"symgen.runtime.schemes.{self.scheme}").constant
+        return import_module(f"symgen.loops.schemes.{self.scheme}").constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
-        from symgen.runtime.newton import Pattern, acceleration_plan
-        from symgen.runtime.scheme_records import ConstrainedStages
-        from symgen.runtime.schemes.constrained import memory
+        from symgen.layout.scheme_records import ConstrainedStages
+        from symgen.loops.newton import Pattern, acceleration_plan
+        from symgen.loops.schemes.constrained import memory
 
         info, pattern = compiled.info, Pattern.of(compiled, w)
         assert spec.step is not None, "a constant step is given"

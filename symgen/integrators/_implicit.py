@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
-from symgen.runtime.padding import padded
+from symgen.loopcode.padding import padded
+from symgen.loops.integrator import Array, IntegratorParameter, Setup, law_functions
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.run import RunSpec
+    from symgen.layout.compiled import CompiledModel
+    from symgen.loops.run_spec import RunSpec
 
 
 @dataclass(frozen=True)
@@ -81,15 +81,15 @@ class ImplicitTableau:
 
     def loop(self, adaptive: bool) -> Any:
         """Return the loop of implicit stages."""
-        from symgen.runtime.schemes import implicit
+        from symgen.loops.schemes import implicit
 
         return implicit.adaptive if adaptive else implicit.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
-        from symgen.runtime.newton import Pattern, stage_plan
-        from symgen.runtime.scheme_records import Stages
-        from symgen.runtime.schemes import implicit
+        from symgen.layout.scheme_records import Stages
+        from symgen.loops.newton import Pattern, stage_plan
+        from symgen.loops.schemes import implicit
 
         info, s, pattern = compiled.info, self.stages, Pattern.of(compiled, w)
         slopes = np.zeros((s if self.together else 1) * pattern.size + 1)

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
-from symgen.runtime.padding import padded
+from symgen.loopcode.padding import padded
+from symgen.loops.integrator import Array, IntegratorParameter, Setup, law_functions
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.run import RunSpec
+    from symgen.layout.compiled import CompiledModel
+    from symgen.loops.run_spec import RunSpec
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ class Tableau:
 
     def record(self, adaptive: bool) -> Any:
         """Return the record of the scheme for loops, with dense output for adaptive ones."""
-        from symgen.runtime.scheme_records import TableauRecord as Record
+        from symgen.layout.scheme_records import TableauRecord as Record
 
         start, column, value, nodes = self.packed()
         dense, ends = np.zeros(0), any(e[-1] != 0.0 for e in self.errors)
@@ -137,13 +137,13 @@ class Tableau:
 
     def loop(self, adaptive: bool) -> Any:
         """Return the loop for constant or adaptive steps."""
-        from symgen.runtime.schemes import explicit
+        from symgen.loops.schemes import explicit
 
         return explicit.adaptive if adaptive else explicit.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
-        from symgen.runtime.schemes import explicit
+        from symgen.loops.schemes import explicit
 
         width, scheme = padded(compiled.info.ny), self.record(spec.adaptive)
         memory = len(scheme.nodes) * width if spec.adaptive else 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from symgen.integrators._alpha import AlphaFamily
-from symgen.runtime.integrator import IntegratorParameter
+from symgen.loops.integrator import IntegratorParameter
 
 
 def _coefficients(values: Mapping[str, float]) -> tuple[float, float, float, float]:

@@ -11,13 +11,13 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from symgen.integrators.dop853 import KIND as DOP853
+from symgen.loopcode.padding import padded
+from symgen.loops.integrator import Array, IntegratorParameter, Setup, law_functions
 from symgen.native.types import NODES
-from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
-from symgen.runtime.padding import padded
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import CompiledModel, ModelInfo
-    from symgen.runtime.run import RunSpec
+    from symgen.layout.compiled import CompiledModel, ModelInfo
+    from symgen.loops.run_spec import RunSpec
 
 
 def lobatto(n: int) -> tuple[Array, Array]:
@@ -45,7 +45,7 @@ def integrals(terms: int, x: Array) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class Coefficients:
-    """Coefficients of the scheme, named as in `symgen.runtime.scheme_records.Nodes`."""
+    """Coefficients of the scheme, named as in `symgen.layout.scheme_records.Nodes`."""
 
     table: Array
     middle: Array
@@ -84,7 +84,7 @@ def coefficients() -> Coefficients:
 
 
 def rates_of(info: ModelInfo) -> NDArray[np.int64]:
-    """Return the unknown rates, and the coordinates whose rates are among them (`symgen.runtime.nodes`)."""
+    """Return the unknown rates, and the coordinates whose rates are among them (`symgen.loopcode.nodes`)."""
     turning = {q + k for q, _ in info.spins for k in range(4)}
     spins = {v + k for _, v in info.spins for k in range(3)}
     coordinates = [i for i in range(info.nq) if i not in turning]
@@ -125,15 +125,15 @@ class Picard:
 
     def loop(self, adaptive: bool) -> Any:
         """Return the loop for constant or adaptive steps."""
-        from symgen.runtime.schemes import picard
+        from symgen.loops.schemes import picard
 
         return picard.adaptive if adaptive else picard.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
-        from symgen.runtime.right_hand_side import at_nodes
-        from symgen.runtime.scheme_records import Nodes
-        from symgen.runtime.schemes import picard
+        from symgen.layout.right_hand_side import at_nodes
+        from symgen.layout.scheme_records import Nodes
+        from symgen.loops.schemes import picard
 
         info, c = compiled.info, coefficients()
         derive, vector = at_nodes(compiled)

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from symgen.integrators._tableau import Tableau
 from symgen.integrators.rk4 import KIND as RK4
-from symgen.runtime.integrator import Array, Setup, law_functions
-from symgen.runtime.padding import padded
+from symgen.loopcode.padding import padded
+from symgen.loops.integrator import Array, Setup, law_functions
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import CompiledModel, ModelInfo
-    from symgen.runtime.run import RunSpec
+    from symgen.layout.compiled import CompiledModel, ModelInfo
+    from symgen.loops.run_spec import RunSpec
 
 
 @dataclass(frozen=True)
@@ -31,13 +31,13 @@ class LieTableau(Tableau):
 
     def loop(self, adaptive: bool) -> Any:
         """Return the loop of exponential updates."""
-        from symgen.runtime.schemes import lie
+        from symgen.loops.schemes import lie
 
         return lie.constant
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return the arguments of the loop."""
-        from symgen.runtime.schemes import lie
+        from symgen.loops.schemes import lie
 
         info = compiled.info
         assert spec.step is not None, "constant steps have a length"
@@ -48,7 +48,7 @@ class LieTableau(Tableau):
 
     def scheme(self, info: ModelInfo, spins: NDArray[np.int64], stage: int) -> tuple[Any, int]:
         """Return the record of the scheme, and the extra workspace of its updates."""
-        from symgen.runtime.scheme_records import Rotations
+        from symgen.layout.scheme_records import Rotations
 
         return Rotations(self.record(False), spins, stage), 0
 

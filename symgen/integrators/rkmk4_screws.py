@@ -12,7 +12,7 @@ from symgen.integrators.rk4 import KIND as RK4
 from symgen.integrators.rkmk4 import LieTableau
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import ModelInfo
+    from symgen.layout.compiled import ModelInfo
 
 
 @dataclass(frozen=True)
@@ -21,13 +21,13 @@ class ScrewTableau(LieTableau):
 
     def loop(self, adaptive: bool) -> Any:
         """Return the loop of exponential updates."""
-        from symgen.runtime.schemes import screw
+        from symgen.loops.schemes import screw
 
         return screw.constant
 
     def scheme(self, info: ModelInfo, spins: NDArray[np.int64], stage: int) -> tuple[Any, int]:
         """Return the record of the scheme with the free bodies, and the workspace of their screws."""
-        from symgen.runtime.scheme_records import Screws
+        from symgen.layout.scheme_records import Screws
 
         names = [q.name for q in info.velocities]
         free = [(e, j) for e, j in info.spins if j >= 3 and names[j - 3] == names[j].rpartition(".")[0] + ".vx"]

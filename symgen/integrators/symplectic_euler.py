@@ -14,7 +14,7 @@ class SymplecticEuler(LieTableau):
 
     def loop(self, adaptive: bool) -> Any:
         """Return the loop of the scheme."""
-        from symgen.runtime.schemes import symplectic
+        from symgen.loops.schemes import symplectic
 
         return symplectic.constant
 

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.integrators._implicit import ImplicitTableau
-from symgen.runtime.integrator import Array, Setup, law_functions
-from symgen.runtime.padding import padded
+from symgen.loopcode.padding import padded
+from symgen.loops.integrator import Array, Setup, law_functions
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.run import RunSpec
+    from symgen.layout.compiled import CompiledModel
+    from symgen.loops.run_spec import RunSpec
 
 
 @dataclass(frozen=True)
@@ -31,9 +31,9 @@ class Trapezoidal(ImplicitTableau):
         """Return the arguments of the loop."""
         if compiled.law.level != "projected":
             return super().setup(compiled, spec, w)
-        from symgen.runtime.newton import Pattern, constraint_forces, mass_diagonal, projection_plan
-        from symgen.runtime.scheme_records import Projection
-        from symgen.runtime.schemes import projected
+        from symgen.layout.scheme_records import Projection
+        from symgen.loops.newton import Pattern, constraint_forces, mass_diagonal, projection_plan
+        from symgen.loops.schemes import projected
 
         law, info = compiled.law, compiled.info
         assert spec.step is not None, "a constant step is given"

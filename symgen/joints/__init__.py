@@ -1,9 +1,12 @@
-"""Joint kinds, one file each: a table of a mechanism file in, rows on measures out.
+"""Kinds of joints, one file each: a table of a mechanism file in, rows on measures out.
 
-A kind is a frozen Struct with the file's keys as fields and a method ``build(scope) -> Joint``. Convention shared by
-all kinds: measures run from the first body to the second, so that a positive multiplier pushes the first body along
-the row's positive direction (the force on the first body is -D^T lambda). A kind that can stand in a tree of joints
-also has a static method ``articulate(joint) -> Articulation``: the motion of its second body against the first.
+A kind is a frozen Struct with the keys of the file and a method ``build(scope) -> Joint``. Measures run from the
+first body to the second: a positive multiplier pushes the first body along the positive direction of the row. A kind
+for a tree of joints has a static method ``articulate(joint) -> Articulation``: the motion of its second body.
+
+In: a table of a file.
+Out: rows, points and directions of a `Joint`.
+Imports: msgspec; `describe` and rooms below.
 """
 
 from symgen.describe.kinds import JOINTS, JointKind

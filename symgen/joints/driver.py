@@ -6,10 +6,10 @@ from typing import ClassVar
 
 import msgspec
 
+from symgen.base.errors import quoted
 from symgen.describe.fields import BodyName, Point, Text, TimeFunction
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import CENTRE, Scope
-from symgen.errors import quoted
 from symgen.vocabulary.expressions import ZERO
 from symgen.vocabulary.measures import GROUND, Angle, Component, Holonomic, Marker, Measure, axes
 

@@ -8,13 +8,13 @@ from typing import ClassVar
 
 import msgspec
 
+from symgen.base.errors import quoted
 from symgen.describe.fields import BodyNames, Rows, StateFunction, Text, read
 from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Joint, is_speed
 from symgen.describe.names import check_identifier
 from symgen.describe.readings import is_turning
 from symgen.describe.scope import Scope
-from symgen.errors import quoted
 from symgen.vocabulary.expressions import Call, Expr, Name, Reading, moving
 from symgen.vocabulary.measures import (
     GROUND,

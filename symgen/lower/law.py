@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.derivative import jacobian
 from symgen.ir.program import Block, LawProgram, ModelLayout, ModelProgram, Target

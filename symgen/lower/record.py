@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import assert_never
 
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 from symgen.methods._base import Acceleration, Dense, Descriptor, Iteration, Law, Method, Tangent, multiplier_law
 from symgen.methods._formula import Factor, FormulaStep, Scalar, System, Value, Vector
 

@@ -1,9 +1,14 @@
-"""Constraint stabilisation methods, one file each; `METHODS` finds them."""
+"""Methods of constraint stabilisation, one file each; `METHODS` finds them.
+
+In: named blocks of a `System`.
+Out: a law as a formula over these blocks.
+Imports: no library; `base` and `ir`.
+"""
 
 from __future__ import annotations
 
+from symgen.base.registry import Listing, Registry
 from symgen.methods._base import Method
-from symgen.registry import Listing, Registry
 
 METHODS: Registry[Method] = Registry("symgen.methods", "method", beside="symgen.integrators")
 

@@ -17,7 +17,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import ClassVar
 
-from symgen.errors import InputError, nearest
+from symgen.base.errors import InputError, nearest
 from symgen.ir.program import Correction
 from symgen.methods._formula import Scalar, System, Vector
 

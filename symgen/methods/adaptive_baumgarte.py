@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 from symgen.methods._augmented import SOURCE
 from symgen.methods._base import SOLVER, MethodOption, MethodParameter, MultiplierMethod
 from symgen.methods._formula import System, Vector

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import os
 
-from symgen.errors import InputError, nearest
+from symgen.base.errors import InputError, nearest
 
 #: Environment variable: "source", the default, for machine code from the source by symgen's own route; "explain" for
 #: the same with a line on standard error for each function that is compiled; "libm" for the same with sines of the C

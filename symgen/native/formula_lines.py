@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from symgen.errors import SymgenError
+from symgen.base.errors import SymgenError
 from symgen.vocabulary.expressions import Expr, Name, Number, Reading
 from symgen.vocabulary.functions import ELEMENTARY
 

@@ -1,7 +1,7 @@
 """From the source of the runtime's loops to the checked language of `symgen.native.language`.
 
 A loop is written in Python with records of arrays and numbers, functions by their address, and parts
-that are copied into it (`symgen.runtime.loop_instances`). All of these are fixed before anything runs: records, tuples
+that are copied into it (`symgen.loopcode.loop_instances`). All of these are fixed before anything runs: records, tuples
 and views of arrays exist only while the source is read and leave names of arrays, numbers and addresses.
 The rest of a loop is as in emitted functions, read by the same rules.
 

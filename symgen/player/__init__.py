@@ -1,1 +1,6 @@
-"""Pages that show a mechanism in motion: picture, player and simulator in one file that needs nothing else."""
+"""Pages with motion: a motion, its scene and the emitted code as JavaScript in one page that works offline.
+
+In: a motion and its mechanism.
+Out: a page, or pictures and films.
+Imports: NumPy; matplotlib and Pillow for films; `running` and rooms below.
+"""

@@ -10,17 +10,17 @@ import numpy as np
 
 from symgen.compiling.checked import checked
 from symgen.drawing.scene import Array
+from symgen.layout import abi
+from symgen.layout.model_arrays import lengths_of
 from symgen.native.formula_lines import JAVASCRIPT, NotInLines
 from symgen.native.javascript import HELPERS, javascript
 from symgen.native.read import Foreign
 from symgen.running.start_lines import derived_lines, fixed_velocities, independent_places, lines_for, start_lines
-from symgen.runtime import abi
-from symgen.runtime.model_arrays import lengths_of
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.layout.compiled import CompiledModel
+    from symgen.starts.assembly import Start
 
 #: Largest number of characters of emitted code in a page, in the plane and in space, and the same in operations.
 MOST = {False: 76_000, True: 270_000}

@@ -13,14 +13,14 @@ from typing import Any
 
 import numpy as np
 
-from symgen.arguments import path as argument_path
+from symgen.base.arguments import path as argument_path
+from symgen.base.escapes import script_json
+from symgen.base.files import check_path, write_whole
 from symgen.drawing.mechanism_scene import build_scene
 from symgen.drawing.paper import View
 from symgen.drawing.scene import Array, Disc, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
 from symgen.drawing.traced import traced_points
 from symgen.drawing.viewpoint import viewpoint
-from symgen.escapes import script_json
-from symgen.files import check_path, write_whole
 from symgen.player.live import Live
 from symgen.player.recording import (
     Recording,

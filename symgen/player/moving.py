@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.base.errors import InputError
+from symgen.base.files import check_path, write_whole
 from symgen.drawing.mechanism_scene import build_scene
 from symgen.drawing.paper import Drawn, on_paper
 from symgen.drawing.pictures import fitted, paint
 from symgen.drawing.viewpoint import viewpoint
-from symgen.errors import InputError
-from symgen.files import check_path, write_whole
 from symgen.player.recording import Recording
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.digits import cleaned, scale_of
+from symgen.base.digits import cleaned, scale_of
 from symgen.drawing.scene import Array
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from html import escape
 from itertools import pairwise
 from typing import ClassVar
 
-from symgen.escapes import latex_text
+from symgen.base.escapes import latex_text
 
 #: Letters that names of quantities stand for: LaTeX, and the character.
 GREEK = {

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec import structs
 
+from symgen.base.errors import AssemblyError, counted
+from symgen.base.files import check_path, write_whole
 from symgen.compiling.looped import kernel_stems
 from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.topology import state_names
-from symgen.errors import AssemblyError, counted
-from symgen.files import check_path, write_whole
 from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
 from symgen.lower.looped.instances import instances
@@ -28,9 +28,9 @@ from symgen.running.plan import Purpose
 from symgen.running.prepare import Prepared, prepare
 
 if TYPE_CHECKING:
+    from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism, Topology
     from symgen.formulate.equations import Equations
-    from symgen.settings import Settings
 
 
 #: A wider Jacobian is listed entry by entry only.

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from symgen.errors import InputError, nearest
-from symgen.escapes import latex_text
+from symgen.base.errors import InputError, nearest
+from symgen.base.escapes import latex_text
 from symgen.reading.boxes import latex
 from symgen.reading.sheet import LINE, Equation, Sheet
 from symgen.reading.typeset import broken

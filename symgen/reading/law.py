@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from symgen.escapes import latex_text
+from symgen.base.escapes import latex_text
 from symgen.lower.record import Part, RecordedLaw, record_law
 from symgen.methods import METHODS
 from symgen.methods._formula import FormulaStep, needed

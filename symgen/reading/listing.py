@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from symgen import catalogue
+from symgen.base.escapes import printable
 from symgen.emit.printer import ElementAccess
-from symgen.escapes import printable
 from symgen.ir.program import Target
 from symgen.reading.html import attribute, fold
 

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
-from symgen import arguments
-from symgen.errors import AssemblyError, InputError
-from symgen.keywords import RunKeywords, takes
+from symgen.base import arguments
+from symgen.base.errors import AssemblyError, InputError
+from symgen.base.keywords import RunKeywords, takes
+from symgen.base.settings import Settings, changed, default
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
-from symgen.runtime.run import Array
-from symgen.settings import Settings, changed, default
+from symgen.runs.run import Array
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism

@@ -10,10 +10,10 @@ from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from symgen.base.errors import InputError
+from symgen.base.escapes import script_json
 from symgen.drawing import sketch
 from symgen.emit.emit import emit_law, emit_model
-from symgen.errors import InputError
-from symgen.escapes import script_json
 from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model

@@ -9,7 +9,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.formulate.translate import TO_SYMPY, NotReal, Translator, table_function
 from symgen.ir.graph import Graph

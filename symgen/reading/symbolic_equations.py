@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import sympy as sp
 
-from symgen import arguments
+from symgen.base import arguments
+from symgen.base.errors import InputError, nearest
 from symgen.describe.evaluate import parameter_values
-from symgen.errors import InputError, nearest
 from symgen.formulate.formulate import formulate
 from symgen.reading import boxes
 from symgen.reading.quantity_names import OF_DRIVERS, QUANTITIES, Entries, functions, nodes_of

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, cast
 
-from symgen.files import need
+from symgen.base.files import need
 from symgen.report.document import Picture, Section
 
 if TYPE_CHECKING:

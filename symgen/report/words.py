@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Sequence
 
-from symgen.errors import counted as counted
+from symgen.base.errors import counted as counted
 
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 #: Placeholder of a missing number.

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
-from symgen.errors import InputError
-from symgen.escapes import markdown_text
-from symgen.files import Content, check_path, templates_folder, why, write_all, write_whole
+from symgen.base.errors import InputError
+from symgen.base.escapes import markdown_text
+from symgen.base.files import Content, check_path, templates_folder, why, write_all, write_whole
 from symgen.report.document import Document, DocumentTable, Picture, Section, TableCell
 
 if TYPE_CHECKING:

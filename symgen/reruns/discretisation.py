@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.errors import SymgenError
-from symgen.runtime import abi
+from symgen.base.errors import SymgenError
+from symgen.layout import abi
 
 if TYPE_CHECKING:
+    from symgen.base.settings import Settings
     from symgen.running.prepare import Prepared
-    from symgen.runtime.outcome import Outcome
-    from symgen.settings import Settings
+    from symgen.runs.outcome import Outcome
 
 #: Errors of order 4 fall to a sixteenth, so that two runs differ by fifteen of the finer one's.
 _FIFTEEN = 15.0

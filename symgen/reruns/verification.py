@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.describe.evaluate import parameter_values
+from symgen.layout import abi
 from symgen.result.points import Agreement, Points, Verification, agreement
-from symgen.runtime import abi
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from symgen.running.prepare import Prepared
-    from symgen.runtime.outcome import Outcome
+    from symgen.runs.outcome import Outcome
 
 #: A finer run has this share of a constant step; or of tolerances, and the square of it where two runs differ by far.
 HALF, TENTH = 0.5, 0.1

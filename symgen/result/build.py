@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
+from symgen.layout import abi
 from symgen.result.judge import judge, unchecked
 from symgen.result.labelled import labelled
 from symgen.result.reactions import Forces, seats
@@ -21,16 +22,15 @@ from symgen.running.continuation import made_of
 from symgen.running.dead_centre import dead_centre_at_end
 from symgen.running.tree import CarriedOutcome
 from symgen.running.undefined import undefined_at_end
-from symgen.runtime import abi
-from symgen.runtime.events import record_of, stopped
-from symgen.runtime.last_state import LastState
-from symgen.runtime.simulation import SHOWN
+from symgen.runs.events import record_of, stopped
+from symgen.runs.last_state import LastState
+from symgen.runs.simulation import SHOWN
 
 if TYPE_CHECKING:
+    from symgen.layout.compiled import CompiledModel
     from symgen.result.points import Verification
     from symgen.running.prepare import Prepared
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.outcome import Outcome
+    from symgen.runs.outcome import Outcome
 
 
 def build_result(

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.base.files import headed, need, write_csv, write_whole
 from symgen.describe.columns import column_name
-from symgen.files import headed, need, write_csv, write_whole
 from symgen.result.contract import contract
 from symgen.result.signals import TABLES
 

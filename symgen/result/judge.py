@@ -12,13 +12,13 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from symgen.ir.numerics import WARN
+from symgen.layout import abi
 from symgen.result.result import FAILED, INTERRUPTED, OK, UNVERIFIED
-from symgen.runtime import abi
 
 if TYPE_CHECKING:
     from symgen.result.points import Verification
     from symgen.running.prepare import Prepared
-    from symgen.runtime.outcome import Ended, Outcome
+    from symgen.runs.outcome import Ended, Outcome
     from symgen.vocabulary.infos import LawInfo
 
 #: Energy jump over a passage, as a fraction of the energy in motion: beyond the first a run is in doubt, beyond the

@@ -10,9 +10,9 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.arguments import shown, whole
-from symgen.digits import digits, scale_of
-from symgen.errors import InputError, fitting, nearest, quoted
+from symgen.base.arguments import shown, whole
+from symgen.base.digits import digits, scale_of
+from symgen.base.errors import InputError, fitting, nearest, quoted
 
 Array = NDArray[np.float64]
 

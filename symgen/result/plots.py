@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from symgen.errors import fitting
-from symgen.files import write_whole
+from symgen.base.errors import fitting
+from symgen.base.files import write_whole
 from symgen.result.labelled import Labelled
 
 #: Okabe and Ito's colours, told apart with every kind of colour vision; dashes tell repeats apart.

@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.describe.evaluate import evaluate
+from symgen.layout import abi
 from symgen.result.labelled import Array, Labelled
 from symgen.result.points import rotation_matrices
 from symgen.result.signals import SignalTables, filled, of_forces
-from symgen.runtime import abi
 from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.compiled import CompiledModel, ModelInfo
-    from symgen.runtime.outcome import Motion
+    from symgen.layout.compiled import CompiledModel, ModelInfo
+    from symgen.runs.outcome import Motion
 
 
 @dataclass(frozen=True)
@@ -285,7 +285,7 @@ class Forces:
 
     def _entries(self) -> Array:
         """Return the entries of D that vary at all outputs, as ``geometry`` leaves them."""
-        from symgen.runtime.probe import Ready
+        from symgen.layout.probe import Ready
 
         o, geometry = self.outcome, Ready(self.compiled.model.geometry, abi.MEASURE)
         w = o.w.copy()
@@ -299,7 +299,7 @@ class Forces:
 
 def jacobian(outcome: Motion, t: float, y: Array) -> Array:
     """Return D at one state, shape (m, nv)."""
-    from symgen.runtime.probe import Ready
+    from symgen.layout.probe import Ready
 
     w = outcome.w.copy()
     Ready(outcome.compiled.model.geometry, abi.MEASURE)(float(t), y.copy(), outcome.p, w)

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.arguments import path as argument_path
-from symgen.arguments import shown, switch, words
-from symgen.errors import InputError, nearest
-from symgen.files import check_path, write_whole
-from symgen.memory import require
+from symgen.base.arguments import path as argument_path
+from symgen.base.arguments import shown, switch, words
+from symgen.base.errors import InputError, nearest
+from symgen.base.files import check_path, write_whole
+from symgen.base.memory import require
 from symgen.result.contract import contract
 from symgen.result.export import SAVED, netcdf, to_xarray, with_last_state, write_columns
 from symgen.result.labelled import Array, Labelled
@@ -29,9 +29,9 @@ if TYPE_CHECKING:
 
     from symgen.result.reactions import Forces
     from symgen.result.tables import Measured
-    from symgen.runtime.events import EventRecord
-    from symgen.runtime.last_state import LastState
-    from symgen.runtime.outcome import Outcome, RankEvent
+    from symgen.runs.events import EventRecord
+    from symgen.runs.last_state import LastState
+    from symgen.runs.outcome import Outcome, RankEvent
 
 #: What a run can end as.
 OK, UNVERIFIED, FAILED = "ok", "unverified", "failed"

@@ -10,19 +10,19 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from symgen.arguments import words
+from symgen.base.arguments import words
+from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.columns import column_name
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.describe.readings import TABLES as FORMULAS
-from symgen.errors import InputError, nearest, quoted
+from symgen.layout import abi
+from symgen.layout import ensemble_abi as e
 from symgen.result.labelled import Array, Labelled
-from symgen.runtime import abi
-from symgen.runtime import ensemble_abi as e
 from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.compiled import ModelInfo
+    from symgen.layout.compiled import ModelInfo
 
 #: Table -> the dimension of its columns in data sets: tables of the state and of what follows from it, of forces, and
 #: of the file's own quantities.
@@ -58,7 +58,7 @@ class Signal:
     unit : str
         Unit.
     source, column : int
-        Its source, as in `symgen.runtime.ensemble_abi`, and its place there.
+        Its source, as in `symgen.layout.ensemble_abi`, and its place there.
     """
 
     table: str

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from symgen.arguments import one_of, shown, switch, text, words
-from symgen.arguments import path as argument_path
+from symgen.base.arguments import one_of, shown, switch, text, words
+from symgen.base.arguments import path as argument_path
+from symgen.base.errors import InputError
+from symgen.base.files import check_path
 from symgen.compiling.side import compile_side
 from symgen.describe.columns import column_name
 from symgen.describe.readings import TABLES as FORMULAS
-from symgen.errors import InputError
-from symgen.files import check_path
 from symgen.result.contract import series
 from symgen.result.export import COLUMNS, PLOTTED, data_frame, write_columns
 from symgen.result.labelled import Array, Labelled, labelled
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.player.motion_page import Page
     from symgen.result.reactions import Forces
-    from symgen.runtime.outcome import Motion
+    from symgen.runs.outcome import Motion
 
 
 @dataclass(frozen=True, repr=False)

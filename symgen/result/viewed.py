@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.base.errors import AssemblyError, InputError
 from symgen.describe.evaluate import independent_values, parameter_values
 from symgen.describe.events import DOES
 from symgen.describe.inputs import are_words_of_data
-from symgen.errors import AssemblyError, InputError
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.motion_page import Page, page
 from symgen.player.recording import Moment, PlottedGroup, Recording, parts_of, position_groups
@@ -143,9 +143,9 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, st
 
     Formulas of inputs are part of the mechanism. Inputs jump where one has other words, or is held by switches.
     """
+    from symgen.base.settings import Settings
     from symgen.running.plan import Purpose
     from symgen.running.prepare import prepare
-    from symgen.settings import Settings
 
     inputs, formulas, begun = run["inputs"], dict(mechanism.input_formulas), run["start"]
     if any(isinstance(x, str) and name not in formulas for name, x in inputs.items()) or (
@@ -232,8 +232,8 @@ def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None
 
 def _live_of_file(option: str, path: Path, mechanism: Mechanism) -> tuple[Live | None, str]:
     """Return the live part of a page of a file: of the mechanism by its name, with the facts of the run in the file."""
+    from symgen.base.settings import Settings
     from symgen.running.inputs import put_inputs
-    from symgen.settings import Settings
 
     run: dict[str, Any] = json.loads(_dataset(option, path).attrs["run"])
     own = {p.name for p in mechanism.parameters} - set(mechanism.inputs)

@@ -1,1 +1,6 @@
-"""From settings to a run that is ready, for bodies and for trees of joints alike; `prepare.py` lists the steps."""
+"""Preparation of runs: settings in, runs that are ready out, for bodies and trees of joints alike.
+
+In: a mechanism and `Settings`.
+Out: a `Plan`, code with its start, and a `Prepared`.
+Imports: msgspec, NumPy; `compiling` and rooms below.
+"""

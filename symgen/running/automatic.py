@@ -15,20 +15,20 @@ from symgen.describe.evaluate import evaluate
 from symgen.describe.kinks import discontinuities_of
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import COUNTERS
+from symgen.layout import abi
+from symgen.layout.probe import rate_function
+from symgen.layout.right_hand_side import at_nodes
 from symgen.methods import METHODS
-from symgen.runtime import abi
-from symgen.runtime.probe import rate_function
-from symgen.runtime.right_hand_side import at_nodes
 from symgen.vocabulary.expressions import ZERO
 from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
+    from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
+    from symgen.layout.compiled import CompiledModel
     from symgen.running.prepare import Prepared
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.outcome import Outcome
-    from symgen.settings import Settings
+    from symgen.runs.outcome import Outcome
+    from symgen.starts.assembly import Start
 
 Array = NDArray[np.float64]
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.base.version import __version__
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.events import in_words
 from symgen.describe.lengths import datum_of
@@ -15,18 +16,17 @@ from symgen.describe.mechanism import Hold
 from symgen.ir.program import FORMAT
 from symgen.lower.windings import winding_order
 from symgen.running.starts import closed_by, compiled_for, states_at_start
-from symgen.runtime.assembly import Start, assemble
-from symgen.runtime.new_state import lengths_match
-from symgen.version import __version__
+from symgen.runs.new_state import lengths_match
+from symgen.starts.assembly import Start, assemble
 from symgen.vocabulary.expressions import Number
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Mechanism
+    from symgen.layout.compiled import CompiledModel
+    from symgen.loops.run_spec import RunSpec
     from symgen.running.plan import Plan
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.last_state import LastState
-    from symgen.runtime.run import RunSpec
+    from symgen.runs.last_state import LastState
 
 
 def made_of(compiled: CompiledModel, plan: Plan, spec: RunSpec) -> dict[str, Any]:

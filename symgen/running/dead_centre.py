@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.runtime import abi
-from symgen.runtime.model_arrays import velocity_of
-from symgen.runtime.probe import Ready
+from symgen.layout import abi
+from symgen.layout.model_arrays import velocity_of
+from symgen.layout.probe import Ready
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.outcome import Outcome
+    from symgen.layout.compiled import CompiledModel
+    from symgen.runs.outcome import Outcome
 
     Array = NDArray[np.float64]
 

@@ -6,14 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from symgen.base.errors import InputError
+from symgen.breaks.stops import stops_of
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import DrivenMechanism, driven
 from symgen.describe.mechanism import Mechanism, bounded
-from symgen.errors import InputError
-from symgen.runtime.stops import Stop, stops_of
+from symgen.loops.run_spec import Stop
 
 if TYPE_CHECKING:
-    from symgen.settings import Settings
+    from symgen.base.settings import Settings
 
 
 @dataclass(frozen=True)

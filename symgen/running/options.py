@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from symgen.arguments import shown
+from symgen.base.arguments import shown
+from symgen.base.errors import InputError, nearest
 from symgen.compiling.pipeline import MethodChoice, choose_method
-from symgen.errors import InputError, nearest
+from symgen.loops.integrator import estimates
 from symgen.methods._base import EXPLICIT_FORMS
-from symgen.runtime.integrator import estimates
 
 if TYPE_CHECKING:
-    from symgen.runtime.integrator import Integrator
-    from symgen.settings import Settings
+    from symgen.base.settings import Settings
+    from symgen.loops.integrator import Integrator
 
 
 def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[str, float], dict[str, str]]:

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.arguments import shown
-from symgen.errors import InputError
+from symgen.base.arguments import shown
+from symgen.base.errors import InputError
+from symgen.base.memory import require
 from symgen.integrators import INTEGRATORS
-from symgen.memory import require
+from symgen.loops.integrator import adapts
 from symgen.methods import METHODS
-from symgen.runtime.integrator import adapts
-from symgen.runtime.run import Array
+from symgen.runs.run import Array
 
 if TYPE_CHECKING:
+    from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
-    from symgen.settings import Settings
 
 #: An adaptive run has this many equidistant outputs where no times are given.
 DEFAULT_OUTPUTS = 1001

@@ -14,21 +14,21 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 import numpy as np
 
+from symgen.base.errors import AssemblyError, InputError
+from symgen.base.escapes import markdown_text
+from symgen.base.files import Content, check_name, templates_folder, why, write_all
+from symgen.base.settings import Settings
+from symgen.breaks.motions import refuse_jumps
 from symgen.compiling.choices import choose_coordinates, on_tree
 from symgen.compiling.pipeline import MethodChoice, choose_method, for_coordinates, generate
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import DOES
 from symgen.emit.module import render
-from symgen.errors import AssemblyError, InputError
-from symgen.escapes import markdown_text
-from symgen.files import Content, check_name, templates_folder, why, write_all
 from symgen.ir.program import COUNTERS, SETTLED, STATUS, SUFFIXES
 from symgen.lower.looped.law import is_loopable
 from symgen.methods import METHODS
 from symgen.running.plan import Plan, Purpose
 from symgen.running.prepare import assemble, begin, make_plan
-from symgen.runtime.motions import refuse_jumps
-from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism

@@ -10,6 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symgen.base.errors import InputError, quoted
+from symgen.base.settings import Settings
+from symgen.breaks.motions import refuse_jumps
+from symgen.breaks.stops import foreseen, merged
 from symgen.compiling.choices import choose_coordinates, choose_shape, for_lengths, weighed
 from symgen.compiling.pipeline import MethodChoice, for_masses
 from symgen.describe.digest import digest
@@ -18,25 +22,21 @@ from symgen.describe.events import RECORD, STOP, events_of, watched
 from symgen.describe.holds import holds_of
 from symgen.describe.kinks import discontinuities_of, longest_step
 from symgen.describe.lengths import longest_body
-from symgen.errors import InputError, quoted
 from symgen.integrators import INTEGRATORS
+from symgen.loops.integrator import adapts
+from symgen.loops.run_spec import MAX_ATTEMPTS, RunSpec, Stop
 from symgen.lower.windings import follows_places
 from symgen.methods import METHODS
 from symgen.running.automatic import usual_integrator
 from symgen.running.options import split_options
 from symgen.running.outputs import output_times
-from symgen.runtime.integrator import adapts
-from symgen.runtime.motions import refuse_jumps
-from symgen.runtime.run import MAX_ATTEMPTS, RunSpec
-from symgen.runtime.stops import Stop, foreseen, merged
-from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Event, Hold, Mechanism
+    from symgen.loops.integrator import Integrator
     from symgen.methods._base import Method
     from symgen.running.inputs import Inputs
-    from symgen.runtime.integrator import Integrator
-    from symgen.runtime.last_state import LastState
+    from symgen.runs.last_state import LastState
 
 #: Evaluations of an adaptive run in a second of motion, where nothing is known of the motion.
 ADAPTIVE_EVALUATIONS = 2000.0

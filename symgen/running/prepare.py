@@ -11,26 +11,27 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+from symgen.base.memory import uncollected
 from symgen.describe.evaluate import parameter_values
-from symgen.memory import uncollected
 from symgen.running.automatic import AUTO, SLOW, STRUCTURAL, TOGETHER, decide, facts_of, slow_steps, trial_of
 from symgen.running.continuation import continued
 from symgen.running.inputs import put_inputs
 from symgen.running.plan import Plan, Purpose, resolved
 from symgen.running.starts import begun
 from symgen.running.tree import TreeRun, on_tree_of, tree_taken_up
-from symgen.runtime.run import integrate
-from symgen.runtime.simulation import Simulation
+from symgen.runs.run import integrate
+from symgen.runs.simulation import Simulation
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.outcome import Outcome
-    from symgen.runtime.run import Array, RunSpec
-    from symgen.settings import Settings
+    from symgen.layout.compiled import CompiledModel
+    from symgen.loops.run_spec import RunSpec
+    from symgen.runs.outcome import Outcome
+    from symgen.runs.run import Array
+    from symgen.starts.assembly import Start
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 from symgen.describe.evaluate import derived, independent_values, parameter_values, scalars
 from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
+from symgen.layout.model_arrays import velocity_of
 from symgen.native.formula_lines import Dialect, FormulaLines
 from symgen.running.starts import held_of
-from symgen.runtime.model_arrays import velocity_of
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.compiled import ModelInfo
+    from symgen.layout.compiled import ModelInfo
 
 
 def lines_for(mechanism: Mechanism, dialect: Dialect) -> FormulaLines:

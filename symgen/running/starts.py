@@ -16,10 +16,10 @@ from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.lengths import datum_of
 from symgen.describe.sides import wrong_sides
 from symgen.describe.start import described_start, moved
-from symgen.runtime.assembly import Start, assemble
-from symgen.runtime.held import Held
-from symgen.runtime.model_arrays import velocity_of
-from symgen.runtime.start_words import half_turn, opposite
+from symgen.layout.model_arrays import velocity_of
+from symgen.starts.assembly import Start, assemble
+from symgen.starts.held import Held
+from symgen.starts.start_words import half_turn, opposite
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Hold, Mechanism
     from symgen.describe.start import Scalars
+    from symgen.layout.compiled import CompiledModel, ModelInfo
     from symgen.running.plan import Plan
-    from symgen.runtime.compiled import CompiledModel, ModelInfo
 
 
 def start_of(
@@ -54,7 +54,7 @@ def start_of(
     parameters, method_parameters : mapping, optional
         Values of parameters that differ from the described ones, and from the method's defaults.
     strict, ask_light
-        See `symgen.runtime.assembly.assemble`.
+        See `symgen.starts.assembly.assemble`.
     held : Held or sequence of Hold, optional
         Quantities that are held while all others move; by default those of the description.
     near : array, optional
@@ -65,7 +65,7 @@ def start_of(
     AssemblyError
         If the mechanism cannot be closed, or a joint closes the wrong way round.
     InputError
-        If the start is refused; see `symgen.runtime.assembly.assemble`.
+        If the start is refused; see `symgen.starts.assembly.assemble`.
     """
     values = parameter_values(mechanism, parameters)
     numbers = scalars(values)

@@ -15,31 +15,33 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import InputError
 from symgen.compiling.carrying import carrying_of
 from symgen.compiling.choices import on_tree
 from symgen.describe.mechanism import Topology
 from symgen.describe.topology import state_measures
-from symgen.errors import InputError
+from symgen.layout import abi
+from symgen.layout.probe import Ready
 from symgen.lower.windings import winding_order
 from symgen.running.continuation import choice_after, taken_up
 from symgen.running.starts import compiled_for
-from symgen.runtime import abi
-from symgen.runtime.assembler import ALONE, Assembly, one_row
-from symgen.runtime.assembly import Start
-from symgen.runtime.outcome import Outcome
-from symgen.runtime.probe import Ready
-from symgen.runtime.start_words import turned_over
-from symgen.runtime.tree_start import TURNED_OVER, Carried
+from symgen.runs.events import impact_at
+from symgen.runs.outcome import Outcome
+from symgen.starts.assembler import ALONE, Assembly, one_row
+from symgen.starts.assembly import Start
+from symgen.starts.start_words import turned_over
+from symgen.starts.tree_start import TURNED_OVER, Carried
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Event, Mechanism
+    from symgen.layout.compiled import CompiledModel
+    from symgen.layout.records import State
+    from symgen.loops.run_spec import Watched
     from symgen.running.plan import Plan
-    from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.events import Happening, Watched
-    from symgen.runtime.last_state import LastState
-    from symgen.runtime.records import State
-    from symgen.runtime.resets import Impact
+    from symgen.runs.events import Happening
+    from symgen.runs.last_state import LastState
+    from symgen.runs.resets import Impact
 
 Array = NDArray[np.float64]
 
@@ -165,7 +167,7 @@ class TreeRun:
         v = self._of_bodies(event.t, np.concatenate([event.state[: own.nq], after]), p)[info.nq :]
         y = np.zeros(info.ny)
         y[: info.work] = state
-        blow = watched.impact(self.bodies, numbers, event.t, y, self._parameters(p), self.body_start.w.copy())
+        blow = impact_at(watched, self.bodies, numbers, event.t, y, self._parameters(p), self.body_start.w.copy())
         return replace(blow, v=v)
 
     def _parameters(self, numbers: Array) -> Array:

@@ -9,11 +9,11 @@ import numpy as np
 from symgen.compiling.side import compile_side
 from symgen.describe.formula_text import to_text
 from symgen.describe.kinks import restricted
-from symgen.runtime import abi
+from symgen.layout import abi
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Force, Joint, Mechanism
-    from symgen.runtime.outcome import Outcome
+    from symgen.runs.outcome import Outcome
 
 #: How a run ends that a formula without a value may end.
 _ENDS = (abi.TINY_STEP, abi.NOT_FINITE)

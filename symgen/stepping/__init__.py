@@ -1,1 +1,6 @@
-"""Runs that go on step by step from Python: for controllers, for loops with other programs in them, for trying out."""
+"""Runs step by step from Python, with controllers on a clock.
+
+In: a prepared run and changes between steps.
+Out: the state after each step, a history, a saved state.
+Imports: NumPy; `result` and rooms below.
+"""

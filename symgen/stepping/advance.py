@@ -7,15 +7,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from symgen.base.errors import InputError, StepError
 from symgen.describe.events import STOP
-from symgen.errors import InputError, StepError
-from symgen.runtime import abi
-from symgen.runtime.changes import begin, begin_anew
-from symgen.runtime.events import EventRecord, record_of
-from symgen.runtime.run import reason_of
+from symgen.layout import abi
+from symgen.runs.changes import begin, begin_anew
+from symgen.runs.events import EventRecord, record_of
+from symgen.runs.run import reason_of
 
 if TYPE_CHECKING:
-    from symgen.runtime.simulation import Simulation
+    from symgen.runs.simulation import Simulation
     from symgen.stepping.run import SteppedRun
 
 #: A loop is left after about so long, so that Ctrl-C is heard [s]; and after so many steps as long as nothing is known.

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.layout import abi
+from symgen.layout.probe import Ready
 from symgen.result.build import build_result
-from symgen.runtime import abi
-from symgen.runtime.probe import Ready
-from symgen.runtime.run import outcome_of
+from symgen.runs.run import outcome_of
 
 if TYPE_CHECKING:
     from symgen.result.result import Result
     from symgen.running.prepare import Prepared
-    from symgen.runtime.simulation import Simulation
+    from symgen.runs.simulation import Simulation
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.errors import InputError, nearest, quoted
+from symgen.base.errors import InputError, nearest, quoted
 
 Array = NDArray[np.float64]
 

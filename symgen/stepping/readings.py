@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.runtime import abi
-from symgen.runtime.events import EventRecord, record_of
+from symgen.layout import abi
+from symgen.runs.events import EventRecord, record_of
 from symgen.stepping.advance import Advance
 from symgen.stepping.history import History
 from symgen.stepping.named import Named

@@ -9,25 +9,25 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen import arguments
+from symgen.base import arguments
+from symgen.base.errors import InputError, SimulationError
+from symgen.base.version import __version__
+from symgen.breaks.motions import refuse_jumps
+from symgen.breaks.stops import Foreseen, foreseen, merged, stops_of
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import in_words
-from symgen.errors import InputError, SimulationError
-from symgen.runtime import abi
-from symgen.runtime.changes import begin_with_step
-from symgen.runtime.events import EventRecord
-from symgen.runtime.motions import refuse_jumps
-from symgen.runtime.stops import Foreseen, foreseen, merged, stops_of
+from symgen.layout import abi
+from symgen.runs.changes import begin_with_step
+from symgen.runs.events import EventRecord
 from symgen.stepping.advance import Clock, Controller
 from symgen.stepping.readings import Readings
 from symgen.stepping.saved_state import Saved
-from symgen.version import __version__
 
 if TYPE_CHECKING:
+    from symgen.loops.run_spec import RunSpec
     from symgen.result.result import Result
     from symgen.running.prepare import Prepared
-    from symgen.runtime.run import RunSpec
 
 # looked up at every step
 _TIME, _STEPS, _DONE = abi.TIME, abi.STEPS, abi.DONE

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.errors import InputError
-from symgen.runtime import abi
+from symgen.base.errors import InputError
+from symgen.layout import abi
 
 if TYPE_CHECKING:
-    from symgen.runtime.events import Happening
+    from symgen.runs.events import Happening
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,9 @@
-"""Data that outlive a process: emitted modules and compiled machine code, and their loading.
+"""The cache: data that outlive a process. Anything invalid in it is a miss, never an error.
 
-- `paths`: location of the cache, and whether it may be trusted;
-- `private`: small self-checking files that are read only when they are the user's own;
-- `entries`: emitted modules with their metadata, written so that a kill leaves a valid pair or nothing;
-- `jit`: functions whose machine code is kept in the cache;
-- `modules`: emitted modules as Python modules.
+`paths`: its folder; `private`: files that check themselves; `entries`: emitted modules with their metadata; `jit`:
+functions whose machine code is kept; `modules`: emitted modules as Python modules.
 
-Anything invalid in the cache is a miss, never an error.
+In: sources, metadata and machine code, with keys made of content.
+Out: the same, in this process or another.
+Imports: filelock, llvmlite, platformdirs; `native` and rooms below.
 """

@@ -15,7 +15,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from symgen.errors import SymgenError
+from symgen.base.errors import SymgenError
 from symgen.store import private, upkeep
 from symgen.store.identity import digest
 from symgen.store.paths import ENVIRONMENT_VARIABLE, abandon, cache_location, cache_root, private_folder

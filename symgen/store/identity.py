@@ -20,12 +20,24 @@ from typing import Any
 #: the compiler, rows of sweeps, and cells of studies, whose run times are kept as well.
 SOURCES: Mapping[str, tuple[str, ...]] = {
     "code": ("describe", "vocabulary", "formulate", "ir", "lower", "emit", "methods", "compiling", "escapes.py"),
-    "loops": ("runtime", "integrators"),
+    "loops": ("integrators", "layout", "loopcode", "loops", "rows", "runs", "starts"),
     "compiler": ("native",),
-    "rows": ("ensemble", "integrators", "result", "running", "runtime"),
+    "rows": (
+        "breaks",
+        "ensemble",
+        "integrators",
+        "result",
+        "running",
+        "layout",
+        "loopcode",
+        "loops",
+        "rows",
+        "runs",
+        "starts",
+    ),
     "cells": (
-        *("compiling", "integrators", "native", "reruns", "result", "running", "runtime", "store", "study"),
-        *("api.py", "settings.py"),
+        *("breaks", "compiling", "integrators", "native", "reruns", "result", "running", "store", "study"),
+        *("layout", "loopcode", "loops", "rows", "runs", "starts", "api.py", "base/settings.py"),
     ),
 }
 #: Folders of templates of emitted code.
@@ -45,8 +57,8 @@ def digest(*parts: str | bytes) -> str:
 def source_stamp(function: Any) -> str:
     """Return the digest of all sources that a function's machine code depends on.
 
-    These are the runtime and the integrators of symgen as a whole, the function's own file, and the files of compiled
-    functions that it calls, directly or through others.
+    These are loops, starts, runs and integrators of symgen as a whole, the function's own file, and the files of
+    compiled functions that it calls, directly or through others.
 
     Parameters
     ----------

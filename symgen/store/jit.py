@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard, TypeVar, cast
 
 import llvmlite
 
-from symgen.errors import InputError
-from symgen.memory import uncollected
+from symgen.base.errors import InputError
+from symgen.base.memory import uncollected
 from symgen.native import types
 from symgen.native.calls import caller, kind_of
 from symgen.native.compiler import compiler, interpreted

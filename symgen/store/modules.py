@@ -21,7 +21,7 @@ from pathlib import Path
 from types import CodeType, ModuleType
 from typing import Any
 
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 from symgen.store.entries import cached
 from symgen.store.upkeep import BYTECODE
 

@@ -10,7 +10,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from symgen.errors import SymgenError
+from symgen.base.errors import SymgenError
 
 ENVIRONMENT_VARIABLE = "SYMGEN_CACHE_DIR"
 

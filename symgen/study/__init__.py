@@ -1,1 +1,6 @@
-"""Studies: many runs of a mechanism against a reference, and the findings about methods."""
+"""Studies: many runs of a mechanism against references, in the rooms `references`, `comparison` and `stress`.
+
+In: mechanisms, methods, integrators and steps.
+Out: rows of numbers, a journal, findings.
+Imports: filelock, msgspec, NumPy, pandas, SciPy; Numba, SymPy in `references`; `api` and rooms below.
+"""

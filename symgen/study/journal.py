@@ -17,13 +17,13 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, TYPE_CHECKING, Any
 
-from symgen.errors import InputError, SimulationError
-from symgen.escapes import printable
-from symgen.files import check_name
-from symgen.plugins import stamps
+from symgen.base.errors import InputError, SimulationError
+from symgen.base.escapes import printable
+from symgen.base.files import check_name
+from symgen.base.plugins import stamps
+from symgen.base.version import __version__
 from symgen.store.identity import SOURCES, digest, sources_digest
 from symgen.store.locks import file_lock
-from symgen.version import __version__
 
 if TYPE_CHECKING:
     from filelock import BaseFileLock

@@ -6,7 +6,7 @@ import platform
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from symgen.memory import processors
+from symgen.base.memory import processors
 
 #: Libraries whose versions matter for run times and last digits.
 LIBRARIES = ("numpy", "llvmlite", "numba", "sympy", "scipy")
@@ -33,7 +33,7 @@ def machine_class() -> str:
 
 def versions() -> dict[str, str]:
     """Return the versions of symgen, Python and the libraries by name."""
-    from symgen.version import __version__
+    from symgen.base.version import __version__
 
     versions = {"symgen": __version__, "Python": platform.python_version()}
     for name in LIBRARIES:

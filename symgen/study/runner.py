@@ -18,8 +18,8 @@ from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from typing import Any
 
-from symgen.errors import SimulationError
-from symgen.plugins import load_plugins, loaded_files
+from symgen.base.errors import SimulationError
+from symgen.base.plugins import load_plugins, loaded_files
 from symgen.study.journal import Journal, Outcome
 
 #: Numerical libraries start threads by these variables; a process of a study is one thread.

@@ -1,8 +1,13 @@
-"""Targets of emitted code, one file each: ``symgen generate --target NAME`` finds a target by its file name."""
+"""Targets of emitted code, one file each: ``symgen generate --target NAME`` finds a target by its file name.
+
+In: a mechanism and a method.
+Out: files: Python modules, JavaScript, C, an FMU.
+Imports: msgspec, NumPy; `player` and rooms below.
+"""
 
 from __future__ import annotations
 
-from symgen.registry import Registry
+from symgen.base.registry import Registry
 from symgen.targets._target import Request, Target
 
 TARGETS: Registry[Target] = Registry("symgen.targets", "target")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.base.errors import InputError
 from symgen.compiling.checked import checked, read
 from symgen.compiling.events import DIRECTIONS, velocities_at
 from symgen.compiling.side import Side, compile_side
@@ -17,23 +18,22 @@ from symgen.describe.formula_text import to_text
 from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.mechanism import SpatialBody
 from symgen.emit.module import render
-from symgen.errors import InputError
 from symgen.ir.program import COUNTERS, SETTLED
+from symgen.layout import abi
+from symgen.layout.model_arrays import lengths_of
 from symgen.native.c99 import broken, c_functions, c_number
 from symgen.native.formula_lines import C, NotInLines
 from symgen.native.read import Foreign
 from symgen.running.plan import Purpose
 from symgen.running.prepare import Prepared, prepare
 from symgen.running.start_lines import derived_lines, fixed_velocities, independent_places, lines_for, start_lines
-from symgen.runtime import abi
-from symgen.runtime.model_arrays import lengths_of
 from symgen.targets._c_names import prefix_of
 from symgen.vocabulary.expressions import ZERO
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Event, Mechanism
+    from symgen.layout.compiled import CompiledModel
     from symgen.native.language import Function
-    from symgen.runtime.compiled import CompiledModel
     from symgen.targets._target import Request
     from symgen.vocabulary.quantities import Quantity
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
-from symgen.files import templates_folder
+from symgen.base.files import templates_folder
 from symgen.native.c99 import RESERVED
 
 #: What `stdio.h`, `stdlib.h`, `string.h`, `math.h`, `stdint.h` and `stdbool.h` of common libraries declare further.

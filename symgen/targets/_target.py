@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from symgen.errors import InputError
-from symgen.settings import Settings
+from symgen.base.errors import InputError
+from symgen.base.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism

@@ -19,14 +19,14 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import InputError
+from symgen.base.files import check_path, write_all
+from symgen.base.version import __version__
 from symgen.emit.module import render
-from symgen.errors import InputError
-from symgen.files import check_path, write_all
 from symgen.running.package import Package
 from symgen.targets._base_units import base_unit
 from symgen.targets._c_model import CModel, sources
 from symgen.targets._target import Request, Target
-from symgen.version import __version__
 
 #: Value references: parameters begin at 0, time follows all others.
 _COLUMN, _OUTPUT, _STATE, _RATE, _EVENT, _TIME = 10_000, 20_000, 30_000, 40_000, 50_000, 60_000

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from symgen.errors import InputError
-from symgen.escapes import script_json
+from symgen.base.errors import InputError
+from symgen.base.escapes import script_json
 from symgen.player.live import live_part
 from symgen.player.motion_page import model_script
 from symgen.running.package import Package, write_folder

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from analyses import rods
 from analyses.test_what_is_said import column
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 
 #: Stiffness [N/m] of a spring that has nothing to do with the rest.
 STIFF = [1e2, 1e12]

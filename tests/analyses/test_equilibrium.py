@@ -11,7 +11,7 @@ from support.emitted import mechanism_of
 import symgen
 from analyses import rods
 from analyses.linkages import four_bar, meeting
-from symgen.errors import AnalysisError, InputError
+from symgen.base.errors import AnalysisError, InputError
 
 #: The reference's four-bar: angles of the crank and squares of frequencies, by minimal coordinates with 30 digits.
 STABLE, UNSTABLE = (4.358800068629289, 22.57021890188508), (1.216140211569189, -14.27973070577865)

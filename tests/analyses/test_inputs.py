@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from analyses.rods import of_text
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 
 MASS, STIFFNESS = 2.0, 30.0
 #: A block on a spring that an input pushes, the more the further it is, and an output that reads the input.

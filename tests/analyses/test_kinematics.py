@@ -13,8 +13,8 @@ import symgen
 from analyses import rods
 from analyses.linkages import four_bar, meeting
 from analyses.rods import of_raw as model
+from symgen.base.errors import InputError
 from symgen.cli import main
-from symgen.errors import InputError
 
 CRANK = "start + 2*pi*t"
 

@@ -10,7 +10,7 @@ import symgen
 from analyses import rods
 from analyses.test_equilibrium import CATENARY, STABLE, STARTS
 from symgen.analyses.large import _far_below
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 
 
 def laguerre_zeros(n, near):

@@ -16,7 +16,7 @@ from sympy.physics.mechanics import LagrangesMethod, ReferenceFrame, dynamicsymb
 import symgen
 from analyses import rods
 from symgen.analyses.algebra import eigenvalues_of
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 
 
 @pytest.mark.parametrize("n", [2, 10, 40])

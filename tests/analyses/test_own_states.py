@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from support.random_closed import make
 
-from symgen.errors import AnalysisError, InputError
+from symgen.base.errors import AnalysisError, InputError
 
 TIMES = np.linspace(0.0, 0.4, 9)
 

@@ -6,7 +6,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from analyses import rods
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 
 STEP = 1e-40
 

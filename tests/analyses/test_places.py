@@ -7,7 +7,7 @@ import pytest
 
 import symgen
 from symgen import MechanismBuilder
-from symgen.errors import AnalysisError
+from symgen.base.errors import AnalysisError
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 import symgen
 from analyses import rods
 from symgen.analyses.algebra import rank
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 
 #: Rows of A for the rates of lean and steer rate, constant, by v and by v^2 (Meijaard et al. 2007, and SymPy's test of
 #: the same benchmark).

@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 
 from analyses import rods
 from symgen.analyses.subject import subject_of
-from symgen.settings import Settings
+from symgen.base.settings import Settings
 
 #: Of the spring on the second hinge [N m/rad].
 STIFFNESS = 3.0

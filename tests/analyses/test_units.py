@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 import symgen.catalogue
 from analyses import rods
 from benchmarks.rescale import Units, rescaled
-from symgen.errors import AssemblyError, InputError
+from symgen.base.errors import AssemblyError, InputError
 
 
 def carousel(mass, length, time=1.0, damping=0.0):

@@ -9,8 +9,8 @@ import pytest
 import symgen
 from analyses import rods
 from symgen import catalogue
-from symgen.errors import AnalysisError, InputError
-from symgen.settings import Settings
+from symgen.base.errors import AnalysisError, InputError
+from symgen.base.settings import Settings
 
 
 def column(frame="body", bodies=None, joints=None, forces=None):

@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from symgen.api import load
-from symgen.errors import AssemblyError, InputError
+from symgen.base.errors import AssemblyError, InputError
 from tests.browser.chromium import Chromium
 
 pytestmark = pytest.mark.browser

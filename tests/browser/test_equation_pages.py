@@ -10,9 +10,9 @@ import pytest
 
 from symgen import catalogue
 from symgen.api import load
+from symgen.base.settings import Settings
 from symgen.cli import main
 from symgen.reading.inspection import at_start
-from symgen.settings import Settings
 from tests.browser.chromium import Chromium
 
 pytestmark = pytest.mark.browser

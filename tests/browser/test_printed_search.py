@@ -5,8 +5,8 @@ import json
 import pytest
 from native import printed, printed_search
 
+from symgen.loops import searching
 from symgen.native import javascript as js
-from symgen.runtime import searching
 from tests.browser.chromium import Chromium
 
 pytestmark = pytest.mark.browser

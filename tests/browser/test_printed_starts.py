@@ -7,8 +7,8 @@ import pytest
 from native import printed, printed_starts
 from native.printed_starts import FEW, MANY
 
-from symgen.runtime import abi
-from symgen.runtime.starting import close_rows
+from symgen.layout import abi
+from symgen.starts.starting import close_rows
 from symgen.store.jit import RuntimeFunction
 from tests.browser.chromium import Chromium
 

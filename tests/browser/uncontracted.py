@@ -19,9 +19,9 @@ from typing import Any, Self
 import numpy as np
 
 from symgen.api import load
+from symgen.base.settings import Settings
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
-from symgen.settings import Settings
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 

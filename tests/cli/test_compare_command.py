@@ -12,7 +12,7 @@ import pytest
 from support.runs import interrupt
 
 from symgen.api import load
-from symgen.errors import SimulationError
+from symgen.base.errors import SimulationError
 from symgen.study.comparison import compare as module
 from symgen.study.journal import Journal
 

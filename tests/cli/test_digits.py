@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from symgen.api import load
+from symgen.base.digits import cleaned, column, complex_digits, digits, scale_of, table, without_rounding
 from symgen.cli import main
-from symgen.digits import cleaned, column, complex_digits, digits, scale_of, table, without_rounding
 from symgen.result.labelled import Labelled, column_texts
 
 #: A number below 1e-13 as text.

@@ -5,7 +5,7 @@ import math
 import pytest
 
 import symgen
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 from tests.cli.test_refusals import ROD
 
 
@@ -127,6 +127,6 @@ def test_names_that_no_file_can_have_are_refused_and_nothing_is_written(said, tm
 
 
 def test_words_that_are_no_text_do_not_keep_a_file_from_being_written(tmp_path):
-    from symgen.files import write_whole
+    from symgen.base.files import write_whole
 
     assert write_whole(tmp_path / "a.html", "made by symgen run \udcff.toml").read_text() == "made by symgen run ?.toml"

@@ -8,12 +8,12 @@ from types import SimpleNamespace
 import pytest
 from support.processes import symgen
 
-from symgen import plugins
+from symgen.base import plugins
+from symgen.base.errors import InputError
+from symgen.base.plugins import load_plugin
 from symgen.ensemble import recipe
-from symgen.errors import InputError
 from symgen.methods import METHODS
 from symgen.methods._base import MultiplierMethod
-from symgen.plugins import load_plugin
 from symgen.study import journal
 from symgen.study.journal import Journal
 from symgen.study.runner import Cell, run_cells
@@ -134,7 +134,7 @@ def test_another_ending_is_refused(tmp_path: Path) -> None:
 def loaded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A file that other processes are to load, which this one has not run."""
     file = tmp_path / "told_by_file.py"
-    file.write_text("from symgen.errors import InputError\nInputError.of_plugin = 'loaded'\n", encoding="utf-8")
+    file.write_text("from symgen.base.errors import InputError\nInputError.of_plugin = 'loaded'\n", encoding="utf-8")
     monkeypatch.setitem(plugins._files, str(file), file.read_bytes())
     return file
 

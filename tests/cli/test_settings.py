@@ -9,11 +9,11 @@ import click
 import pytest
 
 import symgen
-from symgen import settings
+from symgen.base import settings
+from symgen.base.errors import InputError
 from symgen.cli import group, main
 from symgen.cli.generate import command as generate
-from symgen.errors import InputError
-from symgen.runtime.run import RunSpec
+from symgen.loops.run_spec import RunSpec
 from symgen.study.stress.study import stress as stress_study
 
 PAGES = Path(__file__).resolve().parents[2] / "docs"

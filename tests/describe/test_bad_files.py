@@ -7,10 +7,10 @@ import tomllib
 
 import pytest
 
+from symgen.base.errors import InputError
 from symgen.describe import load
 from symgen.describe.load import LARGEST_FILE, parse_toml
 from symgen.describe.validate import validate
-from symgen.errors import InputError
 
 GOOD = """
 [mechanism]
@@ -325,7 +325,7 @@ def test_a_huge_formula_costs_nothing(tmp_path):
     text = GOOD.replace("0.5*sin(t)", "(" * 400_000)
     code = (
         "import resource, sys\nresource.setrlimit(resource.RLIMIT_AS, (400_000_000,) * 2)\n"
-        "from symgen.describe import load\nfrom symgen.errors import InputError\n"
+        "from symgen.describe import load\nfrom symgen.base.errors import InputError\n"
         "try: load(sys.argv[1])\nexcept InputError as error: print(error)"
     )
     result = subprocess.run(

@@ -4,8 +4,8 @@ import copy
 
 import pytest
 
+from symgen.base.errors import InputError
 from symgen.describe.validate import validate
-from symgen.errors import InputError
 
 RIGID = {"mass": 1.0, "inertia": [1.0, 1.0, 1.0], "points": {"P": [0.1, 0.0, 0.0]}}
 GOOD = {

@@ -6,10 +6,10 @@ import pytest
 from support.emitted import mechanism_of
 
 import symgen
+from symgen.base.errors import InputError
 from symgen.describe.beam_lines import weights
 from symgen.describe.finer_beams import refined
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import InputError
 
 STIFF = {"axial": 1e4, "bending": 1.0, "mass": 2.0, "rotary": 1e-3}
 ROD = {"start": [0.0, 0.0], "end": [1.0, 0.0], "elements": 8, **STIFF}

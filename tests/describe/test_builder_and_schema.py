@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 from support.texts import texts
 
 from symgen import catalogue
+from symgen.base.errors import InputError
 from symgen.describe import MechanismBuilder, load
 from symgen.describe.builder import to_toml
 from symgen.describe.load import read_raw
 from symgen.describe.schema import schema
 from symgen.describe.validate import validate
-from symgen.errors import InputError
 from symgen.forces import FORCES
 from symgen.joints import JOINTS
 

@@ -12,12 +12,12 @@ import pytest
 from measured import Posed
 
 from symgen import catalogue
+from symgen.base.errors import InputError
 from symgen.describe import load
 from symgen.describe.builder import to_toml
 from symgen.describe.load import read_raw
 from symgen.describe.template import template
 from symgen.describe.validate import validate
-from symgen.errors import InputError
 from symgen.forces import FORCES
 from symgen.joints import JOINTS
 

@@ -6,8 +6,8 @@ from collections import Counter
 import pytest
 
 import symgen
+from symgen.base.errors import InputError
 from symgen.describe.columns import FORMS, column_name
-from symgen.errors import InputError
 
 #: A door with a motor, a second bar on a pin, and a spring: every kind of column.
 _NEUTRAL = ("one", "two", "post", "pin", "motor", "hand", "spring", "tip")

@@ -6,10 +6,10 @@ import tomllib
 import pytest
 from support.emitted import mechanism_of
 
+from symgen.base.errors import LONGEST_PART, InputError, nearest, quoted
+from symgen.base.escapes import printable
 from symgen.describe.load import LONGEST_KEY, load, parse_toml
 from symgen.describe.validate import validate
-from symgen.errors import LONGEST_PART, InputError, nearest, quoted
-from symgen.escapes import printable
 from symgen.formulate.formulate import formulate
 
 HEAD = '[mechanism]\nname = "x"\n'

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from symgen.api import Model, load
+from symgen.base.errors import InputError
 from symgen.cli import main
 from symgen.describe import load as load_mechanism
 from symgen.describe.builder import MechanismBuilder
@@ -13,7 +14,6 @@ from symgen.describe.digest import digest
 from symgen.describe.evaluate import in_order, parameter_values
 from symgen.describe.parser import FormulaNames, parse
 from symgen.ensemble.sweep import sweep
-from symgen.errors import InputError
 
 #: In an order that no formula could be worked out in from the top.
 DERIVED = {"inertia": "mass*length**2/12", "mass": "density*length", "density": 1.9, "length": 0.8, "half": "length/2"}

@@ -7,12 +7,12 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from support.texts import texts
 
+from symgen.base.errors import InputError
 from symgen.describe.evaluate import evaluate
 from symgen.describe.formula_text import to_text
 from symgen.describe.names import CALLABLE
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.tables import Table
-from symgen.errors import InputError
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Name, Number
 
 NAMES = FormulaNames(

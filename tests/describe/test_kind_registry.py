@@ -5,10 +5,10 @@ import sys
 
 import pytest
 
-from symgen.errors import InputError
+from symgen.base.errors import InputError
+from symgen.base.registry import Registry
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.registry import Registry
 
 
 @pytest.fixture

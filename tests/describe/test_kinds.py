@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from measured import Posed
 
+from symgen.base.errors import InputError
 from symgen.describe import MechanismBuilder
 from symgen.describe.formula_text import to_text
 from symgen.describe.schema import described
-from symgen.errors import InputError
 from symgen.forces import FORCES
 from symgen.joints import JOINTS
 from symgen.vocabulary.expressions import ZERO, Name, Number

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from support.curves import curve
 
+from symgen.base.errors import InputError
 from symgen.describe.builder import MechanismBuilder, to_toml
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import evaluate
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.tables import Table
 from symgen.describe.validate import validate
-from symgen.errors import InputError
 from symgen.ir.derivative import jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.program import of_table

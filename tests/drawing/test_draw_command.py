@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 
 from symgen.api import load
+from symgen.base.errors import AssemblyError, InputError
 from symgen.cli import main
 from symgen.describe.validate import validate
 from symgen.drawing import build_scene
 from symgen.drawing.paper import Path as Stroke
 from symgen.drawing.paper import View, axes, on_paper
 from symgen.drawing.scene import Disc, Poses, Solid
-from symgen.errors import AssemblyError, InputError
 
 #: A four-bar whose links are too short to meet: at best each of the three open gaps is a third of what is missing.
 FILE = """

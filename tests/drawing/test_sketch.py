@@ -9,12 +9,12 @@ import pytest
 
 from symgen import catalogue
 from symgen.api import load
+from symgen.base.errors import InputError
 from symgen.describe.validate import validate
 from symgen.drawing import build_scene, sketch
 from symgen.drawing.mechanism_scene import hull
 from symgen.drawing.paper import Circle, on_paper
 from symgen.drawing.scene import Disc
-from symgen.errors import InputError
 
 SVG = "{http://www.w3.org/2000/svg}"
 NAMES = [e.name for e in (*catalogue.entries(), *catalogue.entries(catalogue.MACHINES))]

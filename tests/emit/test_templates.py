@@ -4,12 +4,12 @@ import jinja2
 import pytest
 from jinja2 import meta
 
+from symgen.base.files import templates_folder
 from symgen.emit.emit import table_codes
 from symgen.emit.lanes import Inlined
 from symgen.emit.looped import emit_machine, emit_shared_model
 from symgen.emit.module import module
 from symgen.emit.parts import Parts
-from symgen.files import templates_folder
 from symgen.ir.interpolation import Interpolation
 from symgen.ir.program import Correction
 

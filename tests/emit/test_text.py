@@ -18,12 +18,12 @@ from support.canaries import CANARIES, CODE, SMALL, bases, places, planted
 from support.emitted import Emitted, mechanism_of
 from support.random_space import make
 
+from symgen.base.errors import InputError
+from symgen.base.escapes import LONGEST, comment_text
 from symgen.compiling.pipeline import MethodChoice, choose_method, generate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.sections import SECTIONS
 from symgen.emit.printer import table_name
-from symgen.errors import InputError
-from symgen.escapes import LONGEST, comment_text
 from symgen.methods._base import MethodOption, MethodParameter, MultiplierMethod
 from symgen.store.modules import load_module
 

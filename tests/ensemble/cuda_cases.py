@@ -94,7 +94,7 @@ def as_a_device_asks() -> None:
     import numba
     from numba import cuda
 
-    from symgen.runtime import device
+    from symgen.rows import device
 
     def kind(value, expected):
         if isinstance(value, tuple):

@@ -5,8 +5,8 @@ import itertools
 import numpy as np
 import pytest
 
+from symgen.base.errors import InputError
 from symgen.ensemble.axes import Grid, make_grid, parse
-from symgen.errors import InputError
 
 
 @pytest.mark.parametrize(

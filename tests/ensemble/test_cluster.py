@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import symgen
+from symgen.base.errors import InputError, SimulationError
 from symgen.ensemble.cluster import connect
-from symgen.errors import InputError, SimulationError
 from symgen.store.paths import cache_root
 
 MANY = {"vary": {"crank_mass": "lin(1, 3, 60)", "coupler_mass": "values(6, 8)"}, "until": 4.0, "quantities": ("q",)}

@@ -13,13 +13,13 @@ import pytest
 
 import symgen
 from ensemble.cuda_cases import CASES
+from symgen.base.errors import InputError
+from symgen.base.settings import Settings
 from symgen.cli import main
 from symgen.compiling.pipeline import choose_method, generate
 from symgen.ensemble.sweep_plan import make_ensemble
-from symgen.errors import InputError
-from symgen.runtime import ensemble_abi as e
-from symgen.runtime.bare import part as elements
-from symgen.settings import Settings
+from symgen.layout import ensemble_abi as e
+from symgen.loopcode.bare import part as elements
 
 SCRIPT = Path(__file__).with_name("cuda_cases.py")
 #: Those that are also compared with compiled code: one in the plane, one in space, one adaptive.
@@ -228,7 +228,7 @@ def test_a_sweep_on_processors_loads_nothing_of_cuda():
     script = (
         "import sys, symgen\n"
         "assert symgen.sweep('pendulum', {'bob_mass': [1.0]}, until=0.01).counts['ok'] == 1\n"
-        "print(sorted(m for m in sys.modules if m.startswith('numba.cuda') or m == 'symgen.runtime.device'))"
+        "print(sorted(m for m in sys.modules if m.startswith('numba.cuda') or m == 'symgen.rows.device'))"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=600, check=False)
     assert done.returncode == 0, done.stderr
@@ -237,7 +237,7 @@ def test_a_sweep_on_processors_loads_nothing_of_cuda():
 
 def test_a_helper_that_was_forgotten_is_noticed():
     """A device function that would call one made for processors; the simulator alone would let it pass."""
-    from symgen.runtime.device import on_device
+    from symgen.rows.device import on_device
 
     with pytest.raises(ValueError, match="first needs 'elements' as a device function"):
         on_device(caller)

@@ -10,9 +10,9 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.api import Model
+from symgen.base.errors import InputError
 from symgen.catalogue import raw
 from symgen.describe.builder import MechanismBuilder
-from symgen.errors import InputError
 
 G, E = 9.81, 0.7
 BALL = {

@@ -14,9 +14,9 @@ import xarray as xr
 
 import symgen
 from symgen.api import Model
+from symgen.base.errors import InputError
 from symgen.describe.builder import MechanismBuilder
 from symgen.ensemble.table import DONE, FolderTable, RowTable
-from symgen.errors import InputError
 
 FEW = {
     "vary": {"crank_mass": "lin(1, 3, 6)", "crank.omega": [0.0, 2.0]},

@@ -3,7 +3,7 @@
 import pytest
 
 import symgen
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 
 GAINS = [1.0, 5.0, 20.0]
 STOP = {"low": {"when": "crank.theta > 1.02", "action": "stop"}}

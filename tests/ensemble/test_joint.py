@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
-from runtime.test_events import four_bar
+from runs.test_events import four_bar
 from support.emitted import mechanism_of
 
 import symgen
 from ensemble.single_runs import assert_row, assert_rows
+from symgen.base.errors import InputError
 from symgen.compiling import events
 from symgen.ensemble import singly
-from symgen.errors import InputError
 from symgen.running import tree
 
 #: Model, what varies, how it is said of a single run, and whether rows of loops depend on others: those run apart.

@@ -11,11 +11,11 @@ from support.checks import assert_same_motion
 from support.emitted import mechanism_of
 
 import symgen
+from symgen.base.errors import InputError
 from symgen.compiling.pipeline import choose_method, compile_model, generate
 from symgen.ensemble.loop_runs import aligned
-from symgen.errors import InputError
 from symgen.ir.program import LANES, lane_bases
-from symgen.runtime import ensemble_abi as e
+from symgen.layout import ensemble_abi as e
 
 ROUNDED = [e.SUMMARY.index(name) for name in ("code", "end", "outputs", "steps", "evaluations", "iterations", "start")]
 

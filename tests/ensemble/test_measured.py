@@ -8,8 +8,8 @@ from support.emitted import mechanism_of
 
 import symgen
 from ensemble.single_runs import assert_rows
+from symgen.base.errors import InputError
 from symgen.catalogue import raw
-from symgen.errors import InputError
 
 TIMES = {"until": 0.1, "step": 2e-3, "times": (0.0, 0.051, 0.1), "integrator": "rk4", "method": "lagrange"}
 

@@ -12,9 +12,9 @@ from support.emitted import mechanism_of
 
 import symgen
 from ensemble.single_runs import assert_row, assert_rows
+from symgen.base.errors import AssemblyError, InputError
 from symgen.catalogue import n_four_bar, raw
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import AssemblyError, InputError
 
 EVERYTHING = (
     "q",

@@ -6,10 +6,10 @@ from support.checks import assert_same_motion
 from support.emitted import mechanism_of
 
 import symgen
+from symgen.base.errors import InputError
 from symgen.describe.evaluate import evaluate
 from symgen.describe.parser import FormulaNames, parse
 from symgen.ensemble.chunks import Columns, make_rows
-from symgen.errors import InputError
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Name
 
 A = np.array([-1.7, -0.4, 0.0, 0.3, 0.9, 1.0, 2.5])

@@ -7,9 +7,9 @@ import pytest
 from support.emitted import mechanism_of
 
 import symgen
+from symgen.base.errors import InputError
+from symgen.breaks.stops import foreseen
 from symgen.ensemble.sweep_study import lines_of
-from symgen.errors import InputError
-from symgen.runtime.stops import foreseen
 from symgen.study.stress.bench import Base
 from symgen.study.stress.families import singular_passage
 

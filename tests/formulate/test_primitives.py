@@ -8,9 +8,9 @@ from scipy.integrate import solve_ivp
 
 import symgen
 from symgen.api import Model
+from symgen.base.errors import InputError
 from symgen.compiling.choices import on_tree, operations
 from symgen.describe.validate import validate
-from symgen.errors import InputError
 
 TIGHT = {"integrator": "dop853", "rtol": 1e-12, "atol": 1e-13, "until": 1.0}
 AT = [[0.0, 0.0], [0.0, 0.0]]

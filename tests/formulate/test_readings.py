@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from support.emitted import Emitted, mechanism_of
 
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 
 PLANAR = {
     "mechanism": {"name": "reader", "gravity": [0.0, -9.81]},

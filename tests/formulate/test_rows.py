@@ -10,9 +10,9 @@ from scipy.integrate import solve_ivp
 
 from symgen import MechanismBuilder
 from symgen.api import Model
+from symgen.base.errors import InputError
 from symgen.compiling.choices import operations
 from symgen.describe.validate import validate
-from symgen.errors import InputError
 from symgen.methods import METHODS
 
 POINT = {"type": "point", "mass": 1.5}

@@ -6,8 +6,8 @@ from scipy.special import ellipj
 
 from symgen import Settings, load
 from symgen.describe.builder import MechanismBuilder
+from symgen.layout import abi
 from symgen.running.prepare import prepare
-from symgen.runtime import abi
 
 UNTIL = 10.0
 

@@ -6,12 +6,12 @@ import pytest
 
 from benchmarks import pairs
 from symgen.api import load
-from symgen.errors import InputError
+from symgen.base.errors import InputError
+from symgen.base.settings import Settings
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 from symgen.methods._base import EXPLICIT_FORMS
 from symgen.running.prepare import make_plan
-from symgen.settings import Settings
 
 ALL = [(m, i) for m in METHODS.names for i in INTEGRATORS.names]
 

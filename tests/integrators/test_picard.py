@@ -168,7 +168,7 @@ def test_laws_without_a_form_in_vectors_have_the_same_motion(four_bar, method):
 
 def test_nodes_one_by_one_are_nodes_at_once(four_bar, monkeypatch):
     """Evaluated by the right-hand side of one node the run is the same but for rounding."""
-    from symgen.runtime import right_hand_side
+    from symgen.layout import right_hand_side
 
     mechanism, _ = four_bar
     settings = {"method": "lagrange", "coordinates": "joint", "rtol": 1e-9, "atol": 1e-9}

@@ -12,10 +12,10 @@ import sympy as sp
 from support.emitted import Emitted, mechanism_of
 
 from symgen.api import load
+from symgen.base.errors import InputError
 from symgen.describe.formulas import Formulas
 from symgen.describe.parser import FormulaNames, parse
 from symgen.emit.printer import ElementAccess, Printer
-from symgen.errors import InputError
 from symgen.formulate.translate import Translator, to_sympy
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, ModelLayout, Target

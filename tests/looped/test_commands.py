@@ -6,8 +6,8 @@ import json
 import pytest
 
 from symgen.api import load
+from symgen.base.errors import InputError
 from symgen.ensemble.sweep import sweep
-from symgen.errors import InputError
 
 
 def test_a_run_says_its_shape(cli):

@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 from support.checks import RANDOM
 
 from symgen.api import load
+from symgen.base.errors import InputError
+from symgen.base.settings import Settings
 from symgen.compiling.choices import choose_shape
 from symgen.compiling.looped import generate_looped
 from symgen.compiling.pipeline import MethodChoice, choose_method, compile_model, generator_digest
-from symgen.errors import InputError
 from symgen.lower.factor import Elimination
 from symgen.lower.looped.forms import form_key
 from symgen.lower.looped.instances import instances
@@ -22,8 +23,7 @@ from symgen.methods import METHODS
 from symgen.methods._base import MultiplierMethod
 from symgen.running import automatic
 from symgen.running.prepare import make_plan
-from symgen.runtime import decisions
-from symgen.settings import Settings
+from symgen.starts import decisions
 from symgen.store.paths import ENVIRONMENT_VARIABLE
 from symgen.store.stats import cache_stats
 

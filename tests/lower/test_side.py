@@ -15,10 +15,10 @@ from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.scope import Context
 from symgen.formulate.formulate import formulate
 from symgen.formulate.measures import ModelNodes as Derivation
+from symgen.layout.abi import OBSERVE
 from symgen.lower.looped.instances import instances
 from symgen.lower.windings import winding_order
 from symgen.native import types
-from symgen.runtime.abi import OBSERVE
 from symgen.store.jit import jit
 from symgen.store.paths import ENVIRONMENT_VARIABLE
 

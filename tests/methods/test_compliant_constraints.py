@@ -7,8 +7,8 @@ from support.laws_at import LawAt, described
 from support.models import parallelogram
 
 from symgen.api import Model
+from symgen.base.errors import InputError
 from symgen.describe.validate import validate
-from symgen.errors import InputError
 
 OMEGA, GRAVITY = 10.0, 9.81
 

@@ -7,8 +7,8 @@ from support.laws_at import LawAt, described
 
 import symgen
 from symgen.api import Model, load
+from symgen.base.errors import InputError
 from symgen.describe.validate import validate
-from symgen.errors import InputError
 
 METHOD = "energy-projection"
 

@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 from benchmarks import robustness
 from benchmarks.motions import run
 from symgen.api import Model, load
+from symgen.base.errors import InputError
 from symgen.describe import MechanismBuilder
-from symgen.errors import InputError
 from symgen.ir.program import COUNTERS
 from symgen.methods import METHODS
 from symgen.study.comparison.compare import compare

@@ -14,11 +14,11 @@ from support.models import EVERYTHING
 
 from benchmarks import stiff
 from symgen.api import load
+from symgen.base.errors import InputError
+from symgen.base.settings import Settings
 from symgen.compiling.pipeline import choose_method, generate
-from symgen.errors import InputError
+from symgen.layout.compiled import ModelInfo
 from symgen.running.prepare import make_plan
-from symgen.runtime.compiled import ModelInfo
-from symgen.settings import Settings
 from symgen.vocabulary.infos import LawInfo
 
 #: Every joint kind, the weld among them, and every force kind.

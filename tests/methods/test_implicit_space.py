@@ -17,7 +17,7 @@ from support.space import STEP, angle_of
 from symgen.compiling.pipeline import choose_method, generate
 from symgen.forces import FORCES
 from symgen.joints import JOINTS
-from symgen.runtime.compiled import ModelInfo
+from symgen.layout.compiled import ModelInfo
 from symgen.vocabulary.infos import LawInfo
 
 JOINT_KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES)

@@ -8,9 +8,9 @@ from support.convergence import MOTIONS, compared, orders, redundant
 from support.textbook import Textbook, first_step
 
 from symgen.api import load
+from symgen.base.settings import Settings
 from symgen.running.prepare import prepare
-from symgen.runtime.run import integrate
-from symgen.settings import Settings
+from symgen.runs.run import integrate
 
 
 @pytest.mark.parametrize("name", ["four-bar", "driven-four-bar", "slider-crank"])

@@ -6,8 +6,8 @@ from support.emitted import mechanism_of
 
 from benchmarks.shared_loads import CASES, GRAVITY, MASS, beam, shares, tensions
 from symgen.api import load
+from symgen.base.errors import InputError
 from symgen.catalogue import raw
-from symgen.errors import InputError
 
 METHOD = "stiffness-scaled-penalty"
 

@@ -12,9 +12,10 @@ import numba
 from numba.core.types import Dispatcher
 from numba.experimental.function_type import _get_jit_address
 
+from symgen.layout import kernel_addresses
+from symgen.loopcode import entry, exact
 from symgen.native import types
 from symgen.native.pieces import Piece
-from symgen.runtime import entry, exact, kernel_addresses
 from symgen.store import emitted
 from symgen.store.jit import RuntimeFunction
 

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from symgen.loopcode.exact import Exact, compiled_form
 from symgen.native import javascript as js
 from symgen.native import language as lang
 from symgen.native import types
@@ -21,7 +22,6 @@ from symgen.native.c99 import c_loops
 from symgen.native.calls import caller
 from symgen.native.loops import read_loop
 from symgen.native.pieces import Piece
-from symgen.runtime.exact import Exact, compiled_form
 from symgen.store.jit import RuntimeFunction
 
 HEAD = "#include <math.h>\ntypedef double real;\n#define M(x) x\n#define SMALL(x) x\n#define LARGE(x) x\n"

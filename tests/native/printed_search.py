@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from native import printed
-from symgen.runtime import abi, hunting, search_records, searching
-from symgen.runtime.frame import FAIL, HOLD, LOOK, MEET, NOTHING, REMEMBER, SEEK, TAKE, TRY
-from symgen.runtime.loop_instances import Instances
+from symgen.layout import abi
+from symgen.loopcode.loop_instances import Instances
+from symgen.loops import hunting, search_records, searching
+from symgen.loops.frame import FAIL, HOLD, LOOK, MEET, NOTHING, REMEMBER, SEEK, TAKE, TRY
 
 ARGUMENTS = abi.DECIDE.signature.arguments
 #: `decide` and its callees as plain Python, whose operations are not contracted.

@@ -15,11 +15,12 @@ from support.random_closed import make
 
 from native import printed
 from symgen import load
+from symgen.layout import ensemble_abi as e
+from symgen.layout import manifold
+from symgen.loopcode.exact import compiled_form
 from symgen.native import language as lang
-from symgen.runtime import assembler, decisions, manifold, start_solvers, starting
-from symgen.runtime import ensemble_abi as e
-from symgen.runtime.exact import compiled_form
-from symgen.runtime.held import Held
+from symgen.starts import assembler, decisions, start_solvers, starting
+from symgen.starts.held import Held
 from symgen.store.jit import RuntimeFunction
 
 DEFECTS = Path(__file__).resolve().parents[1] / "data" / "defects"

@@ -8,12 +8,12 @@ import json
 import numpy as np
 import pytest
 
-from symgen.errors import InputError
+from symgen.base.errors import InputError
+from symgen.loops.hunting import with_events
+from symgen.loops.stopping import with_stops
 from symgen.native.loops import read_loop
 from symgen.native.types import float64
-from symgen.runtime.hunting import with_events
-from symgen.runtime.rows import over_rows
-from symgen.runtime.stopping import with_stops
+from symgen.rows.rows import over_rows
 from symgen.store import jit as store
 from symgen.store.paths import ENVIRONMENT_VARIABLE
 
@@ -30,7 +30,7 @@ LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
 @pytest.mark.parametrize(("scheme", "name"), LOOPS)
 @pytest.mark.parametrize("events", [False, True])
 def test_every_loop_is_in_the_language(scheme, name, events):
-    loop = getattr(importlib.import_module(f"symgen.runtime.schemes.{scheme}"), name)
+    loop = getattr(importlib.import_module(f"symgen.loops.schemes.{scheme}"), name)
     loop = with_events(loop) if events else loop
     read(loop)
     read(with_stops(loop))
@@ -41,7 +41,7 @@ def test_every_loop_is_in_the_language(scheme, name, events):
 @pytest.mark.parametrize("steps", ["constant", "adaptive"])
 @pytest.mark.parametrize("scheme", ["explicit", "picard"])
 def test_every_loop_over_rows_is_in_the_language(scheme, steps, events, stops):
-    loop = getattr(importlib.import_module(f"symgen.runtime.schemes.{scheme}"), steps)
+    loop = getattr(importlib.import_module(f"symgen.loops.schemes.{scheme}"), steps)
     read(over_rows(loop, events, stops))
 
 

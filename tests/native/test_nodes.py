@@ -9,11 +9,11 @@ from hypothesis import HealthCheck, given, settings
 import symgen
 from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.compiling.side import with_integrals
+from symgen.layout.right_hand_side import at_nodes
 from symgen.native import types
 from symgen.native.nodes import FAR, SUSPICIOUS
 from symgen.native.read_values import Foreign
 from symgen.native.types import NODES
-from symgen.runtime.right_hand_side import at_nodes
 from symgen.store.emitted import NodesFunction
 from symgen.store.modules import load_module
 

@@ -3,7 +3,8 @@
 import numpy as np
 
 from native import printed, printed_search
-from symgen.runtime import abi, searching
+from symgen.layout import abi
+from symgen.loops import searching
 
 
 def test_events_of_functions_of_time(tmp_path):

@@ -5,11 +5,11 @@ import pytest
 
 from native import printed, printed_starts
 from native.printed_starts import FEW, MANY
+from symgen.layout import ensemble_abi as e
+from symgen.loopcode.exact import compiled_form
 from symgen.native import types
-from symgen.runtime import ensemble_abi as e
-from symgen.runtime.exact import compiled_form
-from symgen.runtime.start_solvers import least_norm
-from symgen.runtime.starting import close_rows
+from symgen.starts.start_solvers import least_norm
+from symgen.starts.starting import close_rows
 
 LEAST_NORM = types.int64(
     types.float64[::1], types.int64, types.int64, *(types.float64[::1],) * 3, types.int64[::1]

@@ -16,9 +16,9 @@ from support import processes
 
 from symgen.analyses.animation import mode_recording
 from symgen.api import load
+from symgen.base.errors import InputError
 from symgen.cli import main
 from symgen.describe.validate import validate
-from symgen.errors import InputError
 from symgen.player import live
 from symgen.player.moving import write_film
 from symgen.player.recording import PlottedGroup, Recording, is_coarse, packed, shorts

@@ -17,12 +17,12 @@ import h5py
 import pytest
 
 import symgen
+from symgen.base.settings import Settings
 from symgen.cli import COMMANDS, group, main
 from symgen.describe.schema import schema
 from symgen.ensemble.sweep import sweep
 from symgen.result.labelled import Labelled
 from symgen.result.result import Result
-from symgen.settings import Settings
 
 KEPT = Path(__file__).resolve().parents[1] / "data" / "contract.json"
 

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from support.processes import COMMAND, python
 
+from symgen.base.registry import Registry
 from symgen.forces import FORCES
 from symgen.integrators import INTEGRATORS
 from symgen.joints import JOINTS
 from symgen.methods import METHODS
-from symgen.registry import Registry
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = sorted(path for path in (ROOT / "examples").iterdir() if path.is_file())

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from symgen import files
-from symgen.errors import InputError
+from symgen.base import files
+from symgen.base.errors import InputError
 
 
 def full(file):

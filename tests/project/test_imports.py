@@ -1,7 +1,7 @@
 """Who imports what: read from the sources, and seen in a process that really runs.
 
 ``lint-imports`` (pyproject.toml) holds the direction between packages; here the libraries that each package may use are
-held, which the table of packages in docs/architecture.md names, and what one really pays for.
+held, which the docstring of a room names, and what one really pays for.
 """
 
 from __future__ import annotations
@@ -52,27 +52,35 @@ def libraries(path: Path) -> set[str]:
 
 
 def table() -> dict[str, set[str]]:
-    """Return the libraries of each package, by the table in docs/architecture.md; words that are none do not count."""
-    page = (PACKAGE.parent / "docs" / "architecture.md").read_text(encoding="utf-8")
+    """Return the libraries of each room, by the line `Imports` of its docstring, and of the modules beside rooms."""
     known = set[str]().union(*map(libraries, SOURCES))
-    found = dict[str, set[str]]()
-    for line in page.partition("| package |")[2].partition("\n\n")[0].splitlines()[2:]:
-        names, *_, uses = line.strip("| ").split(" | ")
-        found |= dict.fromkeys(re.findall(r"`(\w+)`", names), known & set(re.findall(r"\w+", uses.lower())))
-    return found
+    lines = {room: next(line for line in text if line.startswith("Imports: ")) for room, text in ROOMS.items()}
+    words = {room: set(re.findall(r"\w+", line.partition("; `")[0].lower())) for room, line in lines.items()}
+    return {"api": {"numpy"}, "extension": set(), **{room: known & names for room, names in words.items()}}
 
 
+#: Rooms, and the lines of their docstrings.
+ROOMS = {
+    path.parent.name: (ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or "").splitlines()
+    for path in SOURCES
+    if path.name == "__init__.py" and path.parent.parent == PACKAGE
+}
 USES = table()
 
 
-def test_the_table_names_every_package_and_what_it_uses() -> None:
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_says_in_twelve_lines_what_goes_in_and_comes_out(room: str) -> None:
+    lines = ROOMS[room]
+    assert len(lines) <= 12
+    assert [line.partition(":")[0] for line in lines[-3:]] == ["In", "Out", "Imports"]
+
+
+def test_docstrings_name_what_rooms_use() -> None:
     used = dict[str, set[str]]()
     for path in SOURCES:
         used.setdefault(owner(path), set()).update(libraries(path))
     assert not used.pop("__init__") | used.pop("__main__")
-    assert set(USES) == set(used)
-    for name, uses in USES.items():  # of packages in one row, one at least
-        assert uses == set().union(*(used[other] for other, same in USES.items() if same is uses)), name
+    assert used == USES
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda p: p.relative_to(PACKAGE).as_posix())
@@ -185,7 +193,7 @@ def test_a_command_loads_only_what_it_needs(tmp_path: Path, command: tuple[str, 
     assert not loaded(CLI, tmp_path, *command) & forbidden
 
 
-#: Modules of symgen that code is made with and that leave no mark in it: errors, names of folders, lists of kinds.
+#: Modules of `base` that code is made with and that leave no mark in it: errors, names of folders, lists of kinds.
 UNMARKED = {"arguments", "errors", "files", "plugins", "registry"}
 
 
@@ -207,7 +215,8 @@ def test_whatever_code_is_generated_with_is_in_the_digest_of_the_generator():
             if path.is_file() and path not in reached:
                 reached.add(path)
                 waiting.append(path)
-    folders = {path.relative_to(PACKAGE).parts[0].removesuffix(".py") for path in reached}
+    parts = [path.relative_to(PACKAGE).with_suffix("").parts for path in reached]
+    folders = {names[names[0] == "base"] for names in parts}
     assert "describe" in folders, "imports are followed"
     assert folders <= {*(place.removesuffix(".py") for place in GROUPS["code"]), *UNMARKED}
     named = (PACKAGE.parent / "templates").rglob("*.j2")

@@ -9,10 +9,10 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from symgen import memory
 from symgen.api import load
+from symgen.base import memory
+from symgen.base.errors import InputError
 from symgen.describe.mechanism import Defaults
-from symgen.errors import InputError
 
 #: Runs commands in a process whose address space is bounded, and says of each how it ended, what it said, and how much
 #: of the memory the process has taken at most until then.
@@ -131,8 +131,8 @@ def test_this_machine_says_something():
 
 
 def test_constant_steps_have_an_output_each_whoever_names_the_integrator(monkeypatch):
+    from symgen.base.settings import Settings
     from symgen.running.outputs import check_saving
-    from symgen.settings import Settings
 
     mechanism = msgspec.structs.replace(load("four-bar").mechanism, defaults=Defaults(until=10.0, step=1e-3))
     monkeypatch.setattr(memory, "available", lambda: 1e9)

@@ -20,8 +20,8 @@ from support.processes import python
 
 import symgen
 from symgen.analyses.kinds import ANALYSES
-from symgen.errors import InputError, SymgenError
-from symgen.settings import Settings
+from symgen.base.errors import InputError, SymgenError
+from symgen.base.settings import Settings
 from symgen.study.stress.study import stress
 
 NAN, INF = math.nan, math.inf

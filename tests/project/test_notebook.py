@@ -16,7 +16,7 @@ import pytest
 import sympy
 
 import symgen
-from symgen import keywords, settings
+from symgen.base import keywords, settings
 from symgen.describe import builder_keys, sections
 from symgen.describe.builder import MechanismBuilder
 from symgen.describe.events import EventSection

@@ -11,9 +11,9 @@ from support.models import EVERYTHING, ROUGH
 
 import symgen
 from symgen import catalogue
+from symgen.base.errors import InputError
 from symgen.compiling.choices import on_tree
 from symgen.describe import load
-from symgen.errors import InputError
 from symgen.reading import symbolic_equations as reading
 from symgen.reading.symbolic_equations import SymbolicEquations
 

@@ -5,7 +5,7 @@ import itertools
 import pytest
 
 import symgen
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 from symgen.methods import METHODS
 from symgen.reading.law import law
 

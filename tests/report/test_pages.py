@@ -12,8 +12,8 @@ import pytest
 from markdown_it import MarkdownIt
 
 from report.made import row, study, trace
-from symgen.errors import InputError
-from symgen.escapes import markdown_text
+from symgen.base.errors import InputError
+from symgen.base.escapes import markdown_text
 from symgen.report import comparison as sections
 from symgen.report import picture
 from symgen.report.comparison import comparison
@@ -281,7 +281,7 @@ def test_files_that_cannot_be_written_are_refused(tmp_path):
 
 
 def test_without_matplotlib_the_sentence_says_what_to_install(tmp_path, monkeypatch):
-    from symgen import files
+    from symgen.base import files
 
     monkeypatch.setattr(files, "find_spec", lambda name: None)
     with pytest.raises(InputError, match=r"pip install 'symgen\[plot\]'"):

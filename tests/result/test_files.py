@@ -10,8 +10,8 @@ import pytest
 import xarray as xr
 
 import symgen
-from symgen import files
-from symgen.errors import InputError
+from symgen.base import files
+from symgen.base.errors import InputError
 from symgen.result.export import write_columns
 from symgen.result.labelled import Labelled
 from symgen.result.saved import dataset_of, read_last_state

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 from symgen.result.labelled import Labelled
 from symgen.result.signals import choose
 

@@ -6,7 +6,7 @@ from support.emitted import mechanism_of
 from support.random_closed import make
 
 from symgen.api import load
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 
 #: Of sums of a few products of numbers of order 1 to 1e2, with accelerations from a solve.
 ROUNDING = 1e-11

@@ -9,9 +9,9 @@ import pytest
 
 import symgen
 from symgen import catalogue
+from symgen.base.errors import InputError
 from symgen.cli import main
 from symgen.describe.columns import column_name
-from symgen.errors import InputError
 
 #: Mechanisms of more coordinates take a while to derive.
 LARGE = 20

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 from symgen.result.signals import of_run
 
 

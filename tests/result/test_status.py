@@ -8,12 +8,12 @@ from support.emitted import mechanism_of
 from support.models import parallelogram
 
 import symgen
+from symgen.base.settings import Settings
 from symgen.reruns.verification import verified
 from symgen.result.judge import JUMP_DOUBT, JUMP_FAILURE, judge
 from symgen.result.points import Points
 from symgen.running.prepare import prepare
-from symgen.runtime.outcome import RankEvent
-from symgen.settings import Settings
+from symgen.runs.outcome import RankEvent
 from symgen.study.references.reference import reference
 from symgen.study.stress.bench import Base
 from symgen.study.stress.families import singular_passage

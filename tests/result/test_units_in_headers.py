@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import symgen
+from symgen.base.errors import InputError
 from symgen.cli import main
-from symgen.errors import InputError
 
 SETTINGS = {"until": 0.02, "step": 1e-3, "method": "lagrange"}
 COMMAND = ("--until", "0.02", "--step", "1e-3", "--method", "lagrange")

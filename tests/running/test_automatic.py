@@ -11,17 +11,17 @@ from support.models import parallelogram
 from benchmarks.pairs import forms_in_common
 from benchmarks.stiff import model as stiff_model
 from symgen.api import Model, load
+from symgen.base.settings import Settings
 from symgen.compiling.linearised import compile_growth
 from symgen.ir.program import COUNTERS
+from symgen.layout import abi
+from symgen.layout.probe import Ready
 from symgen.methods import METHODS
 from symgen.result import points
 from symgen.running.automatic import STIFF_RATIO, Facts, decide, facts_of, linearised
 from symgen.running.plan import Purpose
 from symgen.running.prepare import make_plan, prepare
-from symgen.runtime import abi
-from symgen.runtime.assembly import state_scales
-from symgen.runtime.probe import Ready
-from symgen.settings import Settings
+from symgen.starts.assembly import state_scales
 
 CALM = Facts(
     rows=8,

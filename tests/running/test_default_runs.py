@@ -10,14 +10,14 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen import catalogue
+from symgen.base.errors import InputError
+from symgen.base.settings import Settings
 from symgen.cli import main
 from symgen.ensemble.sweep_plan import make_ensemble
-from symgen.errors import InputError
+from symgen.layout.right_hand_side import at_nodes
 from symgen.methods import METHODS
 from symgen.result import judge
 from symgen.running.prepare import make_plan
-from symgen.runtime.right_hand_side import at_nodes
-from symgen.settings import Settings
 
 EXPLICIT = [name for name in METHODS.names if {"ode", "one-step"} & set(METHODS.get(name).forms)]
 
@@ -137,7 +137,7 @@ def test_the_second_run_follows_the_operations_of_the_first(monkeypatch):
 
 def test_the_clock_decides_on_no_second_run(monkeypatch):
     """The operations of a run are its evaluations times those of its functions, and 100 for each call."""
-    from symgen.runtime import run as loops
+    from symgen.runs import run as loops
 
     pendulum, timed = symgen.load("pendulum"), loops._in_thread
     alone = pendulum.simulate(until=1.0, verify=False)

@@ -8,9 +8,9 @@ from scipy.linalg import expm
 import symgen
 from symgen import MechanismBuilder
 from symgen.api import Model
+from symgen.base.errors import InputError
 from symgen.compiling.pipeline import choose_method
 from symgen.describe.validate import validate
-from symgen.errors import InputError
 from symgen.methods import METHODS
 from symgen.result.saved import read_last_state
 

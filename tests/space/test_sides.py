@@ -5,7 +5,7 @@ import pytest
 from support.emitted import mechanism_of
 
 import symgen
-from symgen.errors import AssemblyError
+from symgen.base.errors import AssemblyError
 
 MASS, ARM, G = 2.0, 0.4, 9.81
 

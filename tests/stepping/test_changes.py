@@ -10,7 +10,7 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.integrators import INTEGRATORS
-from symgen.runtime import abi
+from symgen.layout import abi
 
 #: A rod on a pin with a spiral spring and a motor, no gravity: (m l^2 / 12 + m c^2) theta'' = u - k theta.
 ROD = {

@@ -12,10 +12,11 @@ from support.remembering import CONSTANT, PAIRS
 
 import symgen
 from symgen.integrators import INTEGRATORS
+from symgen.layout import abi
+from symgen.loops import sparse
 from symgen.methods import METHODS
 from symgen.native import calls, types
-from symgen.runtime import abi, sparse
-from symgen.runtime.simulation import Simulation
+from symgen.runs.simulation import Simulation
 from symgen.store.jit import jit, object_file
 
 DEFECTS = Path(__file__).resolve().parents[1] / "data" / "defects"

@@ -9,7 +9,7 @@ from support.checks import assert_same_motion
 from support.emitted import mechanism_of
 
 import symgen
-from symgen.errors import InputError, StepError
+from symgen.base.errors import InputError, StepError
 
 G, E = 9.81, 0.7
 FIRST = math.sqrt(2.0 / G)  # a fall of 1 m

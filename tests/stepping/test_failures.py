@@ -11,8 +11,8 @@ import pytest
 from support.checks import assert_same_arrays
 
 import symgen
-from symgen.runtime import abi
-from symgen.runtime.simulation import Simulation
+from symgen.layout import abi
+from symgen.runs.simulation import Simulation
 
 
 @pytest.fixture(scope="module")

@@ -7,8 +7,8 @@ import pytest
 from support.checks import assert_same_motion
 
 from symgen.api import Model
+from symgen.base.errors import InputError
 from symgen.describe.builder import MechanismBuilder
-from symgen.errors import InputError
 
 STIFFNESS = 40.0
 OMEGA = math.sqrt(STIFFNESS)

@@ -5,7 +5,7 @@ import pytest
 
 import symgen
 from symgen import MechanismBuilder
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 from symgen.stepping import history
 
 TABLES = ("q", "v", "a", "lam", "reactions", "points", "elements", "outputs", "energy", "violations")

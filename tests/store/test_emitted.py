@@ -7,9 +7,9 @@ import llvmlite
 import numpy as np
 import pytest
 
-from symgen.errors import InputError
+from symgen.base.errors import InputError
+from symgen.layout.kernel_addresses import address
 from symgen.native.types import float64, int64
-from symgen.runtime.kernel_addresses import address
 from symgen.store import emitted, jit
 from symgen.store.modules import load_module
 from symgen.store.stats import cache_stats

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from symgen.errors import SymgenError
+from symgen.base.errors import SymgenError
 from symgen.store import private, upkeep
 from symgen.store.entries import Entries, cached, folder_name
 from symgen.store.paths import cache_location

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 from symgen.store.emitted import EmittedFunction
 from symgen.store.modules import load_module
 

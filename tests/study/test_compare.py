@@ -12,8 +12,8 @@ from support.runs import interrupt
 
 import symgen
 import symgen.methods
+from symgen.base.errors import InputError, SimulationError
 from symgen.cli._tables import show_study
-from symgen.errors import InputError, SimulationError
 from symgen.report.comparison import comparison
 from symgen.study.comparison import combinations
 from symgen.study.comparison import compare as module

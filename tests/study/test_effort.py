@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen.errors import SimulationError
+from symgen.base.errors import SimulationError
+from symgen.base.settings import Settings
 from symgen.methods import METHODS
 from symgen.running.automatic import AUTO, constant_integrator
 from symgen.running.prepare import make_plan
-from symgen.settings import Settings
 from symgen.study.references import routes
 from symgen.study.references.motion import CompiledEquations, motion
 from symgen.study.references.solvers import STIFF_FOLDINGS, OverBudgetError, fastest_modes, is_stiff

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from symgen.errors import InputError, SimulationError
+from symgen.base.errors import InputError, SimulationError
 from symgen.study.comparison.comparison_rows import check_entry, to_entry
 from symgen.study.journal import HEADER, Journal, cell_key
 from symgen.study.runner import Cell, run_cells
@@ -224,7 +224,7 @@ def test_progress_counts_what_was_found_and_estimates_the_rest(tmp_path):
     assert sorted(traced(tmp_path)) == [0, 1, 2, 3, 4, 5]
 
 
-@pytest.mark.parametrize("edited", ["native/llvm.py", "store/emitted.py", "runtime/frame.py", "settings.py"])
+@pytest.mark.parametrize("edited", ["native/llvm.py", "store/emitted.py", "loops/frame.py", "base/settings.py"])
 def test_cells_are_those_of_the_code_that_made_them(edited, monkeypatch):
     """Run times are kept as well, so that what makes machine code counts as much as what it computes."""
     from symgen.store.identity import sources_digest

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import symgen
+from symgen.base.errors import InputError
 from symgen.describe import MechanismBuilder
 from symgen.describe.lengths import own_length
 from symgen.describe.mechanism import bounded
-from symgen.errors import InputError
 from symgen.result.points import Points
 from symgen.study.references.closed_forms import CLOSED
 from symgen.study.references.independent import IndependentEquations

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen.errors import InputError, SimulationError
+from symgen.base.errors import InputError, SimulationError
 from symgen.result.points import Points
 from symgen.study.journal import Journal
 from symgen.study.references.motion import CompiledEquations, motion
@@ -225,9 +225,9 @@ def test_what_is_too_slow_is_told_without_a_clock():
 
 def test_a_measured_budget_stops_a_run():
 
+    from symgen.base.settings import Settings
+    from symgen.layout import abi
     from symgen.running.prepare import prepare
-    from symgen.runtime import abi
-    from symgen.settings import Settings
 
     model = symgen.load("four-bar")
     settings = Settings(method="lagrange", integrator="rk4", step=1e-6, until=1e3, output_step=1e3)

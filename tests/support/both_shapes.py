@@ -13,13 +13,13 @@ from support.emitted import mechanism_of
 from support.models import EVERYTHING, READING, ROUGH, parallelogram
 from symgen import catalogue
 from symgen.api import Model, load
+from symgen.base.errors import AssemblyError
 from symgen.describe.builder import MechanismBuilder
-from symgen.errors import AssemblyError
 from symgen.ir.program import COUNTERS, STATUS
+from symgen.layout.abi import N_COUNTERS
 from symgen.lower.looped.law import is_loopable
 from symgen.methods import METHODS
 from symgen.methods._base import EXPLICIT_FORMS
-from symgen.runtime.abi import N_COUNTERS
 
 #: Methods that solve with large penalties amplify rounding by them.
 PENALTY = {"penalty": 1e3}

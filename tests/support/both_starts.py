@@ -5,10 +5,10 @@ import numpy as np
 from support.emitted import mechanism_of
 from support.random_closed import make
 from symgen.api import Model, load
-from symgen.errors import AssemblyError
-from symgen.runtime import decisions
-from symgen.runtime.assembly import Held, Start
-from symgen.runtime.compiled import CompiledModel
+from symgen.base.errors import AssemblyError
+from symgen.layout.compiled import CompiledModel
+from symgen.starts import decisions
+from symgen.starts.assembly import Held, Start
 
 SEEDS = range(4)
 

@@ -15,7 +15,7 @@ from symgen.compiling.pipeline import choose_method, for_coordinates, generate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.validate import validate
 from symgen.ir.program import COUNTERS, SCALES, STATUS
-from symgen.runtime.compiled import ModelInfo
+from symgen.layout.compiled import ModelInfo
 from symgen.store.emitted import EmittedFunction, Origin, imported
 from symgen.store.identity import digest
 from symgen.vocabulary.infos import LawInfo

@@ -3,10 +3,10 @@
 import numpy as np
 
 from symgen.api import Model
+from symgen.base.settings import Settings
 from symgen.running.prepare import make_plan
-from symgen.runtime.outcome import Outcome
-from symgen.runtime.run import integrate
-from symgen.settings import Settings
+from symgen.runs.outcome import Outcome
+from symgen.runs.run import integrate
 
 
 def run(model: Model, **settings) -> Outcome:

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from symgen import Settings, load
+from symgen.base.errors import InputError
 from symgen.catalogue import MACHINES, entries
-from symgen.errors import InputError
 from symgen.native.c99 import c_functions
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare

@@ -9,8 +9,8 @@ from fmpy.fmi2 import FMU2Slave
 from fmpy.validation import validate_fmu
 
 from symgen import Settings, catalogue, load
+from symgen.base.errors import InputError
 from symgen.describe.validate import validate
-from symgen.errors import InputError
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
 from symgen.targets import TARGETS, Request

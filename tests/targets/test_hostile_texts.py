@@ -23,9 +23,9 @@ import pytest
 import xarray as xr
 from support.emitted import mechanism_of
 
+from symgen.base.errors import InputError
+from symgen.base.escapes import comment_text
 from symgen.cli import main
-from symgen.errors import InputError
-from symgen.escapes import comment_text
 from symgen.report.comparison import comparison
 from symgen.report.write import html, markdown
 from tests.report.made import row, study, trace

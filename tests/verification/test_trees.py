@@ -12,11 +12,11 @@ from benchmarks.mechanisms.draw import draw
 from benchmarks.plain.start import choose_turns
 from benchmarks.plain.system import read
 from symgen.api import load
+from symgen.base.settings import Settings
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.topology import spanning_tree
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
-from symgen.settings import Settings
 from symgen.store.modules import interpreted
 from verification.running import model_of, of_bodies
 

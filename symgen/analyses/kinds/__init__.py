@@ -12,11 +12,11 @@ from html import escape
 from pathlib import Path
 from typing import Any, Literal
 
-from symgen.errors import InputError
-from symgen.keywords import DrivenKeywords, PlaceKeywords, StateKeywords
-from symgen.keywords import names as names_of
-from symgen.registry import Registry
-from symgen.settings import Settings, changed
+from symgen.base.errors import InputError
+from symgen.base.keywords import DrivenKeywords, PlaceKeywords, StateKeywords
+from symgen.base.keywords import names as names_of
+from symgen.base.registry import Registry
+from symgen.base.settings import Settings, changed
 
 #: Settings of analyses about a state, and of motions that drivers prescribe.
 OF_STATES, OF_MOTIONS = names_of(StateKeywords), names_of(DrivenKeywords)

@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Unpack
 
 from symgen.analyses.kinds import STATE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_of
-from symgen.digits import digits, scale_of
-from symgen.errors import InputError, fitting
-from symgen.keywords import StateKeywords
-from symgen.settings import Settings
+from symgen.base.digits import digits, scale_of
+from symgen.base.errors import InputError, fitting
+from symgen.base.keywords import StateKeywords
+from symgen.base.settings import Settings
 
 if TYPE_CHECKING:
     import numpy as np

@@ -18,10 +18,10 @@ from symgen.analyses.kinds import (
     of_tables,
     settings_of,
 )
-from symgen.digits import digits, scale_of
-from symgen.errors import InputError
-from symgen.keywords import DrivenKeywords
-from symgen.settings import Settings, flag, is_set
+from symgen.base.digits import digits, scale_of
+from symgen.base.errors import InputError
+from symgen.base.keywords import DrivenKeywords
+from symgen.base.settings import Settings, flag, is_set
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

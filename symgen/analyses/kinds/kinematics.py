@@ -16,8 +16,8 @@ from symgen.analyses.kinds import (
     of_tables,
     settings_of,
 )
-from symgen.keywords import DrivenKeywords
-from symgen.settings import Settings
+from symgen.base.keywords import DrivenKeywords
+from symgen.base.settings import Settings
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

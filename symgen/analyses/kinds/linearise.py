@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Unpack
 
 from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
-from symgen.digits import table
-from symgen.keywords import PlaceKeywords
-from symgen.settings import Settings
+from symgen.base.digits import table
+from symgen.base.keywords import PlaceKeywords
+from symgen.base.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.analyses.linearise import LinearSystem

@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
-from symgen import arguments
 from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
-from symgen.digits import complex_digits, digits
-from symgen.errors import InputError, fitting
-from symgen.keywords import PlaceKeywords
-from symgen.settings import Settings
+from symgen.base import arguments
+from symgen.base.digits import complex_digits, digits
+from symgen.base.errors import InputError, fitting
+from symgen.base.keywords import PlaceKeywords
+from symgen.base.settings import Settings
 
 if TYPE_CHECKING:
     import numpy as np

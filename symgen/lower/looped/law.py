@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from symgen.errors import InputError
+from symgen.base.errors import InputError
 from symgen.ir.graph import ARITHMETIC
 from symgen.ir.program import LawCode
 from symgen.lower.looped.law_loops import KINDS, Loops

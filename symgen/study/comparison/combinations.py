@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from symgen import arguments
-from symgen.errors import InputError
+from symgen.base import arguments
+from symgen.base.errors import InputError
+from symgen.base.settings import COORDINATES, Settings
 from symgen.integrators import INTEGRATORS
+from symgen.loops.integrator import adapts
 from symgen.methods import METHODS
-from symgen.runtime.integrator import adapts
-from symgen.settings import COORDINATES, Settings
 
 #: Default constant steps of a study, as multiples of the mechanism's own.
 STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)

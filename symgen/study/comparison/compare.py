@@ -12,18 +12,18 @@ import msgspec
 import numpy as np
 from msgspec import structs
 
-from symgen import arguments
 from symgen.api import Model, load
+from symgen.base import arguments
+from symgen.base.errors import SimulationError, SymgenError
+from symgen.base.settings import Settings, default
 from symgen.describe.digest import digest, identity
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism, bounded
-from symgen.errors import SimulationError, SymgenError
 from symgen.result.points import Points
 from symgen.running.outputs import multiples, output_size
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import Assembled, assemble, begin, make_plan, prepare
-from symgen.runtime.timing import timed
-from symgen.settings import Settings, default
+from symgen.runs.timing import timed
 from symgen.store.paths import cache_location
 from symgen.study.comparison.combinations import Combinations, words_of_variant
 from symgen.study.comparison.comparison_rows import (

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any, TypedDict, cast
 
 import msgspec
 
-from symgen.arguments import one_of, words
-from symgen.arguments import path as argument_path
-from symgen.errors import InputError
-from symgen.files import check_path, check_writable, headed, write_csv
+from symgen.base.arguments import one_of, words
+from symgen.base.arguments import path as argument_path
+from symgen.base.errors import InputError
+from symgen.base.files import check_path, check_writable, headed, write_csv
 from symgen.result.contract import finite
 from symgen.result.export import PLOTTED
 from symgen.result.labelled import html_table
@@ -343,7 +343,7 @@ class Study:
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return the rows as a pandas data frame."""
-        from symgen.files import need
+        from symgen.base.files import need
 
         need("to_dataframe", "pandas")
         import pandas as pd

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.layout import abi
 from symgen.result.judge import judge
-from symgen.runtime import abi
 from symgen.study.comparison.comparison_rows import Row, Trace
 
 if TYPE_CHECKING:
     from symgen.result.points import Points
     from symgen.running.prepare import Prepared
-    from symgen.runtime.timing import Timed
+    from symgen.runs.timing import Timed
     from symgen.study.references.reference import Reference
 
 Array = NDArray[np.float64]

@@ -9,9 +9,9 @@ import numpy as np
 from msgspec import structs
 from numpy.typing import NDArray
 
+from symgen.base.errors import InputError, SimulationError
 from symgen.describe.load import load
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import InputError, SimulationError
 
 Array = NDArray[np.float64]
 #: Source of a motion, its estimated error [m], and coordinates at the times.

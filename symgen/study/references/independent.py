@@ -16,9 +16,9 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
+from symgen.base.errors import InputError
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Body, Mechanism
-from symgen.errors import InputError
 from symgen.study.references.sympy_formulas import TENSOR, ReferenceFormulas
 
 if TYPE_CHECKING:

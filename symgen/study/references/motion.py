@@ -22,8 +22,8 @@ import sympy as sp
 from numba import types
 from numpy.typing import NDArray
 
+from symgen.base.errors import SimulationError
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import SimulationError
 from symgen.result.points import Points
 from symgen.study.references.independent import CUTOFF, IndependentEquations, curves
 from symgen.study.references.least_squares import compiled, shortest

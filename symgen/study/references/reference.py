@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import InputError, SimulationError
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import InputError, SimulationError
 from symgen.result.points import AGREEMENT, Agreement, Points, agreement
 from symgen.study.references.closed_forms import closed_form
 from symgen.study.references.solvers import (

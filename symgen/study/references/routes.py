@@ -14,16 +14,16 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import SimulationError
+from symgen.base.settings import Settings
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import SimulationError
+from symgen.layout import abi
+from symgen.layout.compiled import CompiledModel
 from symgen.result.points import Points
 from symgen.running.automatic import linearised
 from symgen.running.prepare import prepare
-from symgen.runtime import abi
-from symgen.runtime.assembly import Start
-from symgen.runtime.compiled import CompiledModel
-from symgen.settings import Settings
+from symgen.starts.assembly import Start
 from symgen.study.references.reference import Reference
 from symgen.study.stress.effort import LARGEST_IMPLICIT_REFERENCE, explicit_budget, implicit_budget
 

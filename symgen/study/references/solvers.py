@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.arguments import one_of
+from symgen.base.arguments import one_of
+from symgen.base.errors import SimulationError
+from symgen.breaks.stops import foreseen
 from symgen.describe.kinks import compares_state, longest_step
-from symgen.errors import SimulationError
-from symgen.runtime.stops import foreseen
 
 if TYPE_CHECKING:
     from symgen.study.references.independent import IndependentEquations

@@ -14,11 +14,11 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from symgen.base.errors import InputError, SymgenError, quoted
 from symgen.describe.evaluate import evaluate
 from symgen.describe.load import read_raw
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.validate import validate
-from symgen.errors import InputError, SymgenError, quoted
 from symgen.forces import FORCES
 
 #: Handles of a stressed mechanism and their neutral values.

@@ -12,19 +12,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import AssemblyError, InputError, SimulationError
+from symgen.base.settings import Settings
+from symgen.breaks.motions import refuse_jumps
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.load import load as load_mechanism
-from symgen.errors import AssemblyError, InputError, SimulationError
+from symgen.layout import abi
+from symgen.layout.compiled import CompiledModel
+from symgen.layout.probe import Ready
 from symgen.result.points import Points
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
-from symgen.runtime import abi
-from symgen.runtime.assembly import Start
-from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.motions import refuse_jumps
-from symgen.runtime.probe import Ready
-from symgen.settings import Settings
+from symgen.starts.assembly import Start
 from symgen.study.references.closed_forms import closed_form, parallel_cranks
 from symgen.study.references.reference import scaled_values
 from symgen.study.references.routes import fastest_decay, two_routes

@@ -13,12 +13,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import AssemblyError, InputError
+from symgen.base.settings import Settings
 from symgen.compiling.choices import choose_coordinates
 from symgen.compiling.pipeline import for_coordinates
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import AssemblyError, InputError
 from symgen.integrators import INTEGRATORS
+from symgen.layout import abi
+from symgen.loops.integrator import adapts
 from symgen.lower.looped.law import is_loopable
 from symgen.reruns.verification import verified
 from symgen.result.contract import finite
@@ -29,10 +32,7 @@ from symgen.running.automatic import AUTO
 from symgen.running.options import split_options
 from symgen.running.plan import Purpose
 from symgen.running.prepare import assemble, begin, decided
-from symgen.runtime import abi
-from symgen.runtime.integrator import adapts
-from symgen.runtime.outcome import Outcome
-from symgen.settings import Settings
+from symgen.runs.outcome import Outcome
 from symgen.study.stress import cell_outcome as judged
 from symgen.study.stress.bench import Level
 from symgen.study.stress.cell_outcome import Run, classify, largest_error

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any, cast
 
-from symgen.files import check_writable, headed, write_csv
+from symgen.base.files import check_writable, headed, write_csv
 from symgen.result.contract import finite
 from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, counts, false_success
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET

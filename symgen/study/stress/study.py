@@ -11,16 +11,16 @@ from typing import Any, TypedDict, TypeVar
 
 import msgspec
 
-from symgen import arguments
+from symgen.base import arguments
+from symgen.base.errors import InputError
+from symgen.base.settings import Settings, default
 from symgen.describe.digest import identity
 from symgen.describe.mechanism import bounded
-from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.running.automatic import AUTO, constant_integrator
 from symgen.running.plan import refuse_events, refuse_weightless
-from symgen.settings import Settings, default
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
 from symgen.study.runner import Cell, Status, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import symgen
-from symgen.errors import AssemblyError, InputError
+from symgen.base.errors import AssemblyError, InputError
 from verification.running import measured
 from verification.running import symgen as command
 

@@ -1,0 +1,238 @@
+"""Files named by users: written whole or not at all; errors are one sentence."""
+
+from __future__ import annotations
+
+import errno
+import io
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
+from importlib.util import find_spec
+from pathlib import Path
+
+from symgen.base.errors import InputError, nearest, quoted
+
+#: Content of a file, or a function that writes it to an open file.
+Content = bytes | str | Callable[[io.BytesIO], object]
+
+
+def check_writable(where: str, path: Path) -> None:
+    """Refuse a file that could not be written, before anything is computed for it.
+
+    Parameters
+    ----------
+    where : str
+        Who asks, for the message.
+    path : Path
+        The file, which need not exist.
+
+    Raises
+    ------
+    InputError
+        If the path is a folder or a device, or its folder is missing or cannot be written.
+    """
+    check_name(where, path)
+    try:
+        real = Path(os.path.realpath(path))  # a link leads to where the file will be
+        if real.is_dir():
+            raise InputError(where, "the name of a file", f"the folder '{path}'")
+        if not real.parent.is_dir():
+            raise InputError(where, "a file in a folder that exists", f"'{path}'")
+        if real.exists() and not real.is_file():
+            raise InputError(where, "the name of a file", f"'{path}', which is a device or a pipe")
+        if not os.access(real.parent, os.W_OK) or (real.exists() and not os.access(real, os.W_OK)):
+            raise InputError(where, "a file that can be written", f"'{path}'")
+    except (OSError, RuntimeError) as error:  # a link that leads to itself
+        raise InputError(where, "a file that can be written", f"'{path}' ({why(error)})") from None
+
+
+def need(where: str, *libraries: str, extra: str = "data") -> None:
+    """Raise an error with installation advice if a library is missing.
+
+    Raises
+    ------
+    InputError
+        If one of `libraries` is not installed.
+    """
+    for library in libraries:
+        if find_spec(library) is None:
+            raise InputError(where, f"the library {library}", "none", f"pip install 'symgen[{extra}]' installs it")
+
+
+def check_path(where: str, path: Path, endings: Mapping[str, tuple[str, ...]], extra: str) -> Path:
+    """Refuse a file that cannot be written, by its ending, its libraries or its folder, and return it otherwise.
+
+    Parameters
+    ----------
+    where : str
+        Option or argument, for the message.
+    path : Path
+        The file.
+    endings : mapping
+        Endings with the libraries that they need.
+    extra : str
+        The extra to install for the libraries.
+
+    Raises
+    ------
+    InputError
+        With the expected value.
+    """
+    ending = path.suffix.lower()
+    if ending not in endings:
+        hint = nearest(ending, endings) if ending else ""
+        expected = f"a file ending in {', '.join(endings)}"
+        raise InputError(where, expected, f"'{path}'", "" if hint.startswith("known") else hint)
+    need(where, *endings[ending], extra=extra)
+    check_writable(where, path)
+    return path
+
+
+def check_name(where: str, path: Path) -> None:
+    """Refuse a name that the system cannot look up: one that is too long, or has a null character.
+
+    Parameters
+    ----------
+    where : str
+        Who asks, for the message.
+    path : Path
+        A file or folder, which need not exist.
+
+    Raises
+    ------
+    InputError
+        If the name is invalid.
+    """
+    try:
+        os.lstat(path)
+    except (FileNotFoundError, NotADirectoryError, PermissionError):
+        return
+    except (OSError, ValueError) as error:
+        raise InputError(where, "a name that a file can have", f"'{path}' ({why(error)})") from None
+
+
+def write_whole(path: Path, content: Content, *, replace: bool = True) -> Path:
+    """Write one file; see `write_all`. One that exists is refused where it is not to be replaced."""
+    if not replace and os.path.lexists(path):
+        raise InputError(str(path), "the name of a file that does not exist yet", "one that does")
+    write_all({path: content})
+    return path
+
+
+def write_all(files: Mapping[Path, Content]) -> None:
+    """Write files that belong together: all appear, or, where one cannot be written, all stay as they were.
+
+    Parameters
+    ----------
+    files : mapping
+        Path -> content, or a function that writes it to an open binary file. That file is in memory: libraries do not
+        expect that writing fails, and HDF5 then ends the process when it lets go of the file.
+
+    Raises
+    ------
+    InputError
+        If one cannot be written. Nothing is left behind.
+    """
+    siblings = dict[Path, Path]()
+    current = Path()
+    try:
+        for current, content in files.items():
+            target = _real(current)
+            siblings[target] = target.with_name(f".{target.name[-80:]}-{os.urandom(6).hex()}")
+            data = _bytes(content)
+            with siblings[target].open("xb") as file:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())  # a full or missing disk may raise only now
+        for current, sibling in siblings.items():
+            os.replace(sibling, current)
+    except OSError as error:
+        raise InputError(str(current), "a file that can be written", why(error)) from error
+    finally:
+        for path in siblings.values():
+            with suppress(OSError):
+                path.unlink()
+
+
+def write_csv(path: Path, heading: Sequence[str], rows: Iterable[Sequence[object]]) -> Path:
+    """Write a table as CSV with the ends of lines of RFC 4180; None is empty."""
+    import csv
+
+    text = io.StringIO(newline="")
+    writer = csv.writer(text)
+    writer.writerow(heading)
+    writer.writerows(["" if x is None else x for x in row] for row in rows)
+    return write_whole(path, text.getvalue())
+
+
+def check_rows(where: str, names: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+    """Refuse a CSV table whose columns share a name, or whose rows are longer or shorter than its heading.
+
+    Parameters
+    ----------
+    where : str
+        The file, for the message.
+    names : sequence of str
+        Of the heading, without units.
+    rows : iterable of sequence of str
+        Those below it.
+
+    Raises
+    ------
+    InputError
+        With the column or the row.
+    """
+    for name in names:
+        if name and names.count(name) > 1:
+            raise InputError(where, "a name of its own for each column", f"{names.count(name)} columns {quoted(name)}")
+    for line, row in enumerate(rows, 2):
+        if len(row) != len(names):
+            raise InputError(where, f"as many cells as in the heading, {len(names)}", f"{len(row)} in row {line}")
+
+
+def headed(name: str, unit: str) -> str:
+    """Return the heading of a column that carries its unit: ``crank.theta [rad]``."""
+    return f"{name} [{unit}]" if unit else name
+
+
+def unheaded(heading: str) -> str:
+    """Return the name of a column whose heading may carry its unit."""
+    return heading.partition(" [")[0]
+
+
+def why(error: Exception) -> str:
+    """Return the system's message about a file."""
+    return getattr(error, "strerror", None) or str(error) or "an error"
+
+
+def _real(path: Path) -> Path:
+    """Return the target of a link."""
+    try:
+        return Path(os.path.realpath(path))
+    except ValueError as error:
+        raise OSError(errno.EINVAL, str(error)) from None
+
+
+def _bytes(content: Content) -> bytes | memoryview:
+    if callable(content):
+        stream = io.BytesIO()
+        content(stream)
+        return stream.getbuffer()
+    # arguments of the command line may hold bytes that are no text
+    return content.encode(errors="replace") if isinstance(content, str) else content
+
+
+def templates_folder() -> Path:
+    """Return the folder of the templates: inside the installed package, else beside it in a checkout.
+
+    Raises
+    ------
+    FileNotFoundError
+        If neither exists.
+    """
+    package = Path(__file__).resolve().parents[1]
+    inside, beside = package / "templates", package.parent / "templates"
+    for folder in (inside, beside):
+        if (folder / "parts").is_dir():
+            return folder
+    raise FileNotFoundError(f"templates found neither in {inside} nor in {beside}")

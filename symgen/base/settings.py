@@ -1,0 +1,261 @@
+"""The settings of a run: one table of names, kinds, defaults, units and words.
+
+Python's arguments, the options of every command and the tables of the documentation are made from it or checked
+against it. Nothing is imported here, since ``--help`` needs this module.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from functools import partial
+from typing import Any, cast
+
+from symgen.base import arguments
+from symgen.base.errors import InputError, nearest
+
+SHAPES = ("auto", "straight", "looped")
+COORDINATES = ("absolute", "joint", "auto")
+
+
+@dataclass(frozen=True)
+class About:
+    """Facts about a setting apart from its name and default.
+
+    Attributes
+    ----------
+    text : str
+        One sentence, ``{unit}`` standing where its unit belongs.
+    kind : type
+        Of its values: float, int, str, bool, dict (values by name), tuple (numbers) or list (texts).
+    check : callable
+        (where, value) -> the value as a run takes it, or `InputError`.
+    unit : str
+        Its unit, empty where it has none.
+    flag : str
+        The option of commands; ``--name`` by default.
+    metavar : str
+        Placeholder of a value in the help of commands.
+    otherwise : str
+        Behaviour without a value, if there is no plain default.
+    """
+
+    text: str
+    kind: type
+    check: Callable[[str, Any], Any]
+    unit: str = ""
+    flag: str = ""
+    metavar: str = ""
+    otherwise: str = ""
+
+    @property
+    def help(self) -> str:
+        """The sentence with its unit."""
+        return self.text.format(unit=f" [{self.unit}]" if self.unit else "")
+
+
+_positive = partial(arguments.number, positive=True)
+_name = partial(arguments.text, expected="a name")
+_repeat = partial(arguments.whole, least=1, most=1000)
+_shape, _coordinates = partial(arguments.one_of, candidates=SHAPES), partial(arguments.one_of, candidates=COORDINATES)
+
+
+def _values(where: str, value: object) -> dict[str, float]:
+    values = arguments.mapping(where, value, "numbers by the names of parameters")
+    return {name: arguments.number(f"{where} '{name}'", item) for name, item in values.items()}
+
+
+def _start(where: str, value: object) -> Mapping[str, float]:
+    # the last state of another run is checked where it is used
+    if value is not None and not isinstance(value, Mapping) and hasattr(value, "last_state"):
+        return value  # type: ignore[return-value]  # a result
+    values = arguments.mapping(where, value, "values by the names of coordinates and velocities, or a result")
+    return {name: arguments.number(f"{where} '{name}'", item) for name, item in values.items()}
+
+
+def _inputs(where: str, value: object) -> dict[str, Any]:
+    # the values are checked where the mechanism is known
+    return arguments.mapping(where, value, "numbers, formulas or data by the names of inputs")
+
+
+def _conditions(where: str, value: object) -> tuple[str, ...]:
+    return tuple(arguments.text(where, x, "a condition such as 'ball.y < 0.1'") for x in arguments.words(where, value))
+
+
+def _events(where: str, value: object) -> dict[str, dict[str, Any]]:
+    expected = "tables by the names of events, such as {'low': {'when': 'ball.y < 0.1'}}"
+    tables = arguments.mapping(where, value, expected)
+    return {name: arguments.mapping(f"{where} '{name}'", table, expected) for name, table in tables.items()}
+
+
+def _options(where: str, value: object) -> dict[str, str | float]:
+    values = arguments.mapping(where, value, "values by the names of options, such as 'method.alpha'")
+    return {k: v if isinstance(v, str) else arguments.number(f"{where} '{k}'", v) for k, v in values.items()}
+
+
+def _times(where: str, value: object) -> Sequence[float]:
+    # an array is checked where it is created; it may be long
+    return value if hasattr(value, "dtype") else arguments.numbers(where, value)  # type: ignore[return-value]  # an array is numbers
+
+
+def _setting(default: object, text: str, kind: type, check: Callable[[str, Any], Any], **further: str) -> Any:
+    about = {"about": About(text, kind, check, **further)}
+    if isinstance(default, dict):
+        return field(default_factory=dict, metadata=about)
+    return field(default=default, metadata=about)
+
+
+_number = partial(_setting, kind=float, check=_positive)
+_switch = partial(_setting, kind=bool, check=arguments.switch)
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Settings of a run; `Model.simulate` describes each of them.
+
+    Raises
+    ------
+    InputError
+        If a value is of the wrong kind or out of its range.
+    """
+
+    method: str = _setting("direct-correction", "Constraint stabilisation method, or auto.", str, _name)
+    integrator: str | None = _setting(
+        None,
+        "Integrator, or auto.",
+        str,
+        _name,
+        otherwise="of the mechanism; the method's own, mostly picard or dop853",
+    )
+    step: float | None = _number(
+        None,
+        "Step{unit}: constant, or the first one of an adaptive integrator.",
+        unit="s",
+        otherwise="of the mechanism; chosen",
+    )
+    rtol: float | None = _number(None, "Relative tolerance of an adaptive integrator.", otherwise="1e-8")
+    atol: float | None = _number(None, "Absolute tolerance of an adaptive integrator.", otherwise="1e-10")
+    until: float | None = _number(None, "End time{unit}.", unit="s", otherwise="of the mechanism")
+    output_step: float | None = _number(
+        None,
+        "Time between outputs{unit}.",
+        unit="s",
+        otherwise="of the mechanism; every step, or 1001 times of an adaptive run",
+    )
+    times: Sequence[float] | None = _setting(None, "Output times{unit}.", tuple, _times, unit="s", metavar="T,T,...")
+    parameters: Mapping[str, float] = _setting(
+        {}, "Value of a parameter of the mechanism.", dict, _values, flag="--set", metavar="NAME=VALUE"
+    )
+    inputs: Mapping[str, Any] = _setting(
+        {},
+        "Input: a number, a formula of t, parameters and state, or FILE.csv:COLUMN[:hold|linear|cubic|pchip].",
+        dict,
+        _inputs,
+        flag="--input",
+        metavar="NAME=VALUE",
+    )
+    start: Mapping[str, float] = _setting(
+        {},
+        "Coordinate or velocity that the start keeps, such as crank.theta=0.5.",
+        dict,
+        _start,
+        metavar="NAME=VALUE",
+    )
+    options: Mapping[str, str | float] = _setting(
+        {},
+        "Option of the method or integrator, such as method.alpha=5.",
+        dict,
+        _options,
+        flag="--option",
+        metavar="KEY=VALUE",
+    )
+    stop_when: Sequence[str] = _setting(
+        (), "Condition at which the run ends, such as 'crank.theta > 2*pi'.", list, _conditions, metavar="CONDITION"
+    )
+    record_when: Sequence[str] = _setting(
+        (), "Condition at which time and state are recorded.", list, _conditions, metavar="CONDITION"
+    )
+    events: Mapping[str, Mapping[str, Any]] = _setting(
+        {}, "Events in addition to those of the mechanism, as tables by name.", dict, _events
+    )
+    strict: bool = _switch(False, "Refuse an inconsistent start.")
+    verify: bool | None = _switch(
+        None,
+        "Estimate the error by a second run with finer steps, and settle doubts by it.",
+        otherwise="of the mechanism; adaptive runs with default tolerances of at most 2e8 operations",
+    )
+    max_violation: float = _number(
+        1e-6, "Largest violation of positions and of velocities, as fractions of the mechanism's length and speed."
+    )
+    max_energy_error: float = _number(
+        0.05, "Largest energy error that is tolerated, as a fraction of the energy in motion."
+    )
+    max_step: float | None = _number(
+        None,
+        "Largest step{unit} of an adaptive integrator.",
+        unit="s",
+        otherwise="of the mechanism; none, or a thousandth of the run where formulas of t may have short features",
+    )
+    max_attempts: float | None = _number(
+        None,
+        "Attempts at steps after which a run ends as failed; constant steps that would be more are refused.",
+        otherwise="1e8 adaptive, 2e9 constant",
+    )
+    repeat: int = _setting(1, "Time this many runs after a warm-up.", int, _repeat, metavar="N")
+    shape: str = _setting("auto", "Shape of the code: auto, straight or looped.", str, _shape)
+    coordinates: str = _setting(
+        "absolute",
+        "Coordinates of the state: absolute (of bodies), joint (of the joints of a tree) or auto.",
+        str,
+        _coordinates,
+    )
+
+    def __post_init__(self) -> None:
+        for f in fields(self):
+            value = getattr(self, f.name)
+            if value is not None or f.name in ("parameters", "inputs", "start", "options") or f.default is not None:
+                object.__setattr__(self, f.name, about(f.name).check(f.name, value))
+
+
+def about(name: str) -> About:
+    """Return the description of the setting called `name`."""
+    return _ABOUT[name]
+
+
+def names() -> tuple[str, ...]:
+    """Return the names of all settings, in the order of the table."""
+    return tuple(_ABOUT)
+
+
+def default(name: str) -> Any:
+    """Return the default of a setting."""
+    return getattr(Settings(), name)
+
+
+def is_set(settings: Settings, name: str) -> bool:
+    """Whether a setting differs from its default."""
+    value, usual = getattr(settings, name), default(name)
+    return bool(value is not None if usual is None else value != usual)  # an array of times has no one truth
+
+
+def flag(name: str) -> str:
+    """Return the option of commands that is the setting called `name`."""
+    return about(name).flag or f"--{name.replace('_', '-')}"
+
+
+def changed(settings: Settings | None, changes: Mapping[str, object]) -> Settings:
+    """Return settings, the defaults if None, with some replaced.
+
+    Raises
+    ------
+    InputError
+        If a name is not a setting (says the nearest one), or a value is of the wrong kind.
+    """
+    for name in changes:
+        if name not in _ABOUT:
+            raise InputError("settings", "the name of a setting", f"'{name}'", nearest(name, _ABOUT))
+    base = Settings() if settings is None else arguments.of_kind("settings", settings, Settings, "Settings")
+    return replace(base, **cast(dict[str, Any], dict(changes)))
+
+
+_ABOUT: dict[str, About] = {f.name: f.metadata["about"] for f in fields(Settings)}

@@ -1,0 +1,6 @@
+"""What compiled loops are written with: bare arrays, vectors of eight, instances of plain Python, entries.
+
+In: plain Python functions of arrays and numbers.
+Out: their compiled forms, with other meanings of names, and calls of them.
+Imports: llvmlite, NumPy; `store` and rooms below.
+"""

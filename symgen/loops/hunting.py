@@ -1,0 +1,204 @@
+"""Loops with events, located by shorter steps from the same state, for every scheme.
+
+After each good attempt the loop (`symgen.loops.frame`) evaluates switching functions at the end of the step. If
+`symgen.loops.searching.decide` finds that an event may lie inside, shorter steps from the same state enclose it to
+the resolution of time; the state at an event is that of such a step. Before each of them the memory of emitted
+functions is restored from the beginning of the step, so if an event is only noted, the whole step is then taken
+unaffected.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.layout import abi
+from symgen.layout.records import OUTPUTS, SPAN, STATE, ModelSystem, Run, State, record
+from symgen.loopcode.bare import bare, part
+from symgen.loopcode.loop_instances import called
+from symgen.loopcode.loop_instances import loop as compiled_loop
+from symgen.loopcode.vectors import copied, largest
+from symgen.loops import frame
+from symgen.loops import search_records as searching
+from symgen.loops.frame import LOOK, TRY
+from symgen.loops.frame import correct as plain_correct
+from symgen.loops.frame import opened as plain_opened
+from symgen.native import types
+
+Array = NDArray[np.float64]
+
+#: Largest correction of an accepted state in units of the tolerance of its step (over the catalogue they are below 1);
+#: and one that is always allowed to a constant step, of angles and of coordinates over the length of the mechanism.
+FAR, SMALL = 1e3, 1e-3
+
+#: A `State` with `hunt`, the data of events (`symgen.loops.searching`).
+HuntingState = record("HuntingState", *State._fields, "hunt", module=__name__)
+#: A `Run` with the data of events.
+HuntingRun = record("HuntingRun", *Run._fields, "hunt", module=__name__)
+#: A `ModelSystem` with the functions of events: switching functions with their rates, the function
+#: `symgen.loops.searching.decide`, and the rates q' and v': ``rhs``, or a separate function of a law that does not
+#: integrate v.
+HuntingSystem = record("HuntingSystem", *ModelSystem._fields, "happens", "decide", "rates", module=__name__)
+
+
+#: Type of the state of a run for compiled loops.
+HUNTING_STATE = types.RecordType((*STATE, STATE.parts[0]), HuntingState)
+
+
+# -- functions for the frame -------------------------------------------------------------------------------------------
+
+
+def opened(sizes: Any, state: Any) -> Any:
+    """Return the state of a run, its working memory divided into parts, with its events."""
+    return HuntingRun(*plain_opened(sizes, state), bare(state).hunt)
+
+
+def decided(system: Any, run: Any, t: float, h: float, doing: int, y: Any) -> int:
+    """Return the decision of `symgen.loops.searching.decide` on the state `y` at the end of a step."""
+    n, width = int(run.hunt[searching.COUNT]), system.sizes.width
+    notes = notes_at(n, width, run.w.shape[0])
+    return int(system.decide(run.hunt, n, notes, t, h, doing, width, y, run.w, run.iw))
+
+
+@called
+def evaluate_events(system: Any, run: Any, t: float, y: Any) -> None:
+    """Evaluate switching functions and their rates at a state; the memory of emitted functions stays as it is."""
+    width, hunt, n = system.sizes.width, run.hunt, int(run.hunt[searching.COUNT])
+    at, m = searching.N_HEAD + searching.N_COLUMNS * n, searching.N_VALUES * n
+    out, state, rate = part(hunt, at, m), part(hunt, at + m, width), part(hunt, at + m + width, width)
+    if hunt[searching.NEEDS_RATES] != 0.0:
+        decided(system, run, t, 0.0, searching.KEEP, y)
+        copied(width, y, state)
+        # this may close dependent coordinates of the copy
+        if system.rates(t, state, run.p, run.w, run.iw, rate) != 0:
+            system.confirm(t, state, run.p, run.w, run.iw, rate)
+        run.control[abi.EVALUATIONS] += 1
+    system.happens(t, y, run.p, run.w, rate, out)
+    if hunt[searching.NEEDS_RATES] != 0.0:
+        decided(system, run, t, 0.0, searching.GIVE_BACK, y)
+
+
+def happened(system: Any, run: Any, following: float, h: float, hunting: int) -> int:
+    """Search an acceptable step for events; return the decision of `decide`."""
+    evaluate_events(system, run, following, run.trial)
+    return decided(system, run, following, h, hunting, run.trial)
+
+
+def attend(system: Any, run: Any, doing: int) -> int:
+    """Find the side of each event on which a run begins, or continues after a change of velocities or parameters.
+
+    Or save the memory of emitted functions at the beginning of a step (`REMEMBER`), or restore it (`RECALL`).
+    """
+    if doing == LOOK:
+        evaluate_events(system, run, run.clock[abi.TIME], run.y)
+    return decided(system, run, run.clock[abi.TIME], 0.0, doing, run.y)
+
+
+def aimed(system: Any, run: Any, h: float) -> float:
+    """Return the step to try in place of one of `h` seconds: one that ends at the next point of a table."""
+    decided(system, run, run.clock[abi.TIME], h, searching.AIM, run.y)
+    return float(run.hunt[TRY])
+
+
+def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
+    """Correct and measure a state; store how far that moves it where rows may jump."""
+    hunt, sizes = run.hunt, system.sizes
+    at, width = int(hunt[searching.BEGINNING]), sizes.width
+    if at == 0:
+        return int(plain_correct(system, run, t, y, between))
+    before, began = part(hunt, at + 1 + width, width), part(hunt, at + 1, width)
+    copied(width, y, before)
+    went = 0.0
+    for i in range(sizes.nq):
+        went = max(went, abs(y[i] - began[i]) * run.scales[i])
+    bits = plain_correct(system, run, t, y, between)
+    for i in range(width):
+        before[i] -= y[i]
+    hunt[searching.WENT], hunt[searching.MOVED] = went, largest(width, before, run.scales, 0, sizes.nq)
+    hunt[searching.SPED] = largest(width, before, run.metric, sizes.nq, sizes.nq + sizes.nv)
+    return int(bits)
+
+
+def is_astray(span: Any, run: Any, adaptive: bool) -> bool:
+    """Return whether a correction moved the accepted state by much more than the error of its step explains.
+
+    The error of a constant step is unknown; it moves no coordinate farther than the step itself moves one.
+    """
+    hunt = run.hunt
+    if hunt[searching.BEGINNING] == 0.0:
+        return False
+    if adaptive:
+        most = FAR * span.rtol
+        return bool(hunt[searching.MOVED] > most or hunt[searching.SPED] > most * run.w[abi.SPEED])
+    return bool(hunt[searching.MOVED] > SMALL + hunt[searching.WENT])
+
+
+def notes_at(n: int, width: int, nw: int) -> int:
+    """Return the index of the first note."""
+    return searching.N_HEAD + (searching.N_COLUMNS + searching.N_VALUES) * n + 2 * width + 2 * (nw + abi.N_COUNTERS)
+
+
+_MEANINGS: dict[str, Any] = {
+    **{"EVENTS": True, "opened": opened, "ModelSystem": HuntingSystem},
+    **{"happened": happened, "attend": attend, "aimed": aimed, "correct": correct, "is_astray": is_astray},
+}
+_loops: dict[Any, Any] = {}
+
+
+def with_events(loop: Any) -> Any:
+    """Return the same loop with events, built at the first use.
+
+    Parameters
+    ----------
+    loop : compiled loop
+        From `symgen.loops.frame.loop`.
+    """
+    if loop is None:  # an integrator whose loop depends on the model
+        return None
+    if loop not in _loops:
+        (module, name, scheme, *functions), meanings = frame.RECIPES[loop]
+        kinds = *frame.kinds_of(functions), abi.OBSERVE, abi.DECIDE, abi.RHS
+        signature = types.int64(types.RecordType(kinds), scheme, SPAN, HUNTING_STATE, OUTPUTS)
+        own = f"{module.rpartition('.')[2]}_{name}"
+        _loops[loop] = compiled_loop(__name__, own, frame.integrate, signature, **{**meanings, **_MEANINGS})
+    return _loops[loop]
+
+
+def __getattr__(name: str) -> Any:
+    """Return the loop with events of a built-in scheme: another process loads it by name."""
+    from importlib import import_module
+    from importlib.util import find_spec
+
+    scheme, _, own = name.partition("_")
+    if own and find_spec(f"symgen.loops.schemes.{scheme}") is not None:
+        loop = getattr(import_module(f"symgen.loops.schemes.{scheme}"), own, None)
+        if loop in frame.RECIPES:
+            return with_events(loop)
+    raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+
+
+# -- from Python -------------------------------------------------------------------------------------------------------
+
+
+def undefined_event(state: Any) -> int:
+    """Return the number of the first event whose condition is undefined at the last evaluation."""
+    n = int(state.hunt[searching.COUNT])
+    return int(np.argmax(np.isnan(state.hunt[searching.N_HEAD + searching.N_COLUMNS * n :][:n])))
+
+
+def beginning_of(hunt: Array, width: int, nw: int) -> tuple[float, Array, Array]:
+    """Return time, state and ``w`` at the beginning of the last step."""
+    n, at = int(hunt[searching.COUNT]), int(hunt[searching.BEGINNING])
+    kept = searching.N_HEAD + (searching.N_COLUMNS + searching.N_VALUES) * n + 2 * width
+    return float(hunt[at]), hunt[at + 1 :][:width].copy(), hunt[kept:][:nw].copy()
+
+
+def taken_notes(hunt: Array, width: int, nw: int) -> list[tuple[float, int, Array]]:
+    """Return time, number and state of the events noted so far; clear the notes."""
+    first = notes_at(int(hunt[searching.COUNT]), width, nw)
+    count, size = int(hunt[searching.NOTED]), 2 + width
+    rows = hunt[first : first + count * size].reshape(count, size).copy()
+    hunt[searching.NOTED] = hunt[searching.ACCEPTED] = 0.0
+    return [(float(row[0]), int(row[1]), row[2:]) for row in rows]

@@ -1,0 +1,53 @@
+"""Linear system with M and D of explicit schemes whose stages meet constraints by forces along D^T."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from symgen.loopcode.bare import part
+from symgen.loops import sparse
+from symgen.loops.sparse import solve
+
+
+def slopes_at(system: Any, scheme: Any, run: Any, t: float, y: Any, k: Any, place: int) -> None:
+    """Write M and D at a state to the first (0) or the second (1) half of the sources of the plan."""
+    count = scheme.slopes.shape[0] // 2
+    system.tangent(t, y, k, run.p, run.w, part(scheme.slopes, place * count, count))
+
+
+def carry_slopes(scheme: Any) -> None:
+    """Copy M and D of the second half to the first one."""
+    count = scheme.slopes.shape[0] // 2
+    for i in range(count):
+        scheme.slopes[i] = scheme.slopes[count + i]
+
+
+def factorised(scheme: Any, factors: Any) -> bool:
+    """Factorise ``[M D^T; E 0]``; return whether its factors had room."""
+    factors[0] = 1.0
+    return sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) >= 0
+
+
+def solved(system: Any, scheme: Any, run: Any, right: Any, x: Any) -> None:
+    """Solve for accelerations and multipliers x; multipliers of redundant rows are 0."""
+    sizes = system.sizes
+    for c in range(sizes.m):
+        if run.w[sizes.mask + c] > 0.0:
+            right[sizes.nv + c] = 0.0
+    solve(scheme.plan, scheme.numbers, right, x)
+
+
+def auxiliary_rates(system: Any, run: Any, rest: Any, rates: Any) -> None:
+    """Write the rates of auxiliary states to `rates`; `rest` are the residuals with rates of 0 of the file's states."""
+    sizes = system.sizes
+    for i in range(rates.shape[0]):
+        if 0 < i <= sizes.states:
+            rates[i] = -rest[sizes.unknowns - sizes.states + i - 1]
+        else:
+            rates[i] = run.w[sizes.auxiliary + (i - sizes.states if i > 0 else 0)]
+
+
+def memory(width: int, nv: int, m: int, unknowns: int, stages: int) -> tuple[int, int]:
+    """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state."""
+    n = nv + m
+    return n, 2 + 3 * n + 2 * unknowns + m + (stages + 2) * (nv + width)

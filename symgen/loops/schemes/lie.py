@@ -1,0 +1,70 @@
+"""Explicit Runge-Kutta-Munthe-Kaas schemes: bodies turn by exponentials, not by their Euler parameters.
+
+Within a step the position is ``q0`` moved by u, bodies turned by the exponential of their part of it, and the scheme
+integrates u, v and auxiliary states. In body axes ``u' = omega + u x omega / 2 + u x (u x omega) / 12``, the series of
+the inverse differential of the exponential to the terms that order 4 needs (Munthe-Kaas 1999; Hairer, Lubich, Wanner,
+Geometric Numerical Integration, IV.8). Other coordinates have u' = v.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from symgen.layout import abi
+from symgen.layout.manifold import advance
+from symgen.layout.scheme_records import ROTATIONS
+from symgen.loopcode.bare import part
+from symgen.loopcode.padding import padded
+from symgen.loopcode.vectors import total
+from symgen.loops.frame import evaluate, loop
+
+
+def exponential_rate(v: Any, at: int, u: Any, spins: Any, nv: int, rate: Any) -> None:
+    """Write u' for velocities that begin at index `at` of `v` to `rate`."""
+    for i in range(nv):
+        rate[i] = v[at + i]
+    for s in range(spins.shape[0]):
+        j = spins[s]
+        x, y, z = u[j], u[j + 1], u[j + 2]
+        a, b, c = v[at + j], v[at + j + 1], v[at + j + 2]
+        p, q, r = y * c - z * b, z * a - x * c, x * b - y * a
+        rate[j] += 0.5 * p + (y * r - z * q) / 12.0
+        rate[j + 1] += 0.5 * q + (z * p - x * r) / 12.0
+        rate[j + 2] += 0.5 * r + (x * q - y * p) / 12.0
+
+
+def attempt(
+    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+) -> float:
+    """Try a step of u, v and the auxiliary states, from 0 on."""
+    tableau, sizes, y, trial = scheme.tableau, system.sizes, run.y, run.trial
+    nq, nv, ny, width = sizes.nq, sizes.nv, sizes.ny, scheme.width
+    rate, moved = part(run.room, 0, sizes.width), part(run.room, sizes.width, width)
+    stages = part(run.room, sizes.width + width, tableau.stages * width)
+    for s in range(tableau.stages + 1):
+        low, high = tableau.start[s], tableau.start[s + 1]
+        total(width, h, low, high, tableau.column, tableau.value, stages, moved)
+        advance(system, run, moved, trial)
+        for i in range(nq, ny):
+            trial[i] = y[i] + moved[nv + i - nq]
+        if s < tableau.stages:
+            evaluate(system, run, t + tableau.nodes[s] * h, trial, rate)
+            stage = part(stages, s * width, width)
+            exponential_rate(trial, nq, moved, scheme.spins, nv, stage)
+            for i in range(nq, ny):
+                stage[nv + i - nq] = rate[i]
+    run.control[abi.EVALUATIONS] += tableau.stages
+    return 0.0
+
+
+def stage_width(nq: int, nv: int, ny: int) -> int:
+    """Return the length of a stage: u, v and the auxiliary states."""
+    return padded(ny - nq + nv)
+
+
+def room(width: int, stage: int, stages: int) -> int:
+    """Return the working memory of a step behind the trial state."""
+    return width + (1 + stages) * stage
+
+
+constant = loop(__name__, "constant", ROTATIONS, "turn", attempt=attempt)

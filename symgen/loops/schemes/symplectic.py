@@ -1,0 +1,31 @@
+"""The symplectic Euler scheme: velocities first, then positions by the new velocities, in space by the exponential."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from symgen.layout import abi
+from symgen.layout.manifold import advance
+from symgen.layout.scheme_records import ROTATIONS
+from symgen.loopcode.bare import part
+from symgen.loops.frame import evaluate, loop
+
+
+def attempt(
+    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+) -> float:
+    """Try a step."""
+    sizes = system.sizes
+    nq, nv, width = sizes.nq, sizes.nv, sizes.width
+    rate, moved = part(run.room, 0, width), part(run.room, width, nv)
+    evaluate(system, run, t, run.y, rate)
+    run.control[abi.EVALUATIONS] += 1
+    for i in range(nq, sizes.ny):
+        run.trial[i] = run.y[i] + h * rate[i]
+    for i in range(nv):
+        moved[i] = h * run.trial[nq + i]
+    advance(system, run, moved, run.trial)
+    return 0.0
+
+
+constant = loop(__name__, "constant", ROTATIONS, "turn", attempt=attempt)

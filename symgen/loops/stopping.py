@@ -1,0 +1,175 @@
+"""The loop from stop to stop, where parameters change and the scheme restarts without a return to Python.
+
+It encloses another loop, which it enters for each part of a run by its address: one for each kind of loop, compiled
+when a run first has stops. Single runs, runs step by step and rows of sweeps enter it in place of the other.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.layout import abi
+from symgen.layout import ensemble_abi as e
+from symgen.layout.records import Span
+from symgen.layout.start_records import record_type
+from symgen.loopcode.bare import bare
+from symgen.loopcode.loop_instances import loop as compiled_loop
+from symgen.loopcode.loop_instances import signature_of
+from symgen.native import types
+from symgen.store.jit import jit
+
+if TYPE_CHECKING:
+    from symgen.layout.compiled import CompiledModel
+    from symgen.loops.run_spec import Stop
+
+#: Numbers of `Stops.head`: the present row, and 1 where steps are adaptive.
+ROW, ADAPTIVE = range(2)
+_A, _K = types.float64[::1], types.int64[::1]
+
+
+#: The stops of all rows one after the other; a single run is one row.
+#: - head: `ROW` and `ADAPTIVE`.
+#: - rows (shape (rows + 1,)): First stop of each row.
+#: - times: Of stops, in order in each row [s].
+#: - changes (shape (stops + 1,)): First change of each stop.
+#: - places, values: Changes: an index in ``p``, and the value there from then on.
+STOPS = record_type("Stops", __name__, ("head rows", _K), ("times", _A), ("changes places", _K), ("values", _A))
+Stops: Any = STOPS.constructor
+
+
+def due(stops: Any, count: int) -> float:
+    """Return the time of stop number `count` of the present row [s]; infinity behind the last one."""
+    at = stops.rows[stops.head[ROW]] + count
+    return float(stops.times[at]) if at < stops.rows[stops.head[ROW] + 1] else math.inf
+
+
+def change(stops: Any, count: int, p: Any) -> bool:
+    """Write the values of stop number `count` to `p`; return whether any has changed."""
+    at, other = stops.rows[stops.head[ROW]] + count, False
+    for i in range(stops.changes[at], stops.changes[at + 1]):
+        other = other or p[stops.places[i]] != stops.values[i]
+        p[stops.places[i]] = stops.values[i]
+    return other
+
+
+def is_defined(p: Any) -> bool:
+    """Whether all numbers are finite."""
+    for i in range(p.shape[0]):
+        if not math.isfinite(p[i]):
+            return False
+    return True
+
+
+def same(stops: Any, span: Any, t: float) -> float:
+    """Return the difference up to which times near a time count as the same [s]."""
+    if stops.head[ADAPTIVE] != 0:
+        return abi.RESOLVED_TIME * abs(t)
+    return abi.SAME_TIME * float(span.step)
+
+
+def until_stop(span: Any, until: float) -> Any:
+    """Return a span that ends at a time [s]."""
+    return Span(
+        *(span.step, span.largest, until, span.end, span.duration, span.rtol, span.atol, span.relative),
+        *(span.safety, span.most, span.pause, span.turn),
+    )
+
+
+@jit(types.int64(_A))
+def by_caller(p: Any) -> int:
+    """Replace a ``prepare`` in plain Python, as of looped code: the caller of the loop calls that."""
+    return 1
+
+
+def between_stops(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> int:
+    """Enter a loop for each part of a run, as for a whole run.
+
+    Parameters
+    ----------
+    model : tuple
+        First argument of the loop, `Stops`, the loop, and ``prepare`` of model and law.
+    scheme, span, state, outputs
+        As for the loop.
+    """
+    system, stops, loop, prepare, prepare_law = model
+    stops, state = bare(stops), bare(state)
+    clock, control = state.clock, state.control
+    while True:
+        begin, now = due(stops, control[abi.PASSED]), clock[abi.TIME]
+        if begin - now > same(stops, span, now):
+            to = min(begin, span.until)
+            code = loop(system, scheme, until_stop(span, to), state, outputs)
+            now = clock[abi.TIME]
+            if code != abi.DONE or (begin > to and begin - now > same(stops, span, now)):
+                return int(code)
+        control[abi.PASSED] += 1
+        # a kink changes no number, but the history of multistep schemes ends there as well
+        if control[abi.BEGUN] == 1:
+            control[abi.BEGUN] = abi.AFRESH
+        if change(stops, control[abi.PASSED] - 1, state.p):
+            if prepare(state.p) != 0:
+                return abi.CHANGED
+            prepare_law(state.p)
+            if not is_defined(state.p):
+                return abi.UNPREPARED
+        if control[abi.BEGUN] != 0 and span.until - now <= same(stops, span, now):
+            return abi.DONE
+
+
+_loops: dict[Any, Any] = {}
+
+
+def with_stops(loop: Any) -> Any:
+    """Return the loop that enters another one for each part of a run, made at the first use.
+
+    Parameters
+    ----------
+    loop : compiled loop
+        From `symgen.loops.frame.loop`, or one that looks for events or between steps.
+    """
+    if loop not in _loops:
+        name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}"
+        signature = signature_of(loop)
+        model = types.RecordType((*signature.arguments[:1], STOPS, types.FunctionType(signature), e.PREPARE, e.PREPARE))
+        entry = compiled_loop(__name__, name, between_stops, types.int64(model, *signature.arguments[1:]), once=True)
+        _loops[loop] = globals()[name] = entry  # it is known by its name, as all loops are
+    return _loops[loop]
+
+
+# -- from Python -------------------------------------------------------------------------------------------------------
+
+
+def with_table(
+    compiled: CompiledModel, system: tuple[Any, ...], loop: Any, adaptive: bool, rows: Sequence[Sequence[Stop]]
+) -> tuple[Any, ...]:
+    """Return the first arguments of the loop that goes from stop to stop.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    system, loop : tuple, compiled loop
+        First argument of the enclosed loop, and this loop.
+    adaptive : bool
+        Whether steps vary.
+    rows : sequence of sequence of Stop
+        The stops of each row.
+    """
+    places = {q.name: i for i, q in enumerate(compiled.info.parameters)}
+    stops = [stop for row in rows for stop in row]
+    changes = [(places[name], value) for stop in stops for name, value in stop.values.items()]
+    table = Stops(
+        head=np.array([0, int(adaptive)]),
+        rows=np.cumsum([0, *map(len, rows)]),
+        times=np.array([stop.t for stop in stops], dtype=np.float64),
+        changes=np.cumsum([0, *(len(stop.values) for stop in stops)]),
+        places=np.array([place for place, _ in changes], dtype=np.int64),
+        values=np.array([value for _, value in changes], dtype=np.float64),
+    )
+    modules = compiled.model, compiled.law_module
+    preparing = (by_caller, by_caller) if compiled.shape == "looped" else tuple(module.prepare for module in modules)
+    return system, table, loop, *preparing

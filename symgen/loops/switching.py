@@ -1,0 +1,201 @@
+"""Switching functions in a bracket: the cubic through values and slopes at its ends, and the next point to try."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from symgen.loops.frame import LOW
+from symgen.loops.search_records import (
+    ACTION,
+    ANEW,
+    BLUR,
+    D_HIGH,
+    D_LOW,
+    D_START,
+    DIRECTION,
+    G_HIGH,
+    G_LOW,
+    G_START,
+    HIGH,
+    LOCAL,
+    N_HEAD,
+    PROBES,
+    RESOLUTION,
+    ROUNDS,
+    WHOLE,
+    WIDTH,
+)
+from symgen.store.emitted import plain
+
+A = Any
+#: Iterations for the root of a cubic, at worst mostly bisections.
+_ITERATIONS = 60
+#: Values below this fraction of g at both ends are rounding.
+_ROUNDING = 1e-14
+#: Factor by which the final bracket grows each time that the root seems to be at an end of it.
+_WIDER = 8.0
+#: Largest number of attempts at extrema in a bracket.
+_MOST_PROBES = 12
+
+
+@plain
+def cubic(g0: float, d0: float, g1: float, d1: float, x: float) -> float:
+    """Return the value at x of the cubic with values g0, g1 and slopes d0, d1 at 0 and 1."""
+    rise = g1 - g0
+    return g0 + x * (d0 + x * (3.0 * rise - 2.0 * d0 - d1 + x * (d0 + d1 - 2.0 * rise)))
+
+
+@plain
+def extremum(g0: float, d0: float, g1: float, d1: float, which: int) -> float:
+    """Return the position of the first or second extremum of the cubic inside (0, 1), 2 for no extremum."""
+    rise = g1 - g0
+    c, b, a = d0, 3.0 * rise - 2.0 * d0 - d1, 3.0 * (d0 + d1 - 2.0 * rise)  # a x^2 + 2 b x + c
+    square = b * b - a * c
+    if not square > 0.0:
+        return 2.0
+    q = -(b + math.copysign(math.sqrt(square), b))
+    first = c / q if q != 0.0 else 2.0
+    second = q / a if a != 0.0 else 2.0
+    first = first if first > 0.0 and first < 1.0 else 2.0
+    second = second if second > 0.0 and second < 1.0 else 2.0
+    return min(first, second) if which == 0 else max(first, second)
+
+
+@plain
+def side_of(g: float, before: float) -> float:
+    """Return the side of g, 1 or -1; that of before where g is 0 or nan, which is 0 until g first leaves zero."""
+    return 1.0 if g > 0.0 else -1.0 if g < 0.0 else before
+
+
+@plain
+def is_sought(direction: float, before: float, after: float) -> int:
+    """Return 1 where a change of sides is in the sought direction, else 0; the first side after none is no change."""
+    return 1 if before != after and before != 0.0 and (direction == 0.0 or direction == after) else 0
+
+
+@plain
+def is_finite(x: float) -> int:
+    """Return 1 for a number that is neither infinite nor nan, else 0."""
+    return 1 if x - x == 0.0 else 0
+
+
+@plain
+def root_between(g0: float, d0: float, g1: float, d1: float, side: float, low: float, high: float) -> float:
+    """Return the root of the cubic between two extrema, by Newton's iteration, or bisection where that leaves them."""
+    rise, x = g1 - g0, 0.5 * (low + high)
+    for _ in range(_ITERATIONS):
+        g = cubic(g0, d0, g1, d1, x)
+        if side * g >= 0.0:
+            low = x
+        else:
+            high = x
+        slope = d0 + x * (2.0 * (3.0 * rise - 2.0 * d0 - d1) + x * 3.0 * (d0 + d1 - 2.0 * rise))
+        following = x - g / slope if slope != 0.0 else low
+        if abs(following - x) <= _ROUNDING:
+            return following
+        x = following if following > low and following < high else 0.5 * (low + high)
+    return x
+
+
+@plain
+def first_root(g0: float, d0: float, g1: float, d1: float, side: float) -> float:
+    """Return the position where the cubic first leaves a side, g1 being on the other; 0 where it has left already."""
+    low, below = 0.0, 1 if side * g0 >= 0.0 else 0
+    for k in range(3):
+        high = 1.0 if k == 2 else extremum(g0, d0, g1, d1, k)
+        if high > 1.0:
+            continue
+        above = 0 if k < 2 and side * cubic(g0, d0, g1, d1, high) >= 0.0 else 1
+        if below == 1 and above == 1:
+            return root_between(g0, d0, g1, d1, side, low, high)
+        low, below = high, 1 - above
+    return 0.0
+
+
+@plain
+def dip(g0: float, d0: float, g1: float, d1: float, side: float) -> float:
+    """Return a position where g may be on the other side although both ends are on this one; 2 where it is not.
+
+    It is the extremum of the cubic, or, as conditions of several parts have corners, the intersection of the tangents:
+    the first of the two, as the rest is examined again.
+    """
+    if not (side * d0 < 0.0 and side * d1 > 0.0):
+        return 2.0
+    least, x, first = -_ROUNDING * (abs(g0) + abs(g1)), extremum(g0, d0, g1, d1, 0), 2.0
+    if x < 1.0 and side * cubic(g0, d0, g1, d1, x) < least:
+        first = x
+    x = (g1 - d1 - g0) / (d0 - d1)
+    return min(first, x) if x > 0.0 and side * (g0 + d0 * x) < least else first
+
+
+@plain
+def passes(hunt: A, n: int, k: int, column: int) -> int:
+    """Return 1 where a function changes sides as sought between the bracket's beginning and a column, else 0."""
+    side = hunt[N_HEAD + LOCAL * n + k]
+    return int(is_sought(hunt[N_HEAD + DIRECTION * n + k], side, side_of(hunt[N_HEAD + column * n + k], side)))
+
+
+@plain
+def beyond_low(hunt: A, n: int, k: int, otherwise: float) -> float:
+    """Return the fraction of the bracket at which g leaves its side, by values and rates up to its beginning.
+
+    Behind a jump, rates at the end of the bracket are different.
+    """
+    at, low, width = N_HEAD, hunt[LOW], hunt[HIGH] - hunt[LOW]
+    g, d, bent = hunt[at + G_LOW * n + k], hunt[at + D_LOW * n + k], 0.0
+    if low > 0.0:
+        rise = (g - hunt[at + G_START * n + k]) / low
+        bent = (2.0 * hunt[at + D_START * n + k] + 4.0 * d - 6.0 * rise) / low
+    square = d * d - 2.0 * bent * g
+    if not (g * d < 0.0 and square >= 0.0):
+        return otherwise
+    x = -2.0 * g / (d + math.copysign(math.sqrt(square), d)) / width
+    return float(x) if x > 0.0 and x < 1.0 else otherwise
+
+
+@plain
+def candidate(hunt: A, n: int) -> float:
+    """Return the next point to try for the first change of sides in a bracket."""
+    at = N_HEAD
+    low, high, rounds = hunt[LOW], hunt[HIGH], int(hunt[ROUNDS])
+    width = high - low
+    if rounds % 3 == 0:
+        before = hunt[WIDTH]
+        hunt[WIDTH] = width
+        if rounds > 0 and width > 0.25 * before:
+            return float(0.5 * (low + high))
+    x = 1.0
+    for k in range(n):
+        if passes(hunt, n, k, G_HIGH) == 1:
+            side, g1 = hunt[at + LOCAL * n + k], hunt[at + G_HIGH * n + k]
+            d0, d1 = width * hunt[at + D_LOW * n + k], width * hunt[at + D_HIGH * n + k]
+            root = first_root(hunt[at + G_LOW * n + k], d0, g1, d1, side) if is_finite(d0 + d1) == 1 else 0.5
+            if rounds % 2 == 1 and hunt[at + ACTION * n + k] >= float(ANEW):
+                root = beyond_low(hunt, n, k, root)
+            x = min(x, root)
+    x = low + x * width
+    # a little beyond the root, from the nearer end, so that the root lies between two near ends
+    ahead = 1 if x - low < high - x else 0
+    distance = x - low if ahead == 1 else high - x
+    beyond = distance * min(0.1, math.sqrt(distance / hunt[WHOLE])) if rounds > 0 else 0.0
+    x += beyond if ahead == 1 else -beyond
+    least = 0.5 * hunt[BLUR]
+    if distance < least:  # at the end of the bracket: rounding of g hides it for longer than the resolution of time
+        hunt[BLUR] *= _WIDER
+    return float(min(max(x, low + least), high - least))
+
+
+@plain
+def concealed(hunt: A, n: int) -> float:
+    """Return the point of a bracket to try for events that its end does not show; its end without such events."""
+    at = N_HEAD
+    low, high = hunt[LOW], hunt[HIGH]
+    x = 2.0
+    if hunt[PROBES] < _MOST_PROBES and high - low > 8.0 * hunt[RESOLUTION]:
+        for k in range(n):
+            g0, g1 = hunt[at + G_LOW * n + k], hunt[at + G_HIGH * n + k]
+            d0, d1 = (high - low) * hunt[at + D_LOW * n + k], (high - low) * hunt[at + D_HIGH * n + k]
+            if is_finite(d0 + d1) == 1 and passes(hunt, n, k, G_HIGH) == 0:
+                x = min(x, dip(g0, d0, g1, d1, hunt[at + LOCAL * n + k]))
+    return float(low + x * (high - low)) if x < 1.0 else float(high)

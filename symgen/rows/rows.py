@@ -1,0 +1,373 @@
+"""Loops over many runs of one compiled model: no Python between runs, no lock held, memory of one run and the results.
+
+Each run is an instance of the frame of single runs, so it takes the same steps. Several threads call these functions at
+once, each with its own rows and working memory.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from symgen.layout import abi
+from symgen.layout import ensemble_abi as e
+from symgen.layout.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, Observed, Outputs
+from symgen.layout.redundancy import choose_rows
+from symgen.loopcode.bare import bare, part
+from symgen.loopcode.loop_instances import called, signature_of
+from symgen.loopcode.loop_instances import loop as compiled_loop
+from symgen.loops import search_records as records
+from symgen.loops.frame import store
+from symgen.loops.hunting import notes_at, with_events
+from symgen.loops.stopping import ROW, change, due, same, with_stops
+from symgen.loops.watch import iterations_in
+from symgen.native import types
+from symgen.runs.observe import observe_rates, observe_rows
+from symgen.store.jit import jit
+
+_F8, _A = types.float64, types.float64[::1]
+
+_N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
+
+
+def take(array: Any, first: int, size: int, out: Any) -> None:
+    """Set `out` to elements of an array."""
+    for i in range(size):
+        out[i] = array[first + i]
+
+
+def begin_run(state: Any, limits: Any) -> None:
+    """Reset the state of a run, except for the stop flag."""
+    gauges = state.gauges
+    for i in range(gauges.shape[0]):
+        gauges[i] = 0.0
+    for i in range(state.clock.shape[0]):
+        state.clock[i] = 0.0
+    gauges[abi.LIMIT_PHI], gauges[abi.LIMIT_DRIFT], gauges[abi.LIMIT_ENERGY] = limits[0], limits[1], limits[2]
+    gauges[abi.WARN_PIVOT] = limits[3]
+    gauges[abi.SMALLEST_PIVOT] = gauges[abi.LAST_SINE] = gauges[abi.LAST_SHORT] = 1.0
+    for i in range(abi.N_CONTROL):
+        if i != abi.STOP:
+            state.control[i] = 0
+    for i in range(state.iw.shape[0]):
+        state.iw[i] = 0
+
+
+def forget(state: Any) -> None:
+    """Do nothing: a run without switching functions has no data of them."""
+
+
+def take_notes(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
+    """Return the end code of a run without events."""
+    return code
+
+
+def pick(sizes: Any, picks: Any, series: Any, count: int, start: float, values: Any) -> None:
+    """Write the requested quantities at the outputs of a run, one after the other; nan at outputs not reached.
+
+    Parameters
+    ----------
+    sizes : Sizes
+        Of the model.
+    picks : Array of int64
+        (source, column) of each quantity.
+    series : Kept
+        Of the run.
+    count : int
+        Number of outputs reached.
+    start : float
+        Energy at the start [J].
+    values : Array
+        Written.
+    """
+    outputs, observed, status, work = series.outputs, series.observed, series.outputs.status, sizes.nq + sizes.nv
+    n_times = outputs.states.shape[0]
+    for c in range(picks.shape[0] // 2):
+        source, column, to = picks[2 * c], picks[2 * c + 1], c * n_times
+        for k in range(count):
+            if source == e.STATE:
+                value = outputs.states[k, column]
+            elif source == e.STATUS:
+                value = status[k, column]
+            elif source == e.ENERGY:
+                value = status[k, abi.KINETIC] + status[k, abi.POTENTIAL]
+            elif source == e.ENERGY_ERROR:
+                value = status[k, abi.KINETIC] + status[k, abi.POTENTIAL] - start - outputs.states[k, work]
+            elif source == e.ACCELERATION:
+                value = observed.accelerations[k, column]
+            elif source == e.MULTIPLIER:
+                value = observed.multipliers[k, column]
+            else:
+                value = observed.rows[k, sizes.m + column]
+            values[to + k] = value
+        for k in range(count, n_times):
+            values[to + k] = math.nan
+
+
+def summarise(code: int, state: Any, row: Any) -> None:
+    """Write the summary of a run, in the order of `symgen.layout.ensemble_abi.SUMMARY`."""
+    w, clock, gauges, control, events = state.w, state.clock, state.gauges, state.control, state.events
+    narrowest, where = math.nan, math.nan
+    for k in range(min(control[abi.EVENTS], _MAX_EVENTS)):
+        pivot = events[k * _N_EVENT + abi.EVENT_PIVOT]
+        if not narrowest <= pivot:
+            narrowest, where = pivot, events[k * _N_EVENT + abi.EVENT_IN]
+    at = e.CODE
+    for number in (
+        float(code),
+        clock[abi.TIME],
+        float(control[abi.OUTPUTS]),
+        float(control[abi.STEPS]),
+        float(control[abi.REJECTED]),
+        float(control[abi.EVALUATIONS]),
+        float(iterations_in(state)),
+        float(state.iw[abi.LIGHT]),
+        gauges[abi.MAX_PHI],
+        gauges[abi.MAX_DRIFT],
+        gauges[abi.MAX_ENERGY],
+        gauges[abi.ENERGY_START],
+        gauges[abi.ENERGY_SCALE],
+        gauges[abi.MAX_ENERGY_JUMP],
+        gauges[abi.SMALLEST_PIVOT],
+        float(control[abi.EVENTS]),
+        where,
+        narrowest,
+        w[abi.PHI],
+        w[abi.DRIFT],
+        w[abi.LENGTH],
+        w[abi.SPEED],
+    ):
+        row[at] = number
+        at += 1
+
+
+@called
+def follow_rows(chunk: Any, state: Any, w: Any) -> int:
+    """Choose independent rows at the position of `w`; return 1 where they have changed."""
+    if chunk.dense.shape[0] == 0:
+        return 0
+    return int(choose_rows(chunk.layout, chunk.layout.m - state.control[abi.MASKED], 1, w, chunk.dense))
+
+
+def take_row(system: Any, r: int) -> None:
+    """Do nothing: no row has stops."""
+
+
+def hold(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
+    """Do nothing: the same parameters hold at all outputs of a run without stops."""
+
+
+def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, series: Any) -> None:
+    """Write the results of a run.
+
+    Parameters
+    ----------
+    code, r : int
+        End code of the loop, and the row.
+    system, span : tuple, Span
+        Arguments of the loop.
+    model : tuple
+        Its sizes, and the functions called at outputs.
+    chunk, state, series
+        As for `run_rows`; `state` is that of the run at its end.
+    """
+    sizes, rates, confirm, accept, observe = model
+    law, nw, count = (sizes, rates, confirm, accept), state.w.shape[0], state.control[abi.OUTPUTS]
+    summarise(code, state, part(chunk.summary, r * e.N_SUMMARY, e.N_SUMMARY))
+    until = series.outputs.times[series.outputs.times.shape[0] - 1]
+    if chunk.ends == 1 and count == 0 and code == abi.DONE:  # an event has ended it
+        series.outputs.times[0] = state.clock[abi.TIME]
+        store(sizes, state.w, series.outputs, 0, state.y)
+        count = 1
+    if chunk.rates == 1:
+        for i in range(state.iw.shape[0]):
+            state.iw[i] = 0
+    begun, outputs, observed = part(chunk.ws, r * nw, nw), series.outputs, series.observed
+    follows = state.control[abi.MASKED] > 0 and chunk.dense.shape[0] > 0
+    for k in range(count if chunk.rates == 1 or chunk.joints == 1 else 0):
+        hold(system, span, chunk, r, state, outputs.times, k)
+        here = Outputs(outputs.times[k : k + 1], outputs.states[k : k + 1], outputs.status[k : k + 1])
+        seen = Observed(observed.accelerations[k : k + 1], observed.multipliers[k : k + 1], observed.rows[k : k + 1])
+        if chunk.rates == 1:
+            observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
+            if follows and follow_rows(chunk, state, begun) != 0:  # the independent rows depend on the position
+                observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
+        if chunk.joints == 1:
+            observe_rows(observe, sizes, here, 1, state.p, state.w, seen, state.room)
+    length = (chunk.picks.shape[0] // 2) * series.outputs.times.shape[0]
+    values = part(chunk.values, r * length, length)
+    pick(sizes, chunk.picks, series, count, state.gauges[abi.ENERGY_START], values)
+    if chunk.rates == 1 or chunk.joints == 1:
+        # loops take the padding behind a state for zeros; observed values may even be nan
+        for i in range(2 * sizes.ny + series.observed.rows.shape[1]):
+            state.room[i] = 0.0
+    series.outputs.times[series.outputs.times.shape[0] - 1] = until
+    state.control[e.RUNS_DONE] += 1
+
+
+def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series: Any) -> int:
+    """Run the selected rows from the starts of `symgen.starts.starting.close_runs`.
+
+    Parameters
+    ----------
+    model : tuple
+        First argument of the loop over one run; then, for observed values at outputs, sizes and functions
+        (`symgen.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``.
+    scheme, span
+        As for a single run.
+    chunk : Chunk
+        The rows.
+    state : State
+        Memory of one run; an additional element of `control` counts finished runs.
+    series : Kept
+        Outputs of one run, at the same times for every run.
+
+    Returns
+    -------
+    int
+        Number of selected rows that are done: all, unless the run was stopped.
+    """
+    chunk, state, series = bare(chunk), bare(state), bare(series)
+    system, observers = model
+    ny, n_p, nw = observers[0].ny, state.p.shape[0], state.w.shape[0]
+    for s in range(chunk.selected.shape[0]):
+        if state.control[abi.STOP] != 0:
+            return int(s)
+        r = chunk.selected[s]
+        begin_run(state, chunk.limits)
+        take_row(system, r)
+        take(chunk.ys, r * ny, ny, state.y)
+        take(chunk.ps, r * n_p, n_p, state.p)
+        take(chunk.ws, r * nw, nw, state.w)
+        forget(state)
+        code = integrate(system, scheme, span, state, series.outputs)
+        while code == abi.CHOOSE or code == abi.NOTED or code == abi.MET:
+            if code == abi.CHOOSE:
+                follow_rows(chunk, state, state.w)
+            elif take_notes(code, r, observers[0].width, chunk, state) == abi.DONE:
+                break
+            code = integrate(system, scheme, span, state, series.outputs)
+        if code == abi.STOPPED:
+            return int(s)
+        if code == abi.DONE:  # a grid of steps meets the end up to rounding
+            state.clock[abi.TIME] = span.until
+        if code == abi.MET:
+            code = abi.DONE
+        else:
+            take_notes(code, r, observers[0].width, chunk, state)
+        end_run(code, r, system, span, observers, chunk, state, series)
+    return int(chunk.selected.shape[0])
+
+
+# -- switching functions -----------------------------------------------------------------------------------------------
+
+
+def forget_functions(state: Any) -> None:
+    """Clear the sides of switching functions and the notes of the run before."""
+    hunt = bare(state).hunt
+    n = int(hunt[records.COUNT])
+    for i in range(records.N_HEAD + records.SIDE * n, records.N_HEAD + records.N_COLUMNS * n):
+        hunt[i] = 0.0
+    hunt[records.NOTED] = hunt[records.ACCEPTED] = hunt[records.PASSED] = hunt[records.SINCE] = 0.0
+
+
+@called
+def take_notes_of_events(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
+    """Write the events noted by a run to its row; return the end code of the run.
+
+    Parameters
+    ----------
+    code, r : int
+        End code of its loop, and the row.
+    width : int
+        Of a state.
+    chunk, state
+        As for `run_rows`.
+    """
+    hunt, clock = state.hunt, state.clock
+    n, numbers = int(hunt[records.COUNT]), chunk.events.shape[0] // (chunk.ps.shape[0] // state.p.shape[0])
+    first, row = notes_at(n, width, state.w.shape[0]), part(chunk.events, r * numbers, numbers)
+    ended = code
+    for i in range(int(hunt[records.NOTED])):
+        t, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
+        at = e.HEAD_OF_EVENTS + e.OF_EVENT * k
+        if row[at] == 0.0:
+            row[at + 1] = t
+        row[at] += 1.0
+        row[at + 2] = t
+        if t == clock[abi.TIME] and hunt[records.N_HEAD + records.ACTION * n + k] == float(records.LEAVE):
+            ended = abi.DONE
+    hunt[records.NOTED] = hunt[records.ACCEPTED] = 0.0
+    if code == abi.UNDEFINED:
+        for k in range(n):
+            g = hunt[records.N_HEAD + records.N_COLUMNS * n + k]
+            if not g == g and not row[e.IMPOSSIBLE_EVENT] == row[e.IMPOSSIBLE_EVENT]:
+                row[e.IMPOSSIBLE_EVENT] = float(k)
+    return ended
+
+
+# -- stops -------------------------------------------------------------------------------------------------------------
+
+
+def take_stops(system: Any, r: int) -> None:
+    """Select the stops of a row."""
+    stops = system[1]
+    stops.head[ROW] = r if stops.rows.shape[0] > 2 else 0  # or one table for all
+
+
+def hold_between_stops(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
+    """Set the parameters to those at output `k`, from those of the one before; at a stop, to those before it."""
+    _, stops, _, prepare, prepare_law = system
+    control, n_p, changed = state.control, state.p.shape[0], False
+    if k == 0:
+        control[abi.PASSED] = 0
+        take(chunk.ps, r * n_p, n_p, state.p)
+    while times[k] > due(stops, control[abi.PASSED]) + same(stops, span, times[k]):
+        changed = change(stops, control[abi.PASSED], state.p) or changed
+        control[abi.PASSED] += 1
+    if changed:
+        prepare(state.p)
+        prepare_law(state.p)
+
+
+# -- loops -------------------------------------------------------------------------------------------------------------
+
+
+def integrate(*arguments: Any) -> int:
+    """Mark the place of the loop over one run, which `instances` and `on_device` insert."""
+    raise NotImplementedError
+
+
+@jit(types.int64(_F8, _A, _A, _A, _A, _A))
+def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
+    """Replace the emitted ``observe`` where no joint coordinate is requested, so that it is not compiled."""
+    return 0
+
+
+_EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
+_STOPS = {"take_row": take_stops, "hold": hold_between_stops}
+_loops: dict[Any, Any] = {}
+
+
+def over_rows(loop: Any, events: bool = False, stops: bool = False) -> Any:
+    """Return the loop over many runs around that over a single run, made at the first use.
+
+    Parameters
+    ----------
+    loop : compiled loop
+        From `symgen.loops.frame.loop`.
+    events, stops : bool
+        Whether rows have switching functions, and stops.
+    """
+    if (loop, events, stops) not in _loops:
+        name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}" + "_with_events" * events + "_with_stops" * stops
+        inner = with_events(loop) if events else loop
+        inner = with_stops(inner) if stops else inner
+        args = signature_of(inner).arguments
+        observers = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
+        model = types.RecordType((*args[:1], observers))
+        signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
+        meanings: dict[str, Any] = {**(_EVENTS if events else {}), **(_STOPS if stops else {})}
+        compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)
+        _loops[loop, events, stops] = globals()[name] = compiled  # it is found by its name, as all loops are
+    return _loops[loop, events, stops]

@@ -1,0 +1,351 @@
+"""Events of a run: their data for loops, their actions, and their accumulation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.describe.events import RECORD, RESET, STOP
+from symgen.layout import abi
+from symgen.loops import hunting
+from symgen.loops import search_records as searching
+from symgen.runs.resets import Impact, are_lost, impact_of
+
+if TYPE_CHECKING:
+    from symgen.layout.compiled import CompiledModel, ModelInfo
+    from symgen.layout.records import Sizes, State
+    from symgen.loops.run_spec import Watched
+    from symgen.runs.outcome import Outcome
+
+Array = NDArray[np.float64]
+
+#: Times until events accumulate below this part of the time count as zero.
+NOTHING_LEFT = 1e-9
+#: Number of intervals between events that must have shrunk, and largest difference of their ratios.
+_SHRINKING, _STEADY = 4, 0.2
+#: This many resets within this part of the time are an accumulation as well.
+_CROWDED, _HEAP = 50, 1e-7
+
+
+def impact_at(
+    watched: Watched, compiled: CompiledModel, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array
+) -> Impact:
+    """Return the effect of resets at one time on a state; see `symgen.runs.resets.impact_of`.
+
+    Parameters
+    ----------
+    watched : Watched
+        Switching functions of the run.
+    compiled : CompiledModel
+        Model and method.
+    numbers : sequence of int
+        Numbers of the events.
+    t, y, p, w
+        Time, state, parameters and scratch; the geometry in it is overwritten.
+    """
+    assert watched.masses is not None, "where there are resets, it is known what they are the shortest in"
+    names = " and ".join(f"'{watched.names[n]}'" for n in numbers)
+    where = f"event{'s' * (len(numbers) > 1)} {names}: reset"
+    return impact_of(compiled, [watched.resets[n] for n in numbers], watched.masses, where, t, y, p, w)
+
+
+def event_state(watched: Watched, sizes: Sizes, state: State) -> hunting.HuntingState:
+    """Return the initial state of a run with that of its events."""
+    events, n = len(watched.names), len(watched.names) + len(watched.switches)
+    points = [x for switch in watched.switches for x in switch.points]
+    first = hunting.notes_at(n, sizes.width, len(state.w))
+    noted = events + sum(switch.holds for switch in watched.switches)
+    tables = first + ((searching.NOTES + 2 * noted) * (2 + sizes.width) if noted else 0)
+    beginning = tables + len(points)
+    hunt = np.zeros(beginning + (0 if watched.rows is None else 1 + 2 * sizes.width))
+    hunt[searching.COUNT], hunt[searching.NEEDS_RATES] = n, watched.needs_rates
+    hunt[searching.TABLES], hunt[tables:beginning] = tables, points
+    hunt[searching.BEGINNING] = 0 if watched.rows is None else beginning
+    hunt[searching.REACH] = 0.0 if watched.adaptive else np.inf
+    columns = hunt[searching.N_HEAD :][: searching.N_COLUMNS * n].reshape(-1, n)
+    columns[searching.DIRECTION, :events] = watched.directions
+    columns[searching.ACTION, :events] = [action != RECORD for action in watched.actions]
+    columns[searching.ACTION, events:] = [(searching.ANEW, searching.EXAMINE)[x.holds] for x in watched.switches]
+    columns[searching.MISSED, events:] = [switch.missed for switch in watched.switches]
+    columns[searching.PERIOD, events:] = [switch.period for switch in watched.switches]
+    sizes_of_tables = [len(switch.points) for switch in watched.switches]
+    columns[searching.POINTS, events:] = sizes_of_tables
+    columns[searching.FIRST, events:] = np.cumsum([0, *sizes_of_tables])[:-1]
+    return hunting.HuntingState(*state, hunt)
+
+
+@dataclass(frozen=True)
+class Happening:
+    """An event that happened.
+
+    Attributes
+    ----------
+    t : float
+        Time [s].
+    name, action : str
+        Name and action of the event.
+    state : Array, shape (nq + nv,)
+        Coordinates and velocities before a reset.
+    impact : Impact or None
+        Effect of a reset; resets at the same time share it.
+    energy : float
+        Energy added by the reset [J]; for resets at the same time, the first has the total.
+    """
+
+    t: float
+    name: str
+    action: str
+    state: Array
+    impact: Impact | None = None
+    energy: float = 0.0
+
+
+class Events:
+    """The events of a run.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    watched : Watched
+        Switching functions of its events.
+    until : float
+        End of the run [s].
+
+    Attributes
+    ----------
+    happened : list of Happening
+        Past events in order of time.
+    accumulation : float or None
+        Time at which events accumulate [s].
+    """
+
+    def __init__(self, compiled: CompiledModel, watched: Watched, until: float) -> None:
+        self.compiled, self.watched, self.until = compiled, watched, until
+        self.happened: list[Happening] = []
+        self.accumulation: float | None = None
+        self._jump, self._changes = "", False
+
+    def forget_after(self, t: float) -> None:
+        """Remove later events, as a run continues from an earlier state."""
+        self.happened = [event for event in self.happened if event.t <= t]
+        self.accumulation = None
+
+    def take(self, state: hunting.HuntingState) -> list[tuple[int, Happening]]:
+        """Store and return the passages noted by a loop since the last call, with numbers of events."""
+        names, actions, size = self.watched.names, self.watched.actions, self.compiled.info.work
+        notes = hunting.taken_notes(state.hunt, len(state.y), len(state.w))
+        events = [
+            (number, Happening(t, names[number], actions[number], y[:size]))
+            for t, number, y in notes
+            if number < len(names)
+        ]
+        self._changes = len(events) < len(notes)
+        self.happened += (event for _, event in events)
+        return events
+
+    def meet(self, state: hunting.HuntingState, events: Sequence[tuple[int, Happening]]) -> int:
+        """Execute the actions of the events at which a loop ended; return `DONE` if it may be entered again.
+
+        Parameters
+        ----------
+        state : State
+            State at the events; changed by resets.
+        events : sequence of (int, Happening)
+            From `take`.
+
+        Raises
+        ------
+        InputError
+            If the constraints, or other resets at the same time, do not allow the velocities of a reset.
+        """
+        now = float(state.clock[abi.TIME])
+        if self._changes:  # of formulas of rows
+            if self._finds_jump(state):
+                return abi.JUMPED
+            if self.watched.adaptive:
+                self._begin_anew(state)
+        here = [(number, event) for number, event in events if event.t == now]
+        resets = [number for number, event in here if event.action == RESET]
+        if resets:
+            self._reset(state, resets)
+        if any(event.action == STOP for _, event in here):
+            return abi.MET
+        if resets and (self._accumulates(resets) or self._is_back(resets, state)):
+            return abi.GATHERED
+        return abi.DONE
+
+    def _begin_anew(self, state: hunting.HuntingState) -> None:
+        """Discard what schemes keep of past steps."""
+        state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
+        state.clock[abi.ALLOWED] = 0.0
+
+    def _finds_jump(self, state: hunting.HuntingState) -> bool:
+        """Return whether a row jumps or has a kink in the last step, and store the sentence on it."""
+        rows = self.watched.rows
+        self._jump = "" if rows is None else rows.sentence(self.compiled, state)
+        return bool(self._jump)
+
+    # -- resets --------------------------------------------------------------------------------------------------------
+
+    def _reset(self, state: hunting.HuntingState, numbers: Sequence[int]) -> None:
+        info, watched, now = self.compiled.info, self.watched, float(state.clock[abi.TIME])
+        y, w = state.y[: info.ny].copy(), state.w.copy()
+        impact = impact_at(watched, self.compiled, numbers, now, y, state.p, w)
+        state.y[info.nq : info.nq + info.nv] = impact.v
+        state.y[info.work] += impact.energy  # work of the impulses: the energy balance continues
+        state.w[abi.KINETIC] += impact.energy
+        self._begin_anew(state)
+        names, energy = {watched.names[number] for number in numbers}, impact.energy
+        first = len(self.happened)
+        while first > 0 and self.happened[first - 1].t == now:
+            first -= 1
+        for i, event in enumerate(self.happened[first:], first):
+            if event.action == RESET and event.name in names:
+                self.happened[i] = replace(event, impact=impact, energy=energy)
+                energy = 0.0
+
+    # -- events that accumulate ----------------------------------------------------------------------------------------
+
+    def _accumulates(self, numbers: Sequence[int]) -> bool:
+        """Return whether resets accumulate; store the time at which they do."""
+        for number in numbers:
+            name = self.watched.names[number]
+            times = self._latest_resets(_SHRINKING + 2, name)
+            intervals = np.diff(times)
+            if len(intervals) > _SHRINKING:
+                last = intervals[-_SHRINKING - 1 :]
+                ratios = last[1:] / last[:-1]
+                if ratios.max() < 1.0 and np.ptp(ratios) < _STEADY:
+                    rest = _rest(float(last[-2]), float(last[-1]))
+                    if rest < NOTHING_LEFT * times[-1]:
+                        self.accumulation = float(times[-1]) + rest
+                        return True
+        resets = self._latest_resets(_CROWDED + 1)
+        if len(resets) > _CROWDED and resets[-1] - resets[0] < _HEAP * resets[-1]:
+            self.accumulation = float(resets[-1])
+            return True
+        return False
+
+    def _latest_resets(self, count: int, name: str | None = None) -> Array:
+        """Return the last distinct times of resets, of all events or of one; several resets may share a time."""
+        times = list[float]()
+        for event in reversed(self.happened):
+            if event.action == RESET and name in (None, event.name) and (not times or event.t != times[-1]):
+                times.append(event.t)
+                if len(times) == count:
+                    break
+        return np.array(times[::-1])
+
+    def _is_back(self, numbers: Sequence[int], state: hunting.HuntingState) -> bool:
+        """Return whether the rebound from a reset is lost in rounding; store the time of accumulation."""
+        directions = [(number, self.watched.directions[number]) for number in numbers]
+        if not are_lost(self.compiled, self.watched.function, directions, state, self.until):
+            return False
+        now = float(state.clock[abi.TIME])
+        times = [event.t for event in self.happened if event.name == self.watched.names[numbers[0]]][-3:]
+        rest = 0.0
+        if len(times) == 3 and times[2] - times[1] < times[1] - times[0]:
+            rest = _rest(times[1] - times[0], times[2] - times[1])
+        self.accumulation = now + rest
+        return True
+
+    @property
+    def recent(self) -> tuple[str, ...]:
+        """Names of the events with the latest resets."""
+        names = {e.name for e in self.happened[-_SHRINKING:] if e.action == RESET}
+        return tuple(name for name in self.watched.names if name in names)
+
+    def reason(self, code: int, state: Any, t: float) -> str:
+        """Return the reason for the end of a run at a time [s]: events accumulate, or a condition is undefined."""
+        if code == abi.GATHERED:
+            return gathered(self.recent, self.accumulation or t)
+        return undefined(self.watched.names[hunting.undefined_event(state)], t)
+
+    def jump(self, state: Any) -> str:
+        """Return the sentence on a row that jumps or has a kink where a run failed; empty without one."""
+        _ = self._jump or self._finds_jump(state)
+        return self._jump
+
+
+def _rest(before: float, last: float) -> float:
+    """Return the remainder of a geometric series after two of its terms (Aitken)."""
+    ratio = last / before
+    return last * ratio / (1.0 - ratio)
+
+
+def gathered(names: Sequence[str], t: float) -> str:
+    """Return the reason for the end of a run whose events `names` accumulate at a time [s]."""
+    events = " and ".join(f"'{name}'" for name in names)
+    return f"events of {events} accumulate at t = {t:.13g} s: the model does not determine the motion after that"
+
+
+def undefined(name: str, t: float) -> str:
+    """Return the reason for the end of a run at an event with an undefined condition, at a time [s]."""
+    return f"the condition of the event '{name}' is undefined at t = {t:.6g} s"
+
+
+# -- events with names -------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class EventRecord:
+    """An event that happened during a run.
+
+    Attributes
+    ----------
+    t : float
+        Time [s].
+    name, action : str
+        Name of the event, and its action: ``record``, ``stop`` or ``reset``.
+    q, v : mapping
+        Coordinates and velocities at the event, before a reset.
+    v_after : mapping or None
+        Velocities after a reset.
+    impulses : mapping
+        Impulses of a reset: of constraint rows, signed as the multipliers, and along the velocities with new values.
+    work : float
+        Energy added by a reset [J]; for resets at the same time, the first has the total.
+    """
+
+    t: float
+    name: str
+    action: str
+    q: Mapping[str, float]
+    v: Mapping[str, float]
+    v_after: Mapping[str, float] | None = None
+    impulses: Mapping[str, float] = field(default_factory=dict)
+    work: float = 0.0
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the record as JSON data."""
+        after = None if self.v_after is None else dict(self.v_after)
+        state = {"q": dict(self.q), "v": dict(self.v), "v_after": after}
+        numbers = {"impulses": dict(self.impulses), "work": self.work}
+        return {"t": self.t, "name": self.name, "action": self.action, **state, **numbers}
+
+
+def stopped(outcome: Outcome) -> list[str]:
+    """Return a note on the event at which a run ended, if any."""
+    names = [f"'{e.name}'" for e in outcome.happened if e.action == STOP and e.t == outcome.end]
+    if not names or outcome.code != abi.DONE:
+        return []
+    return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
+
+
+def record_of(info: ModelInfo, event: Happening) -> EventRecord:
+    """Return an event of a run with names."""
+    q = {c.name: float(x) for c, x in zip(info.coordinates, event.state[: info.nq], strict=True)}
+    v = {c.name: float(x) for c, x in zip(info.velocities, event.state[info.nq :], strict=True)}
+    impact = event.impact
+    if impact is None:
+        return EventRecord(event.t, event.name, event.action, q, v)
+    after = {c.name: float(x) for c, x in zip(info.velocities, impact.v, strict=True)}
+    signs = [-1.0] * info.m + [1.0] * len(impact.imposed)  # D^T lambda stands on the left of the equations of motion
+    names = [*(row.name for row in info.rows), *impact.imposed]
+    impulses = {name: float(s * x) for name, s, x in zip(names, signs, impact.impulses, strict=True)}
+    return EventRecord(event.t, event.name, event.action, q, v, after, impulses, event.energy)

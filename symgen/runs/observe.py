@@ -1,0 +1,195 @@
+"""Functions of the motion at outputs of one run or many: rates, multipliers, joint coordinates, formulas."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from symgen.layout import abi
+from symgen.layout import ensemble_abi as e
+from symgen.layout.records import OBSERVED, OUTPUTS, SIZES
+from symgen.layout.start_records import record_type
+from symgen.loopcode.bare import part
+from symgen.native import types
+from symgen.store.jit import jit
+
+_A, _I, _I8 = types.float64[::1], types.int64[::1], types.int64
+_M, _C = types.float64[:, ::1], types.float64[:, :, ::1]
+
+
+@jit()
+def output(sizes: Any, outputs: Any, k: int, y: Any, w: Any) -> None:
+    """Set `y` and the angles in `w` to their values at an output."""
+    for i in range(sizes.ny):
+        y[i] = outputs.states[k, i]
+    for i in range(outputs.status.shape[1] - abi.N_STATUS):
+        w[abi.WINDING + i] = outputs.status[k, abi.N_STATUS + i]
+
+
+@jit(_I8(types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT)), OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
+def observe_rates(model: Any, outputs: Any, count: int, p: Any, w: Any, iw: Any, observed: Any, room: Any) -> int:
+    """Evaluate v' and lambda at outputs.
+
+    Parameters
+    ----------
+    model : tuple
+        Its sizes, and ``rates`` or ``rhs``, ``confirm`` and ``accept`` (`symgen.layout.abi`).
+    outputs : Outputs
+        In the order of time.
+    count : int
+        Number of outputs.
+    p, w, iw : Array
+        Arguments of emitted functions, scratch and counters as at the start of the run.
+    observed : Observed
+        Receives accelerations and multipliers.
+    room : Array
+        Working memory for two states.
+    """
+    sizes, rates, confirm, accept = model
+    y, rate = part(room, 0, sizes.ny), part(room, sizes.ny, sizes.ny)
+    for k in range(count):
+        output(sizes, outputs, k, y, w)
+        accept(outputs.times[k], y, p, w, iw)  # updates the memory of a method: a partition, a basis
+        if rates(outputs.times[k], y, p, w, iw, rate) != 0:
+            confirm(outputs.times[k], y, p, w, iw, rate)
+        for i in range(sizes.nv):
+            observed.accelerations[k, i] = rate[sizes.nq + i]
+        for i in range(sizes.m):
+            observed.multipliers[k, i] = w[sizes.multipliers + i]
+    return 0
+
+
+@jit(_I8(abi.OBSERVE, SIZES, OUTPUTS, _I8, _A, _A, OBSERVED, _A))
+def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: Any, observed: Any, room: Any) -> int:
+    """Evaluate a function of the motion at outputs: D v' - gamma and joint coordinates, or other quantities.
+
+    Parameters
+    ----------
+    observe : emitted function
+        See `symgen.layout.abi`.
+    sizes : Sizes
+        Of the model.
+    outputs, count, p, w
+        As for `observe_rates`.
+    observed : Observed
+        Holds accelerations and multipliers; receives rows, in the order that ``observe`` writes.
+    room : Array
+        Working memory for two states and a row.
+    """
+    ny, length = sizes.ny, observed.rows.shape[1]
+    y, rate, row = part(room, 0, ny), part(room, ny, ny), part(room, 2 * ny, length)
+    for k in range(count):
+        output(sizes, outputs, k, y, w)
+        for i in range(sizes.nv):
+            rate[sizes.nq + i] = observed.accelerations[k, i]
+        if k < observed.multipliers.shape[0]:  # a device has room for them only where they are requested
+            for i in range(sizes.m):
+                w[sizes.multipliers + i] = observed.multipliers[k, i]
+        observe(outputs.times[k], y, p, w, rate, row)
+        for i in range(length):
+            observed.rows[k, i] = row[i]
+    return 0
+
+
+@jit(_I8(abi.MEASURE, abi.MEASURE, SIZES, OUTPUTS, _A, _A, _A))
+def observe_status(geometry: Any, measure: Any, sizes: Any, outputs: Any, p: Any, w: Any, y: Any) -> int:
+    """Measure states, one after the other: the status and the angles that count turns.
+
+    Parameters
+    ----------
+    geometry, measure : emitted functions
+        See `symgen.layout.abi`.
+    sizes, p, w
+        As for `observe_rows`; the scratch holds the angles before the first state.
+    outputs : Outputs
+        Holds states, and angles that count turns, nan for unknown ones; receives the status.
+    y : Array, shape (ny,)
+        Working memory.
+    """
+    for k in range(outputs.times.shape[0]):
+        for i in range(sizes.ny):
+            y[i] = outputs.states[k, i]
+        for i in range(outputs.status.shape[1] - abi.N_STATUS):
+            if math.isfinite(outputs.status[k, abi.N_STATUS + i]):
+                w[abi.WINDING + i] = outputs.status[k, abi.N_STATUS + i]
+        geometry(outputs.times[k], y, p, w)
+        measure(outputs.times[k], y, p, w)
+        for i in range(abi.N_STATUS):
+            outputs.status[k, i] = w[i]
+        for i in range(outputs.status.shape[1] - abi.N_STATUS):
+            outputs.status[k, abi.N_STATUS + i] = w[abi.WINDING + i]
+    return 0
+
+
+# -- runs of an ensemble -----------------------------------------------------------------------------------------------
+
+
+#: Results of the runs of an ensemble, and working memory.
+#: - times: Output times [s].
+#: - selected: Runs.
+#: - seen (shape (runs, columns, times)): Results; nan at times that a run did not reach.
+#: - first: The first column that is copied.
+#: - places: Destination of each column from there on: (array, index), flat.
+#: - ps, ws (shapes (runs, np), (runs, nw)): Parameters and scratch, which is overwritten.
+#: - y, rates (shape (ny,)): Working memory.
+LEFT = record_type(
+    "Left",
+    __name__,
+    ("times", _A),
+    ("selected", _I),
+    ("seen", _C),
+    ("first", _I8),
+    ("places", _I),
+    ("ps ws", _M),
+    ("y rates", _A),
+)
+Left: Any = LEFT.constructor
+
+
+@jit()
+def bring(columns: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any, w: Any) -> bool:
+    """Copy results of a run at an output to the arguments of functions; return whether the run reached it."""
+    for c in range(places.shape[0] // 2):
+        value, at = columns[r, first + c, k], places[2 * c + 1]
+        if places[2 * c] == e.OF_Y:
+            y[at] = value
+        elif places[2 * c] == e.OF_RATES:
+            rates[at] = value
+        else:
+            w[at] = value
+    reached = True
+    for i in range(y.shape[0]):
+        reached = reached and not math.isnan(y[i])
+    return reached
+
+
+@jit(_I8(types.RecordType((LEFT, abi.OBSERVE, abi.MEASURE)), _C, _I8, _C))
+def measure_rows(model: Any, values: Any, at: int, entries: Any) -> int:
+    """Evaluate formulas of a run, and the entries of D that vary, at all outputs of runs.
+
+    Parameters
+    ----------
+    model : tuple
+        A `Left`, then a function of the formulas and ``geometry`` (`symgen.layout.abi`).
+    values : Array, shape (runs, times, numbers)
+        Written; nan at times that a run did not reach.
+    at : int
+        Where the entries begin in ``w``.
+    entries : Array, shape (runs, times, entries)
+        Written likewise; without runs where they are not requested.
+    """
+    (times, selected, columns, first, places, ps, ws, y, rates), observe, geometry = model
+    for s in range(selected.shape[0]):
+        r = selected[s]
+        for k in range(times.shape[0]):
+            reached = bring(columns, r, k, first, places, y, rates, ws[r])
+            if reached and values.shape[2] > 0:
+                observe(times[k], y, ps[r], ws[r], rates, values[r, k])
+            for i in range(0 if reached else values.shape[2]):
+                values[r, k, i] = math.nan
+            if entries.shape[0] > 0:
+                if reached:
+                    geometry(times[k], y, ps[r], ws[r])
+                for i in range(entries.shape[2]):
+                    entries[r, k, i] = ws[r, at + i] if reached else math.nan
+    return 0

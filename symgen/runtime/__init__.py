@@ -1,1 +1,0 @@
-"""Loops and starts: imports NumPy and Numba only."""

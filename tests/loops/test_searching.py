@@ -1,0 +1,70 @@
+"""The search for events as compiled code."""
+
+import numpy as np
+import pytest
+
+from symgen.layout import abi
+from symgen.loopcode.exact import plain_form
+from symgen.loops import frame, hunting, search_records, searching, switching
+
+
+def test_the_search_is_in_the_language_of_emitted_code():
+    """`read` raises where a function, or one that it calls, is outside."""
+    function = searching.decide.read(abi.DECIDE.signature.arguments)
+    called = {f.name: f for f in function.called}
+    assert called.keys() >= {"look", "keep", "give_back", "take_in", "candidate", "settle", "concealed"}
+    assert "dip" in {f.name for f in called["concealed"].called}
+
+
+def test_the_first_root_of_a_cubic_is_numpys():
+    """Against the roots of the polynomial with these values and slopes at both ends."""
+    rng, met = np.random.default_rng(1), 0
+    for _ in range(300):
+        g0, d0, g1, d1 = 1.0, 6.0 * rng.standard_normal(), -rng.uniform(0.1, 2.0), 6.0 * rng.standard_normal()
+        rise = g1 - g0
+        roots = np.roots([d0 + d1 - 2.0 * rise, 3.0 * rise - 2.0 * d0 - d1, d0, g0])
+        inside = sorted(r.real for r in roots if abs(r.imag) < 1e-9 and 0.0 < r.real < 1.0)
+        gaps = np.diff(inside)
+        if gaps.size and gaps.min() < 1e-3:
+            continue  # a double root, which rounding has or has not
+        met += 1
+        # roots of a polynomial with coefficients near 10 and gaps above 1e-3: rounding over its slope there
+        assert switching.first_root(g0, d0, g1, d1, 1.0) == pytest.approx(inside[0], abs=1e-9)
+    assert met > 250
+
+
+def hunted(*functions):
+    """What is kept of events whose values and rates are given, with a state of one number that is their time."""
+    n, width = len(functions), 8
+    notes = hunting.notes_at(n, width, 1)
+    hunt = np.zeros(notes + (search_records.NOTES + 2 * n) * (2 + width))
+    hunt[search_records.COUNT] = n
+    w, iw, y = np.zeros(1), np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros(width)
+    out = search_records.N_HEAD + search_records.N_COLUMNS * n
+
+    def told(t, h, doing):
+        hunt[out : out + 2 * n] = np.ravel(np.array([function(t) for function in functions]).T)
+        return plain_form(searching.decide)(hunt, n, notes, t, h, doing, width, y, w, iw)
+
+    return hunt, told
+
+
+def test_a_reset_that_leaves_g_beside_zero_by_rounding_is_no_event_until_g_has_come_away():
+    """Behind a reset g is -1e-16, on its way up: steps so short that it stays there are not events of their own."""
+    beside = 1e-16
+    hunt, told = hunted(lambda t: (t - beside, 1.0))
+    at = search_records.N_HEAD
+    columns = hunt[at : at + search_records.N_COLUMNS]
+    columns[search_records.DIRECTION], columns[search_records.ACTION] = -1.0, 1.0
+    # the event has just happened: the run came from above, and g stands beside zero
+    columns[search_records.SIDE], columns[search_records.FIRED], columns[search_records.SIZE] = -1.0, 1.0, 1.0
+    columns[search_records.G_START], columns[search_records.D_START] = -beside, -1.0
+    told(0.0, 0.0, searching.LOOK)
+    assert columns[search_records.SIDE] == columns[search_records.GRAZING] == 1.0
+    t = 0.0
+    for h in (1e-17, 2e-17, 1e-17):
+        t += h
+        assert told(t, h, frame.NOTHING) == frame.NOTHING
+    assert told(1.0, 1.0 - t, frame.NOTHING) == frame.NOTHING
+    assert columns[search_records.GRAZING] == 0.0 and columns[search_records.SIDE] == 1.0
+    assert told(2.0, 1.0, frame.NOTHING) == frame.NOTHING
