@@ -7,6 +7,7 @@ this line a formula has the rate that its row has in the motion, on either side 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import pairwise
@@ -20,7 +21,6 @@ from symgen.runtime.hunting import beginning_of
 from symgen.runtime.motions import NEAR, jump_at
 
 if TYPE_CHECKING:
-    from symgen.compiling.side import Side
     from symgen.describe.kinks import ChangingRow
     from symgen.runtime.compiled import CompiledModel
 
@@ -41,14 +41,14 @@ class RowJumps:
     ----------
     rows : tuple of ChangingRow
         The rows.
-    values : Side
-        Their switches, row by row, then their formulas.
+    values : callable
+        Their switches, row by row, then their formulas, at a state: a function of (t, y, p, w, ydot).
     until : float
         End of the run [s].
     """
 
     rows: tuple[ChangingRow, ...]
-    values: Side
+    values: Callable[[float, Array, Array, Array, Array], Array]
     until: float = 1.0
 
     @cached_property

@@ -66,7 +66,7 @@ def bead(wire, **row):
     numbers["sign"] = lambda x: float((x > 0) - (x < 0))
 
     def at(y, t):
-        return eval(wire.replace("a.y", "y"), {**numbers, "y": y, "t": t})  # noqa: S307 - the formulas above
+        return eval(wire.replace("a.y", "y"), {**numbers, "y": y, "t": t})
 
     h = 1e-6
     slope, drift = (at(0.5 + h, 0.0) - at(0.5 - h, 0.0)) / (2 * h), (at(0.5, h) - at(0.5, 0.0)) / h
