@@ -237,7 +237,7 @@ def _changing_calls(part: Any) -> Iterator[Call]:
 
 
 def _parted(e: Expr, timely: set[str], sign: float = 1.0) -> tuple[Expr, Expr]:
-    """Return two sums of terms of a formula times a sign: terms of time alone, and all others."""
+    """Return the sums of the terms of a formula, times a sign, that depend on time alone, and of all others."""
     if not any(readings(e)) and set(names(e)) <= timely:
         return (e if sign > 0.0 else call("neg", e)), ZERO
     if isinstance(e, Call) and e.function in ("add", "sub", "neg"):

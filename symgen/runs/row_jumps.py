@@ -42,13 +42,13 @@ class RowJumps:
     rows : tuple of ChangingRow
         The rows.
     values : callable
-        Their switches, row by row, then their formulas.
+        Their switches, row by row, then their formulas, at a state: a function of (t, y, p, w, ydot).
     until : float
         End of the run [s].
     """
 
     rows: tuple[ChangingRow, ...]
-    values: Callable[..., Array]
+    values: Callable[[float, Array, Array, Array, Array], Array]
     until: float = 1.0
 
     @cached_property
