@@ -1,4 +1,4 @@
-"""The command line: the group and code shared by commands. Each command is a module, imported at its first use.
+"""The command line: one module a command, imported at its first use, and what commands share.
 
 Exit codes: 0 done, 1 a simulation or study failed, 2 bad input, 130 interrupted. Results go to standard output, and
 with ``--json`` nothing but JSON does; everything else goes to standard error. SIGTERM interrupts as Ctrl-C does.

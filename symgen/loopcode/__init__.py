@@ -1,4 +1,4 @@
-"""What compiled loops are written with: bare arrays, vectors of eight, instances of plain Python, entries.
+"""Parts of compiled loops: bare arrays, vectors of eight, instances of plain Python, entries.
 
 In: plain Python functions of arrays and numbers.
 Out: their compiled forms, with other meanings of names, and calls of them.

@@ -1,4 +1,4 @@
-"""Pages with motion: a motion, its scene and the emitted code as JavaScript in one page that works offline.
+"""Pages with motion: a motion, its scene and the emitted code in one page that works offline.
 
 In: a motion and its mechanism.
 Out: a page, or pictures and films.

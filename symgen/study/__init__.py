@@ -1,4 +1,4 @@
-"""Studies: many runs of a mechanism against references, in the rooms `references`, `comparison` and `stress`.
+"""Studies: many runs against references, in the rooms `references`, `comparison` and `stress`.
 
 In: mechanisms, methods, integrators and steps.
 Out: rows of numbers, a journal, findings.

@@ -1,4 +1,4 @@
-"""Targets of emitted code, one file each: ``symgen generate --target NAME`` finds a target by its file name.
+"""Targets of emitted code, one file each; ``symgen generate --target NAME`` finds them by name.
 
 In: a mechanism and a method.
 Out: files: Python modules, JavaScript, C, an FMU.

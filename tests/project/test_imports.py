@@ -75,6 +75,14 @@ def test_a_room_says_in_twelve_lines_what_goes_in_and_comes_out(room: str) -> No
     assert [line.partition(":")[0] for line in lines[-3:]] == ["In", "Out", "Imports"]
 
 
+def test_the_page_of_the_architecture_is_the_sum_of_the_rooms() -> None:
+    page = (PACKAGE.parent / "docs" / "architecture.md").read_text(encoding="utf-8")
+    lines = dict(re.findall(r"^\| `(\w+)` \| (.*) \|$", page.partition("## From a mechanism")[0], re.MULTILINE))
+    assert lines == {room: text[0].replace("``", "`") for room, text in ROOMS.items()}
+    assert len(page.split()) <= 2500
+    assert max(map(len, page.splitlines())) < 120
+
+
 def test_docstrings_name_what_rooms_use() -> None:
     used = dict[str, set[str]]()
     for path in SOURCES:
