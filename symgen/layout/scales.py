@@ -24,6 +24,8 @@ LEAST_ROW = 1e-2
 VANISHED = 1e-18
 #: Where nothing but places tells a length, it is looked for between these [m]; nearer places are one.
 SHORTEST, LONGEST = 1e-12, 1e12
+#: Bodies whose distances, squared, are below this part of a radius of gyration, squared, are in one place.
+TOGETHER = 1e-6
 #: A row has turned enough to be measured when it has turned by this [rad].
 TURNED = 0.1
 #: Rounding of a number of order 1.
@@ -53,8 +55,8 @@ def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
 
     A body's length is twice the norm of the derivative of a joint's rows in metres by the body's angles, the largest
     over its joints; a body whose joints are all at its centre of mass has the length of the mechanism. Without such
-    lengths the mechanism has the length by which rows turn (`turning_length`), else that of the places of its bodies,
-    at least their radius of gyration.
+    lengths the mechanism has the length by which rows turn (`turning_length`), else the distances of its bodies,
+    or a radius of gyration where they are in one place.
     """
     w, spin, lengths, sums = now.w, layout.spin, work.x, work.scale
     entries, constants, rows = layout.entries, layout.constants, layout.rows
@@ -77,7 +79,8 @@ def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
                 sums[spin[entries[3 * k + 1]]] += value * value
     extent = extent_of(layout, now.y)
     longest = longest if longest > 0.0 else turning_length(geometry, layout, now, work) ** 2
-    longest = longest if longest > 0.0 else larger(gyration_of(layout, w), extent * extent)
+    apart, gyration = extent * extent, gyration_of(layout, w)
+    longest = longest if longest > 0.0 else (apart if apart > TOGETHER * gyration else gyration)
     longest = longest if longest > SHORTEST * SHORTEST else 1.0
     least = LEAST_LENGTH * LEAST_LENGTH * longest
     for j in range(layout.nv):
