@@ -5,8 +5,11 @@ import zipfile
 import numpy as np
 import pytest
 from fmpy import extract, read_model_description, simulate_fmu
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 from fmpy.validation import validate_fmu
+from support.emitted import mechanism_of
+from support.locks import LOCKED, parts
 
 from symgen import Settings, catalogue, load
 from symgen.base.errors import InputError
@@ -109,6 +112,20 @@ def test_events_change_velocities_and_end_the_motion(kind, fmi, tmp_path):
     assert rows["ball.y"][-1] == pytest.approx(speed * (t - hit) - 9.81 / 2 * (t - hit) ** 2, abs=1e-6)
     over = simulated(path, kind, 2.0, step=0.05)
     assert over["time"][-1] == pytest.approx(1.5, abs=0.051)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_a_co_simulation_that_locks_logs_what_a_run_says(fmi, tmp_path):
+    description, expected, _ = LOCKED["four-bar-lock"]
+    model, lines = load(mechanism_of(description)), []
+    path = fmu_of(model, tmp_path / "locked.fmu", fmi=fmi)
+    with pytest.raises(FMICallException):
+        simulate_fmu(
+            str(path), fmi_type="CoSimulation", stop_time=1.0, output_interval=0.01,
+            logger=lambda *words: lines.append(words[-1].decode()),
+        )  # fmt: skip
+    found, moved = parts(lines[0]), parts(model.kinematics([0.0, 0.3, 1.0]).ended)
+    assert found[0] == pytest.approx(expected, abs=1e-5) and found[1:] == moved[1:]
 
 
 @pytest.mark.parametrize("coordinates", ["joint", pytest.param("absolute", marks=pytest.mark.slow)])
