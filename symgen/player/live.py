@@ -187,6 +187,7 @@ def _spec(
         "nb": mechanism.body_coordinates,
         "nbv": sum(len(b.speeds) for b in mechanism.bodies),
         "y0": [float(x) for x in start.y],
+        "datum": list(start.datum) or [0.0] * info.nq,
         "lengths": [int(x) for x in lengths_of(info)],
         "angular": [int(x.unit != "m/s") for x in info.velocities],
         "rows": [int(row.unit == "m") for row in info.rows],

@@ -174,6 +174,7 @@ class CModel:
             **{"most_named": MOST_NAMED, "counts": c_number(COUNTS)},
             "row_lengths": _list(int(row.unit == "m") for row in info.rows),
             "angular": _list(int(q.unit != "m/s") for q in info.velocities),
+            "datum": _list(map(c_number, start.datum or np.zeros(info.nq))),
             "lengths": _list(int(x) for x in lengths_of(info)),
             "at": {
                 **{name: info.sections[name][0] for name in ("residual", "nu", "change", "gauge", "mass")},

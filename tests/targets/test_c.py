@@ -125,6 +125,34 @@ def test_a_program_whose_forces_are_undefined_says_until_when(tmp_path):
     assert ended.returncode == 1 and ended.stderr == "the motion cannot be continued at t = 0.25 s\n"
 
 
+@pytest.mark.parametrize("origin", [0.0, 1e4])
+def test_whether_joints_close_does_not_depend_on_the_origin(origin, tmp_path):
+    """Two rods of 1 m reach each other as long as their pivots are at most 2 m apart."""
+    rod = {"mass": 1.0, "inertia": 0.1, "points": {"a": [-0.5, 0.0], "b": [0.5, 0.0]}}
+    described = {
+        "mechanism": {"name": "reach"},
+        "parameters": {"gap": 1.9},
+        "bodies": {
+            "left": {**rod, "position": [origin + 0.475, 0.156], "angle": 0.318},
+            "right": {**rod, "position": [origin + 1.425, 0.156], "angle": -0.318},
+        },
+        "joints": {
+            "A": {"type": "revolute", "between": ["ground", "left"], "at": [[origin, 0.0], "a"]},
+            "B": {"type": "revolute", "between": ["left", "right"], "at": ["b", "a"]},
+            "C": {"type": "revolute", "between": ["ground", "right"], "at": [[f"{origin} + gap", 0.0], "b"]},
+        },
+    }
+    library = called(written(mechanism_of(described), tmp_path))
+    y = np.zeros(13)
+    assert library.begin(y, np.zeros(99)) == 0
+    library.set(0, 1.9999)
+    assert library.start(y) == 0
+    ends = y[:2] + 0.5 * np.array([np.cos(y[2]), np.sin(y[2])])
+    assert ends - [origin, 0.0] == pytest.approx([0.99995, np.sqrt(1.0 - 0.99995**2)], abs=1e-9)
+    library.set(0, 2.0 + 1e-6)
+    assert library.start(y) == 1
+
+
 BALL = """
 [mechanism]
 name = "gamma"

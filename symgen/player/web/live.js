@@ -63,11 +63,13 @@ function makeLive(spec, code) {
     }
   }
 
-  function extent(y) {
-    let largest = 0;
-    for (let i = 0; i < nq; i++) if (spec.lengths[i] && Math.abs(y[i]) > largest) largest = Math.abs(y[i]);
-    return largest;
+  // The largest coordinate that is a length, measured from a place; from the origin, its rounding is that of positions.
+  function largest(y, from) {
+    let size = 0;
+    for (let i = 0; i < nq; i++) if (spec.lengths[i]) size = Math.max(size, Math.abs(y[i] - (from ? from[i] : 0)));
+    return size;
   }
+  const extent = (y) => largest(y, spec.datum);
 
   // Positions closed by shortest changes from the described ones, then velocities: those given are kept.
   function start() {
@@ -98,7 +100,7 @@ function makeLive(spec, code) {
       stalled = size > 0.5 * best ? stalled + 1 : 0;
       best = Math.min(best, size);
       if (!Number.isFinite(size) || stalled >= 15) return null;
-      if (size <= 1e-15 * whole * Math.max(m, 1) || (stalled >= 3 && size < 1e-9 * whole)) break;
+      if (size <= 1e-15 * Math.max(length, largest(y)) * Math.max(m, 1) || (stalled >= 3 && size < 1e-9 * whole)) break;
       if (round === 59) return null;
       const change = leastNorm(jacobian(), right, scale);
       let longest = 0;
@@ -187,8 +189,8 @@ function makeLive(spec, code) {
       size = Math.hypot(...dual);
       holding = dual.map((x) => Math.abs(x) > 0 ? x / size : 0);
     }
-    const largest = Math.max(...holding.map(Math.abs));
-    const drivers = [...new Set(spec.drivers.filter((name, i) => name && Math.abs(holding[i]) > 3e-5 * largest))];
+    const most_held = Math.max(...holding.map(Math.abs));
+    const drivers = [...new Set(spec.drivers.filter((name, i) => name && Math.abs(holding[i]) > 3e-5 * most_held))];
     if (!drivers.length || !(size * 1e-4 * shortest > 1)) return `the motion cannot be continued ${at_t}`;
     const jumps = Array.from(change, (x, j) => Math.abs(x) / scale[j]), most = Math.max(...jumps);
     const order = Array.from(jumps.keys()).sort((i, j) => jumps[j] - jumps[i]).filter((j) => jumps[j] > spec.counts * most);
