@@ -15,6 +15,7 @@ from symgen.layout.model_arrays import lengths_of
 from symgen.native.formula_lines import JAVASCRIPT, NotInLines
 from symgen.native.javascript import HELPERS, javascript
 from symgen.native.read import Foreign
+from symgen.running.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
 from symgen.running.start_lines import derived_lines, fixed_velocities, independent_places, lines_for, start_lines
 
 if TYPE_CHECKING:
@@ -171,6 +172,7 @@ def _spec(
     constants: Collection[str],
 ) -> dict[str, Any]:
     info, rates = compiled.info, _rates_spec(compiled, start)
+    drivers = {joint.name for joint in mechanism.joints if joint.kind == DRIVER}
     sections = {
         name: info.sections[name][0] for name in ("jacobian", "residual", "nu", "change", "gauge", "mass", "pivot")
     }
@@ -185,9 +187,13 @@ def _spec(
         "nb": mechanism.body_coordinates,
         "nbv": sum(len(b.speeds) for b in mechanism.bodies),
         "y0": [float(x) for x in start.y],
+        "datum": list(start.datum) or [0.0] * info.nq,
         "lengths": [int(x) for x in lengths_of(info)],
         "angular": [int(x.unit != "m/s") for x in info.velocities],
         "rows": [int(row.unit == "m") for row in info.rows],
+        "drivers": [row.joint if row.joint in drivers else "" for row in info.rows],
+        "moving": moving_names(info),
+        **{"most_named": MOST_NAMED, "counts": COUNTS},
         "jacobian": [[row, column, constant, slot] for row, column, constant, slot in info.jacobian],
         "at": sections,
         "status": {"length": abi.LENGTH, "first": abi.WINDING},

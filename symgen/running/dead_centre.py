@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.layout.compiled import CompiledModel
+    from symgen.layout.compiled import CompiledModel, ModelInfo
     from symgen.runs.outcome import Outcome
 
     Array = NDArray[np.float64]
@@ -39,6 +39,13 @@ def jacobian_at(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array)
     return np.asarray(weights[:, np.newaxis] * compiled.jacobian(w) * np.sqrt(compiled.section(w, "gauge")))
 
 
+def moving_names(info: ModelInfo) -> list[str]:
+    """Return the coordinate that each velocity changes, by name; of an angular velocity in space its own name."""
+    spun = {first + k for first, _ in info.spins for k in range(4)}
+    positions = {velocity_of(i, info): c.name for i, c in enumerate(info.coordinates) if i not in spun}
+    return [positions.get(j, velocity.name) for j, velocity in enumerate(info.velocities)]
+
+
 def free_and_held(
     mechanism: Mechanism, compiled: CompiledModel, t: float, y: Array, p: Array, w: Array
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -51,16 +58,15 @@ def free_and_held(
     t, y, p, w
         Time, state, parameters and scratch.
     """
-    info, spun = compiled.info, {first + k for first, _ in compiled.info.spins for k in range(4)}
+    info = compiled.info
     active = np.flatnonzero(compiled.section(w, "mask") == 0.0)
     left, _, right = np.linalg.svd(jacobian_at(compiled, t, y, p, w)[active])
     moving, holding = np.abs(right[-1]), np.abs(left[:, -1])
     order = [j for j in np.argsort(-moving) if moving[j] > COUNTS * moving.max()]
     joints = dict.fromkeys(info.rows[i].joint for i in active[holding > _HOLDS * holding.max()])
     kinds = {joint.name: joint.kind for joint in mechanism.joints}
-    positions = {velocity_of(i, info): c.name for i, c in enumerate(info.coordinates) if i not in spun}
-    names = tuple(positions.get(int(j), info.velocities[j].name) for j in order[:MOST_NAMED])
-    return names, tuple(name for name in joints if kinds[name] == DRIVER)
+    names = moving_names(info)
+    return tuple(names[j] for j in order[:MOST_NAMED]), tuple(name for name in joints if kinds[name] == DRIVER)
 
 
 def dead_centre(t: float, drivers: Sequence[str], free: Sequence[str]) -> str:

@@ -9,21 +9,23 @@ sweeps, comparisons, cells of stress studies, references, analyses, pages and co
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from symgen.base.memory import uncollected
 from symgen.describe.evaluate import parameter_values
+from symgen.describe.holds import holds_of
 from symgen.running.automatic import AUTO, SLOW, STRUCTURAL, TOGETHER, decide, facts_of, slow_steps, trial_of
 from symgen.running.continuation import continued
 from symgen.running.inputs import put_inputs
 from symgen.running.plan import Plan, Purpose, resolved
-from symgen.running.starts import begun
-from symgen.running.tree import TreeRun, on_tree_of, tree_taken_up
+from symgen.running.starts import DescribedStart, begun
+from symgen.running.tree import TreeRun, begin_on_tree, carried_of, on_tree_of, tree_taken_up, upright
 from symgen.runs.run import integrate
 from symgen.runs.simulation import Simulation
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
@@ -32,6 +34,7 @@ if TYPE_CHECKING:
     from symgen.runs.outcome import Outcome
     from symgen.runs.run import Array
     from symgen.starts.assembly import Start
+    from symgen.starts.tree_start import Carried
 
 
 @dataclass(frozen=True)
@@ -229,8 +232,7 @@ def assemble(plan: Plan, near: Array | None = None) -> Assembled:
 
 def begin(plan: Plan, assembled: Assembled) -> Prepared:
     """Return a run from its plan, its code and its start, which runs with an equal `Plan.key` may share."""
-    start = replace(assembled.start, notes=(*plan.notes, *plan.bound, *assembled.start.notes))
-    run = Prepared(plan, replace(assembled, start=start), plan.spec)
+    run = Prepared(plan, _noted(plan, assembled), plan.spec)
     if plan.purpose is Purpose.STATE:
         return run
     from symgen.compiling.events import compile_events
@@ -239,3 +241,63 @@ def begin(plan: Plan, assembled: Assembled) -> Prepared:
     return run.with_spec(
         stops=plan.stops, events=compile_events(run.mechanism, run.compiled, plan.events, values, rtol)
     )
+
+
+def _noted(plan: Plan, assembled: Assembled) -> Assembled:
+    """Return code and start with the notes of a plan before those of the start."""
+    start = assembled.start
+    return replace(assembled, start=replace(start, notes=(*plan.notes, *plan.bound, *start.notes)))
+
+
+class Restarts:
+    """A run that begins again and again from other values: plan, code and steps stay.
+
+    Parameters
+    ----------
+    run : Prepared
+        The run, not one that goes on from another one.
+    """
+
+    def __init__(self, run: Prepared) -> None:
+        self._run = run
+
+    def at(self, start: Mapping[str, float]) -> Prepared | None:
+        """Return the run from another start, None where this code does not serve there.
+
+        Parameters
+        ----------
+        start : mapping of str to float
+            Values that the start holds, by name.
+
+        Raises
+        ------
+        InputError, AssemblyError
+            As `prepare`.
+        """
+        plan, tree = self._run.plan, self._run.tree
+        compiled, _ = self._run.assembled.of_bodies
+        if plan.last is not None or compiled.law.options.get("solver") != plan.choice.options.get("solver"):
+            return None
+        settings = replace(plan.settings, start=start)
+        plan = replace(plan, settings=settings, holds=holds_of(plan.mechanism, "start", settings.start))
+        closed = self._described.start(plan.holds, again=True)
+        if closed.light:
+            return None
+        assembled = Assembled(compiled, closed)
+        if tree is not None:
+            parts = tree.whole, tree.mechanism, self._carried, closed, plan.method_parameters, plan.events
+            tree = upright(begin_on_tree(*parts))
+            assembled = Assembled(tree.compiled, tree.start, tree)
+        return replace(self._run, plan=plan, assembled=_noted(plan, assembled))
+
+    @cached_property
+    def _described(self) -> DescribedStart:
+        plan, (compiled, _) = self._run.plan, self._run.assembled.of_bodies
+        settings = plan.parameters, plan.method_parameters, plan.settings.strict
+        return DescribedStart(plan.mechanism, compiled, *settings, plan.solver_is_free)
+
+    @cached_property
+    def _carried(self) -> Carried:
+        tree = self._run.tree
+        assert tree is not None, "the state is that of joints"
+        return carried_of(tree.whole, tree.mechanism, tree.bodies, tree.compiled)

@@ -17,8 +17,10 @@ from symgen.describe.lengths import datum_of
 from symgen.describe.sides import wrong_sides
 from symgen.describe.start import described_start, moved
 from symgen.layout.model_arrays import velocity_of
-from symgen.starts.assembly import Start, assemble
+from symgen.starts.assembler import Assembly
+from symgen.starts.assembly import Start, closed_start
 from symgen.starts.held import Held
+from symgen.starts.kept import KeptStart
 from symgen.starts.start_words import half_turn, opposite
 
 if TYPE_CHECKING:
@@ -67,21 +69,70 @@ def start_of(
     InputError
         If the start is refused; see `symgen.starts.assembly.assemble`.
     """
-    values = parameter_values(mechanism, parameters)
-    numbers = scalars(values)
-    q, v = described_start(mechanism, numbers)
-    states = states_at_start(mechanism, numbers, () if isinstance(held, Held) else held or ())
-    if near is not None:
-        q = [float(x) for x in near]
-    if not isinstance(held, Held):
-        held = held_of(compiled.info, holds_of(mechanism) if held is None else held, numbers, v)
-    p = compiled.parameter_array(values, method_parameters or {})
-    moves = partial(moved, mechanism, numbers)
-    more = strict, held, ask_light, moves
-    closed = assemble(compiled, np.array(q), v, p, *more, datum=datum_of(mechanism, numbers))
-    start = _sided(mechanism, compiled.info, closed)
-    start.y[compiled.info.own_states] = states
-    return start
+    described = DescribedStart(mechanism, compiled, parameters, method_parameters, strict, ask_light)
+    return described.start(holds_of(mechanism) if held is None else held, near)
+
+
+class DescribedStart:
+    """A mechanism with parameters, as it is described: starts differ in what they hold.
+
+    Parameters
+    ----------
+    mechanism, compiled, parameters, method_parameters, strict, ask_light
+        As for `start_of`.
+    """
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        compiled: CompiledModel,
+        parameters: Mapping[str, float] | None = None,
+        method_parameters: Mapping[str, float] | None = None,
+        strict: bool = False,
+        ask_light: bool = False,
+    ) -> None:
+        values = parameter_values(mechanism, parameters)
+        self.mechanism, self.compiled, self._numbers = mechanism, compiled, scalars(values)
+        self._strict, self._ask_light = strict, ask_light
+        self._q, self._v = described_start(mechanism, self._numbers)
+        self._p = compiled.parameter_array(values, method_parameters or {})
+        self._datum = datum_of(mechanism, self._numbers)
+        self._kept = dict[tuple[tuple[int, ...], ...], KeptStart]()
+
+    def start(
+        self, holds: Held | Sequence[Hold], near: NDArray[np.float64] | None = None, again: bool = False
+    ) -> Start:
+        """Return a consistent start.
+
+        Parameters
+        ----------
+        holds : Held or sequence of Hold
+            Quantities that are held while all others move.
+        near : array, optional
+            Coordinates that the mechanism is closed from; those that are described by default.
+        again : bool
+            Whether more starts that hold the same quantities will be wanted: then code and memory are kept.
+
+        Raises
+        ------
+        AssemblyError, InputError
+            As `start_of`.
+        """
+        mechanism, compiled, numbers = self.mechanism, self.compiled, self._numbers
+        states = states_at_start(mechanism, numbers, () if isinstance(holds, Held) else holds)
+        q = np.array(self._q if near is None else near, dtype=np.float64)
+        held = holds if isinstance(holds, Held) else held_of(compiled.info, holds, numbers, self._v)
+        assembly = Assembly(compiled, held, self._strict, self._ask_light, datum=self._datum)
+        p, close = self._p.copy(), assembly.close
+        if again:
+            if held.pattern not in self._kept:
+                self._kept[held.pattern] = KeptStart(assembly, p)
+            kept = self._kept[held.pattern]
+            assembly, close = kept.assembly, partial(kept.close, held)
+        start = closed_start(assembly, held, close, q, self._v, p, partial(moved, mechanism, numbers))
+        start = _sided(mechanism, compiled.info, start)
+        start.y[compiled.info.own_states] = states
+        return start
 
 
 def states_at_start(mechanism: Mechanism, numbers: Scalars, holds: Sequence[Hold]) -> list[float]:

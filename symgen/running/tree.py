@@ -289,9 +289,19 @@ def on_tree_of(plan: Plan, bodies: CompiledModel, start: Start) -> TreeRun:
     """
     mechanism, compiled = tree_code(plan.mechanism, plan.choice, bodies)
     carried = carried_of(plan.mechanism, mechanism, bodies, compiled, start.t)
-    run = begin_on_tree(plan.mechanism, mechanism, carried, start, plan.method_parameters, plan.events)
+    return upright(begin_on_tree(plan.mechanism, mechanism, carried, start, plan.method_parameters, plan.events))
+
+
+def upright(run: TreeRun) -> TreeRun:
+    """Return a run in which no body of the tree starts turned over.
+
+    Raises
+    ------
+    AssemblyError
+        If one would.
+    """
     if run.over >= 0:
-        raise turned_over(bodies.info, run.over)
+        raise turned_over(run.bodies.info, run.over)
     return run
 
 

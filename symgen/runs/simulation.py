@@ -189,8 +189,19 @@ class Simulation:
                 if not entry.has(self.scheme, self.span):
                     entry.take(self.scheme, self.span)
                 code = entry(float(until), float(pause), float(most))
-            if (ended := self._ended(code, until)) is not None:
+            ended = self._ended(code, until)
+            if code == abi.MET:
+                self._store_behind(outputs)
+            if ended is not None:
                 return ended
+
+    def _store_behind(self, outputs: Outputs) -> None:
+        """Have outputs at the time of a reset hold the state behind it, from which the motion goes on."""
+        now, out = self._clock[abi.TIME], self._counts[abi.OUTPUTS]
+        while out > 0 and abs(outputs.times[out - 1] - now) <= self.same(now):
+            out -= 1
+            outputs.states[out] = self.state.y[: outputs.states.shape[1]]
+            outputs.status[out, abi.KINETIC] = self.state.w[abi.KINETIC]
 
     def run(self, outputs: Outputs, stop: Callable[[], bool], steps: float) -> int:
         """Run to the end as `enter` does; call `stop` after every `steps` steps, to end as `STOPPED`."""

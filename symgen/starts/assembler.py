@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -149,7 +149,7 @@ class Assembly:
         """
         held, velocities = self.held, v.copy()
         velocities[list(held.velocities)] = list(held.velocities.values())
-        targets = np.array([*held.coordinates.values(), *held.joints.values(), *held.rates.values()], dtype=np.float64)
+        targets = np.array(held.targets, dtype=np.float64)
         now = one_row(y, p, self.compiled.scratch())
         conditions = StartConditions(*one_row(velocities, targets, np.zeros(e.N_SUMMARY)))
         self.close_all(now, conditions, *ALONE)
@@ -173,10 +173,16 @@ class Assembly:
         joints, work = self.memory()
         flat, (*functions, observe), form = self.prepare(now, selected, len(work.right))
         model, all_conditions = ((self.layout, *functions), observe, joints), (array.ravel() for array in conditions)
-        done, close = len(selected), form(close_rows if len(now.y) > 1 else close_alone)
+        close = form(close_rows if len(now.y) > 1 else close_alone)
+        arguments = model, flat, StartConditions(*all_conditions), work, selected, control
+        return self.close_prepared(partial(close, *arguments), now, conditions, len(selected))
+
+    def close_prepared(self, close: Callable[[], int], now: Instant, conditions: StartConditions, count: int) -> int:
+        """Close `count` rows, which are prepared, and judge them; return the number of rows done."""
+        done = count
         with np.errstate(all="ignore"):  # undefined numbers are nan or infinite in compiled code, without a warning
             try:
-                done = int(close(model, flat, StartConditions(*all_conditions), work, selected, control))
+                done = int(close())
             except (ArithmeticError, ValueError):  # of one row, where nothing is compiled
                 conditions.summary[:, e.START] = e.UNDEFINED
         self._judge(now.w, conditions.summary)

@@ -152,30 +152,67 @@ def assemble(
         If `strict` and the start had to be changed; if a mass is not positive, a formula is not finite, or nothing
         determines the accelerations of a massless body.
     """
-    fixed = held or Held()
-    info, start = compiled.info, Assembly(compiled, fixed, strict, ask_light, *instant, datum)
-    y = _described(info, q)
+    assembly = Assembly(compiled, held or Held(), strict, ask_light, *instant, datum)
+    return closed_start(assembly, assembly.held, assembly.close, q, v, p, moved)
+
+
+def closed_start(
+    assembly: Assembly,
+    held: Held,
+    close: Callable[[Array, Array, Array], tuple[Array, Array]],
+    q: Array,
+    v: Sequence[float | None],
+    p: Array,
+    moved: Moved | None = None,
+) -> Start:
+    """Close a start, and return it with its reports.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        The start.
+    held : Held
+        Quantities held: those of `assembly` with their present values.
+    close : callable
+        `Assembly.close`, or the same with memory that is kept.
+    q, v, p, moved
+        As for `assemble`.
+
+    Raises
+    ------
+    AssemblyError, InputError
+        As `assemble`.
+    """
+    compiled = assembly.compiled
+    info, y = compiled.info, _described(compiled.info, q)
     velocities = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
-    w, summary = start.close(y, velocities, p)
+    w, summary = close(y, velocities, p)
     if summary[e.START] != e.ASSEMBLED:
-        error = without_derivative(compiled, q, p) or refusal(summary, info, fixed)
+        error = without_derivative(compiled, q, p) or refusal(summary, info, held)
         reached = y[: info.nq] if np.all(np.isfinite(y[: info.nq])) else q
         raise error.stopped_at(reached.tolist()) if isinstance(error, AssemblyError) else error
-    velocities[list(fixed.velocities)] = list(fixed.velocities.values())
+    velocities[list(held.velocities)] = list(held.velocities.values())
     changes = changes_of(info, np.concatenate([q, velocities]), y, state_scales(compiled, w, math.inf))
     return Start(
         *(y, p, w, compiled.rank(w), compiled.redundant(w)),
-        notes=notes_of(fixed, summary, changes, info),
+        notes=notes_of(held, summary, changes, info),
         changes=changes,
         light=bool(summary[e.LIGHT]),
-        warnings=moved_far(start, q, y, p, w, changes, moved),
-        t=instant[0],
-        datum=tuple(datum),
+        warnings=moved_far(assembly, held, q, y, p, w, changes, moved),
+        t=assembly.t,
+        datum=tuple(assembly.datum),
     )
 
 
 def moved_far(
-    start: Assembly, q: Array, y: Array, p: Array, w: Array, changes: Sequence[Change], moved: Moved | None = None
+    start: Assembly,
+    held: Held,
+    q: Array,
+    y: Array,
+    p: Array,
+    w: Array,
+    changes: Sequence[Change],
+    moved: Moved | None = None,
 ) -> tuple[str, ...]:
     """Return a warning if closing moved bodies far, unless a held quantity is far from its described value.
 
@@ -183,6 +220,8 @@ def moved_far(
     ----------
     start : Assembly
         The start that closed them.
+    held : Held
+        Quantities held, with their values.
     q, y : Array
         Coordinates as described, and the consistent state.
     p, w : Array
@@ -192,7 +231,7 @@ def moved_far(
     moved : callable, optional
         As for `assemble`.
     """
-    info, held, length = start.compiled.info, start.held, float(w[abi.LENGTH])
+    info, length = start.compiled.info, float(w[abi.LENGTH])
     if not changes:
         return ()
     values = joint_values(start.compiled, start.t, _described(info, q), p, w.copy()) if held.joints else q

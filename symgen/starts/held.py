@@ -34,6 +34,16 @@ class Held:
     joints: Mapping[int, float] = field(default_factory=dict)
     rates: Mapping[int, float] = field(default_factory=dict)
 
+    @property
+    def targets(self) -> tuple[float, ...]:
+        """Values of coordinates, of joint coordinates and of their rates."""
+        return *self.coordinates.values(), *self.joints.values(), *self.rates.values()
+
+    @property
+    def pattern(self) -> tuple[tuple[int, ...], ...]:
+        """What is held, without the values."""
+        return *(tuple(x) for x in (self.coordinates, self.velocities, self.joints, self.rates)), self.fixed
+
     def positions(self, info: ModelInfo) -> str:
         """Return the held positions and their values, in words."""
         items = [*((info.coordinates[i], x) for i, x in self.coordinates.items())]

@@ -18,6 +18,7 @@ from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import in_words
 from symgen.layout import abi
+from symgen.running.prepare import Restarts
 from symgen.runs.changes import begin_with_step
 from symgen.runs.events import EventRecord
 from symgen.stepping.advance import Clock, Controller
@@ -74,7 +75,7 @@ class SteppedRun(Readings):
         places = {q.name: i for i, q in enumerate(self._compiled.info.parameters)}
         self._varying = [places[name] for name in mechanism.inputs if name not in self._inputs]  # by formulas and data
         self.warnings, self.notes = (*plan.all_warnings, *prepared.start.warnings), prepared.start.notes
-        self._first = self.save()
+        self._first, self._restarts = self.save(), Restarts(prepared)
         if not self._free:
             self._advance.begin()
         self._history.note()
@@ -303,13 +304,19 @@ class SteppedRun(Readings):
         if start is not None:
             if self._prepare is None:
                 raise InputError("reset", "no start, for a run without its model", arguments.shown(start))
-            prepared = self._prepare(start)
-            if prepared.compiled.law.key != self._compiled.law.key:  # bodies that are light there alone
-                got = f"one that is run with {prepared.compiled.law.key}"
-                raise InputError("reset", f"a start that is run with {self._compiled.law.key}", got)
-            simulation = prepared.simulation()
+            prepared = self._restarts.at(start) if isinstance(start, Mapping) else None
+            arrays = {**first.arrays} if prepared is not None else {}
+            if prepared is None:
+                prepared = self._prepare(start)
+                if prepared.compiled.law.key != self._compiled.law.key:  # bodies that are light there alone
+                    got = f"one that is run with {prepared.compiled.law.key}"
+                    raise InputError("reset", f"a start that is run with {self._compiled.law.key}", got)
+                arrays = prepared.simulation().save()
+            else:  # beside these, the first state depends on no start
+                begun = prepared.start
+                arrays |= {"y": np.append(begun.y, arrays["y"][len(begun.y) :]), "w": begun.w}
             first, self._prepared, self._loop.start, self._tree = (
-                replace(first, arrays=simulation.save()),
+                replace(first, arrays=arrays),
                 prepared,
                 prepared.start,
                 prepared.tree,

@@ -24,6 +24,7 @@ from symgen.layout.model_arrays import lengths_of
 from symgen.native.c99 import broken, c_functions, c_number
 from symgen.native.formula_lines import C, NotInLines
 from symgen.native.read import Foreign
+from symgen.running.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
 from symgen.running.plan import Purpose
 from symgen.running.prepare import Prepared, prepare
 from symgen.running.start_lines import derived_lines, fixed_velocities, independent_places, lines_for, start_lines
@@ -132,6 +133,7 @@ class CModel:
             scratch[first : first + size] = start.w[first : first + size]
         parameters = {q.name: float(x) for q, x in zip(info.parameters, start.p, strict=False)}
         of_bodies = self.run.assembled.of_bodies[0].info
+        drivers = {joint.name for joint in mechanism.joints if joint.kind == DRIVER}
         entries = [
             f"{{{row}, {column}, {-1 if slot is None else info.sections['jacobian'][0] + slot}, "
             f"{c_number(constant or 0.0)}}}"
@@ -166,8 +168,13 @@ class CModel:
             "y0": _list(map(c_number, start.y)),
             "w0": _list(f"{{{i}, {c_number(scratch[i])}}}" for i in np.flatnonzero(scratch)) or "{-1, 0.0}",
             "jacobian": _list(entries),
+            "driven": _list(int(row.joint in drivers) for row in info.rows),
+            "driver_of": _list(f'"{row.joint if row.joint in drivers else ""}"' for row in info.rows) or '""',
+            "moving": _list(f'"{name}"' for name in moving_names(info)),
+            **{"most_named": MOST_NAMED, "counts": c_number(COUNTS)},
             "row_lengths": _list(int(row.unit == "m") for row in info.rows),
             "angular": _list(int(q.unit != "m/s") for q in info.velocities),
+            "datum": _list(map(c_number, start.datum or np.zeros(info.nq))),
             "lengths": _list(int(x) for x in lengths_of(info)),
             "at": {
                 **{name: info.sections[name][0] for name in ("residual", "nu", "change", "gauge", "mass")},

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.emitted import mechanism_of
+from support.locks import LOCKED, parts
 
 from symgen import Settings, load
 from symgen.base.errors import InputError
@@ -96,6 +98,59 @@ def test_the_program_runs_as_simulate_does(name, coordinates, tmp_path):
     assert rows[-1, 0] == 0.5
     end = np.concatenate([result.q.values[-1], result.v.values[-1]])
     np.testing.assert_allclose(rows[-1, 1:], end, rtol=1e-11, atol=1e-11)
+
+
+@pytest.mark.parametrize("name", LOCKED)
+@pytest.mark.parametrize("step", ["1e-3", "1e-2"])
+def test_a_program_that_locks_says_what_a_run_says(name, step, tmp_path):
+    description, expected, free = LOCKED[name]
+    mechanism = mechanism_of(description)
+    moved = parts(load(mechanism).kinematics([0.0, 0.3, 1.0]).ended)
+    ended = subprocess.run([compiled(written(mechanism, tmp_path)), "2", step], capture_output=True, text=True)
+    assert ended.returncode == 1 and ended.stderr.startswith("dead centre at t = ")
+    found = parts(ended.stderr.strip())
+    assert found[0] == pytest.approx(expected, abs=1e-5) and found[1:] == moved[1:] and found[2] >= free
+    assert float(ended.stdout.splitlines()[-1].partition(",")[0]) <= expected
+
+
+def test_a_program_whose_forces_are_undefined_says_until_when(tmp_path):
+    """The root of 0.25 - t has no value behind 0.25 s, and nothing locks."""
+    pushed = {
+        "mechanism": {"name": "rooted"},
+        "bodies": {"a": {"type": "point", "mass": 2.0}},
+        "forces": {"f": {"type": "force", "body": "a", "at": "centre", "force": ["sqrt(0.25 - t)", 0.0]}},
+    }
+    program = compiled(written(mechanism_of(pushed), tmp_path))
+    ended = subprocess.run([program, "1", "0.03"], capture_output=True, text=True)
+    assert ended.returncode == 1 and ended.stderr == "the motion cannot be continued at t = 0.25 s\n"
+
+
+@pytest.mark.parametrize("origin", [0.0, 1e4])
+def test_whether_joints_close_does_not_depend_on_the_origin(origin, tmp_path):
+    """Two rods of 1 m reach each other as long as their pivots are at most 2 m apart."""
+    rod = {"mass": 1.0, "inertia": 0.1, "points": {"a": [-0.5, 0.0], "b": [0.5, 0.0]}}
+    described = {
+        "mechanism": {"name": "reach"},
+        "parameters": {"gap": 1.9},
+        "bodies": {
+            "left": {**rod, "position": [origin + 0.475, 0.156], "angle": 0.318},
+            "right": {**rod, "position": [origin + 1.425, 0.156], "angle": -0.318},
+        },
+        "joints": {
+            "A": {"type": "revolute", "between": ["ground", "left"], "at": [[origin, 0.0], "a"]},
+            "B": {"type": "revolute", "between": ["left", "right"], "at": ["b", "a"]},
+            "C": {"type": "revolute", "between": ["ground", "right"], "at": [[f"{origin} + gap", 0.0], "b"]},
+        },
+    }
+    library = called(written(mechanism_of(described), tmp_path))
+    y = np.zeros(13)
+    assert library.begin(y, np.zeros(99)) == 0
+    library.set(0, 1.9999)
+    assert library.start(y) == 0
+    ends = y[:2] + 0.5 * np.array([np.cos(y[2]), np.sin(y[2])])
+    assert ends - [origin, 0.0] == pytest.approx([0.99995, np.sqrt(1.0 - 0.99995**2)], abs=1e-9)
+    library.set(0, 2.0 + 1e-6)
+    assert library.start(y) == 1
 
 
 BALL = """

@@ -5,8 +5,11 @@ import zipfile
 import numpy as np
 import pytest
 from fmpy import extract, read_model_description, simulate_fmu
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 from fmpy.validation import validate_fmu
+from support.emitted import mechanism_of
+from support.locks import LOCKED, parts
 
 from symgen import Settings, catalogue, load
 from symgen.base.errors import InputError
@@ -15,7 +18,8 @@ from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
 from symgen.targets import TARGETS, Request
 from symgen.targets._base_units import base_unit
-from tests.targets.test_c import BALL, NAMES
+from tests.targets.compilers import compiled, written
+from tests.targets.test_c import BALL, NAMES, rows_of
 
 #: Crank and its rate after 10 s, from `dop853` at 1e-13, which the tests of that method hold.
 FOUR_BAR = {"crank.theta": -4.9126194602875, "crank.omega": 0.0326701961}
@@ -109,6 +113,43 @@ def test_events_change_velocities_and_end_the_motion(kind, fmi, tmp_path):
     assert rows["ball.y"][-1] == pytest.approx(speed * (t - hit) - 9.81 / 2 * (t - hit) ** 2, abs=1e-6)
     over = simulated(path, kind, 2.0, step=0.05)
     assert over["time"][-1] == pytest.approx(1.5, abs=0.051)
+
+
+@pytest.mark.parametrize("event", ["t > 0.5", "a.x > 0.5"])
+def test_an_output_at_a_reset_has_the_velocities_behind_it(event, tmp_path):
+    """In runs with steps of either kind, in C, and in both kinds of FMU."""
+    struck = {
+        "mechanism": {"name": "struck"},
+        "bodies": {"a": {"type": "point", "mass": 1.0, "velocity": [1.0, 0.0]}},
+        "events": {"blow": {"when": event, "reset": {"a.vx": "-2*a.vx"}}},
+        "run": {"until": 1.0, "step": 0.0625, "output_step": 0.125},
+    }
+    model, expected = load(mechanism_of(struck)), [1.0] * 4 + [-2.0] * 5
+    for coordinates in ("absolute", "joint"):
+        for settings in ({"integrator": "picard"}, {"integrator": "dop853"}, {"integrator": "rk4", "step": 0.0625}):
+            result = model.simulate(coordinates=coordinates, **settings)
+            assert result.ok and list(result["a.vx"]) == pytest.approx(expected) and result.events[0].v["a.vx"] == 1.0
+            energy = result.kinetic + result.potential - result.work
+            assert list(energy) == pytest.approx([0.5] * 9)
+    _, rows = rows_of(compiled(written(model.mechanism, tmp_path / "c")))
+    assert list(rows[:, 3]) == pytest.approx(expected)
+    for kind in ("CoSimulation", "ModelExchange"):
+        found = simulated(fmu_of(model, tmp_path / "struck.fmu"), kind, 1.0, step=0.125)
+        assert list(found["a.vx"]) == pytest.approx(expected), kind
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_a_co_simulation_that_locks_logs_what_a_run_says(fmi, tmp_path):
+    description, expected, _ = LOCKED["four-bar-lock"]
+    model, lines = load(mechanism_of(description)), []
+    path = fmu_of(model, tmp_path / "locked.fmu", fmi=fmi)
+    with pytest.raises(FMICallException):
+        simulate_fmu(
+            str(path), fmi_type="CoSimulation", stop_time=1.0, output_interval=0.01,
+            logger=lambda *words: lines.append(words[-1].decode()),
+        )  # fmt: skip
+    found, moved = parts(lines[0]), parts(model.kinematics([0.0, 0.3, 1.0]).ended)
+    assert found[0] == pytest.approx(expected, abs=1e-5) and found[1:] == moved[1:]
 
 
 @pytest.mark.parametrize("coordinates", ["joint", pytest.param("absolute", marks=pytest.mark.slow)])

@@ -4,7 +4,8 @@ function makeLive(spec, code) {
   const { nq, nv, ny, m, at } = spec;
   const { p, w, iw, scratch, prepare, setParameters, rhs, rates, reset, keep } = makeRates(spec, code);
   const stages = [0, 1, 2, 3].map(() => new Float64Array(ny));
-  const middle = new Float64Array(ny);
+  const middle = new Float64Array(ny), dual = new Float64Array(m);
+  const kept = [new Float64Array(ny), w.slice(), iw.slice()];
 
   // -- the start ------------------------------------------------------------------------------------------------------
 
@@ -46,8 +47,9 @@ function makeLive(spec, code) {
       z[i] = sum / a[i][i];
     }
     const x = new Float64Array(nv);
+    for (let i = 0; i < m; i++) dual[i] = weight[i] * z[i];
     for (let k = 0; k < nv; k++) {
-      for (let i = 0; i < m; i++) x[k] += d[i][k] * weight[i] * z[i];
+      for (let i = 0; i < m; i++) x[k] += d[i][k] * dual[i];
       x[k] *= scale[k] * scale[k];
     }
     return x;
@@ -61,11 +63,13 @@ function makeLive(spec, code) {
     }
   }
 
-  function extent(y) {
-    let largest = 0;
-    for (let i = 0; i < nq; i++) if (spec.lengths[i] && Math.abs(y[i]) > largest) largest = Math.abs(y[i]);
-    return largest;
+  // The largest coordinate that is a length, measured from a place; from the origin, its rounding is that of positions.
+  function largest(y, from) {
+    let size = 0;
+    for (let i = 0; i < nq; i++) if (spec.lengths[i]) size = Math.max(size, Math.abs(y[i] - (from ? from[i] : 0)));
+    return size;
   }
+  const extent = (y) => largest(y, spec.datum);
 
   // Positions closed by shortest changes from the described ones, then velocities: those given are kept.
   function start() {
@@ -96,7 +100,7 @@ function makeLive(spec, code) {
       stalled = size > 0.5 * best ? stalled + 1 : 0;
       best = Math.min(best, size);
       if (!Number.isFinite(size) || stalled >= 15) return null;
-      if (size <= 1e-15 * whole * Math.max(m, 1) || (stalled >= 3 && size < 1e-9 * whole)) break;
+      if (size <= 1e-15 * Math.max(length, largest(y)) * Math.max(m, 1) || (stalled >= 3 && size < 1e-9 * whole)) break;
       if (round === 59) return null;
       const change = leastNorm(jacobian(), right, scale);
       let longest = 0;
@@ -144,7 +148,9 @@ function makeLive(spec, code) {
 
   // -- steps ----------------------------------------------------------------------------------------------------------
 
+  // A step; whether it succeeds. `end` undoes it.
   function step(t, y, h) {
+    [y, w, iw].forEach((now, i) => kept[i].set(now));
     const [a, b, c, d] = stages;
     rhs(t, y, a);
     for (let i = 0; i < ny; i++) middle[i] = y[i] + 0.5 * h * a[i];
@@ -154,8 +160,42 @@ function makeLive(spec, code) {
     for (let i = 0; i < ny; i++) middle[i] = y[i] + h * c[i];
     rhs(t + h, middle, d);
     for (let i = 0; i < ny; i++) y[i] += (h / 6) * (a[i] + 2 * (b[i] + c[i]) + d[i]);
-    code.accept(t + h, y, p, w, iw);
-    return Number.isFinite(y[0]);
+    const bits = code.accept(t + h, y, p, w, iw);
+    return Number.isFinite(y[0]) && !(bits & 1);
+  }
+
+  // Go on by steps that halve from the state before a step that has failed; the time where the motion ends, and why.
+  function end(t, y, h) {
+    const undo = () => [y, w, iw].forEach((now, i) => now.set(kept[i]));
+    undo();
+    for (h /= 2; h > 1e-9 * (1 + Math.abs(t)); h /= 2) {
+      if (step(t, y, h)) t += h;
+      else undo();
+    }
+    return { t, sentence: sentence(t, y) };
+  }
+
+  // The sentence on the end of a motion: where drivers lock, what would have to jump.
+  function sentence(t, y) {
+    const at_t = `at t = ${Number(t.toPrecision(6))} s`, length = w[spec.status.length];
+    if (!spec.drivers.some(Boolean)) return `the motion cannot be continued ${at_t}`;
+    code.geometry(t, y, p, w);
+    const scale = Float64Array.from({ length: nv }, (_, j) => Math.sqrt(w[at.gauge + j]));
+    const d = jacobian().map((row, i) => (spec.rows[i] ? row : row.map((x) => x * length)));
+    const shortest = Math.min(...d.map((row) => row.reduce((sum, x, j) => sum + (x * scale[j]) ** 2, 0)).filter((x) => x > 0));
+    let holding = Float64Array.from({ length: m }, (_, i) => 1 + i / m), change, size;
+    for (let round = 0; round < 8; round++) { // inverse iteration: the combination of rows that vanishes first
+      change = leastNorm(d, holding, scale);
+      size = Math.hypot(...dual);
+      holding = dual.map((x) => Math.abs(x) > 0 ? x / size : 0);
+    }
+    const most_held = Math.max(...holding.map(Math.abs));
+    const drivers = [...new Set(spec.drivers.filter((name, i) => name && Math.abs(holding[i]) > 3e-5 * most_held))];
+    if (!drivers.length || !(size * 1e-4 * shortest > 1)) return `the motion cannot be continued ${at_t}`;
+    const jumps = Array.from(change, (x, j) => Math.abs(x) / scale[j]), most = Math.max(...jumps);
+    const order = Array.from(jumps.keys()).sort((i, j) => jumps[j] - jumps[i]).filter((j) => jumps[j] > spec.counts * most);
+    const names = order.slice(0, spec.most_named).map((j) => spec.moving[j]).join(", ");
+    return `dead centre ${at_t}: ${drivers.map((name) => `'${name}'`).join(" and ")} can go no further; ${names} would have to jump`;
   }
 
   // Coordinates of bodies at a state; of the joints of a tree they are worked out by emitted code.
@@ -166,5 +206,5 @@ function makeLive(spec, code) {
     return Array.from(seen.subarray(0, spec.nb));
   }
 
-  return { spec, p, rates, start, closes, open, step, bodies, setParameters, reset };
+  return { spec, p, rates, start, closes, open, step, end, bodies, setParameters, reset };
 }

@@ -279,11 +279,11 @@ function compute(budget) {
     const due = Math.min(follow.t.length * follow.spacing, follow.end);
     while (clock < due - 1e-12 && performance.now() - began < 2 * budget) {
       const step = Math.min(h, due - clock);
-      if (!live.step(clock, state, step)) return stopped();
+      if (!live.step(clock, state, step)) return stopped(step);
       clock = due - clock - step < 1e-9 * h ? due : clock + step;
     }
     if (clock < due - 1e-12) break;
-    if (live.open(clock, state)) return stopped();
+    if (live.open(clock, state)) return stopped(0);
     follow.t.push(clock);
     follow.rows.push(live.bodies(clock, state));
     if (clock >= follow.end - 1e-9) {
@@ -294,10 +294,16 @@ function compute(budget) {
   wanted = true;
 }
 
-function stopped() {
-  follow.end = clock;
+// The motion ends in the last step of some length; or, of length 0, somewhere behind the last frame.
+function stopped(step) {
+  const last = follow.t[follow.t.length - 1], end = step ? live.end(clock, state, step) : null;
+  if (end && end.t > last) {
+    follow.t.push(end.t);
+    follow.rows.push(live.bodies(end.t, state));
+  }
+  clock = follow.end = end ? end.t : last;
   follow.status = "failed";
-  $("closes").textContent = `The mechanism closes with these parameters up to t = ${short(clock)} s.`;
+  $("closes").textContent = end ? end.sentence : `The mechanism closes with these parameters up to t = ${short(last)} s.`;
   finish();
 }
 
@@ -561,8 +567,10 @@ window.symgen = {
     for (const x of data.live.parameters) if (x.still && x.name in values) throw new Error(`${x.name} keeps its value in this page`);
     live.setParameters(Object.entries(values).map(([name, x]) => [this.parameters.indexOf(name), x]));
     const y = live.start(), count = Math.round(until / step);
-    if (y) for (let k = 0; k < count; k++) live.step(k * step, y, step);
+    const at = y ? Array.from({ length: count }, (_, k) => k * step).find((t) => !live.step(t, y, step)) : undefined;
+    const ended = at === undefined ? null : live.end(at, y, step);
     live.reset();
+    if (ended) throw new Error(ended.sentence);
     return y && Array.from(y);
   },
   // Look from elsewhere: turned and tilted [rad], with a point in the middle [m].

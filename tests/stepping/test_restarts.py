@@ -1,0 +1,60 @@
+"""Runs that begin anew from other values: the start of a fresh run to the last bit, with code and memory kept."""
+
+import numpy as np
+import pytest
+from support.emitted import mechanism_of
+
+import symgen
+from symgen.base.errors import AssemblyError, InputError
+from symgen.running import prepare
+
+#: A pendulum with a state of its own and an input.
+LAGGING = {
+    "mechanism": {"name": "lagging", "gravity": [0.0, -9.81]},
+    "inputs": {"push": {"default": 0.5, "unit": "N m"}},
+    "bodies": {"arm": {"mass": 1.0, "inertia": 0.1, "position": [0.5, 0.0], "points": {"end": [-0.5, 0.0]}}},
+    "joints": {"A": {"type": "revolute", "between": ["ground", "arm"], "at": [[0.0, 0.0], "end"]}},
+    "states": {"lag": {"rate": "arm.theta - lag", "start": 0.2}},
+    "forces": {"drive": {"type": "torque", "body": "arm", "torque": "push - lag"}},
+}
+CONSTANT = {"integrator": "rk4", "step": 1e-3}
+RUNS = {
+    "loop": ("four-bar", CONSTANT, [{"crank.theta": 1.2}, {"crank.theta": 1.3}, {"crank.omega": 3.0}, {}]),
+    "joint": ("slider-crank", CONSTANT, [{"O.angle": 0.4}, {"O.angle": 0.3, "O.rate": 2.0}, {"O.rate": 1.0}]),
+    "tree": ("four-bar", {"coordinates": "joint", **CONSTANT}, [{"crank.theta": 1.2}, {"crank.theta": 1.3}]),
+    "space": ("spherical-double-pendulum", CONSTANT, [{"upper.wy": 2.0}, {"upper.wy": 3.0}]),
+    "adaptive": ("slider-crank", {}, [{"crank.theta": 0.3}, {"crank.theta": 0.9}]),
+    "state": (LAGGING, CONSTANT, [{"lag": 0.7}, {"lag": 0.1, "arm.theta": 0.3}]),
+}
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_another_start_is_that_of_a_fresh_run(name, monkeypatch):
+    described, settings, others = RUNS[name]
+    model = symgen.load(mechanism_of(described) if isinstance(described, dict) else described)
+    sim = model.start(**settings)
+    sim.run(0.02)
+    fresh = [model.start(start=start, **settings) for start in others]
+    with monkeypatch.context() as once:
+        once.setattr(prepare, "decided", None)  # nothing is planned or compiled anew
+        for start, other in zip(others, fresh, strict=True):
+            sim.reset(start)
+            for array, expected in zip(sim.save().arrays.items(), other.save().arrays.items(), strict=True):
+                np.testing.assert_array_equal(array[1], expected[1], err_msg=array[0])
+            sim.run(0.02)
+            other.run(0.02)
+            result, expected = sim.result(), other.result()
+            assert sim.bodies == other.bodies and result.notes == expected.notes and result.start == expected.start
+    sim.reset()
+    assert sim.t == 0.0 and sim.bodies == model.start(**settings).bodies
+
+
+def test_a_start_that_is_refused_changes_nothing():
+    sim = symgen.load("four-bar").start(**CONSTANT)
+    sim.run(0.01)
+    before = sim.bodies
+    with pytest.raises(AssemblyError, match="stays open"):
+        sim.reset({"rocker.theta": 1.5})
+    with pytest.raises(InputError, match="none of that name"):
+        sim.reset({"rocker.thta": 1.0})
+    assert sim.bodies == before and sim.t == 0.01
