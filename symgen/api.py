@@ -14,6 +14,7 @@ from symgen.analyses.model_methods import Analysed
 from symgen.base import arguments
 from symgen.base.errors import InputError, nearest
 from symgen.base.keywords import RunKeywords, takes
+from symgen.base.plugins import in_sentences
 from symgen.base.settings import COORDINATES, SHAPES, Settings, changed, is_set
 from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.describe.evaluate import parameter_values, scalars
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from symgen.stepping.run import SteppedRun
 
 
+@in_sentences
 def load(model: str | Path | Mechanism | Model) -> Model:
     """Return a model by catalogue name (``"n-four-bar:40"``), path of a TOML file, or from a `Mechanism`.
 
@@ -115,6 +117,7 @@ class Model(Analysed, Shown):
         """
         return parameter_values(self.mechanism, changed)
 
+    @in_sentences
     def compile(
         self, method: str = "direct-correction", options: Mapping[str, str] | None = None, shape: str = "straight"
     ) -> CompiledModel:
@@ -149,6 +152,7 @@ class Model(Analysed, Shown):
         q, v = described_start(self.mechanism, scalars(parameters))
         return np.array(q), v
 
+    @in_sentences
     def assemble(
         self,
         compiled: CompiledModel,
@@ -197,6 +201,7 @@ class Model(Analysed, Shown):
     def __repr__(self) -> str:
         return repr(self.mechanism).replace("<Mechanism", "<Model", 1)
 
+    @in_sentences
     def generate(
         self,
         path: str | Path | None = None,

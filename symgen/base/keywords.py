@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Protocol, TypedDict, TypeVar
 
 from symgen.base import settings as table
+from symgen.base.plugins import in_sentences
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -77,9 +78,14 @@ def names(keywords: type) -> tuple[str, ...]:
 
 
 def takes(function: F) -> F:
-    """Have signature and docstring of a function list the settings that its ``**changes`` unpack, if it has such."""
+    """Make a function one of the package's entries.
+
+    An error inside a plugin leaves it as one sentence. Signature and docstring list the settings that its ``**changes``
+    unpack, if it has such.
+    """
     *_, last = inspect.signature(function).parameters.values()
     keywords = globals().get(str(last.annotation).removeprefix("Unpack[").removesuffix("]"))
+    function = in_sentences(function)
     if last.kind is not last.VAR_KEYWORD or keywords is None:
         return function
     listed = {name: table.default(name) for name in names(keywords)}

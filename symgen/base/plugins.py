@@ -9,13 +9,17 @@ from __future__ import annotations
 import hashlib
 import sys
 import traceback
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from functools import wraps
 from importlib.util import module_from_spec, spec_from_file_location
 from os import PathLike
 from types import ModuleType
+from typing import Any, TypeVar, cast
 
 from symgen.base import arguments
 from symgen.base.errors import InputError, SymgenError
+
+F = TypeVar("F", bound=Callable[..., Any])
 
 #: Group of entry points of packages that are plugins.
 GROUP = "symgen.plugins"
@@ -74,6 +78,23 @@ def failure_of_plugin(error: BaseException) -> InputError | None:
     if not lines:
         return None
     return InputError(f"plugin '{lines[-1].filename}', line {lines[-1].lineno}", "code that runs", _words(error))
+
+
+def in_sentences(function: F) -> F:
+    """Return a function that raises an error inside a plugin as its sentence, with the error as the cause."""
+
+    @wraps(function)
+    def entry(*values: Any, **keywords: Any) -> Any:
+        try:
+            return function(*values, **keywords)
+        except SymgenError:
+            raise
+        except (Exception, SystemExit) as error:
+            if (failure := failure_of_plugin(error)) is None:
+                raise
+            raise failure from error
+
+    return cast(F, entry)
 
 
 def _words(error: BaseException) -> str:

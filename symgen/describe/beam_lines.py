@@ -13,8 +13,8 @@ from symgen.describe.triads import frame
 from symgen.vocabulary.expressions import ZERO, Expr, call, difference, dot, number, product, total
 from symgen.vocabulary.measures import GROUND
 
-#: Maximum number of elements of a beam: what `check` costs grows faster than their number.
-MOST_ELEMENTS = 1000
+#: Maximum number of elements of a beam: `check` takes some seconds, and four times that of twice as many.
+MOST_ELEMENTS = 250
 #: Weights of few nodes: trapezoid, Simpson, 3/8, Boole; and those at the ends of many nodes.
 _FEW = {1: (0.5,), 2: (1 / 3, 4 / 3), 3: (3 / 8, 9 / 8), 4: (14 / 45, 64 / 45, 24 / 45)}
 _MANY = (3 / 8, 7 / 6, 23 / 24)

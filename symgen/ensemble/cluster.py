@@ -12,7 +12,7 @@ from secrets import token_hex
 from typing import TYPE_CHECKING, Any
 
 from symgen.base.errors import InputError, SimulationError
-from symgen.base.plugins import load_plugins
+from symgen.base.plugins import in_sentences, load_plugins
 from symgen.ensemble.chunks import Chunk, Rows
 from symgen.ensemble.kernel import kernel_of, new_control
 from symgen.ensemble.recipe import Recipe, code_identity
@@ -56,6 +56,7 @@ def carry(recipe: Recipe) -> Recipe:
     return recipe
 
 
+@in_sentences
 def run_chunk(recipe: Recipe, rows: Rows) -> Chunk:
     """Run a chunk on a worker, which compiles once for a recipe.
 

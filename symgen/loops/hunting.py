@@ -19,7 +19,7 @@ from symgen.layout.records import OUTPUTS, SPAN, STATE, ModelSystem, Run, State,
 from symgen.loopcode.bare import bare, part
 from symgen.loopcode.loop_instances import called
 from symgen.loopcode.loop_instances import loop as compiled_loop
-from symgen.loopcode.vectors import copied, largest
+from symgen.loopcode.vectors import copied
 from symgen.loops import frame
 from symgen.loops import search_records as searching
 from symgen.loops.frame import LOOK, TRY
@@ -110,15 +110,21 @@ def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
         return int(plain_correct(system, run, t, y, between))
     before, began = part(hunt, at + 1 + width, width), part(hunt, at + 1, width)
     copied(width, y, before)
-    went = 0.0
-    for i in range(sizes.nq):
-        went = max(went, abs(y[i] - began[i]) * run.scales[i])
+    went = farthest(y, began, run.scales, 0, sizes.nq)
     bits = plain_correct(system, run, t, y, between)
-    for i in range(width):
-        before[i] -= y[i]
-    hunt[searching.WENT], hunt[searching.MOVED] = went, largest(width, before, run.scales, 0, sizes.nq)
-    hunt[searching.SPED] = largest(width, before, run.metric, sizes.nq, sizes.nq + sizes.nv)
+    hunt[searching.WENT], hunt[searching.MOVED] = went, farthest(y, before, run.scales, 0, sizes.nq)
+    hunt[searching.SPED] = farthest(y, before, run.metric, sizes.nq, sizes.nq + sizes.nv)
     return int(bits)
+
+
+def farthest(y: Any, other: Any, weights: Any, first: int, last: int) -> float:
+    """Return the largest weighted difference of two states in the elements from `first` to `last`; nan is ignored."""
+    far = 0.0
+    for i in range(first, last):
+        size = abs(y[i] - other[i]) * weights[i]
+        if size > far:
+            far = size
+    return far
 
 
 def is_astray(span: Any, run: Any, adaptive: bool) -> bool:

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 
 #: How a run ends that a formula without a value may end.
 _ENDS = (abi.TINY_STEP, abi.NOT_FINITE)
-#: Times after the end at which formulas are evaluated, as parts of that time: an adaptive run ends before it.
+#: Times after the end at which formulas are evaluated, as parts of that time: an adaptive run ends before it. Formulas
+#: of the state are also evaluated an interval of outputs later, as a straight line to the end misses it by curvature.
 _AFTER = (0.0, 1e-12, 1e-9, 1e-6)
 
 
@@ -51,8 +52,7 @@ def undefined_at_end(mechanism: Mechanism, outcome: Outcome) -> str:
     y, before = outcome.states[-1], outcome.states[-2:][0]
     elapsed = outcome.times[-1] - outcome.times[-2:][0]
     slope = (y - before) / elapsed if elapsed > 0.0 else np.zeros_like(y)
-    for after in _AFTER:
-        t = outcome.end * (1.0 + after)
+    for t in (*(outcome.end * (1.0 + after) for after in _AFTER), outcome.end + elapsed):
         there = y + (t - outcome.times[-1]) * slope
         with np.errstate(all="ignore"):
             nan = np.isnan(side(t, there, outcome.p.copy(), outcome.w.copy(), np.zeros_like(y)))

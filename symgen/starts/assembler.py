@@ -227,7 +227,7 @@ class Assembly:
             open_by = {name: list[float]() for name in joints}
             for row, x in zip(info.rows, residual.tolist(), strict=True):
                 open_by[row.joint].append(x)
-            sizes = [math.hypot(*values) for values in open_by.values()]  # squares may overflow
+            sizes = [math.hypot(*values) for values in open_by.values()] or [0.0]  # squares may overflow
             summaries[r, e.START_WHERE], summaries[r, e.START_SIZE] = np.argmax(sizes), max(sizes)
         if self.strict:
             good = summaries[:, e.START] == e.ASSEMBLED

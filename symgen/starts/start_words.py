@@ -147,6 +147,11 @@ def refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> Assemb
             "a mass, or joints that hold it",
             f"a massless body that is free to move in {name}: nothing determines its acceleration",
         )
+    if code == e.OPEN and size == 0.0 and held:
+        return AssemblyError(
+            f"{info.name}: closing does not reach {held.positions(info)}, which the start holds, though all joints are "
+            "closed; choose a value that bodies can reach from where they are described"
+        )
     if code == e.OPEN:
         return _stays_open(info, held or Held(), joints_of(info)[where], size)
     if code == e.CONTRADICTION:

@@ -19,7 +19,7 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from symgen.base.errors import SimulationError
-from symgen.base.plugins import load_plugins, loaded_files
+from symgen.base.plugins import in_sentences, load_plugins, loaded_files
 from symgen.study.journal import Journal, Outcome
 
 #: Numerical libraries start threads by these variables; a process of a study is one thread.
@@ -181,7 +181,7 @@ def _spread(cells: Sequence[Cell], compute: Callable[[Any], Outcome | None], pro
     pool = ProcessPoolExecutor(min(processes, len(cells)), context, _begin, (theirs, loaded_files()))
     try:
         with _one_thread_each():
-            futures = {pool.submit(compute, cell.task): cell for cell in cells}
+            futures = {pool.submit(_computed_there, compute, cell.task): cell for cell in cells}
         for future in as_completed(futures):
             yield futures[future], future.result()
     except BrokenProcessPool:
@@ -189,6 +189,12 @@ def _spread(cells: Sequence[Cell], compute: Callable[[Any], Outcome | None], pro
     finally:
         ours.close()
         pool.shutdown(cancel_futures=True)
+
+
+@in_sentences
+def _computed_there(compute: Callable[[Any], Outcome | None], task: Any) -> Outcome | None:
+    """Compute a cell in another process: errors leave it without the lines that they passed."""
+    return compute(task)
 
 
 @contextlib.contextmanager

@@ -2,6 +2,11 @@
 
 import pytest
 
+import symgen
+from symgen.base.errors import InputError
+from symgen.study.journal import Journal
+from symgen.study.runner import Cell, run_cells
+
 METHOD = """
 import sys
 
@@ -49,3 +54,86 @@ def test_phi_of_a_method_has_the_name_of_the_notation(cli, tmp_path):
         cli("run", "pendulum", "--until", "0.1", "--plugin", file, "--method", "feedback", "--integrator", "rk4")[0]
         == 0
     )
+
+
+JOINT = """
+import msgspec
+
+from symgen.extension import FORCES, JOINTS
+
+
+class Broken(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    \"\"\"A part that cannot be built.\"\"\"
+
+    SPACES = ("planar", "spatial")
+
+    def build(self, scope):
+        return scope.nothing
+
+
+JOINTS.register("broken-joint", Broken)
+FORCES.register("broken-force", Broken)
+"""
+FILE = """
+[mechanism]
+name = "broken"
+
+[bodies.a]
+type = "point"
+mass = 1.0
+
+[{part}.b]
+type = "{kind}"
+"""
+
+
+def ends_in_the_plugin(caught, file, cause):
+    assert isinstance(caught.value.__cause__, cause)
+    return f"plugin '{file}', line " in str(caught.value) and cause.__name__ in str(caught.value)
+
+
+def test_python_gets_the_sentence_of_a_method_with_the_error_as_its_cause(tmp_path):
+    file = tmp_path / "broken-python.py"
+    file.write_text(METHOD.format(name="broken-python", line="1/0"))
+    symgen.load_plugin(file)
+    model, settings = symgen.load("pendulum"), {"method": "broken-python", "integrator": "rk4", "until": 0.1}
+    for call in (
+        lambda: model.simulate(**settings),
+        lambda: symgen.simulate("pendulum", **settings),
+        lambda: model.start(**settings),
+        lambda: model.sweep({"bob.vx": [0.0, 1.0]}, **settings),
+        lambda: model.compile("broken-python"),
+        lambda: model.compare(["broken-python"], ["rk4"], until=0.1),
+    ):
+        with pytest.raises(InputError, match="line 14: expected code that runs, got ZeroDivisionError") as caught:
+            call()
+        assert ends_in_the_plugin(caught, file, ZeroDivisionError)
+
+
+def test_python_gets_the_sentence_of_joints_and_forces(tmp_path):
+    file = tmp_path / "broken-parts.py"
+    file.write_text(JOINT)
+    symgen.load_plugin(file)
+    for part in ("joint", "force"):
+        described = tmp_path / f"{part}.toml"
+        described.write_text(FILE.format(part=f"{part}s", kind=f"broken-{part}"))
+        with pytest.raises(InputError, match="line 13: expected code that runs, got AttributeError") as caught:
+            symgen.load(described)
+        assert ends_in_the_plugin(caught, file, AttributeError)
+
+
+def test_an_error_in_another_process_is_the_same_sentence(tmp_path):
+    file = tmp_path / "broken-there.py"
+    file.write_text("def compute(task):\n    return 1 / task\n")
+    compute = symgen.load_plugin(file).compute
+    cells = [Cell(str(i), "one", 0) for i in range(2)]
+    with pytest.raises(InputError, match="line 2: expected code that runs, got ZeroDivisionError"):
+        run_cells(cells, compute, Journal(), processes=2)
+
+
+def test_an_error_of_a_caller_stays_what_it_is():
+    def progress(reached):
+        raise ValueError("of the caller")
+
+    with pytest.raises(ValueError, match="of the caller"):
+        symgen.simulate("pendulum", until=20.0, integrator="rk4", step=1e-5, progress=progress)

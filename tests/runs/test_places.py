@@ -10,6 +10,7 @@ from scipy.special import ellipj
 from support.emitted import mechanism_of
 
 import symgen
+from symgen.base.errors import AssemblyError
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.lengths import datum_of
 from symgen.integrators import INTEGRATORS
@@ -200,3 +201,20 @@ def test_euler_parameters_have_no_unit():
     """Notes on moved bodies printed them with a unit "1"."""
     moved = Change("top.e0", "1", 1.0, 0.5), Change("top.x", "m", 1.0, 0.5)
     assert [_from_to(change) for change in moved] == ["1 to 0.5", "1 to 0.5 m"]
+
+
+@pytest.mark.parametrize("guided", [False, True])
+def test_a_start_beyond_all_numbers_is_no_open_joint(guided):
+    raw = {
+        "mechanism": {"name": "far"},
+        "bodies": {"a": {"mass": 1.0, "inertia": 0.1}},
+        "joints": {"p": {"type": "place", "between": ["ground", "a"], "at": [[0, 0], "centre"]}},
+    }
+    if guided:
+        guide = {"type": "translational", "between": ["ground", "a"], "at": [[0, 0], "centre"], "axis": [1, 0]}
+        raw["joints"]["guide"] = guide
+    sentence = r"closing does not reach p\.x = 1e\+308 m, which the start holds, though all joints are closed"
+    with pytest.raises(AssemblyError, match=sentence):
+        symgen.simulate(mechanism_of(raw), until=0.1, start={"p.x": 1e308})
+    found = symgen.simulate(mechanism_of(raw), until=0.1, start={"p.x": 3.0})
+    assert found.q["a.x"][0] == pytest.approx(3.0, abs=1e-12)

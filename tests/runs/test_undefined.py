@@ -159,3 +159,20 @@ def test_a_failure_names_the_root_that_has_no_value(integrator):
     run = arm.simulate(inputs={"push": "max(0.1, sqrt(0.5 - t))"}, integrator=integrator, until=1.0)
     assert run.status == "failed" and run.end == pytest.approx(0.5, abs=2e-3)
     assert run.reason.endswith(": sqrt(0.5 - t) of force 'motor' is undefined"), run.reason
+
+
+@pytest.mark.parametrize("formula", ["sqrt(1.0 + ball.y)", "log(1.0 + ball.y)", "asin(ball.y)"])
+def test_a_failure_names_the_formula_of_the_state_that_has_no_value(formula):
+    """The ball falls from 0 to -1 m in sqrt(0.2) s; a force across its way does not change that."""
+    ball = symgen.load(
+        MechanismBuilder("leaving", gravity=(0.0, -10.0))
+        .body("ball", type="point", mass=1.0)
+        .force("wind", "force", body="ball", force=(formula, 0.0))
+        .build()
+    )
+    for settings in ({"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-3}, {"integrator": "radau5"}, {}):
+        found = ball.simulate(until=1.0, **settings)
+        assert found.status == "failed" and found.end == pytest.approx(0.2**0.5, abs=2e-3)
+        assert found.reason.endswith(f": {formula} of force 'wind' is undefined"), (settings, found.reason)
+    calm = ball.simulate(until=0.4)
+    assert calm.status == "ok"

@@ -15,6 +15,7 @@ from msgspec import structs
 from symgen.api import Model, load
 from symgen.base import arguments
 from symgen.base.errors import SimulationError, SymgenError
+from symgen.base.plugins import in_sentences
 from symgen.base.settings import Settings, default
 from symgen.describe.digest import digest, identity
 from symgen.describe.evaluate import parameter_values
@@ -65,6 +66,7 @@ MOST_JOBS = 4096
 COPIES = 8.0
 
 
+@in_sentences
 def compare(
     model: str | Path | Mechanism | Model,
     methods: Sequence[str] = (),
