@@ -38,6 +38,7 @@ from symgen.study.comparison.comparison_rows import (
 )
 from symgen.study.comparison.measured_runs import measured
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
+from symgen.study.limits import WATCHES, unlimited
 from symgen.study.machine_class import machine_class, versions
 from symgen.study.references.reference import Array, Reference, reference
 from symgen.study.references.routes import fastest_decay, two_routes
@@ -123,7 +124,9 @@ def compare(
     shape : str
         Shape of the code. ``auto`` is ``straight`` for all methods up to `LARGEST_STRAIGHT` coordinates, so that run
         times compare methods and not shapes.
-    max_violation, max_energy_error, max_attempts : float
+    max_violation, max_energy_error : float
+        As for `symgen.Settings`. A run that exceeds one is `failed` and measured to its end without it.
+    max_attempts : float
         As for `symgen.Settings`.
     coordinates : sequence of str
         ``absolute``, ``joint`` or both, side by side; absolute ones by default.
@@ -283,9 +286,13 @@ class _Work:
             run = begin(plan, assembled[plan.key])
             show(f"{settings.method}, {settings.integrator}", 1.0 + i)
             runs = timed(run.integrate, settings.repeat, AT_LEAST)
+            stopped = runs.outcome if runs.outcome.code in WATCHES else None
+            if stopped is not None:  # a study measures what becomes of it
+                runs = timed(unlimited(run).integrate, settings.repeat, AT_LEAST)
             if runs.outcome.interrupted:
                 raise KeyboardInterrupt
-            return to_entry(*measured(run, runs, reference_motion, points, words_of_variant(settings, self.common)))
+            variant = words_of_variant(settings, self.common)
+            return to_entry(*measured(run, runs, reference_motion, points, variant, stopped))
 
         return self.study(run_cells(self.rows, row, self.journal)[1])
 
