@@ -169,18 +169,33 @@ def test_what_the_start_warns_of_is_in_every_row_and_said_once(capsys):
 
 def test_an_interrupted_study_keeps_its_rows(monkeypatch):
     interrupt(monkeypatch, module, "timed", 3)
-    study = symgen.compare("pendulum", ["lagrange"], ["rk4"], [4e-2, 2e-2, 1e-2, 5e-3], until=0.5, repeat=1)
+    study = symgen.compare("pendulum", ["direct-correction"], ["rk4"], [4e-2, 2e-2, 1e-2, 5e-3], until=0.5, repeat=1)
     assert study.interrupted and len(study.rows) == 2
     assert study.to_json()["reference"]["how"] == "Jacobi's elliptic functions"
 
 
-def test_progress_counts_rows():
-    seen = []
-    symgen.compare(
-        "pendulum", ["lagrange"], ["rk4"], [2e-2, 1e-2], until=0.2, repeat=1, progress=lambda *a: seen.append(a)
-    )
-    assert seen[0] == ("reference", 0.0, 3.0)
-    assert seen[-2:] == [("lagrange, rk4", 1.0, 3.0), ("lagrange, rk4", 2.0, 3.0)]
+def test_progress_counts_rows_and_compilation(tmp_path):
+    """A pair of method and integrator is compiled once, before its first row; rows of a journal need no code."""
+
+    def reached(methods):
+        seen = []
+        arguments = {"until": 0.2, "repeat": 1, "progress": lambda *a: seen.append(a)}
+        with Journal(tmp_path / "rows.journal") as journal:
+            symgen.compare("pendulum", methods, ["rk4", "euler"], [2e-2, 1e-2], **arguments, journal=journal)
+        return seen
+
+    share, first = module.PREPARATION, reached(["lagrange"])
+    total = 5.0 + 2.0 * share
+    assert first == [
+        ("reference", 0.0, total),
+        ("compiling lagrange, rk4", 1.0, total),
+        *(("lagrange, rk4", 1.0 + share + i, total) for i in (0.0, 1.0)),
+        ("compiling lagrange, euler", 3.0 + share, total),
+        *(("lagrange, euler", 3.0 + 2.0 * share + i, total) for i in (0.0, 1.0)),
+    ]
+    again = reached(["lagrange", "baumgarte"])
+    assert again[0] == ("compiling baumgarte, rk4", 5.0, 9.0 + 2.0 * share)
+    assert again[-1] == ("baumgarte, euler", 8.0 + 2.0 * share, 9.0 + 2.0 * share)
 
 
 def test_rows_as_a_file_and_as_a_frame(study, tmp_path):
