@@ -147,7 +147,7 @@ _LABELS = ("x", "y", "z", "theta", "e0", "e1", "e2", "e3", "vx", "vy", "vz", "om
 
 def show_study(study: Study) -> None:
     """Print the rows of a study."""
-    from symgen.study.comparison.comparison_rows import ONE_RUN
+    from symgen.study.comparison.comparison_rows import BEYOND, ONE_RUN
 
     out = console()
     off = "" if study.how == "none" else f" (off by about {study.estimated_error:.1g} m)"
@@ -157,6 +157,8 @@ def show_study(study: Study) -> None:
     show_rows(out, _HEADINGS, map(_cells, study.rows), (*_HEADINGS[:3], "status"), first=3, in_parts=False)
     if any(row.below_reference for row in study.rows):
         out.print("* below what the reference itself may be off")
+    if any(row.beyond_limits for row in study.rows):
+        out.print(BEYOND)
     spreads = study.ratio_spreads
     if not study.is_repeated:
         out.print(ONE_RUN)
@@ -195,7 +197,7 @@ def _cells(row: Row) -> tuple[str, ...]:
     return (
         *(row.label, row.integrator, f"rtol {row.rtol:g}" if row.rtol is not None else f"{row.step:g} s"),
         "" if row.error is None else f"{row.error:.2e}" + (" *" if row.below_reference else ""),
-        *(f"{1e3 * row.run_seconds:.3f}", row.status, "" if row.cost_ratio is None else f"{row.cost_ratio:.2f}"),
+        *(f"{1e3 * row.run_seconds:.3f}", row.status_text, "" if row.cost_ratio is None else f"{row.cost_ratio:.2f}"),
         *(f"{row.position_violation_max:.1e}", f"{row.energy_drift_max:.1e}", str(row.evaluations)),
         *(
             f"{row.velocity_violation_max:.1e}",

@@ -10,7 +10,7 @@ from symgen.report.document import Document, DocumentTable, Section, TableCell
 from symgen.report.figures import pictures
 from symgen.report.picture import sketched
 from symgen.report.source import beside_the_source
-from symgen.study.comparison.comparison_rows import ONE_RUN, YARDSTICK, Row, Study
+from symgen.study.comparison.comparison_rows import BEYOND, ONE_RUN, YARDSTICK, Row, Study
 from symgen.study.machine_class import machine_class, versions
 
 _MOODS = {"ok": "good", "unverified": "doubtful", "failed": "bad"}
@@ -100,9 +100,9 @@ def _error_cell(row: Row | None) -> str | TableCell:
     if row is None:
         return words.NONE
     if row.error is None:
-        return TableCell(row.status, _MOODS[row.status])
+        return TableCell(row.status_text, _MOODS[row.status])
     text = _error_text(row)
-    return TableCell(f"{text} ({row.status})", _MOODS[row.status]) if row.status != "ok" else text
+    return TableCell(f"{text} ({row.status_text})", _MOODS[row.status]) if row.status != "ok" else text
 
 
 # -- one mechanism -----------------------------------------------------------------------------------------------------
@@ -133,7 +133,7 @@ def _summary(study: Study) -> DocumentTable:
         rows.append(
             (
                 row.label,
-                TableCell(row.status, _MOODS[row.status]),
+                TableCell(row.status_text, _MOODS[row.status]),
                 _error_text(row),
                 words.seconds(row.run_seconds),
                 words.ratio(row.cost_ratio),
@@ -143,8 +143,14 @@ def _summary(study: Study) -> DocumentTable:
                 words.number(row.energy_drift_max),
             )
         )
-    notes = (BELOW,) if any(r.below_reference for r, _ in representatives(study)) else ()
+    notes = _marks([row for row, _ in representatives(study)])
     return DocumentTable(f"One row a method: {settings_text(study)}.", headings, tuple(rows), words=2, notes=notes)
+
+
+def _marks(rows: Sequence[Row]) -> tuple[str, ...]:
+    """Return the meanings of the marks in some rows."""
+    marks = (BELOW, any(row.below_reference for row in rows)), (BEYOND, any(row.beyond_limits for row in rows))
+    return tuple(text for text, used in marks if used)
 
 
 def _error_text(row: Row) -> str:
@@ -176,12 +182,12 @@ def _all_rows(study: Study) -> DocumentTable:
         rows.append(
             (
                 *(row.label, row.integrator, words.setting(row.step, row.rtol)),
-                TableCell(row.status, _MOODS[row.status]),
+                TableCell(row.status_text, _MOODS[row.status]),
                 *(_error_text(row), words.seconds(row.run_seconds), words.percent(spread), both),
                 *(str(row.evaluations), str(row.iterations), words.number(row.energy_drift_max)),
             )
         )
-    notes = [BELOW] if any(row.below_reference for row in study.rows) else []
+    notes = [*_marks(study.rows)]
     notes += [] if study.is_repeated else [ONE_RUN]
     for row in study.rows:
         notes += [f"{_where(row)}: {row.status}: {words.readable(row.reason)}"] if row.reason else []

@@ -23,7 +23,7 @@ from symgen.describe.mechanism import Mechanism, bounded
 from symgen.result.points import Points
 from symgen.running.outputs import multiples, output_size
 from symgen.running.plan import Plan, Purpose, refuse_events
-from symgen.running.prepare import Assembled, assemble, begin, make_plan, prepare
+from symgen.running.prepare import Assembled, Prepared, assemble, begin, make_plan, prepare
 from symgen.runs.timing import timed
 from symgen.store.paths import cache_location
 from symgen.study.comparison.combinations import Combinations, words_of_variant
@@ -39,6 +39,7 @@ from symgen.study.comparison.comparison_rows import (
 )
 from symgen.study.comparison.measured_runs import measured
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
+from symgen.study.limits import WATCHES, unlimited
 from symgen.study.machine_class import machine_class, versions
 from symgen.study.references.reference import Array, Reference, reference
 from symgen.study.references.routes import fastest_decay, two_routes
@@ -125,7 +126,9 @@ def compare(
     shape : str
         Shape of the code. ``auto`` is ``straight`` for all methods up to `LARGEST_STRAIGHT` coordinates, so that run
         times compare methods and not shapes.
-    max_violation, max_energy_error, max_attempts : float
+    max_violation, max_energy_error : float
+        As for `symgen.Settings`. A run that exceeds one is `failed` and measured to its end without it.
+    max_attempts : float
         As for `symgen.Settings`.
     coordinates : sequence of str
         ``absolute``, ``joint`` or both, side by side; absolute ones by default.
@@ -200,10 +203,17 @@ class CodeTask:
     def outcome(self) -> None:
         """Compile everything that runs with these settings call, by runs that end at once."""
         for settings in self.settings:
-            run = prepare(self.mechanism, settings).with_spec(until=1e-9, times=np.zeros(1))
-            outcome = run.integrate()
-            if len(outcome.times):
-                _ = run.of_bodies(outcome).acceleration_violations
+            compile_all(prepare(self.mechanism, settings))
+
+
+def compile_all(run: Prepared) -> None:
+    """Compile everything that a run and its row call, by a run that ends at once."""
+    run = run.with_spec(until=1e-9, times=np.zeros(1))
+    outcome = run.integrate()
+    if outcome.interrupted:
+        raise KeyboardInterrupt
+    if len(outcome.times):
+        _ = run.of_bodies(outcome).acceleration_violations
 
 
 def compute(task: ReferenceTask | CodeTask) -> Outcome | None:
@@ -227,9 +237,15 @@ class _Work:
     reference_by: str
     journal: Journal
 
-    @property
-    def total(self) -> float:
-        return float(len(self.plans) + 1)
+    @cached_property
+    def pairs(self) -> set[Any]:
+        """Code and integrator of the rows that the journal lacks: each pair is compiled once."""
+        lacking = zip(self.rows, self.plans, strict=True)
+        return {(plan.key, plan.integrator.name) for cell, plan in lacking if cell.key not in self.journal}
+
+    def total(self, ahead: bool) -> float:
+        """Return what the progress counts: rows, the reference, and compilation unless it was done ahead."""
+        return len(self.plans) + 1 + (0.0 if ahead else PREPARATION * len(self.pairs))
 
     @cached_property
     def _parts(self) -> dict[str, Any]:
@@ -265,8 +281,8 @@ class _Work:
         # the reference comes last: it always takes time; cached code takes none, so that no process is started
         return [*codes, self.reference] if groups else []
 
-    def run(self, show: Callable[[str, float], None]) -> Study:
-        """Run the rows that the journal lacks, one at a time."""
+    def run(self, show: Callable[[str, float], None], ahead: bool) -> Study:
+        """Run the rows that the journal lacks, one at a time; `ahead` says whether their code was compiled before."""
 
         def motion(task: ReferenceTask) -> Outcome:
             show("reference", 0.0)
@@ -277,17 +293,29 @@ class _Work:
             return self.study(True)
         reference_motion, assembled = _reference(motions[self.reference.key], self.times), dict[Any, Assembled]()
         points = Points.of(self.model.mechanism, self.model.parameters(self.settings[0].parameters))
+        compiled = set[Any]()
 
         def row(i: int) -> Outcome:
             settings, plan = self.settings[i], self.plans[i]
+            words, pair = f"{settings.method}, {settings.integrator}", (plan.key, plan.integrator.name)
+            first = not ahead and pair not in compiled
+            if first:
+                show(f"compiling {words}", 1.0 + i + PREPARATION * len(compiled))
             if plan.key not in assembled:
                 assembled[plan.key] = assemble(plan)
             run = begin(plan, assembled[plan.key])
-            show(f"{settings.method}, {settings.integrator}", 1.0 + i)
+            if first:
+                compile_all(run)
+                compiled.add(pair)
+            show(words, 1.0 + i + PREPARATION * len(compiled))
             runs = timed(run.integrate, settings.repeat, AT_LEAST)
+            stopped = runs.outcome if runs.outcome.code in WATCHES else None
+            if stopped is not None:  # a study measures what becomes of it
+                runs = timed(unlimited(run).integrate, settings.repeat, AT_LEAST)
             if runs.outcome.interrupted:
                 raise KeyboardInterrupt
-            return to_entry(*measured(run, runs, reference_motion, points, words_of_variant(settings, self.common)))
+            variant = words_of_variant(settings, self.common)
+            return to_entry(*measured(run, runs, reference_motion, points, variant, stopped))
 
         return self.study(run_cells(self.rows, row, self.journal)[1])
 
@@ -387,9 +415,10 @@ def compare_all(
         settings = list(runs.settings(base, chosen.mechanism.defaults.step))
         plans = [make_plan(chosen.mechanism, s) for s in settings]  # raises errors before the first run
         works.append(_Work(chosen, common, end, times, settings, plans, reference_by, records))
-    reached, total = 0.0, sum(w.total for w in works)
+    ahead = jobs > 1 and cache_location().persistent  # else the code that another process compiles would be lost
+    reached, total = 0.0, sum(work.total(ahead) for work in works)
     report: Progress = progress or (lambda what, reached, of: None)
-    if jobs > 1 and cache_location().persistent:  # else the code that another process compiles would be lost
+    if ahead:
         cells = [cell for work in works for cell in work.ahead()]
         reached = PREPARATION * len(cells)
         total += reached
@@ -406,8 +435,8 @@ def compare_all(
         def show(what: str, done: float, prefix: str = prefix, reached: float = reached) -> None:
             report(prefix + what, reached + done, total)
 
-        studies.append(work.run(show))
-        reached += work.total
+        studies.append(work.run(show, ahead))
+        reached += work.total(ahead)
         if studies[-1].interrupted:
             break
     return studies

@@ -56,9 +56,12 @@ class Row:
         Constant step [s], or relative tolerance.
     status, reason
         As of a result; a failed run stays a row.
+    beyond_limits : bool
+        Whether the run is `failed` because it exceeded one of its limits, and the row measures it to its end without
+        them.
     error : float or None
         Largest distance to the reference [m] over bodies, output times and points (`symgen.result.points`); None for a
-        run that failed, and where there is no reference.
+        run that did not reach its end, and where there is no reference.
     below_reference : bool
         Whether the error is below the estimated error of the reference, which is then its only bound.
     run_seconds, run_seconds_median : float
@@ -115,6 +118,7 @@ class Row:
     acceleration_violation_final: float | None = None
     coordinates: str = "absolute"
     variant: str = ""
+    beyond_limits: bool = False
 
     @property
     def label(self) -> str:
@@ -130,7 +134,12 @@ class Row:
     @property
     def ended(self) -> bool:
         """Whether the run reached its end."""
-        return self.status != FAILED
+        return self.status != FAILED or self.beyond_limits
+
+    @property
+    def status_text(self) -> str:
+        """Status with its mark, which `BEYOND` explains."""
+        return f"{self.status} +" if self.beyond_limits else self.status
 
     def texts(self) -> list[str]:
         """Return the fields as the cells of a table; None is empty."""
@@ -226,6 +235,8 @@ def with_ratios(rows: Sequence[Row]) -> tuple[Row, ...]:
     return tuple(rated)
 
 
+#: Meaning of the mark of a row that is `Row.beyond_limits`.
+BEYOND = "+ exceeded a limit of a run; measured to its end without limits"
 #: In place of the spread of run times, where each was measured once.
 ONE_RUN = "one run: no spread"
 
@@ -297,7 +308,7 @@ class Study:
             (
                 *(row.label, row.integrator),
                 f"rtol {row.rtol:g}" if row.rtol is not None else f"{row.step:g} s",
-                row.status,
+                row.status_text,
                 "" if row.error is None else f"{row.error:.2e}",
                 f"{1e3 * row.run_seconds:.3f}",
                 "" if row.cost_ratio is None else f"{row.cost_ratio:.2f}",

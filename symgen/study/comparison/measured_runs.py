@@ -14,6 +14,7 @@ from symgen.study.comparison.comparison_rows import Row, Trace
 if TYPE_CHECKING:
     from symgen.result.points import Points
     from symgen.running.prepare import Prepared
+    from symgen.runs.outcome import Outcome
     from symgen.runs.timing import Timed
     from symgen.study.references.reference import Reference
 
@@ -24,7 +25,12 @@ LONGEST = 400
 
 
 def measured(
-    run: Prepared, runs: Timed, reference: Reference | None, points: Points, variant: str
+    run: Prepared,
+    runs: Timed,
+    reference: Reference | None,
+    points: Points,
+    variant: str,
+    stopped: Outcome | None = None,
 ) -> tuple[Row, Trace]:
     """Compare one run with the reference and measure it.
 
@@ -40,10 +46,12 @@ def measured(
         Points between which distances are measured.
     variant : str
         Options that distinguish the method from others of the study.
+    stopped : Outcome, optional
+        The run as one of its limits stopped it, by which it is judged; `runs` then have no limits.
     """
     plan, outcome = run.plan, run.of_bodies(runs.outcome)
     nq, count = outcome.compiled.info.nq, len(outcome.times)
-    verdict = judge(run, outcome)
+    verdict = judge(run, outcome if stopped is None else run.of_bodies(stopped))
     distances = None if reference is None else points.distances(outcome.states[:, :nq], reference.q[:count])
     error = float(distances.max(initial=0.0)) if distances is not None and outcome.code == abi.DONE else None
     accelerations = outcome.acceleration_violations if count else np.zeros(0)
@@ -59,6 +67,7 @@ def measured(
         status=verdict.status,
         reason=verdict.reason,
         error=error,
+        beyond_limits=stopped is not None and outcome.code == abi.DONE,
         below_reference=error is not None and reference is not None and error < reference.estimated_error,
         run_seconds=outcome.run_seconds,
         run_seconds_spread=runs.spread,

@@ -33,6 +33,7 @@ from symgen.running.options import split_options
 from symgen.running.plan import Purpose
 from symgen.running.prepare import assemble, begin, decided
 from symgen.runs.outcome import Outcome
+from symgen.study.limits import UNWATCHED, WATCHES, unlimited
 from symgen.study.stress import cell_outcome as judged
 from symgen.study.stress.bench import Level
 from symgen.study.stress.cell_outcome import Run, classify, largest_error
@@ -43,10 +44,6 @@ Array = NDArray[np.float64]
 Fields = dict[str, Any]
 
 
-#: Limits of a run that does not watch itself.
-UNWATCHED: dict[str, Any] = {"max_violation": 1e30, "max_energy_error": 1e30}
-#: Statuses of loops that stopped although they could have continued.
-WATCHES = (abi.POSITION, abi.VELOCITY, abi.ENERGY)
 #: The search for the largest step: factor of the scan, halvings afterwards, and how far it goes down from the step.
 SCAN, HALVINGS, SMALLEST = 4.0, 7, 4096.0
 
@@ -139,7 +136,7 @@ def _run(task: RunTask) -> Fields:
     if outcome.code in WATCHES and kind == judged.DIVERGED:
         # it stopped itself before its error could be seen: what would have become of it says what it was
         most = further_budget(budget, outcome.evaluations)
-        run = run.with_spec(**UNWATCHED, max_evaluations=most)
+        run = unlimited(run).with_spec(max_evaluations=most)
         further = run.integrate()
         if further.interrupted:
             raise KeyboardInterrupt
