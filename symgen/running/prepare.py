@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from symgen.base.memory import uncollected
-from symgen.describe.evaluate import parameter_values
 from symgen.running.automatic import AUTO, SLOW, STRUCTURAL, TOGETHER, decide, facts_of, slow_steps, trial_of
 from symgen.running.continuation import continued
 from symgen.running.inputs import put_inputs
@@ -235,7 +234,5 @@ def begin(plan: Plan, assembled: Assembled) -> Prepared:
         return run
     from symgen.compiling.events import compile_events
 
-    values, rtol = parameter_values(run.mechanism, plan.parameters), plan.spec.rtol if plan.spec.adaptive else None
-    return run.with_spec(
-        stops=plan.stops, events=compile_events(run.mechanism, run.compiled, plan.events, values, rtol)
-    )
+    rtol = plan.spec.rtol if plan.spec.adaptive else None
+    return run.with_spec(stops=plan.stops, events=compile_events(run.mechanism, run.compiled, plan.events, rtol))

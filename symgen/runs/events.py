@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.describe.events import RECORD, RESET, STOP
+from symgen.effects.effects import Impact
 from symgen.layout import abi
 from symgen.loops import hunting
 from symgen.loops import search_records as searching
-from symgen.runs.resets import Impact, are_lost, impact_of
+from symgen.runs.resets import are_lost
 
 if TYPE_CHECKING:
     from symgen.layout.compiled import CompiledModel, ModelInfo
@@ -29,28 +30,6 @@ NOTHING_LEFT = 1e-9
 _SHRINKING, _STEADY = 4, 0.2
 #: This many resets within this part of the time are an accumulation as well.
 _CROWDED, _HEAP = 50, 1e-7
-
-
-def impact_at(
-    watched: Watched, compiled: CompiledModel, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array
-) -> Impact:
-    """Return the effect of resets at one time on a state; see `symgen.runs.resets.impact_of`.
-
-    Parameters
-    ----------
-    watched : Watched
-        Switching functions of the run.
-    compiled : CompiledModel
-        Model and method.
-    numbers : sequence of int
-        Numbers of the events.
-    t, y, p, w
-        Time, state, parameters and scratch; the geometry in it is overwritten.
-    """
-    assert watched.masses is not None, "where there are resets, it is known what they are the shortest in"
-    names = " and ".join(f"'{watched.names[n]}'" for n in numbers)
-    where = f"event{'s' * (len(numbers) > 1)} {names}: reset"
-    return impact_of(compiled, [watched.resets[n] for n in numbers], watched.masses, where, t, y, p, w)
 
 
 def event_state(watched: Watched, sizes: Sizes, state: State) -> hunting.HuntingState:
@@ -90,6 +69,8 @@ class Happening:
         Name and action of the event.
     state : Array, shape (nq + nv,)
         Coordinates and velocities before a reset.
+    own : Array
+        States of the file's own before a reset.
     impact : Impact or None
         Effect of a reset; resets at the same time share it.
     energy : float
@@ -100,6 +81,7 @@ class Happening:
     name: str
     action: str
     state: Array
+    own: Array
     impact: Impact | None = None
     energy: float = 0.0
 
@@ -137,10 +119,10 @@ class Events:
 
     def take(self, state: hunting.HuntingState) -> list[tuple[int, Happening]]:
         """Store and return the passages noted by a loop since the last call, with numbers of events."""
-        names, actions, size = self.watched.names, self.watched.actions, self.compiled.info.work
+        names, actions, info = self.watched.names, self.watched.actions, self.compiled.info
         notes = hunting.taken_notes(state.hunt, len(state.y), len(state.w))
         events = [
-            (number, Happening(t, names[number], actions[number], y[:size]))
+            (number, Happening(t, names[number], actions[number], y[: info.work], y[info.own_states]))
             for t, number, y in notes
             if number < len(names)
         ]
@@ -193,12 +175,8 @@ class Events:
     # -- resets --------------------------------------------------------------------------------------------------------
 
     def _reset(self, state: hunting.HuntingState, numbers: Sequence[int]) -> None:
-        info, watched, now = self.compiled.info, self.watched, float(state.clock[abi.TIME])
-        y, w = state.y[: info.ny].copy(), state.w.copy()
-        impact = impact_at(watched, self.compiled, numbers, now, y, state.p, w)
-        state.y[info.nq : info.nq + info.nv] = impact.v
-        state.y[info.work] += impact.energy  # work of the impulses: the energy balance continues
-        state.w[abi.KINETIC] += impact.energy
+        watched, now = self.watched, float(state.clock[abi.TIME])
+        impact = watched.effects.apply(numbers, now, state.y, state.p, state.w)
         self._begin_anew(state)
         names, energy = {watched.names[number] for number in numbers}, impact.energy
         first = len(self.happened)
