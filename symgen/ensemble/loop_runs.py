@@ -20,7 +20,8 @@ from symgen.loopcode.padding import aligned
 from symgen.loops.hunting import with_events
 from symgen.loops.searching import decide
 from symgen.loops.stopping import with_table
-from symgen.rows.rows import OfEffects, observe_nothing, over_rows
+from symgen.rows.row_events import OfEffects
+from symgen.rows.rows import observe_nothing, over_rows
 from symgen.runs.events import event_state
 from symgen.runs.new_state import new_outputs, new_state, sizes_of, span_of
 from symgen.starts.assembler import layout_of
