@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from functools import partial
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.side import Side, compile_side
-from symgen.describe.evaluate import evaluate
 from symgen.describe.formula_text import to_text
 from symgen.describe.kinks import Discontinuity, changing_rows, discontinuities_of
 from symgen.describe.mechanism import Event, Mechanism, SpatialBody
+from symgen.effects.effects import Effect, Effects
 from symgen.ir.interpolation import Interpolation
-from symgen.layout.abi import OBSERVE
 from symgen.layout.compiled import CompiledModel
-from symgen.layout.probe import Ready
-from symgen.loops.run_spec import Masses, Reset, Switch, Watched
-from symgen.runs.resets import linear_in_v
+from symgen.loops.run_spec import Switch, Watched
 from symgen.runs.row_jumps import RowJumps
+from symgen.vocabulary.expressions import ZERO, Expr
 
 Array = NDArray[np.float64]
 
@@ -33,7 +30,6 @@ def compile_events(
     mechanism: Mechanism,
     compiled: CompiledModel,
     events: Sequence[Event],
-    values: Mapping[str, float],
     rtol: float | None = None,
 ) -> Watched | None:
     """Return the switching functions of a run, or None.
@@ -46,8 +42,6 @@ def compile_events(
         Model and method.
     events : sequence of Event
         Events of the run.
-    values : mapping of str to float
-        Values of the parameters.
     rtol : float, optional
         Tolerance of adaptive steps, which end where formulas jump or have kinks over the state; constant steps do not.
         In either, rows that change are examined there.
@@ -58,20 +52,13 @@ def compile_events(
     functions = [(f"{event.name}: {event.text}", event.when) for event in events]
     functions += [(to_text(x.argument), x.argument) for x in passed]
     side = compile_side(mechanism, compiled, "events", "Switching functions", functions, 1, bool(passed))
-    resets = {}
-    for i, event in enumerate(events):
-        if event.reset:
-            resets[i] = Reset(
-                tuple(to_text(name) for name, _ in event.reset), velocities_at(mechanism, compiled, event)
-            )
     return Watched(
         names=tuple(event.name for event in events),
         directions=tuple(DIRECTIONS[event.direction] for event in events),
         actions=tuple(event.action for event in events),
         function=side.function,
         needs_rates="ydot" in side.reads,
-        resets=resets,
-        masses=masses_of(mechanism, values) if resets else None,
+        effects=effects_of(mechanism, compiled, events),
         switches=tuple(switch_of(x, 1.0 if rtol is None else rtol) for x in passed),
         jumps=any(x.jumps for x in passed),
         rows=row_jumps(mechanism, compiled) if any(x.holds for x in passed) else None,
@@ -86,6 +73,37 @@ def row_jumps(mechanism: Mechanism, compiled: CompiledModel) -> RowJumps:
     formulas += [(row.name, row.formula) for row in rows]
     side = compile_side(mechanism, compiled, "rows", "Rows that may jump", formulas)
     return RowJumps(rows, side, mechanism.defaults.until)
+
+
+def effects_of(mechanism: Mechanism, compiled: CompiledModel, events: Sequence[Event]) -> Effects | None:
+    """Return what events change, or None."""
+    states = {state.name for state in mechanism.states}
+    parts = dict[int, tuple[list[tuple[Expr, Expr]], list[tuple[Expr, Expr]]]]()
+    for i, event in enumerate(events):
+        if event.reset:
+            written = [to_text(name) in states for name, _ in event.reset]
+            pairs = list(zip(event.reset, written, strict=True))
+            parts[i] = [x for x, own in pairs if not own], [x for x, own in pairs if own]
+    if not parts:
+        return None
+    struck = [pair for velocities, _ in parts.values() for pair in velocities]
+    masses = masses_of(mechanism) if struck else {}
+    formulas = [(to_text(name), name) for name, _ in struck]
+    formulas += [(f"{to_text(name)} afterwards", value) for name, value in struck]
+    formulas += [(f"{to_text(name)} afterwards", value) for _, writes in parts.values() for name, value in writes]
+    formulas += [(f"mass {i}, {j}", value) for (i, j), value in masses.items()]
+    carried = bool(struck) and mechanism.topology is not None
+    return Effects(
+        compiled=compiled,
+        names=tuple(event.name for event in events),
+        effects={
+            i: Effect(*(tuple(to_text(name) for name, _ in pairs) for pairs in effect)) for i, effect in parts.items()
+        },
+        formulas=compile_side(mechanism, compiled, "effects", "Effects of events", formulas).function,
+        entries=tuple(masses),
+        bodies=sum(len(body.speeds) for body in mechanism.bodies) if carried else 0,
+        first=mechanism.body_coordinates if carried else 0,
+    )
 
 
 def velocities_at(mechanism: Mechanism, compiled: CompiledModel, event: Event) -> Side:
@@ -131,55 +149,20 @@ def sizes_of_kinks(curve: Interpolation) -> tuple[float, ...]:
     return tuple((total / span).tolist()) if span > 0.0 else (0.0,) * n
 
 
-def masses_of(mechanism: Mechanism, values: Mapping[str, float]) -> Masses:
-    """Return the factors of M, over the velocities of bodies where joints of a tree carry these."""
-    if mechanism.topology is not None:
-        return partial(_carried_masses, mechanism)
-    return partial(_own_masses, tuple(_products(mechanism, values)))
-
-
-def _own_masses(
-    products: Sequence[tuple[int, int, float]], compiled: CompiledModel, t: float, y: Array, p: Array, w: Array
-) -> tuple[Array, Array, Array]:
-    mass = np.diag(compiled.section(w, "mass"))
-    for i, j, value in products:
-        mass[i, j] = mass[j, i] = value
-    return np.eye(len(mass)), np.zeros(len(mass)), mass
-
-
-def _carried_masses(
-    mechanism: Mechanism, compiled: CompiledModel, t: float, y: Array, p: Array, w: Array
-) -> tuple[Array, Array, Array]:
-    info = compiled.info
-    values = dict(zip((q.name for q in info.parameters), p.tolist(), strict=False))
-    diagonal = list[float]()
+def masses_of(mechanism: Mechanism) -> dict[tuple[int, int], Expr]:
+    """Return entries of M by row and column: off-diagonal ones, and diagonal ones where joints carry bodies."""
+    entries, first = dict[tuple[int, int], Expr](), 0
     for body in mechanism.bodies:
-        where = f"bodies.{body.name}"
-        diagonal += [evaluate(body.mass, values, f"{where}.mass")] * len(mechanism.gravity)
-        if body.inertia is not None:
-            turning = body.inertia[:3] if isinstance(body, SpatialBody) else (body.inertia,)
-            diagonal += [evaluate(entry, values, f"{where}.inertia") for entry in turning]
-    mass = np.diag(diagonal)
-    for i, j, value in _products(mechanism, values):
-        mass[i, j] = mass[j, i] = value
-    first, count = mechanism.body_coordinates, len(diagonal)
-    out, ydot, bodies = np.zeros(first + 2 * count), np.zeros(info.ny), Ready(compiled.model.bodies, OBSERVE)
-
-    def velocities(state: Array) -> Array:
-        bodies(t, state, p, w, ydot, out)
-        return out[first : first + count]
-
-    return *linear_in_v(info, y, velocities), mass
-
-
-def _products(mechanism: Mechanism, values: Mapping[str, float]) -> list[tuple[int, int, float]]:
-    """Return the off-diagonal entries of M: row, column, value."""
-    entries, first = list[tuple[int, int, float]](), 0
-    for body in mechanism.bodies:
-        if isinstance(body, SpatialBody) and body.inertia is not None:
-            for (i, j), entry in zip(((0, 1), (0, 2), (1, 2)), body.inertia[3:], strict=True):
-                value = evaluate(entry, values, f"bodies.{body.name}.inertia")
-                if value != 0.0:
-                    entries.append((first + 3 + i, first + 3 + j, value))
+        inertia: tuple[Expr, ...] = ()
+        if isinstance(body, SpatialBody):
+            inertia = body.inertia or ()
+        elif body.inertia is not None:
+            inertia = (body.inertia,)
+        if mechanism.topology is not None:
+            diagonal = [body.mass] * len(mechanism.gravity) + list(inertia[:3])
+            entries |= {(first + i, first + i): value for i, value in enumerate(diagonal)}
+        for (i, j), value in zip(((3, 4), (3, 5), (4, 5)), inertia[3:], strict=False):
+            if value != ZERO:
+                entries[first + i, first + j] = value
         first += len(body.speeds)
     return entries

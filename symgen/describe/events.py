@@ -8,7 +8,7 @@ from typing import Any, Literal
 import msgspec
 
 from symgen.base.errors import InputError, quoted
-from symgen.describe.fields import Condition, NewVelocities, read, words_of
+from symgen.describe.fields import Condition, NewValues, read, words_of
 from symgen.describe.formula_text import to_text
 from symgen.describe.inputs import put
 from symgen.describe.mechanism import Event, Mechanism
@@ -19,7 +19,7 @@ from symgen.vocabulary.expressions import Call, Expr, Name, Number, call, names
 RISING, FALLING, ANY = "rising", "falling", "any"
 RECORD, STOP, RESET = "record", "stop", "reset"
 #: Effects on a motion of actions other than recording, in words.
-DOES = {STOP: "ends runs", RESET: "changes velocities"}
+DOES = {STOP: "ends runs", RESET: "changes the state"}
 _LOGIC = frozenset(("lt", "le", "gt", "ge", "and", "or", "not"))
 
 
@@ -35,17 +35,17 @@ class EventSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
         ``"rising"``, ``"falling"`` or ``"any"``: through zero upwards, downwards, or both, which is so for an
         expression by default. A condition rises when it becomes true, which is meant by default.
     action : str
-        ``"record"``: time and state are noted; ``"stop"``: the run ends there; ``"reset"``: velocities change.
-        Recorded by default.
+        ``"record"``: time and state are noted; ``"stop"``: the run ends there; ``"reset"``: velocities, or states of
+        the file's own, change. Recorded by default.
     reset : table
-        New velocities as expressions of those before, such as ``{ "ball.vy" = "-0.7*ball.vy" }``. All other velocities
-        change as an impulse in these and in the joints makes them.
+        New velocities and states as expressions of the state before, such as ``{ "ball.vy" = "-0.7*ball.vy" }`` or
+        ``{ charge = "0.5*charge" }``. All other velocities change as an impulse in these and in the joints makes them.
     """
 
     when: Condition
     direction: Literal["rising", "falling", "any"] | None = None
     action: Literal["record", "stop", "reset"] | None = None
-    reset: NewVelocities | None = None
+    reset: NewValues | None = None
 
 
 def read_event(scope: Scope, name: str, raw: object) -> Event:
@@ -67,13 +67,13 @@ def read_event(scope: Scope, name: str, raw: object) -> Event:
     """
     section = read(EventSection, raw, scope.where(""))
     if section.action == RESET and section.reset is None:
-        raise scope.error("reset", 'new velocities, such as { "ball.vy" = "-0.7*ball.vy" }', "no such key")
+        raise scope.error("reset", 'new velocities or states, such as { "ball.vy" = "-0.7*ball.vy" }', "no such key")
     if section.reset is not None and section.action not in (None, RESET):
-        raise scope.error("action", "'reset', as new velocities are given", f"'{section.action}'")
+        raise scope.error("action", "'reset', as new values are given", f"'{section.action}'")
     action = section.action or (RECORD if section.reset is None else RESET)
-    reset = tuple(_velocity(scope, key, value) for key, value in (section.reset or {}).items())
+    reset = tuple(_reset(scope, key, value) for key, value in (section.reset or {}).items())
     if action == RESET and not reset:
-        raise scope.error("reset", "at least one new velocity", "an empty table")
+        raise scope.error("reset", "at least one new value", "an empty table")
     when, condition = _switching(scope, "when", section.when)
     direction = section.direction or (RISING if condition else ANY)
     return Event(name, when, direction, action, reset, " ".join(section.when.split()))
@@ -149,11 +149,13 @@ def _difference(a: Expr, b: Expr) -> Expr:
     return a if b == zero else call("neg", b) if a == zero else call("sub", a, b)
 
 
-def _velocity(scope: Scope, key: str, value: float | str) -> tuple[Expr, Expr]:
-    """Return a named velocity and its new value."""
+def _reset(scope: Scope, key: str, value: float | str) -> tuple[Expr, Expr]:
+    """Return a named velocity, or state of the file's own, and its new value."""
     where = f"reset.{quoted(key)[1:-1]}"
     quantity = scope.of_state(where, key)
-    body, _, speed = quantity.name.rpartition(".") if isinstance(quantity, Name) else ("", "", "")
-    if body not in scope.context.bodies or speed not in scope.context.bodies[body].speeds:
-        raise scope.error(where, "the name of a velocity, such as ball.vy", words_of(key))
+    word = quantity.name if isinstance(quantity, Name) else ""
+    body, _, speed = word.rpartition(".")
+    is_velocity = body in scope.context.bodies and speed in scope.context.bodies[body].speeds
+    if not is_velocity and word not in scope.context.state_names:
+        raise scope.error(where, "the name of a velocity, such as ball.vy, or of a state", words_of(key))
     return quantity, scope.of_state(where, value)

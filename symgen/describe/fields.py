@@ -108,8 +108,9 @@ JointStart = Annotated[
 Condition = Annotated[
     str, Meta(description="a condition such as 'ball.y < 0.1', or an expression that passes through zero")
 ]
-NewVelocities = Annotated[
-    dict[str, StateFunction], Meta(description='a table of new velocities, such as "ball.vy" = "-0.7*ball.vy"')
+NewValues = Annotated[
+    dict[str, StateFunction],
+    Meta(description='a table of new velocities or states, such as "ball.vy" = "-0.7*ball.vy"'),
 ]
 Rows = Annotated[
     tuple[dict[str, float | str], ...],

@@ -179,7 +179,7 @@ class RowKernel:
             return DeviceRuns(other, need, setup.scheme, span, recipe.limits, recipe.times, recipe.picks, recipe.datum)
         watched, rtol = None, spec.rtol if spec.adaptive else None
         if watch is not None:
-            watched = compile_events(recipe.tree or watch.mechanism, own, watch.events, {}, rtol)
+            watched = compile_events(recipe.tree or watch.mechanism, own, watch.events, rtol)
         if on_tree is None:
             return LoopRuns(recipe, compiled, integrator, setup, recipe.picks, watched, other)
         info, picks = compiled.info, list[tuple[int, int]]()

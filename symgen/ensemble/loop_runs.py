@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.effects.accumulation import new_past
 from symgen.ir.program import LANES, lane_bases
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
@@ -19,6 +20,7 @@ from symgen.loopcode.padding import aligned
 from symgen.loops.hunting import with_events
 from symgen.loops.searching import decide
 from symgen.loops.stopping import with_table
+from symgen.rows.row_events import OfEffects
 from symgen.rows.rows import observe_nothing, over_rows
 from symgen.runs.events import event_state
 from symgen.runs.new_state import new_outputs, new_state, sizes_of, span_of
@@ -117,11 +119,21 @@ class LoopRuns:
             if out.events.shape[1]:
                 out.events[selected] = np.nan
                 out.events[selected, e.HEAD_OF_EVENTS :: e.OF_EVENT] = 0.0
-        loop = over_rows(self.integrator.loop(adaptive), self.watched is not None, recipe.stops)
+        further: tuple[Any, ...] = ()
+        if self.watched is not None and self.watched.effects is not None:
+            further = (self._effects(self.watched, sizes.width, len(state.w)),)
+        loop = over_rows(self.integrator.loop(adaptive), self.watched is not None, recipe.stops, bool(further))
         if recipe.stops:
             system = with_table(compiled, system, inner, adaptive, rows.stops or ((),))
-        done = loop((system, observers), setup.scheme, span, chunk, state, series)
+        done = loop((system, observers, *further), setup.scheme, span, chunk, state, series)
         return bool(done == len(chunk.selected))
+
+    def _effects(self, watched: Watched, width: int, nw: int) -> Any:
+        """Return what events change, and memory for one thread."""
+        effects, events = watched.effects, len(watched.names)
+        past = new_past(events, events + len(watched.switches), width, nw, self.recipe.spec.until)
+        chosen, resets = np.zeros(events, dtype=np.int64), effects.chosen(list(effects.effects))
+        return OfEffects(effects.model, watched.function, resets, chosen, effects.memory(width, nw), past)
 
     def _series(self) -> Kept:
         """Return room for the outputs of one run, and for what is observed at them."""

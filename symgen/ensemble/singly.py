@@ -18,8 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.compiling.events import compile_events, masses_of
+from symgen.compiling.events import compile_events, effects_of
 from symgen.describe.events import RESET
+from symgen.effects.effects import Effects
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
 from symgen.loops.hunting import undefined_event
@@ -80,18 +81,17 @@ class SingleRuns:
         return self.tree[0], self.tree[1].assembly.compiled
 
     def _events_of(self, mechanism: Mechanism, compiled: CompiledModel) -> Watched | None:
-        values = {q.name: q.value for q in self.watch.mechanism.parameters}
         spec = self.recipe.spec
-        return compile_events(mechanism, compiled, self.watch.events, values, spec.rtol if spec.adaptive else None)
+        return compile_events(mechanism, compiled, self.watch.events, spec.rtol if spec.adaptive else None)
 
     @cached_property
     def _watched(self) -> Watched | None:
         return self._events_of(*self._run_of)
 
     @cached_property
-    def _of_bodies(self) -> Watched | None:
-        """The events as bodies have them, where the tree of joints is run."""
-        return self._events_of(self.watch.mechanism, self.compiled)
+    def _of_bodies(self) -> Effects | None:
+        """What events change as bodies have it, where the tree of joints is run."""
+        return effects_of(self.watch.mechanism, self.compiled, self.watch.events)
 
     def run(self, rows: Rows, starts: Instant, selected: Integers, out: Results, control: Integers) -> bool:
         """Run selected rows from consistent starts; return whether all are done.
@@ -127,13 +127,13 @@ class SingleRuns:
         method = {**self.recipe.method_parameters, **rows.method_of(r)}
         return begin_on_tree(
             *(self.watch.mechanism, *self.tree, start, method, self.watch.events),
-            watched=lambda: self._of_bodies,
+            effects=lambda: self._of_bodies,
         )
 
     def _run(self, r: int, rows: Rows, began: Start | TreeRun, out: Results, control: Integers) -> bool:
         tree = began if isinstance(began, TreeRun) else None
         start, compiled = (began.start, began.compiled) if isinstance(began, TreeRun) else (began, self.compiled)
-        spec = replace(self.recipe.spec, stops=rows.stops_of(r), events=self._events(rows, r))
+        spec = replace(self.recipe.spec, stops=rows.stops_of(r), events=self._watched)
         simulation = Simulation(compiled, self.integrator, start, spec)
         outputs = simulation.outputs(spec.times)
         with self._lock:
@@ -162,12 +162,6 @@ class SingleRuns:
         if self.measures is not None and size:
             out.behind[r, :, :size] = self._behind(self.measures, shown, columns)[:, instants]
         return True
-
-    def _events(self, rows: Rows, r: int) -> Watched | None:
-        if self._watched is None or not self._watched.resets:
-            return self._watched
-        values = zip((q.name for q in self.compiled.info.parameters), rows.parameters[r].tolist(), strict=True)
-        return replace(self._watched, masses=masses_of(self._run_of[0], dict(values)))
 
     def _columns(self, outcome: Outcome, unique: bool) -> Array:
         """Return the state of a run at its outputs, as loops leave it, shape (columns, outputs).

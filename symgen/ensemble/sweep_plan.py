@@ -22,7 +22,7 @@ from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import can_integrate, with_integrals
 from symgen.describe.digest import identity
 from symgen.describe.evaluate import derived, parameter_values, scalars
-from symgen.describe.events import RECORD, RESET, STOP
+from symgen.describe.events import RECORD, STOP
 from symgen.describe.kinks import discontinuities_of
 from symgen.describe.lengths import datum_of
 from symgen.describe.sides import sides_of
@@ -254,11 +254,10 @@ def make_ensemble(
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
         raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave `target` out, or name others")
-    resets = any(event.action == RESET for event in events)
     late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in kept)
     # what Python does something between; and measures behind the loops know the inputs of one part
     measured = driving.changes and any(q.source >= SIDE for q in kept)
-    parts = resets or late or measured or examined
+    parts = late or measured or examined
     alone = parts or (joint and not {q.source for q in kept} <= PLAIN)
     watch = Watch(mechanism, events, ends, alone) if parts or joint or events or looks else None
     # single runs add up all that outputs ask for, which their steps follow, too

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -16,8 +16,6 @@ Array = NDArray[np.float64]
 
 #: Default limit of attempts at an adaptive step in a run.
 MAX_ATTEMPTS = 1e8
-#: M by the velocities u of bodies: (compiled, t, y, p, w) -> B, c and M_b with u = B v + c and M = B^T M_b B.
-Masses = Callable[["CompiledModel", float, Array, Array, Array], tuple[Array, Array, Array]]
 
 
 @dataclass(frozen=True)
@@ -34,22 +32,6 @@ class Stop:
 
     t: float
     values: Mapping[str, float]
-
-
-@dataclass(frozen=True)
-class Reset:
-    """New velocities at an event.
-
-    Attributes
-    ----------
-    labels : tuple of str
-        Velocities that get new values.
-    evaluate : callable
-        (t, y, p, w, ydot) -> the labelled velocities, then their new values.
-    """
-
-    labels: tuple[str, ...]
-    evaluate: Callable[[float, Array, Array, Array, Array], Array]
 
 
 @dataclass(frozen=True)
@@ -97,10 +79,8 @@ class Watched:
         Values of all functions, then their rates, then the scale of the rounding of each value.
     needs_rates : bool
         Whether the rates depend on accelerations.
-    resets : mapping of int to Reset
-        Resets by number of the event.
-    masses : callable or None
-        Metric in which resets are shortest, see `symgen.loops.run_spec.Masses`.
+    effects : Effects or None
+        What events change, see `symgen.effects.effects`; None where they change nothing.
     switches : tuple of Switch
         Comparisons in formulas.
     jumps : bool
@@ -116,8 +96,7 @@ class Watched:
     actions: tuple[str, ...]
     function: Any
     needs_rates: bool
-    resets: Mapping[int, Reset] = field(default_factory=dict)
-    masses: Masses | None = None
+    effects: Any = None
     switches: tuple[Switch, ...] = ()
     jumps: bool = False
     rows: ChangingRows | None = None

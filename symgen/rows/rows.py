@@ -16,16 +16,16 @@ from symgen.layout.redundancy import choose_rows
 from symgen.loopcode.bare import bare, part
 from symgen.loopcode.loop_instances import called, signature_of
 from symgen.loopcode.loop_instances import loop as compiled_loop
-from symgen.loops import search_records as records
 from symgen.loops.frame import store
-from symgen.loops.hunting import notes_at, with_events
+from symgen.loops.hunting import with_events
 from symgen.loops.stopping import ROW, change, due, same, with_stops
 from symgen.loops.watch import iterations_in
 from symgen.native import types
+from symgen.rows.row_events import OF_EFFECTS, forget_functions, forget_past, take_effects, take_notes_of_events
 from symgen.runs.observe import observe_rates, observe_rows
 from symgen.store.jit import jit
 
-_F8, _A = types.float64, types.float64[::1]
+_F8, _A, _K = types.float64, types.float64[::1], types.int64[::1]
 
 _N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
 
@@ -53,11 +53,11 @@ def begin_run(state: Any, limits: Any) -> None:
         state.iw[i] = 0
 
 
-def forget(state: Any) -> None:
+def forget(model: Any, state: Any) -> None:
     """Do nothing: a run without switching functions has no data of them."""
 
 
-def take_notes(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
+def take_notes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
     """Return the end code of a run without events."""
     return code
 
@@ -212,7 +212,8 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
     ----------
     model : tuple
         First argument of the loop over one run; then, for observed values at outputs, sizes and functions
-        (`symgen.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``.
+        (`symgen.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``; behind these, where
+        events change a run, what they change: `OF_EFFECTS`.
     scheme, span
         As for a single run.
     chunk : Chunk
@@ -228,7 +229,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
         Number of selected rows that are done: all, unless the run was stopped.
     """
     chunk, state, series = bare(chunk), bare(state), bare(series)
-    system, observers = model
+    system, observers = model[0], model[1]
     ny, n_p, nw = observers[0].ny, state.p.shape[0], state.w.shape[0]
     for s in range(chunk.selected.shape[0]):
         if state.control[abi.STOP] != 0:
@@ -239,13 +240,16 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
         take(chunk.ys, r * ny, ny, state.y)
         take(chunk.ps, r * n_p, n_p, state.p)
         take(chunk.ws, r * nw, nw, state.w)
-        forget(state)
+        forget(model, state)
         code = integrate(system, scheme, span, state, series.outputs)
         while code == abi.CHOOSE or code == abi.NOTED or code == abi.MET:
             if code == abi.CHOOSE:
                 follow_rows(chunk, state, state.w)
-            elif take_notes(code, r, observers[0].width, chunk, state) == abi.DONE:
-                break
+            else:
+                ended = take_notes(code, r, model, chunk, state)
+                if ended != code:
+                    code = abi.MET if ended == abi.DONE else ended
+                    break
             code = integrate(system, scheme, span, state, series.outputs)
         if code == abi.STOPPED:
             return int(s)
@@ -254,56 +258,9 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
         if code == abi.MET:
             code = abi.DONE
         else:
-            take_notes(code, r, observers[0].width, chunk, state)
+            take_notes(code, r, model, chunk, state)
         end_run(code, r, system, span, observers, chunk, state, series)
     return int(chunk.selected.shape[0])
-
-
-# -- switching functions -----------------------------------------------------------------------------------------------
-
-
-def forget_functions(state: Any) -> None:
-    """Clear the sides of switching functions and the notes of the run before."""
-    hunt = bare(state).hunt
-    n = int(hunt[records.COUNT])
-    for i in range(records.N_HEAD + records.SIDE * n, records.N_HEAD + records.N_COLUMNS * n):
-        hunt[i] = 0.0
-    hunt[records.NOTED] = hunt[records.ACCEPTED] = hunt[records.PASSED] = hunt[records.SINCE] = 0.0
-
-
-@called
-def take_notes_of_events(code: int, r: int, width: int, chunk: Any, state: Any) -> int:
-    """Write the events noted by a run to its row; return the end code of the run.
-
-    Parameters
-    ----------
-    code, r : int
-        End code of its loop, and the row.
-    width : int
-        Of a state.
-    chunk, state
-        As for `run_rows`.
-    """
-    hunt, clock = state.hunt, state.clock
-    n, numbers = int(hunt[records.COUNT]), chunk.events.shape[0] // (chunk.ps.shape[0] // state.p.shape[0])
-    first, row = notes_at(n, width, state.w.shape[0]), part(chunk.events, r * numbers, numbers)
-    ended = code
-    for i in range(int(hunt[records.NOTED])):
-        t, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
-        at = e.HEAD_OF_EVENTS + e.OF_EVENT * k
-        if row[at] == 0.0:
-            row[at + 1] = t
-        row[at] += 1.0
-        row[at + 2] = t
-        if t == clock[abi.TIME] and hunt[records.N_HEAD + records.ACTION * n + k] == float(records.LEAVE):
-            ended = abi.DONE
-    hunt[records.NOTED] = hunt[records.ACCEPTED] = 0.0
-    if code == abi.UNDEFINED:
-        for k in range(n):
-            g = hunt[records.N_HEAD + records.N_COLUMNS * n + k]
-            if not g == g and not row[e.IMPOSSIBLE_EVENT] == row[e.IMPOSSIBLE_EVENT]:
-                row[e.IMPOSSIBLE_EVENT] = float(k)
-    return ended
 
 
 # -- stops -------------------------------------------------------------------------------------------------------------
@@ -345,29 +302,32 @@ def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> in
 
 
 _EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
+_EFFECTS = {"forget": forget_past, "take_notes": take_effects}
 _STOPS = {"take_row": take_stops, "hold": hold_between_stops}
 _loops: dict[Any, Any] = {}
 
 
-def over_rows(loop: Any, events: bool = False, stops: bool = False) -> Any:
+def over_rows(loop: Any, events: bool = False, stops: bool = False, effects: bool = False) -> Any:
     """Return the loop over many runs around that over a single run, made at the first use.
 
     Parameters
     ----------
     loop : compiled loop
         From `symgen.loops.frame.loop`.
-    events, stops : bool
-        Whether rows have switching functions, and stops.
+    events, stops, effects : bool
+        Whether rows have switching functions, stops, and events that change a run.
     """
-    if (loop, events, stops) not in _loops:
+    if (loop, events, stops, effects) not in _loops:
         name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}" + "_with_events" * events + "_with_stops" * stops
+        name += "_with_effects" * effects
         inner = with_events(loop) if events else loop
         inner = with_stops(inner) if stops else inner
         args = signature_of(inner).arguments
         observers = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
-        model = types.RecordType((*args[:1], observers))
+        model = types.RecordType((*args[:1], observers, *([OF_EFFECTS] if effects else [])))
         signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
-        meanings: dict[str, Any] = {**(_EVENTS if events else {}), **(_STOPS if stops else {})}
+        meanings: dict[str, Any] = {**(_EVENTS if events else {}), **(_EFFECTS if effects else {})}
+        meanings |= _STOPS if stops else {}
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)
-        _loops[loop, events, stops] = globals()[name] = compiled  # it is found by its name, as all loops are
-    return _loops[loop, events, stops]
+        _loops[loop, events, stops, effects] = globals()[name] = compiled  # it is found by its name, as all loops are
+    return _loops[loop, events, stops, effects]

@@ -347,7 +347,7 @@ def refuse_events(where: str, mechanism: Mechanism, s: Settings) -> None:
     for i, event in enumerate(events_of_run(mechanism, s)):
         if event.action != RECORD or i >= own:
             expected = "a mechanism whose motion has no events" if i < own else "no events"
-            does = {RECORD: "is recorded", STOP: "ends runs"}.get(event.action, "changes velocities")
+            does = {RECORD: "is recorded", STOP: "ends runs"}.get(event.action, "changes the state")
             hint = "single runs look for events"
             if i < own:
                 hint += f"; without {event.name} in [events], or with its action 'record', it is taken"

@@ -13,7 +13,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from symgen.base.memory import uncollected
-from symgen.describe.evaluate import parameter_values
 from symgen.describe.holds import holds_of
 from symgen.running.automatic import AUTO, SLOW, STRUCTURAL, TOGETHER, decide, facts_of, slow_steps, trial_of
 from symgen.running.continuation import continued
@@ -237,10 +236,8 @@ def begin(plan: Plan, assembled: Assembled) -> Prepared:
         return run
     from symgen.compiling.events import compile_events
 
-    values, rtol = parameter_values(run.mechanism, plan.parameters), plan.spec.rtol if plan.spec.adaptive else None
-    return run.with_spec(
-        stops=plan.stops, events=compile_events(run.mechanism, run.compiled, plan.events, values, rtol)
-    )
+    rtol = plan.spec.rtol if plan.spec.adaptive else None
+    return run.with_spec(stops=plan.stops, events=compile_events(run.mechanism, run.compiled, plan.events, rtol))
 
 
 def _noted(plan: Plan, assembled: Assembled) -> Assembled:

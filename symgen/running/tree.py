@@ -25,7 +25,6 @@ from symgen.layout.probe import Ready
 from symgen.lower.windings import winding_order
 from symgen.running.continuation import choice_after, taken_up
 from symgen.running.starts import compiled_for
-from symgen.runs.events import impact_at
 from symgen.runs.outcome import Outcome
 from symgen.starts.assembler import ALONE, Assembly, one_row
 from symgen.starts.assembly import Start
@@ -35,13 +34,12 @@ from symgen.starts.tree_start import TURNED_OVER, Carried
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Event, Mechanism
+    from symgen.effects.effects import Effects, Impact
     from symgen.layout.compiled import CompiledModel
     from symgen.layout.records import State
-    from symgen.loops.run_spec import Watched
     from symgen.running.plan import Plan
     from symgen.runs.events import Happening
     from symgen.runs.last_state import LastState
-    from symgen.runs.resets import Impact
 
 Array = NDArray[np.float64]
 
@@ -70,8 +68,8 @@ class TreeRun:
         Where the same run would begin there.
     events : tuple of Event
         That are looked for.
-    watched : callable, optional
-        Returns them as bodies have them, where many runs share that.
+    effects : callable, optional
+        Returns what they change on bodies, where many runs share that.
     over : int
         Which of the bodies that turn in space would start turned over, -1 where none.
     """
@@ -83,7 +81,7 @@ class TreeRun:
     bodies: CompiledModel
     body_start: Start
     events: tuple[Event, ...] = ()
-    watched: Callable[[], Watched | None] | None = None
+    effects: Callable[[], Effects | None] | None = None
     over: int = -1
 
     @property
@@ -137,37 +135,36 @@ class TreeRun:
         result: list[Happening] = []
         impacts: dict[int, Impact] = {}
         numbers = {event.name: i for i, event in enumerate(self.events)}
-        watched = None
+        effects = None
         for event in outcome.happened:
             p = next((own for until, own in outcome.held if event.t <= until), outcome.p)
             state, impact = self._of_bodies(event.t, event.state, p), event.impact
             if impact is not None:
-                watched = watched or self._of_run(p)
+                effects = effects or self._effects_on_bodies()
                 if id(impact) not in impacts:  # resets at the same time share what they do
                     together = [numbers[x.name] for x in outcome.happened if x.impact is impact]
-                    impacts[id(impact)] = self._impact(watched, together, event, impact.v, state, p)
+                    impacts[id(impact)] = self._impact(effects, together, event, impact.v, state, p)
                 impact = impacts[id(impact)]
             result.append(replace(event, state=state, impact=impact))
         return tuple(result)
 
-    def _of_run(self, p: Array) -> Watched:
-        """Return the events as bodies have them, with the masses of some parameters."""
-        from symgen.compiling.events import compile_events, masses_of
+    def _effects_on_bodies(self) -> Effects:
+        from symgen.compiling.events import effects_of
 
-        values = dict(zip((x.name for x in self.bodies.info.parameters), p.tolist(), strict=False))
-        watched = self.watched() if self.watched else compile_events(self.whole, self.bodies, self.events, values)
-        assert watched is not None, "there are events"
-        return replace(watched, masses=masses_of(self.whole, values))
+        effects = self.effects() if self.effects else effects_of(self.whole, self.bodies, self.events)
+        assert effects is not None, "an event has changed something"
+        return effects
 
     def _impact(
-        self, watched: Watched, numbers: Sequence[int], event: Happening, after: Array, state: Array, p: Array
+        self, effects: Effects, numbers: Sequence[int], event: Happening, after: Array, state: Array, p: Array
     ) -> Impact:
         """Return the effect of resets on bodies in a state, where joints have some velocities afterwards."""
         own, info = self.compiled.info, self.bodies.info
         v = self._of_bodies(event.t, np.concatenate([event.state[: own.nq], after]), p)[info.nq :]
         y = np.zeros(info.ny)
         y[: info.work] = state
-        blow = impact_at(watched, self.bodies, numbers, event.t, y, self._parameters(p), self.body_start.w.copy())
+        y[info.own_states] = event.own
+        blow = effects.apply(numbers, event.t, y, self._parameters(p), self.body_start.w.copy())
         return replace(blow, v=v)
 
     def _parameters(self, numbers: Array) -> Array:
@@ -346,7 +343,7 @@ def begin_on_tree(
     start: Start,
     method_parameters: Mapping[str, float],
     events: tuple[Event, ...] = (),
-    watched: Callable[[], Watched | None] | None = None,
+    effects: Callable[[], Effects | None] | None = None,
 ) -> TreeRun:
     """Return a run in joint coordinates from a start of bodies.
 
@@ -362,7 +359,7 @@ def begin_on_tree(
         Values of the method's parameters that differ from the defaults.
     events : tuple of Event
         That are looked for.
-    watched : callable, optional
+    effects : callable, optional
         As in `TreeRun`, where many runs share it.
     """
     bodies, compiled = carried.bodies, carried.assembly.compiled
@@ -375,7 +372,7 @@ def begin_on_tree(
     notes = start.notes, start.changes, start.light, start.warnings
     own = Start(y, p, w, compiled.rank(w), compiled.redundant(w), *notes, t=start.t, work=start.work)
     first = int(over[0]) if len(over) else -1
-    return TreeRun(whole, mechanism, compiled, own, bodies, start, events, watched, first)
+    return TreeRun(whole, mechanism, compiled, own, bodies, start, events, effects, first)
 
 
 def tree_taken_up(plan: Plan, last: LastState) -> TreeRun | None:

@@ -4,16 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.describe.events import RECORD, RESET, STOP
+from symgen.effects.accumulation import accumulation, add_resets, latest_events, new_past
+from symgen.effects.effects import Impact
 from symgen.layout import abi
+from symgen.layout.probe import rates_of
+from symgen.layout.start_records import Instant
+from symgen.loopcode.exact import compiled_form
 from symgen.loops import hunting
 from symgen.loops import search_records as searching
-from symgen.runs.resets import Impact, are_lost, impact_of
+from symgen.runs.new_state import sizes_of
 
 if TYPE_CHECKING:
     from symgen.layout.compiled import CompiledModel, ModelInfo
@@ -22,35 +28,6 @@ if TYPE_CHECKING:
     from symgen.runs.outcome import Outcome
 
 Array = NDArray[np.float64]
-
-#: Times until events accumulate below this part of the time count as zero.
-NOTHING_LEFT = 1e-9
-#: Number of intervals between events that must have shrunk, and largest difference of their ratios.
-_SHRINKING, _STEADY = 4, 0.2
-#: This many resets within this part of the time are an accumulation as well.
-_CROWDED, _HEAP = 50, 1e-7
-
-
-def impact_at(
-    watched: Watched, compiled: CompiledModel, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array
-) -> Impact:
-    """Return the effect of resets at one time on a state; see `symgen.runs.resets.impact_of`.
-
-    Parameters
-    ----------
-    watched : Watched
-        Switching functions of the run.
-    compiled : CompiledModel
-        Model and method.
-    numbers : sequence of int
-        Numbers of the events.
-    t, y, p, w
-        Time, state, parameters and scratch; the geometry in it is overwritten.
-    """
-    assert watched.masses is not None, "where there are resets, it is known what they are the shortest in"
-    names = " and ".join(f"'{watched.names[n]}'" for n in numbers)
-    where = f"event{'s' * (len(numbers) > 1)} {names}: reset"
-    return impact_of(compiled, [watched.resets[n] for n in numbers], watched.masses, where, t, y, p, w)
 
 
 def event_state(watched: Watched, sizes: Sizes, state: State) -> hunting.HuntingState:
@@ -90,6 +67,8 @@ class Happening:
         Name and action of the event.
     state : Array, shape (nq + nv,)
         Coordinates and velocities before a reset.
+    own : Array
+        States of the file's own before a reset.
     impact : Impact or None
         Effect of a reset; resets at the same time share it.
     energy : float
@@ -100,6 +79,7 @@ class Happening:
     name: str
     action: str
     state: Array
+    own: Array
     impact: Impact | None = None
     energy: float = 0.0
 
@@ -134,13 +114,19 @@ class Events:
         """Remove later events, as a run continues from an earlier state."""
         self.happened = [event for event in self.happened if event.t <= t]
         self.accumulation = None
+        if "_past" in vars(self):
+            numbers = {name: k for k, name in enumerate(self.watched.names)}
+            self._past.counts[:] = 0
+            for event in self.happened:
+                if event.action == RESET:
+                    compiled_form(add_resets)(self._past, self.watched.effects.chosen([numbers[event.name]]), event.t)
 
     def take(self, state: hunting.HuntingState) -> list[tuple[int, Happening]]:
         """Store and return the passages noted by a loop since the last call, with numbers of events."""
-        names, actions, size = self.watched.names, self.watched.actions, self.compiled.info.work
+        names, actions, info = self.watched.names, self.watched.actions, self.compiled.info
         notes = hunting.taken_notes(state.hunt, len(state.y), len(state.w))
         events = [
-            (number, Happening(t, names[number], actions[number], y[:size]))
+            (number, Happening(t, names[number], actions[number], y[: info.work], y[info.own_states]))
             for t, number, y in notes
             if number < len(names)
         ]
@@ -175,7 +161,7 @@ class Events:
             self._reset(state, resets)
         if any(event.action == STOP for _, event in here):
             return abi.MET
-        if resets and (self._accumulates(resets) or self._is_back(resets, state)):
+        if resets and self._accumulates(resets, state):
             return abi.GATHERED
         return abi.DONE
 
@@ -193,12 +179,8 @@ class Events:
     # -- resets --------------------------------------------------------------------------------------------------------
 
     def _reset(self, state: hunting.HuntingState, numbers: Sequence[int]) -> None:
-        info, watched, now = self.compiled.info, self.watched, float(state.clock[abi.TIME])
-        y, w = state.y[: info.ny].copy(), state.w.copy()
-        impact = impact_at(watched, self.compiled, numbers, now, y, state.p, w)
-        state.y[info.nq : info.nq + info.nv] = impact.v
-        state.y[info.work] += impact.energy  # work of the impulses: the energy balance continues
-        state.w[abi.KINETIC] += impact.energy
+        watched, now = self.watched, float(state.clock[abi.TIME])
+        impact = watched.effects.apply(numbers, now, state.y, state.p, state.w)
         self._begin_anew(state)
         names, energy = {watched.names[number] for number in numbers}, impact.energy
         first = len(self.happened)
@@ -211,54 +193,33 @@ class Events:
 
     # -- events that accumulate ----------------------------------------------------------------------------------------
 
-    def _accumulates(self, numbers: Sequence[int]) -> bool:
+    @cached_property
+    def _past(self) -> Any:
+        compiled, watched = self.compiled, self.watched
+        functions = len(watched.names) + len(watched.switches)
+        width, nw = sizes_of(compiled).width, len(compiled.scratch())
+        return new_past(len(watched.names), functions, width, nw, self.until)
+
+    def _accumulates(self, numbers: Sequence[int], state: hunting.HuntingState) -> bool:
         """Return whether resets accumulate; store the time at which they do."""
-        for number in numbers:
-            name = self.watched.names[number]
-            times = self._latest_resets(_SHRINKING + 2, name)
-            intervals = np.diff(times)
-            if len(intervals) > _SHRINKING:
-                last = intervals[-_SHRINKING - 1 :]
-                ratios = last[1:] / last[:-1]
-                if ratios.max() < 1.0 and np.ptp(ratios) < _STEADY:
-                    rest = _rest(float(last[-2]), float(last[-1]))
-                    if rest < NOTHING_LEFT * times[-1]:
-                        self.accumulation = float(times[-1]) + rest
-                        return True
-        resets = self._latest_resets(_CROWDED + 1)
-        if len(resets) > _CROWDED and resets[-1] - resets[0] < _HEAP * resets[-1]:
-            self.accumulation = float(resets[-1])
-            return True
-        return False
-
-    def _latest_resets(self, count: int, name: str | None = None) -> Array:
-        """Return the last distinct times of resets, of all events or of one; several resets may share a time."""
-        times = list[float]()
-        for event in reversed(self.happened):
-            if event.action == RESET and name in (None, event.name) and (not times or event.t != times[-1]):
-                times.append(event.t)
-                if len(times) == count:
-                    break
-        return np.array(times[::-1])
-
-    def _is_back(self, numbers: Sequence[int], state: hunting.HuntingState) -> bool:
-        """Return whether the rebound from a reset is lost in rounding; store the time of accumulation."""
-        directions = [(number, self.watched.directions[number]) for number in numbers]
-        if not are_lost(self.compiled, self.watched.function, directions, state, self.until):
+        watched, now = self.watched, float(state.clock[abi.TIME])
+        chosen, instant = watched.effects.chosen(numbers), Instant(state.y, state.p, state.w)
+        compiled_form(add_resets)(self._past, chosen, now)
+        functions = *rates_of(self.compiled.law_module), watched.function
+        with np.errstate(all="ignore"):
+            end = compiled_form(accumulation)(
+                *(functions, now, self.compiled.info.nq, instant, state.iw, state.hunt, chosen, self._past)
+            )
+        if np.isnan(end):
             return False
-        now = float(state.clock[abi.TIME])
-        times = [event.t for event in self.happened if event.name == self.watched.names[numbers[0]]][-3:]
-        rest = 0.0
-        if len(times) == 3 and times[2] - times[1] < times[1] - times[0]:
-            rest = _rest(times[1] - times[0], times[2] - times[1])
-        self.accumulation = now + rest
+        self.accumulation = float(end)
         return True
 
     @property
     def recent(self) -> tuple[str, ...]:
         """Names of the events with the latest resets."""
-        names = {e.name for e in self.happened[-_SHRINKING:] if e.action == RESET}
-        return tuple(name for name in self.watched.names if name in names)
+        latest = int(compiled_form(latest_events)(self._past))
+        return tuple(name for k, name in enumerate(self.watched.names) if latest >> k & 1)
 
     def reason(self, code: int, state: Any, t: float) -> str:
         """Return the reason for the end of a run at a time [s]: events accumulate, or a condition is undefined."""
@@ -270,12 +231,6 @@ class Events:
         """Return the sentence on a row that jumps or has a kink where a run failed; empty without one."""
         _ = self._jump or self._finds_jump(state)
         return self._jump
-
-
-def _rest(before: float, last: float) -> float:
-    """Return the remainder of a geometric series after two of its terms (Aitken)."""
-    ratio = last / before
-    return last * ratio / (1.0 - ratio)
 
 
 def gathered(names: Sequence[str], t: float) -> str:

@@ -119,6 +119,12 @@ def _multiply_transposed(layout: Any, w: Any, y: Any, result: Any) -> None:
 
 @exact()
 def least_norm(a: Any, m: int, n: int, right: Any, x: Any, room: Any, order: Any) -> int:
+    """Set `x` to the shortest vector that minimises ``|a x - right|`` at a start; see `least_norm_above`."""
+    return int(least_norm_above(a, m, n, right, x, room, order, decisions.RANK_CUTOFF))
+
+
+@exact()
+def least_norm_above(a: Any, m: int, n: int, right: Any, x: Any, room: Any, order: Any, cutoff: float) -> int:
     """Set `x` to the shortest vector that minimises ``|a x - right|``; return the rank of `a`.
 
     Parameters
@@ -133,6 +139,8 @@ def least_norm(a: Any, m: int, n: int, right: Any, x: Any, room: Any, order: Any
         Working memory for ``m * min(m, n) + m + n`` numbers.
     order : Array of int, shape (m,)
         Order of the rows on return: independent ones first.
+    cutoff : float
+        Rows whose independent part is below this, times the largest row, depend on others.
 
     Notes
     -----
@@ -157,7 +165,7 @@ def least_norm(a: Any, m: int, n: int, right: Any, x: Any, room: Any, order: Any
         size = math.sqrt(best)
         if k == 0:
             first = size
-        if not size > decisions.RANK_CUTOFF * first:
+        if not size > cutoff * first:
             break
         order[k], order[at] = order[at], order[k]
         row = order[k] * n

@@ -224,6 +224,8 @@ class CModel:
         if info.massless or "mass_entry" in info.sections or any(entry != ZERO for entry in products):
             raise InputError(where, "bodies with mass whose axes are principal, as it changes velocities", "others")
         names = [velocity.name for velocity in info.velocities]
+        for state in (state.name for state in info.states if state.name in {to_text(name) for name, _ in event.reset}):
+            raise InputError(where, "velocities in `reset`", f"the state '{state}'")
         return [names.index(to_text(name)) for name, _ in event.reset]
 
     def _start(self) -> dict[str, str]:

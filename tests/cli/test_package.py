@@ -135,7 +135,7 @@ def test_a_package_says_what_runs_do_besides(tmp_path):
     )
     assert main(["generate", str(path), "-o", str(tmp_path / "emitted")]) == 0
     page = (tmp_path / "emitted" / "README.md").read_text()
-    assert "`symgen run` also" in page and page.endswith("Events of the mechanism: `floor` changes velocities.\n")
+    assert "`symgen run` also" in page and page.endswith("Events of the mechanism: `floor` changes the state.\n")
 
 
 PIN = 'type = "revolute"\nbetween = ["ground", "a"]\nat = [{}, {}]\n'

@@ -285,7 +285,7 @@ def test_sizes_are_those_of_terms_and_of_the_state(folder: Path) -> None:
     file.write_text(far.replace("FORCE", "abs(bob.x - 1000.25) + abs(bob.y)"), encoding="utf-8")
     model = symgen.load(file)
     compiled = model.compile("lagrange")
-    watched, start = compile_events(model.mechanism, compiled, (), {}, 1e-8), model.assemble(compiled)
+    watched, start = compile_events(model.mechanism, compiled, (), 1e-8), model.assemble(compiled)
     out = np.zeros(6)
     watched.function(0.0, start.y, start.p, start.w, np.zeros_like(start.y), out)
     length = start.w[abi.LENGTH]

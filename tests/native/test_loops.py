@@ -43,6 +43,8 @@ def test_every_loop_is_in_the_language(scheme, name, events):
 def test_every_loop_over_rows_is_in_the_language(scheme, steps, events, stops):
     loop = getattr(importlib.import_module(f"symgen.loops.schemes.{scheme}"), steps)
     read(over_rows(loop, events, stops))
+    if events:
+        read(over_rows(loop, events, stops, effects=True))
 
 
 def read(loop):

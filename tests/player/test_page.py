@@ -160,7 +160,7 @@ def test_the_live_part_has_the_inputs_of_its_run(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("event", "does"),
     [
-        ({"when": "a.y < -0.01", "reset": {"a.vy": "-a.vy"}}, "changes velocities"),
+        ({"when": "a.y < -0.01", "reset": {"a.vy": "-a.vy"}}, "changes the state"),
         ({"when": "a.y < -9.0", "action": "stop"}, "ends runs"),
         ({"when": "a.y < -0.01"}, None),
     ],
@@ -180,7 +180,7 @@ def test_the_live_part_looks_for_no_events(
     for found in (run.view(), view_file("view", tmp_path / "run.nc", model.mechanism)):
         assert found.live == (does is None)
         assert does is None or f"the event 'floor' {does}" in data_of(found.html)["note"]
-    action = {"changes velocities": "reset", "ends runs": "stop", None: "record"}[does]
+    action = {"changes the state": "reset", "ends runs": "stop", None: "record"}[does]
     assert run.to_json()["watched"] == [{"name": "floor", "action": action}]
 
 

@@ -1,0 +1,72 @@
+"""The smallest impulse: the equations of impact by NumPy, plain Python and printed C to the bit."""
+
+import numpy as np
+import pytest
+from native import printed
+
+from symgen.effects.accumulation import accumulation
+from symgen.effects.applying import apply_effects
+from symgen.effects.effects import impulse_along
+from symgen.effects.impulse import new_impulse, smallest_impulse
+from symgen.loopcode.exact import compiled_form, plain_form
+
+
+def problem(seed, n, k, rank, massless=0):
+    """Return M, C, c and v of a problem that has a solution; rows of C have the rank `rank`."""
+    random = np.random.default_rng(seed)
+    factor = random.normal(size=(n, n))
+    factor[:, :massless] = 0.0
+    mass = factor.T @ factor
+    rows = random.normal(size=(k, rank)) @ random.normal(size=(rank, n))
+    rows[:massless, :massless] += 3.0 * np.eye(massless)
+    return mass, rows, rows @ random.normal(size=n), random.normal(size=n)
+
+
+@pytest.mark.parametrize(
+    ("n", "k", "rank", "massless"), [(6, 3, 3, 0), (6, 5, 3, 0), (9, 9, 9, 0), (4, 0, 0, 0), (6, 3, 3, 2), (1, 1, 1, 0)]
+)
+@pytest.mark.parametrize("seed", range(4))
+def test_the_equations_of_impact(seed, n, k, rank, massless):
+    mass, rows, values, v = problem(seed, n, k, rank, massless)
+    matrix = np.block([[mass, -rows.T], [rows, np.zeros((k, k))]])
+    expected = np.linalg.lstsq(matrix, np.concatenate([mass @ v, values]), rcond=1e-11)[0][:n]
+    after, impulses, contradictory = impulse_along(mass, rows, values, v)
+    assert not contradictory
+    size = 1e-9 * max(1.0, np.abs(expected).max())
+    np.testing.assert_allclose(after, expected, rtol=0.0, atol=size)
+    np.testing.assert_allclose(rows @ after, values, rtol=0.0, atol=1e-12 * max(1.0, np.abs(rows).sum()))
+    np.testing.assert_allclose(
+        mass @ (after - v), rows.T @ impulses, rtol=0.0, atol=1e-9 * max(1.0, np.abs(mass).sum())
+    )
+
+
+def test_rows_that_contradict_each_other_are_noticed():
+    mass, rows, values, v = problem(0, 5, 3, 2)
+    assert not impulse_along(mass, rows, values, v)[2]
+    assert impulse_along(mass, rows, values + np.array([0.0, 0.0, 1e-6]), v)[2]
+    assert impulse_along(mass, rows, values * [1.0, np.nan, 1.0], v)[2]
+
+
+def test_plain_python_and_printed_c_have_the_bits_of_machine_code(tmp_path):
+    signature = smallest_impulse.compiled.signature
+    library = printed.Library({"smallest_impulse": printed.source_of(smallest_impulse, signature)}, tmp_path)
+    forms = (
+        compiled_form(smallest_impulse),
+        plain_form(smallest_impulse),
+        library.function("smallest_impulse", signature),
+    )
+    for seed in range(5):
+        mass, rows, values, v = problem(seed, 6, 5, 3 + seed % 3)
+        results = []
+        for form in forms:
+            work = new_impulse(6, 5)
+            work.mass[:], work.rows[:], work.values[:] = mass.ravel(), rows.ravel(), values
+            assert form(6, 5, v, work) == 0
+            results.append(work)
+        for other in results[1:]:
+            printed.assert_same_bits(printed.arrays(other), printed.arrays(results[0]))
+
+
+@pytest.mark.parametrize("function", [apply_effects, accumulation], ids=["effects", "accumulation"])
+def test_effects_have_a_form_in_c(function):
+    assert printed.source_of(function, function.compiled.signature)
