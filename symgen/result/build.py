@@ -169,7 +169,7 @@ def _arrays(outcome: Outcome) -> dict[str, NDArray[Any]]:
     """Return all that a run kept, with its last output."""
     info, arrays = outcome.compiled.info, outcome.simulation.save()
     y, w = arrays["y"], arrays["w"]
-    shown = y[: info.ny].copy(), np.append(w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + info.windings])
+    shown = y[: info.ny].copy(), np.append(w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + info.kept])
     if len(outcome.times) and outcome.times[-1] == outcome.end:
         shown = outcome.states[-1].copy(), outcome.status_columns[-1].copy()
     return arrays | dict(zip(SHOWN, shown, strict=True))
