@@ -133,7 +133,11 @@ def refuse_loops(mechanism: Mechanism) -> None:
     InputError
         If the file has states of its own, or rotors on joints, or if rows may be off.
     """
-    for what, some in (("states of its own", mechanism.states), ("rotors on joints", mechanism.rotors), ("rows that may be off", mechanism.switchable)):
+    for what, some in (
+        ("states of its own", mechanism.states),
+        ("rotors on joints", mechanism.rotors),
+        ("rows that may be off", mechanism.switchable),
+    ):
         if some:
             raise InputError("shape", f"straight code where a file has {what}", "looped")
 

@@ -74,7 +74,14 @@ def identity(mechanism: Mechanism) -> str:
     plain = msgspec.structs.replace(mechanism, shapes=(), input_formulas=(), beams=b"")
     # the text of structs, which older folders of sweeps and journals were named by
     text = msgspec.Struct.__repr__(plain)
-    for absent in (", shapes=()", ", input_formulas=()", ", states=()", ", rotors=()", ", beams=b''", ", switchable=()"):
+    for absent in (
+        ", shapes=()",
+        ", input_formulas=()",
+        ", states=()",
+        ", rotors=()",
+        ", beams=b''",
+        ", switchable=()",
+    ):
         text = text.replace(absent, "")
     return hashlib.sha256(text.encode()).hexdigest()
 

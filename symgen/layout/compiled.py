@@ -160,7 +160,7 @@ class CompiledModel(ABC):
             Ready(module.prepare, e.PREPARE)(p)
 
     def with_scales(self, w: Array) -> Array:
-        """Return the scratch array with its scales, and pivots of rows whose pivots never change, set to 1; no row is off."""
+        """Return the scratch array with its scales, and pivots of rows whose pivots never change, set to 1."""
         for name in ("pivot", "gauge", "row_weight"):
             self.section(w, name)[:] = 1.0
         w[[STATUS.index(name) for name in SCALES]] = 1.0

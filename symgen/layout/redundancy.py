@@ -38,7 +38,7 @@ LARGEST = 250_000
 @exact(types.boolean(LAYOUT, _N, _A))
 def is_off(layout: Any, row: int, w: Any) -> bool:
     """Whether a row is off."""
-    return layout.switches[row] >= 0 and w[layout.switches[row]] == 0.0
+    return not (layout.switches[row] < 0 or w[layout.switches[row]] != 0.0)
 
 
 @exact(_N(LAYOUT, _N, _N, types.float64, _N, _A, _A))

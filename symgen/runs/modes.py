@@ -61,7 +61,9 @@ def set_modes(simulation: Simulation, modes: Mapping[str, tuple[float, float, fl
         geometry(now)
         simulation.scheme = simulation.integrator.setup(compiled, simulation.spec, w).scheme
     remember_rank(simulation.sizes, state)
-    state.gauges[[abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
+    # angles between other rows: passages of singular positions are looked for anew
+    sine, short = np.sqrt(np.maximum(w[[abi.PIVOT, abi.SHORTEST_ROW]], 0.0))
+    state.gauges[[abi.LAST_SINE, abi.LARGEST_SINE, abi.LAST_SHORT]] = sine, sine, short
     state.gauges[[abi.FALL, abi.SHORT_FALL, abi.CHOSEN]] = 0.0
     if state.control[abi.BEGUN] != 0:
         state.control[abi.BEGUN] = abi.AFRESH
