@@ -131,9 +131,13 @@ def refuse_loops(mechanism: Mechanism) -> None:
     Raises
     ------
     InputError
-        If the file has states of its own, or rotors on joints.
+        If the file has states of its own, or rotors on joints, or if rows may be off.
     """
-    for what, some in (("states of its own", mechanism.states), ("rotors on joints", mechanism.rotors)):
+    for what, some in (
+        ("states of its own", mechanism.states),
+        ("rotors on joints", mechanism.rotors),
+        ("rows that may be off", mechanism.switchable),
+    ):
         if some:
             raise InputError("shape", f"straight code where a file has {what}", "looped")
 
@@ -358,6 +362,7 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
         inputs=equations.inputs,
         alone=_alone(program, len(equations.rows)),
         states=equations.states,
+        switchable=tuple(i for i, row in enumerate(equations.rows) if row.held is not None),
     )
 
 

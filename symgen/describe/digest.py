@@ -49,6 +49,8 @@ def canonical(mechanism: Mechanism) -> str:
         parts.append(["states", [[x.name, x.unit, _text(x.rate)] for x in mechanism.states]])
     if mechanism.rotors:
         parts.append(["rotors", [_text(rotor) for rotor in mechanism.rotors]])
+    if mechanism.switchable:
+        parts.append(["switchable", sorted(mechanism.switchable)])
     if mechanism.topology is not None:
         parts.append(["topology", _text(mechanism.topology)])
     return "\n".join(_text(part) for part in parts)
@@ -72,7 +74,14 @@ def identity(mechanism: Mechanism) -> str:
     plain = msgspec.structs.replace(mechanism, shapes=(), input_formulas=(), beams=b"")
     # the text of structs, which older folders of sweeps and journals were named by
     text = msgspec.Struct.__repr__(plain)
-    for absent in (", shapes=()", ", input_formulas=()", ", states=()", ", rotors=()", ", beams=b''"):
+    for absent in (
+        ", shapes=()",
+        ", input_formulas=()",
+        ", states=()",
+        ", rotors=()",
+        ", beams=b''",
+        ", switchable=()",
+    ):
         text = text.replace(absent, "")
     return hashlib.sha256(text.encode()).hexdigest()
 

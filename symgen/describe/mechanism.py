@@ -374,6 +374,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     states: tuple[StateVariable, ...] = ()
     rotors: tuple[Rotor, ...] = ()
     beams: bytes = b""  # the description as JSON if it has beams, to change their number of elements
+    switchable: tuple[str, ...] = ()  # joints whose rows may be off in a part of a run
 
     def __repr__(self) -> str:
         counted = (

@@ -28,7 +28,7 @@ def without_repeats(mechanism: Mechanism) -> tuple[Mechanism, tuple[tuple[str, s
     """Return a mechanism without the rows that repeat an earlier one, and the names of each pair.
 
     Two rows are alike where they hold the same measure at the same value, formulas compared after simplification: a
-    point at ``1*p`` is the point at ``p``.
+    point at ``1*p`` is the point at ``p``. A row that may be off is like no other one.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def _repeats(mechanism: Mechanism) -> dict[tuple[int, int], tuple[str, str]]:
     names: dict[object, str] = {}
     repeats: dict[tuple[int, int], tuple[str, str]] = {}
     for k, joint in enumerate(mechanism.joints):
-        for i, row in enumerate(joint.rows):
+        for i, row in enumerate(() if joint.name in mechanism.switchable else joint.rows):
             name, content = f"{joint.name}.{row.label}", contents.of(msgspec.structs.replace(row, label="", unit=""))
             if content in names:
                 repeats[k, i] = name, names[content]

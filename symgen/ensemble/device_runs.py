@@ -195,7 +195,7 @@ class DeviceRuns:
         rates, joints = k if need.rates else 1, k if need.joints else 1
         shapes = {
             "states": (k, info.ny),
-            "status": (k, abi.N_STATUS + info.windings),
+            "status": (k, abi.N_STATUS + info.kept),
             "accelerations": (rates, info.nv if need.rates else 1),
             "multipliers": (rates, info.m if need.rates else 1),
             "observed": (joints, need.rows),

@@ -165,7 +165,7 @@ class LoopRuns:
         from symgen.rows.lanes import lane_runs, room_of_lanes
 
         info, law, scheme, (sizes, *others) = lanes.info, lanes.law_module, self.setup.scheme, observers
-        lengths = len(state.p), len(state.w), info.windings, len(series.outputs.times)
+        lengths = len(state.p), len(state.w), info.kept, len(series.outputs.times)
         state = state._replace(room=aligned(room_of_lanes(info.ny, scheme.stages, *lengths)))
         wide = sizes._replace(width=LANES * lane_bases(info.ny, 0, 0)["ydot"])
         return int(lane_runs((wide, law.rhs, law.accept, *others), scheme, span, chunk, state, series))

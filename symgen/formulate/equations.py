@@ -17,7 +17,8 @@ class ConstraintRow:
     `entries` holds (velocity index, node) of the structurally nonzero entries of D, in increasing order of index.
     With bodies on a tree of joints a whole row may vanish, at a dead centre for instance: its square is compared with
     `size`, the square of the row over the velocities of bodies; None for a row that cannot vanish.
-    `stiffness` is the node of a stiffness specified in the file [N/m].
+    `stiffness` is the node of a stiffness specified in the file [N/m]. `held` is the node of 1 where a row that may be
+    off is in force, and of 0 where it is off; None for a row that is always in force.
     """
 
     name: str
@@ -29,6 +30,7 @@ class ConstraintRow:
     gamma: int
     size: int | None = None
     stiffness: int | None = None
+    held: int | None = None
 
 
 @dataclass(frozen=True)

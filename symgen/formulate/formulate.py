@@ -6,10 +6,11 @@ inverted.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from symgen.base.errors import finite_numbers
-from symgen.describe.mechanism import Mechanism, Rotor, SpatialBody
+from symgen.describe.mechanism import Joint, Mechanism, Rotor, SpatialBody
 from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import UNITS, quantities
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, mass_blocks
@@ -17,7 +18,7 @@ from symgen.formulate.flexure import exertions
 from symgen.formulate.measures import DerivedMeasure, ModelNodes
 from symgen.formulate.of_time import time_function
 from symgen.formulate.tree import energies_on_tree
-from symgen.ir.program import of_table
+from symgen.ir.program import MODE_NUMBERS, of_table
 from symgen.vocabulary.expressions import ZERO
 from symgen.vocabulary.measures import GROUND, Holonomic, Row, StiffHolonomic
 from symgen.vocabulary.quantities import Quantity
@@ -44,7 +45,11 @@ def formulate(mechanism: Mechanism) -> Equations:
     mechanism, repeats = without_repeats(mechanism)
     with finite_numbers("mechanism"):
         model = ModelNodes(mechanism)
-    rows = tuple(_row(model, joint.name, row) for joint in mechanism.joints for row in joint.rows)
+    rows = tuple(
+        row if joint.name not in mechanism.switchable else _switched(model, row, first + MODE_NUMBERS * i)
+        for joint, first in _first_modes(mechanism)
+        for i, row in enumerate(_row(model, joint.name, row) for row in joint.rows)
+    )
     forces, power, potential = _forces(model)
     driving = None
     if model.tree is None:
@@ -138,6 +143,21 @@ def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
         gamma, nu = g.sub(curvature, bias), g.sub(g.sub(nu, drift), measure.drift)
         ordered, size = tuple(sorted(entries.items())), _size(model, row, measure.row)
     return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, size, stiffness)
+
+
+def _first_modes(mechanism: Mechanism) -> Iterator[tuple[Joint, int]]:
+    """Yield each joint with the place of its first row in the section ``modes``."""
+    first = 0
+    for joint in mechanism.joints:
+        yield joint, first
+        first += MODE_NUMBERS * len(joint.rows) if joint.name in mechanism.switchable else 0
+
+
+def _switched(model: ModelNodes, row: ConstraintRow, first: int) -> ConstraintRow:
+    """Return a row as one that may be off: ``Phi = held (s - value - constant)``; D stays as it is."""
+    g, held = model.graph, model.graph.input("modes", first)
+    phi = row.phi if row.phi is None else g.mul(held, g.sub(row.phi, g.input("modes", first + 1)))
+    return replace(row, phi=phi, held=held)
 
 
 def _size(model: ModelNodes, row: Row, entries: Mapping[int, int]) -> int | None:

@@ -141,7 +141,7 @@ class Picard:
         arrays = c.table, c.middle, c.share, c.legendre, c.dense, c.recurrence, np.arange(3 * NODES, dtype=np.int64)
         scheme = Nodes(derive, vector, rates_of(info), *arrays, degree, DOP853.record(True))
         width = padded(info.ny)
-        memory, room = picard.memory(width), picard.room(width, info.windings)
+        memory, room = picard.memory(width), picard.room(width, info.kept)
         return Setup(self.loop(spec.adaptive), law_functions(compiled), scheme, spec.step or 0.0, memory, room)
 
 

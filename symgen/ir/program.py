@@ -80,8 +80,13 @@ SECTIONS = (
     *(("row_weight", "m"), ("jacobian", "jacobian")),
 )
 
+#: Numbers in the section ``modes`` of each row that may be off: 1 where it is in force and 0 where it is off; the value
+#: that its measure is held at, beyond the described one; the sign of its rate or effort.
+MODES = ("held", "constant", "sign")
+MODE_NUMBERS = len(MODES)
+
 #: Sections of ``w`` that a start settles; all others are written before they are read.
-SETTLED = ("status", "winding", "mask", "saved", "pivot", "gauge", "row_weight", "mass", "mass_entry")
+SETTLED = ("status", "winding", "modes", "mask", "saved", "pivot", "gauge", "row_weight", "mass", "mass_entry")
 
 #: Numbers of the status that a start computes, and that are 1 before.
 SCALES = ("length_scale", "speed_scale", "mean_mass")

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.ir.numerics import SKIP
-from symgen.ir.program import SCALES, STATUS
+from symgen.ir.program import MODE_NUMBERS, SCALES, STATUS
 from symgen.vocabulary.infos import Info, LawInfo
 from symgen.vocabulary.quantities import Counted, Quantity
 
@@ -40,7 +40,7 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     holds, for each body with Euler parameters, the index of these in q and of its angular velocity in v; `inputs` are
     parameters that may change during a run; `states` are states of the file's own, after the work, and `integrals` is
     the number of auxiliary states after these; `alone` are rows eliminated before all rows coupled to them: they are
-    never left out, so nothing reads their mask.
+    never left out, so nothing reads their mask; `switchable` are rows that may be off.
     """
 
     name: str
@@ -62,6 +62,7 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     integrals: int = 0
     alone: tuple[int, ...] = ()
     states: tuple[Quantity, ...] = ()
+    switchable: tuple[int, ...] = ()
 
     def __repr__(self) -> str:
         return f"<ModelInfo of {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.m} rows>"
@@ -80,6 +81,11 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     def ny(self) -> int:
         """Length of the state: q, v, the work, states of the file's own and integrals."""
         return self.work + 1 + len(self.states) + self.integrals
+
+    @property
+    def kept(self) -> int:
+        """Count of the numbers behind the status that are kept with every output: turns of angles, modes of rows."""
+        return self.windings + MODE_NUMBERS * len(self.switchable)
 
     @property
     def observed(self) -> int:
@@ -158,7 +164,20 @@ class CompiledModel(ABC):
         for name in ("pivot", "gauge", "row_weight"):
             self.section(w, name)[:] = 1.0
         w[[STATUS.index(name) for name in SCALES]] = 1.0
+        if self.info.switchable:
+            self.modes(w)[:, 0] = 1.0
         return w
+
+    def modes(self, w: Array) -> Array:
+        """Return a view of the modes of rows that may be off, shape (rows, 3), see `symgen.ir.program.MODES`."""
+        if not self.info.switchable:
+            return w[:0].reshape(0, MODE_NUMBERS)
+        return self.section(w, "modes").reshape(-1, MODE_NUMBERS)
+
+    def off(self, w: Array) -> tuple[str, ...]:
+        """Return the names of the rows that are off in `w`."""
+        held = self.modes(w)[:, 0]
+        return tuple(self.info.rows[i].name for i, on in zip(self.info.switchable, held, strict=True) if on == 0.0)
 
     def section(self, w: Array, name: str) -> Array:
         """Return a view of one section of ``w``."""

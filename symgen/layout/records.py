@@ -142,13 +142,13 @@ Run = record("Run", "y", "trial", *State._fields[1:])
 
 
 class Outputs(NamedTuple):
-    """Output times, states, and the status that ``accept`` measured, followed by angles that count turns.
+    """Output times, states, and the status that ``accept`` measured, followed by angles that count turns and modes.
 
     Attributes
     ----------
     times : Array, shape (k,)
         Increasing [s].
-    states, status : Array, shapes (k, ny), (k, N_STATUS + windings)
+    states, status : Array, shapes (k, ny), (k, N_STATUS + kept)
         Written.
     """
 

@@ -35,9 +35,17 @@ EQUAL = 1e-9
 LARGEST = 250_000
 
 
+@exact(types.boolean(LAYOUT, _N, _A))
+def is_off(layout: Any, row: int, w: Any) -> bool:
+    """Whether a row is off."""
+    return not (layout.switches[row] < 0 or w[layout.switches[row]] != 0.0)
+
+
 @exact(_N(LAYOUT, _N, _N, types.float64, _N, _A, _A))
 def farthest(layout: Any, width: int, count: int, least: float, weighed: int, w: Any, room: Any) -> int:
     """Choose up to `count` rows, each the one farthest from those chosen before it; return their number.
+
+    Rows that are off are zero.
 
     Unlike an elimination in a fixed order this takes small pivots last, so that rounding is not amplified: the number
     of rows that are farther than `least` is the rank.
@@ -69,7 +77,8 @@ def farthest(layout: Any, width: int, count: int, least: float, weighed: int, w:
         square = 0.0
         for j in range(n):
             square += room[i * width + j] * room[i * width + j]
-        if weighed != 0 and square * w[layout.row_weight + i] < VANISHED:
+        vanished = weighed != 0 and square * w[layout.row_weight + i] < VANISHED
+        if vanished or is_off(layout, i, w):
             for j in range(n):
                 room[i * width + j] = 0.0
             square = 0.0
@@ -102,7 +111,7 @@ def farthest(layout: Any, width: int, count: int, least: float, weighed: int, w:
 
 @exact(_N(LAYOUT, _N, _N, _A, _A))
 def choose_rows(layout: Any, count: int, weighed: int, w: Any, room: Any) -> int:
-    """Mask all rows but `count`, of which the others are linear combinations with small factors.
+    """Mask all rows in force but those kept, of which the others are linear combinations with small factors.
 
     An error in a kept row causes one in the others, times these factors. The rows left over by `farthest` are linear
     combinations of all rows that vanish. The row with the largest factor in each, in turn, is left out: so no factor is
@@ -114,7 +123,7 @@ def choose_rows(layout: Any, count: int, weighed: int, w: Any, room: Any) -> int
     layout, weighed, w
         As for `farthest`.
     count : int
-        Number of kept rows.
+        Number of kept rows, with those that are off: their mask is 0.
     room : Array, shape (m * (nv + m) + 2 * m,)
         Working memory.
 
@@ -125,6 +134,8 @@ def choose_rows(layout: Any, count: int, weighed: int, w: Any, room: Any) -> int
     """
     m, n, alone, mask = layout.m, layout.nv, layout.alone, layout.mask
     width = n + m
+    for i in range(m):
+        count -= 1 if is_off(layout, i, w) else 0
     if farthest(layout, width, count, 0.0, weighed, w, room) < count:
         return 0  # D is not finite
     lengths, masked, changed = m * width, m * width + m, 0
@@ -147,6 +158,8 @@ def choose_rows(layout: Any, count: int, weighed: int, w: Any, room: Any) -> int
                 for k in range(m):
                     room[i * width + n + k] -= share * room[sum_ * width + n + k]
     for i in range(m):
+        if is_off(layout, i, w):  # it is no linear combination of others
+            room[masked + i] = 0.0
         changed = changed if w[mask + i] == room[masked + i] else 1
         w[mask + i] = room[masked + i]
     return changed

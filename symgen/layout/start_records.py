@@ -42,6 +42,7 @@ def record_type(name: str, module: str, *kinds: tuple[str, types.Kind]) -> types
 #: - held (shape (2 h,)): (coordinate, velocity) of each held coordinate.
 #: - rows (shape (2 m,)): (joint, 0 for a row that is an angle or a number) of each row.
 #: - alone (shape (m,)): 1 for rows that are never left out, see `symgen.layout.compiled.ModelInfo`.
+#: - switches (shape (m,)): Places in w of `held` of rows that may be off, -1 for others.
 #: - spin (shape (nv,)): The body's first angular velocity for an angular velocity, -1 for others.
 #: - lengths (shape (nq,)): 1 for coordinates that are lengths, else 0.
 #: - datum (shape (nq,)): What coordinates are measured from, see `symgen.describe.lengths.datum_of`.
@@ -54,7 +55,7 @@ LAYOUT = record_type(
     ("mass residual nu jacobian pivot mask change gauge row_weight", _N),
     ("entries", _I),
     ("constants", _A),
-    ("massless unchanged fixed held rows alone spin", _I),
+    ("massless unchanged fixed held rows alone switches spin", _I),
     ("lengths datum branches", _A),
 )
 Layout: Any = LAYOUT.constructor

@@ -155,7 +155,7 @@ def note_step(run: Any, h: float) -> None:
 
 
 def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
-    """Write output `k`: the state, the measures of ``accept``, and angles with counted turns."""
+    """Write output `k`: the state, the measures of ``accept``, angles with counted turns and modes of rows."""
     for i in range(sizes.ny):
         outputs.states[k, i] = y[i]
     for i in range(abi.N_STATUS):

@@ -11,7 +11,7 @@ from symgen.ir.derivative import jacobian
 from symgen.ir.program import Block, LawProgram, ModelLayout, ModelProgram, Target
 from symgen.lower.factor import FactorNodes
 from symgen.lower.hoist import Hoister
-from symgen.lower.record import ARGUMENTS, EQUATIONS, Part, RecordedLaw, record_form, record_law
+from symgen.lower.record import ARGUMENTS, BEHIND, EQUATIONS, Part, RecordedLaw, record_form, record_law
 from symgen.lower.scalar import ScalarNodes
 from symgen.lower.scalar_values import Outputs, to_status
 from symgen.methods._base import Method
@@ -50,6 +50,8 @@ def lower_law(
     if correction.energy and equations.driving is not None:  # T is not quadratic in v then
         expected = f"coordinates in which no driver prescribes one of the state, for '{method.name}'"
         raise InputError("--coordinates", expected, "those of joints that are driven", "--coordinates absolute")
+    if any(row.held is not None for row in equations.rows):
+        _refuse_switching(method, options, implicit)
     record, names = record_law(method, options, equations.driving is not None), [p.name for p in method.parameters]
     scalars = ScalarNodes(equations, record.operations, names)
     scalars.run(range(len(record.operations)))
@@ -89,6 +91,15 @@ def lower_law(
     )
     closed = method.integrates == "independent"
     return LawProgram(info, record.form, closed, correction, layout, tuple(blocks), degrees)
+
+
+def _refuse_switching(method: Method, options: Mapping[str, str], implicit: bool) -> None:
+    """Refuse methods that read D without its factorisation, and forms with projections behind the equations."""
+    law = record_law(method, options)
+    behind = implicit and record_form(method, options).form in BEHIND
+    if behind or law.form in ("dense", "tangent") or "dense" in (name for name, _ in law.sections):
+        expected = "one that eliminates multipliers or solves for them, where rows may be off"
+        raise InputError(f"method '{method.name}'", expected, "one that reads D of all rows", "--method lagrange")
 
 
 def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part) -> Block:
@@ -167,6 +178,11 @@ def _form_blocks(
     rows = [(group, node) for group in EQUATIONS if group in groups for node in groups[group]]
     own = unknowns - len(e.states)
     g = law.graph
+    for i in range(e.nq + e.nv, own):  # the equation of a row that is off: its unknown is 0
+        group, node = rows[i]
+        held = e.rows[(i - e.nq - e.nv) % e.m].held
+        if held is not None:
+            rows[i] = group, g.add(g.mul(held, node), g.mul(g.sub(g.one, held), g.input("k", i)))
     rows[own:own] = [("states", g.sub(g.input("k", own + i), rate)) for i, rate in enumerate(e.state_rates)]
     arguments = ("t", "y", "k", "p", "w", "r")
     residual = [(Target("r", i), node) for i, (_, node) in enumerate(rows)]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from symgen.formulate.equations import Equations
-from symgen.ir.program import SECTIONS, STATUS, Block, ModelLayout, ModelProgram, Target
+from symgen.ir.program import MODE_NUMBERS, SECTIONS, STATUS, Block, ModelLayout, ModelProgram, Target
 from symgen.lower.hoist import Hoister
 from symgen.lower.law import law_block
 from symgen.lower.manifold import manifold_blocks
@@ -33,11 +33,12 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
     for name, size in (
         ("status", len(STATUS)),
         ("winding", len(equations.windings)),  # right after the status: both are kept with every output
+        ("modes", MODE_NUMBERS * sum(row.held is not None for row in equations.rows)),  # and so are these
         *((name, sizes[size]) for name, size in SECTIONS),
         *((name, len(scalars.stored[name])) for name in ("lower", "reciprocal")),
         ("mass_entry", len(scalars.mass_entries)),
     ):
-        if size or name not in ("winding", "mass_entry"):
+        if size or name not in ("winding", "modes", "mass_entry"):
             sections[name] = (offset, size)
             offset += size
     layout = ModelLayout(equations.nq, equations.nv, m, len(equations.parameters), sections, len(equations.states))
@@ -93,6 +94,7 @@ def measure(hoister: Hoister, scalars: ScalarNodes) -> Block:
         total = g.total(g.mul(e, g.input("v", j)) for j, e in row)
         if equations.rows[i].nu != g.zero:
             total = g.sub(total, g.input("nu", i))
+        total = scalars.in_force(i, total)
         residuals.append(total)
         outputs.append((Target("residual", i), total))
     outputs += scalars.violation("velocity", residuals)
@@ -106,7 +108,7 @@ def observe(hoister: Hoister, scalars: ScalarNodes) -> Block:
     """Return the block of quantities reported at outputs only."""
     g, e = hoister.graph, scalars.equations
     changes = scalars.product(scalars.rows, scalars.section("rates.v", e.nv))
-    left = [g.sub(n, row.gamma) for n, row in zip(changes, e.rows, strict=True)]
+    left = [scalars.in_force(i, g.sub(n, row.gamma)) for i, (n, row) in enumerate(zip(changes, e.rows, strict=True))]
     outputs: Outputs = [(Target("out", i), n) for i, n in enumerate(left)]
     for k, c in enumerate(e.joint_coordinates):
         outputs += [(Target("out", e.m + 2 * k), c.value), (Target("out", e.m + 2 * k + 1), c.rate)]

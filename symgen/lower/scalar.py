@@ -39,7 +39,7 @@ class ScalarNodes(OfMass):
         g = self.graph
 
         def reciprocal(row: int, pivot: int, _: int) -> int:
-            return g.div(g.one, g.add(pivot, g.add(compliance, self.mask[row])))
+            return self._masked_reciprocal(self._held(row), g.add(pivot, g.add(compliance, self.mask[row])))
 
         return factorise(g, self.mass_gram(self.rows), self.order, reciprocal)
 
@@ -52,10 +52,27 @@ class ScalarNodes(OfMass):
         def reciprocal(row: int, pivot: int, diagonal: int) -> int:
             masked = g.add(pivot, self.mask[row])  # the mask is 0, or infinite for a row to be left out
             if pivot != diagonal:
-                self.flags.append(g.call("lt", masked, g.mul(g.constant(SUSPICIOUS), diagonal)))
-            return g.div(g.one, masked)
+                least = self.in_force(row, g.mul(g.constant(SUSPICIOUS), diagonal))
+                self.flags.append(g.call("lt", masked, least))
+            return self._masked_reciprocal(self._held(row), masked)
 
         return factorise(g, matrix, self.order, reciprocal)
+
+    def _held(self, row: int) -> int:
+        """Return 1 where a row is in force, 0 where it is off."""
+        held = self.equations.rows[row].held
+        return self.graph.one if held is None else held
+
+    def _off(self, row: int) -> int:
+        """Return 0 where a row is in force, 1 where it is off."""
+        return self.graph.sub(self.graph.one, self._held(row))
+
+    def in_force(self, row: int, node: int) -> int:
+        """Return a node of a row, 0 where the row is off."""
+        return self.graph.mul(self._held(row), node)
+
+    def _on_penalties(self, operation: FormulaStep, penalty: int) -> Nodes:
+        return tuple(self.in_force(i, a) for i, a in enumerate(super()._on_penalties(operation, penalty)))
 
     def _on_flag(self, operation: FormulaStep) -> int | None:
         """Return the node that is true where a pivot of S was suspicious so far."""
@@ -73,17 +90,19 @@ class ScalarNodes(OfMass):
         return factorise(self.graph, self.gram(self.rows, self.gauge), self.order, reciprocal)
 
     def _decided(self, row: int, pivot: int, diagonal: int) -> int:
-        """Return 1 where the pivot of D G D^T keeps its row, else 0; a row eliminated alone is always kept."""
+        """Return 1 where the pivot of D G D^T keeps its row, else 0; a row eliminated alone is kept where it holds."""
         g = self.graph
         if self._certain(row, pivot, diagonal):
             return g.one
         # near a singular position rounding lifts the pivot of a masked row above SKIP: the mask keeps it out
         usual = self._usual(row, diagonal)
-        return g.call("step", pivot, g.add(g.mul(g.constant(SKIP), usual), self.mask[row]))
+        kept = g.call("step", pivot, g.add(g.mul(g.constant(SKIP), usual), self.mask[row]))
+        return self.in_force(row, kept)
 
     def _certain(self, row: int, pivot: int, diagonal: int) -> bool:
         """Whether a row is kept in every position: it is eliminated alone, and cannot vanish."""
-        return pivot == diagonal and self.equations.rows[row].size is None
+        constraint = self.equations.rows[row]
+        return pivot == diagonal and constraint.size is None and constraint.held is None
 
     def _usual(self, row: int, diagonal: int) -> int:
         """Return the scale of the pivot of a row in D G D^T: the row's square, or the pivot before."""
@@ -187,16 +206,17 @@ class ScalarNodes(OfMass):
                 count = g.add(count, g.one)
                 continue
             relative = g.div(rank.pivots[i], self._usual(i, rank.diagonal[i]))
-            outputs.append((Target("pivot", i), relative))
+            outputs.append((Target("pivot", i), self.in_force(i, relative)))
             count = g.add(count, self._decided(i, rank.pivots[i], rank.diagonal[i]))
-            smallest = g.call("min", smallest, g.add(relative, self.mask[i]))
+            smallest = g.call("min", smallest, g.add(relative, g.add(self.mask[i], self._off(i))))
         shortest = g.one
         for i, row in enumerate(self.equations.rows):
             if row.size is not None:  # the row over the velocities of bodies, whatever loops make of it
                 if row.unit == "rad" and g.value(row.size) is None:
-                    shortest = g.call("min", shortest, row.size)
+                    shortest = g.call("min", shortest, g.add(row.size, self._off(i)))
             elif row.unit == "rad" and g.value(rank.diagonal[i]) is None:
-                shortest = g.call("min", shortest, g.mul(rank.diagonal[i], g.input("row_weight", i)))
+                length = g.mul(rank.diagonal[i], g.input("row_weight", i))
+                shortest = g.call("min", shortest, g.add(length, self._off(i)))
         outputs += [
             to_status("rank", count),
             to_status("smallest_pivot", smallest),

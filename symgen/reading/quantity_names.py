@@ -9,7 +9,7 @@ import numpy as np
 
 from symgen.ir.derivative import jacobian
 from symgen.ir.interpolation import Interpolation
-from symgen.ir.program import DERIVATIVES, of_table
+from symgen.ir.program import DERIVATIVES, MODES, of_table
 from symgen.vocabulary.expressions import SMOOTH
 
 if TYPE_CHECKING:
@@ -40,7 +40,10 @@ def input_names(e: Equations) -> dict[tuple[str, int], str]:
     spaces = {"q": e.coordinates, "v": e.velocities, "p": e.parameters}
     names = {(space, i): x.name for space, quantities in spaces.items() for i, x in enumerate(quantities)}
     names |= {("z", i): x.name for i, x in enumerate(e.states, 1)}
-    return {("t", 0): "t", **names, **{("winding", i): f"turned_{i}" for i in range(len(e.windings))}}
+    names |= {("winding", i): f"turned_{i}" for i in range(len(e.windings))}
+    switched = (row.name for row in e.rows if row.held is not None)
+    modes = (f"{row}.{number}" for row in switched for number in MODES)
+    return {("t", 0): "t", **names, **{("modes", i): name for i, name in enumerate(modes)}}
 
 
 #: Shape of a matrix; row, column and node of its entries.

@@ -169,14 +169,14 @@ def _arrays(outcome: Outcome) -> dict[str, NDArray[Any]]:
     """Return all that a run kept, with its last output."""
     info, arrays = outcome.compiled.info, outcome.simulation.save()
     y, w = arrays["y"], arrays["w"]
-    shown = y[: info.ny].copy(), np.append(w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + info.windings])
+    shown = y[: info.ny].copy(), np.append(w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + info.kept])
     if len(outcome.times) and outcome.times[-1] == outcome.end:
         shown = outcome.states[-1].copy(), outcome.status_columns[-1].copy()
     return arrays | dict(zip(SHOWN, shown, strict=True))
 
 
 def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> list[str]:
-    """Return sentences about redundant constraints in this run."""
+    """Return sentences about rows that are redundant, and about rows that are off, in this run."""
     info, start, notes = compiled.info, outcome.start, list[str]()
     if start.rank < info.m:
         extra = info.m - start.rank
@@ -184,6 +184,8 @@ def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> li
         subject = "1 constraint row depends" if extra == 1 else f"{extra} constraint rows depend"
         which = "shared like the stiffness of rows" if compiled.law.unique_multipliers else "those of minimum norm"
         notes.append(f"{subject} on the others at the start{rows}; multipliers are {which}")
+    if off := compiled.off(outcome.w):
+        notes.append(f"rows off at the end, which exert nothing: {', '.join(off)}")
     if forces.non_unique:
         notes.append("reactions are not unique at " + ", ".join(forces.non_unique))
     return notes

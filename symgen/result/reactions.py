@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.describe.evaluate import evaluate
+from symgen.ir.program import MODE_NUMBERS
 from symgen.layout import abi
 from symgen.result.labelled import Array, Labelled
 from symgen.result.points import rotation_matrices
@@ -312,13 +313,22 @@ def _minimum_norm(outcome: Motion) -> Array:
     values = outcome.multipliers.copy()
     if outcome.compiled.law.unique_multipliers:
         return values
-    dependent = (outcome.status_columns[:, abi.RANK] < m) | (outcome.start.rank < m)
+    held = _held(outcome)
+    dependent = (outcome.status_columns[:, abi.RANK] < held.sum(axis=1)) | (outcome.start.rank < m)
     usable = np.isfinite(values).all(axis=1) & np.isfinite(outcome.states).all(axis=1)
     for k in np.flatnonzero(dependent & usable):
         columns, weights = _weighed(outcome, float(outcome.times[k]), outcome.states[k])
-        forces = values[k] / weights
+        columns, forces = columns * held[k], values[k] / weights
         values[k] = weights * np.linalg.lstsq(columns, columns @ forces, rcond=CUTOFF)[0]
     return values
+
+
+def _held(outcome: Motion) -> Array:
+    """Return 1 for rows in force and 0 for rows that are off, at all outputs, shape (k, m)."""
+    info, status = outcome.compiled.info, outcome.status_columns
+    held = np.ones((len(status), info.m))
+    held[:, list(info.switchable)] = status[:, abi.N_STATUS + info.windings :: MODE_NUMBERS]
+    return held
 
 
 def _weighed(outcome: Motion, t: float, y: Array) -> tuple[Array, Array]:

@@ -104,14 +104,17 @@ class TreeRun:
         states = np.zeros((k, info.ny))
         states[:, :n] = moving[:, :n]
         states[:, n:] = outcome.states[:, own.work :]
-        status = np.zeros((k, abi.N_STATUS + info.windings))
+        status = np.zeros((k, abi.N_STATUS + info.kept))
         status[:, : abi.N_STATUS] = outcome.status_columns[:, : abi.N_STATUS]
         # the joints of the tree hold by construction: their rows count as independent
         status[:, abi.RANK] += self.body_start.rank - self.start.rank
         for i, turned in enumerate(self._turns(outcome.states, outcome.status_columns[:, abi.N_STATUS :])):
             status[:, abi.N_STATUS + i] = turned
+        # rows of cut joints alone may be off, the same ones in the same order
+        status[:, abi.N_STATUS + info.windings :] = outcome.status_columns[:, abi.N_STATUS + own.windings :]
         w = self.body_start.w.copy()
         w[list(_SCALES)] = outcome.w[list(_SCALES)]
+        self.bodies.modes(w)[:] = self.compiled.modes(outcome.w)
         for i in range(info.windings):
             w[abi.WINDING + i] = status[-1, abi.N_STATUS + i] if k else w[abi.WINDING + i]
         values = {f.name: getattr(outcome, f.name) for f in fields(Outcome)}

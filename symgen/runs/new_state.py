@@ -64,7 +64,7 @@ def metric_of(info: ModelInfo, sizes: Sizes) -> Array:
 
 def new_outputs(info: ModelInfo, times: Array) -> Outputs:
     """Return room for the outputs of a run at some times [s]."""
-    k, columns = len(times), abi.N_STATUS + info.windings
+    k, columns = len(times), abi.N_STATUS + info.kept
     return Outputs(np.ascontiguousarray(times, dtype=np.float64), np.empty((k, info.ny)), np.empty((k, columns)))
 
 

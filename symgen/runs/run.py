@@ -94,7 +94,7 @@ def outcome_of(
     counters["slow_steps"] = int(control[abi.POINTS]) if together else 0
     times, states, status = (array[:k] for array in outputs)
     if code in (abi.MET, abi.GATHERED) and not (k and times[-1] >= end):
-        here = np.concatenate([w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + compiled.info.windings]])
+        here = np.concatenate([w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + compiled.info.kept]])
         times, states = np.append(times, end), np.vstack([states, state.y[: compiled.info.ny]])
         status = np.vstack([status, here])
     events = simulation.events

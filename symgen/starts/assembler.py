@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.ir.program import MODE_NUMBERS
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
 from symgen.layout.manifold import stay
@@ -26,7 +27,7 @@ from symgen.starts.joint_starts import Joints, joints_held
 from symgen.starts.starting import close_alone, close_rows, follow_nothing, observe_nothing, prepare_rows
 
 if TYPE_CHECKING:
-    from symgen.layout.compiled import CompiledModel
+    from symgen.layout.compiled import CompiledModel, ModelInfo
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -50,12 +51,21 @@ def layout_of(compiled: CompiledModel) -> Layout:
         np.zeros(0, dtype=np.int64),
         np.array([(joints[row.joint], row.unit != "rad") for row in info.rows], dtype=np.int64).ravel(),
         _marked(info.alone, info.m),
+        _switches(info),
         np.array(spins_of(info), dtype=np.int64),
         lengths_of(info),
         np.zeros(info.nq),
         np.full(info.windings, np.nan),
     )
     return Layout._make((*numbers, *arrays))
+
+
+def _switches(info: ModelInfo) -> Integers:
+    """Return the places in w of `held` of rows that may be off, -1 for others."""
+    places = np.full(info.m, -1, dtype=np.int64)
+    for k, row in enumerate(info.switchable):
+        places[row] = info.sections["modes"][0] + MODE_NUMBERS * k
+    return places
 
 
 def _marked(those: Sequence[int], count: int) -> Integers:

@@ -98,6 +98,7 @@ def _with_rows(info: ModelInfo, base: Layout, chosen: Sequence[int], nw: int) ->
         constants=np.concatenate([base.constants, np.zeros(k * n)]),
         rows=np.concatenate([base.rows, np.array(kinds, dtype=np.int64).ravel()]),
         alone=np.concatenate([base.alone, np.zeros(k, dtype=np.int64)]),
+        switches=np.concatenate([base.switches, np.full(k, -1)]),
     )
 
 

@@ -78,7 +78,7 @@ class History:
         times, end = t[:, abi.TIME].copy(), float(self._loop.state.clock[abi.TIME])
         changes = np.flatnonzero((p[1:] != p[:-1]).any(axis=1))
         held = tuple((float(times[k]), p[k].copy()) for k in changes)
-        status = np.hstack([w[:, : abi.N_STATUS], w[:, abi.WINDING : abi.WINDING + info.windings]])
+        status = np.hstack([w[:, : abi.N_STATUS], w[:, abi.WINDING : abi.WINDING + info.kept]])
         if loop.state.control[abi.BEGUN] == 0 or times[0] == loop.start.t:  # before a step nothing is measured
             status[0] = self._measured(times[0], y[0], p[0], w[0])
         outcome = outcome_of(loop, loop.outputs(np.zeros(0)), abi.DONE)
@@ -93,7 +93,7 @@ class History:
         info, model, scratch = self._loop.compiled.info, self._loop.compiled.model, w.copy()
         for function in (model.geometry, model.measure):
             Ready(function, abi.MEASURE)(float(t), y.copy(), p.copy(), scratch)
-        return np.append(scratch[: abi.N_STATUS], scratch[abi.WINDING : abi.WINDING + info.windings])
+        return np.append(scratch[: abi.N_STATUS], scratch[abi.WINDING : abi.WINDING + info.kept])
 
     def _place(self, name: str) -> int:
         array: Array = getattr(self._loop.state, name)

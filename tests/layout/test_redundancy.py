@@ -13,7 +13,7 @@ from benchmarks.plain.system import read
 from symgen.api import Model
 from symgen.base.settings import Settings
 from symgen.describe import MechanismBuilder
-from symgen.layout.redundancy import choose_rows
+from symgen.layout.redundancy import choose_rows, farthest
 from symgen.loopcode.exact import plain_form
 from symgen.running.prepare import prepare
 from symgen.running.tree import carried_of
@@ -72,7 +72,9 @@ def dense_layout(m: int, n: int, alone: tuple[int, ...] = ()) -> SimpleNamespace
     entries = np.array([(i, j, n * i + j) for i in range(m) for j in range(n)], dtype=np.int64).ravel()
     first = np.array([*alone, *[0] * (m - len(alone))], dtype=np.int64)
     places = {"jacobian": 0, "gauge": m * n, "mask": m * n + n}
-    return SimpleNamespace(m=m, nv=n, entries=entries, constants=np.zeros(m * n), alone=first, **places)
+    return SimpleNamespace(
+        m=m, nv=n, entries=entries, constants=np.zeros(m * n), alone=first, switches=np.full(m, -1), **places
+    )
 
 
 def test_kept_rows_span_the_others() -> None:
@@ -85,6 +87,21 @@ def test_kept_rows_span_the_others() -> None:
     assert changed == 1 and kept.sum() == 3
     rows = d[kept] / np.linalg.norm(d[kept], axis=1, keepdims=True)
     assert np.linalg.svd(rows, compute_uv=False)[-1] > 0.05
+
+
+def test_rows_that_are_off_stand_for_none_and_are_not_masked() -> None:
+    a, b = np.random.default_rng(7).uniform(-1.0, 1.0, (2, 5))
+    layout = dense_layout(4, 5)
+    layout.switches[0] = 29
+    w = np.concatenate([[*a, *b, *(a + b), *(2.0 * b)], np.ones(5), np.zeros(4), [1.0]])
+    choose, mask, room = plain_form(choose_rows), w[25:29], np.zeros(44)
+    choose(layout, 2, 0, w, room)
+    assert np.count_nonzero(mask) == 2
+    w[29] = 0.0
+    assert plain_form(farthest)(layout, 5, 4, 1e-12, 0, w, room) == 2
+    choose(layout, 3, 0, w, room)
+    assert list(mask[[0, 2]]) == [0.0, 0.0]
+    assert sorted(mask[[1, 3]]) == [0.0, np.inf]
 
 
 def test_rows_of_which_rounding_is_left_stand_for_none() -> None:

@@ -1,0 +1,88 @@
+"""Modes of rows that may be off: changed between two parts of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symgen.base.errors import InputError, nearest
+from symgen.ir.numerics import SKIP
+from symgen.layout import abi
+from symgen.layout.redundancy import choose_rows, farthest, room_of_choice
+from symgen.loopcode.entry import direct
+from symgen.loopcode.exact import compiled_form
+from symgen.loops.watch import remember_rank
+from symgen.starts.assembler import layout_of
+
+if TYPE_CHECKING:
+    from symgen.layout.compiled import Array, CompiledModel
+    from symgen.runs.simulation import Simulation
+
+#: Numbers of ``control`` from which a scheme continues: it begins anew.
+_PAST = [abi.KNOWN, abi.POINTS, abi.REFUSED]
+
+
+def set_modes(simulation: Simulation, modes: Mapping[str, tuple[float, float, float]]) -> None:
+    """Set modes of rows from the present state on; the scheme begins anew, the counts and the balance go on.
+
+    A row that is switched on has to hold at the present state: close it before. Rows that depend on others are chosen
+    among the rows in force.
+
+    Parameters
+    ----------
+    simulation : Simulation
+        A run between two entries of its loop.
+    modes : mapping of str to (float, float, float)
+        By names of rows: 1 in force or 0 off, the value that the measure is held at beyond the described one, and a
+        sign.
+
+    Raises
+    ------
+    InputError
+        If a row cannot be off, or a number is none of these.
+    """
+    compiled, state = simulation.compiled, simulation.state
+    info, w = compiled.info, state.w
+    places = {info.rows[row].name: k for k, row in enumerate(info.switchable)}
+    for name, (held, constant, sign) in modes.items():
+        if name not in places:
+            raise InputError("modes", "a row that may be off", name, nearest(name, places))
+        if held not in (0.0, 1.0) or sign not in (-1.0, 0.0, 1.0) or not np.isfinite(constant):
+            expected = "1 or 0, a finite value and a sign of -1, 0 or 1"
+            raise InputError(f"modes.{name}", expected, f"{held:g}, {constant:g}, {sign:g}")
+    for name, mode in modes.items():
+        compiled.modes(w)[places[name]] = mode
+    now = float(state.clock[abi.TIME])
+    geometry = direct(compiled.model.geometry, abi.MEASURE, now, state.y, state.p, w)
+    geometry(now)
+    if _choose(compiled, w):
+        geometry(now)
+        simulation.scheme = simulation.integrator.setup(compiled, simulation.spec, w).scheme
+    remember_rank(simulation.sizes, state)
+    # angles between other rows: passages of singular positions are looked for anew
+    sine, short = np.sqrt(np.maximum(w[[abi.PIVOT, abi.SHORTEST_ROW]], 0.0))
+    state.gauges[[abi.LAST_SINE, abi.LARGEST_SINE, abi.LAST_SHORT]] = sine, sine, short
+    state.gauges[[abi.FALL, abi.SHORT_FALL, abi.CHOSEN]] = 0.0
+    if state.control[abi.BEGUN] != 0:
+        state.control[abi.BEGUN] = abi.AFRESH
+    state.control[_PAST] = 0
+    state.clock[abi.ALLOWED] = 0.0
+
+
+def _choose(compiled: CompiledModel, w: Array) -> bool:
+    """Mask the rows that depend on others in force at the position of w; return whether other rows are masked.
+
+    Rows of too large mechanisms stay the same.
+    """
+    info, layout, mask = compiled.info, layout_of(compiled), compiled.section(w, "mask")
+    room, before = np.zeros(room_of_choice(info.m, info.nv)), mask.copy()
+    if not len(room):
+        return False
+    rank = int(compiled_form(farthest)(layout, info.nv, info.m, SKIP, 1, w, room))
+    redundant = info.m - len(compiled.off(w)) - rank
+    mask[:] = 0.0
+    if redundant > 0:
+        compiled_form(choose_rows)(layout, info.m - redundant, 1, w, room)
+    return not np.array_equal(mask, before)
