@@ -3,9 +3,9 @@
 # make help    everything else
 #
 # The first target that needs it makes .venv with Python 3.11 or newer and installs symgen there, editable, with all
-# extras; it is made again when pyproject.toml changes. Another interpreter: make test PYTHON=/path/to/python3.12
+# extras; it is made again when pyproject.toml changes. Another interpreter: make test PYTHON=/path/to/python3.13
 
-PYTHON ?= $(shell command -v python3.11 || command -v python3)
+PYTHON ?= $(shell .ci/python 3.11 3.12 3.13 3.14 3)
 WORKERS ?= 2
 DEMO_MODEL ?= four-bar
 BENCH_VENV ?= .bench-venv
@@ -22,11 +22,11 @@ help:  ## say what the targets do
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' $(MAKEFILE_LIST) | awk -F'|' '{ printf "make %-10s %s\n", $$1, $$2 }'
 
 $(INSTALLED): pyproject.toml
-	@test -n "$(PYTHON)" || { echo "no Python found: make $(MAKECMDGOALS) PYTHON=/path/to/python3.11" >&2; exit 1; }
-	@"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
-	  || { echo "symgen needs Python 3.11 or newer: make $(MAKECMDGOALS) PYTHON=/path/to/python3.11" >&2; exit 1; }
-	@"$(BIN)/python" -m pip --version >/dev/null 2>&1 \
-	  || { echo "making $(VENV) with $$("$(PYTHON)" --version)"; "$(PYTHON)" -m venv --clear $(VENV); }
+	@"$(BIN)/python" -m pip --version >/dev/null 2>&1 || { python="$(PYTHON)"; \
+	  "$${python:-false}" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || { \
+	    echo "symgen needs Python 3.11 or newer with venv, got '$$python': make $(or $(MAKECMDGOALS),test)" \
+	      "PYTHON=/path/to/python3.13" >&2; exit 1; }; \
+	  echo "making $(VENV) with $$("$$python" --version)"; "$$python" -m venv --clear $(VENV); }
 	@echo "installing symgen and what its tests need into $(VENV), once"
 	@"$(BIN)/python" -m pip install -qq --disable-pip-version-check --editable '.[test]'
 	@touch $@

@@ -213,11 +213,11 @@ def _real(path: Path) -> Path:
         raise OSError(errno.EINVAL, str(error)) from None
 
 
-def _bytes(content: Content) -> bytes | memoryview:
+def _bytes(content: Content) -> bytes:
     if callable(content):
         stream = io.BytesIO()
         content(stream)
-        return stream.getbuffer()
+        return stream.getvalue()  # shared, not copied; a view of the stream would outlive it where errors are kept
     # arguments of the command line may hold bytes that are no text
     return content.encode(errors="replace") if isinstance(content, str) else content
 

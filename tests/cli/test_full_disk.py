@@ -44,6 +44,9 @@ CASES = {
     "template": (("new", "crane"), "-o", "crane.toml", 100),
 }
 
+#: What was in the file before; without the word of symgen's own files no command would write over a module.
+OLD = "Emitted by symgen: what was there"
+
 #: Files that are written as others are, and the longest.
 LONGER = ("netcdf", "parquet", "page", "svg", "pdf", "markdown", "sweep")
 
@@ -66,7 +69,7 @@ def test_one_sentence_and_nothing_lost(tmp_path, command, option, name, limit):
         old.mkdir()
         old = old / "model.py"
     if command[0] != "new":
-        old.write_text("what was there")
+        old.write_text(OLD)
     code, out, err = full(tmp_path, command, option, name, limit)
     assert code == 2, err
     said = [line for line in err.splitlines() if line.startswith("symgen: ")]
@@ -75,7 +78,7 @@ def test_one_sentence_and_nothing_lost(tmp_path, command, option, name, limit):
     if command[0] == "new":
         assert not old.exists()
     else:
-        assert old.read_text() == "what was there"
+        assert old.read_text() == OLD
     if command[0] in ("run", "compare"):
         assert json.loads(out.splitlines()[-1])  # the result itself was given
     left = {p.name for p in tmp_path.rglob("*") if "warm-" not in str(p.relative_to(tmp_path))}

@@ -113,3 +113,27 @@ def test_bad_input_gets_one_sentence_exit_code_2_and_no_file(cli, tmp_path, monk
     assert (code, out) == (2, "")
     assert REFUSED[words] in err and err.startswith("symgen: ") and err.count("\n") == 1
     assert {path.name: path.read_text() for path in tmp_path.iterdir()} == files
+
+
+WITHOUT_EXTRA = {
+    "run four-bar --save x.nc": "data",
+    "run four-bar --save x.parquet": "data",
+    "run four-bar --plot x.svg": "plot",
+    "kinematics driven-four-bar --curves x.svg": "plot",
+    "inverse driven-four-bar --save x.parquet": "data",
+    "compare four-bar -o x.html": "plot",
+    "stress -o x.md": "plot",
+    "sweep four-bar --vary crank_mass=lin(1,2,2) -o x.csv --plot x.svg": "plot",
+}
+
+
+@pytest.mark.parametrize(("words", "extra"), WITHOUT_EXTRA.items(), ids=WITHOUT_EXTRA)
+def test_a_missing_library_is_named_with_its_extra_before_a_model_is_read(words, extra, cli, tmp_path, monkeypatch):
+    """In an installation without extras; a model that is read all the same would have code 70."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("symgen.base.files.find_spec", lambda name: None)
+    monkeypatch.setattr("symgen.api.load", None)
+    code, out, err = cli(*words.split())
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert "got none; pip install 'symgen[" + extra + "]' installs it" in err
+    assert list(tmp_path.iterdir()) == []

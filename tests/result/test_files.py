@@ -24,7 +24,7 @@ def result():
 
 def test_csv(result, tmp_path):
     path = result.save(tmp_path / "run.csv")
-    frame = pd.read_csv(path, index_col="t")
+    frame = pd.read_csv(path, index_col="t", float_precision="round_trip")
     assert np.array_equal(frame.index.to_numpy(), result.t)
     assert np.array_equal(frame["crank.theta"].to_numpy(), result["crank.theta"])
     assert np.array_equal(frame["multiplier.motor.driver"].to_numpy(), result.lam["motor.driver"])
