@@ -272,7 +272,7 @@ def _cell(task: CellReference | RunTask) -> Cell:
     }
     steps = min(level.until / level.step, float(BUDGET))
     if isinstance(task, CellReference):
-        return Cell(cell_key(**parts), name, task, 1e3 + steps)
+        return Cell(cell_key(**parts), name, task, 1e3 + steps, check_motion)
     parts |= {"step": level.step, "options": dict(level.options), "watched": level.watched}
     parts |= {"method": task.method, "integrator": task.integrator, "coordinates": task.common.coordinates}
     limits = [task.common.max_violation, task.common.max_energy_error, task.common.max_attempts]
@@ -280,6 +280,28 @@ def _cell(task: CellReference | RunTask) -> Cell:
     cost = 50.0 + steps * (10.0 if task.integrator == "radau5" else 1.0)
     check = _check_limit if isinstance(task, LimitTask) else _check_run
     return Cell(cell_key(**parts, limits=limits), f"{name} {task.method}", task, cost, check)
+
+
+class _Motion(TypedDict):
+    unusable: None
+    how: str
+    estimated_error: float
+    q: list[list[float]]
+    decay: float
+    sines: list[float]
+    size: float
+    parameters: dict[str, float]
+
+
+class _Unusable(TypedDict):
+    unusable: str
+
+
+def check_motion(entry: Outcome) -> None:
+    """Raise `ValueError` unless an entry of a journal is that of a reference."""
+    motion: dict[str, Any] = msgspec.convert(entry, _Motion if entry.get("unusable") is None else _Unusable)
+    if len({*map(len, motion.get("q", ()))}) > 1:
+        raise ValueError("rows of different lengths")
 
 
 class _Run(TypedDict):
