@@ -117,7 +117,7 @@ class Code:
 
 
 @dataclass(frozen=True)
-class Watch:
+class EventPlan:
     """Events and switches of the rows.
 
     Attributes
@@ -168,7 +168,7 @@ class Recipe:
         Selected quantities.
     tree : Mechanism or None
         The mechanism with its tree, where runs are in joint coordinates.
-    watch : Watch or None
+    watch : EventPlan or None
         Events and switches of the rows.
     sides : tuple of SidedJoint
         Joints that may hold bodies the wrong way round.
@@ -199,7 +199,7 @@ class Recipe:
     code: str
     target: str = "cpu"
     tree: Mechanism | None = None
-    watch: Watch | None = None
+    watch: EventPlan | None = None
     sides: tuple[SidedJoint, ...] = ()
     stops: bool = False
     plugins: tuple[str, ...] = ()

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.chunks import Results, Rows
     from symgen.ensemble.measures import Measures
-    from symgen.ensemble.recipe import Recipe, Watch
+    from symgen.ensemble.recipe import EventPlan, Recipe
     from symgen.layout.compiled import CompiledModel
     from symgen.layout.start_records import Instant
     from symgen.loops.integrator import Integrator
@@ -66,7 +66,7 @@ class SingleRuns:
     """
 
     recipe: Recipe
-    watch: Watch
+    watch: EventPlan
     compiled: CompiledModel
     integrator: Integrator
     measures: Measures | None

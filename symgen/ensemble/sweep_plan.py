@@ -33,7 +33,7 @@ from symgen.ensemble.kernel import kernel_of
 from symgen.ensemble.loop_runs import PLAIN
 from symgen.ensemble.measures import integrated, make_measures
 from symgen.ensemble.names import METHOD, Names, Targets, targets_of
-from symgen.ensemble.recipe import Code, Module, Recipe, Watch, code_identity
+from symgen.ensemble.recipe import Code, EventPlan, Module, Recipe, code_identity
 from symgen.ensemble.row_quantities import choose_quantities
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import LANES
@@ -259,7 +259,7 @@ def make_ensemble(
     measured = driving.changes and any(q.source >= SIDE for q in kept)
     parts = late or measured or examined
     alone = parts or (joint and not {q.source for q in kept} <= PLAIN)
-    watch = Watch(mechanism, events, ends, alone) if parts or joint or events or looks else None
+    watch = EventPlan(mechanism, events, ends, alone) if parts or joint or events or looks else None
     # single runs add up all that outputs ask for, which their steps follow, too
     adds = integral is not None or (
         (watch is not None or (driving.jumps and spec.adaptive)) and can_integrate(compiled)
