@@ -233,7 +233,7 @@ def test_compare_several_models(cli):
 
 def test_a_study_in_which_everything_failed_exits_1(cli):
     code, out, err = cli(
-        *("compare", "four-bar", "--methods", "lagrange", "--integrators", "rk4", "--steps", "2e-2"),
+        *("compare", "four-bar", "--methods", "lagrange", "--integrators", "rk4", "--steps", "0.6"),
         *("--until", "3", "--repeat", "1", "--json"),
     )
     assert code == 1 and err == "symgen: four-bar: every run failed\n"

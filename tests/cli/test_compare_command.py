@@ -17,6 +17,8 @@ from symgen.study.comparison import compare as module
 from symgen.study.journal import Journal
 
 SMALL = ("--methods", "lagrange,direct-correction", "--integrators", "rk4", "--steps", "0.02,0.01", "--until", "0.5")
+#: Rows that exceed no limit, so that each is timed once.
+WITHIN = ("--methods", "velocity-projection,direct-correction", *SMALL[2:])
 
 
 @pytest.mark.parametrize("ending", ["html", pytest.param("md", marks=pytest.mark.slow)])
@@ -65,7 +67,7 @@ def test_a_file_that_is_no_journal_is_refused_and_left_alone(cli, tmp_path):
 def test_an_interrupted_study_writes_the_report_of_what_is_done(cli, tmp_path, monkeypatch):
     calls = interrupt(monkeypatch, module, "timed", 3)
     report, journal = tmp_path / "report.html", tmp_path / "rows.journal"
-    arguments = ("compare", "pendulum", *SMALL, "--repeat", "1", "-o", report, "--json", "--journal", journal)
+    arguments = ("compare", "pendulum", *WITHIN, "--repeat", "1", "-o", report, "--json", "--journal", journal)
     code, out, err = cli(*arguments)
     assert code == 130 and "symgen: interrupted; the rows that were done are shown" in err
     assert len(json.loads(out)["rows"]) == 2 and json.loads(out)["interrupted"] is True
@@ -76,7 +78,7 @@ def test_an_interrupted_study_writes_the_report_of_what_is_done(cli, tmp_path, m
 
 
 def test_rows_of_an_earlier_study_are_shown_where_preparing_is_interrupted(cli, tmp_path, monkeypatch):
-    arguments = ("compare", "pendulum", *SMALL, "--repeat", "1", "--json", "--resume", tmp_path / "rows.journal")
+    arguments = ("compare", "pendulum", *WITHIN, "--repeat", "1", "--json", "--resume", tmp_path / "rows.journal")
 
     def never(*_):
         return {}, True

@@ -4,8 +4,18 @@ import pytest
 
 import symgen
 from symgen.base.errors import InputError
+from symgen.describe.kinds import FORCES, JOINTS
+from symgen.methods import METHODS
 from symgen.study.journal import Journal
 from symgen.study.runner import Cell, run_cells
+
+
+@pytest.fixture(autouse=True)
+def registered_here_alone(monkeypatch):
+    """What a test registers is gone after it: others go through all kinds."""
+    for registry in (METHODS, JOINTS, FORCES):
+        monkeypatch.setattr(registry, "_loaded", dict(registry._loaded))
+
 
 METHOD = """
 import sys

@@ -79,7 +79,7 @@ def test_a_motion_that_cannot_go_on_fails_where_it_ends(method, integrator):
     step = 1e-3 if integrator == "rk4" else None
     result = out_of_reach().simulate(method=method, integrator=integrator, step=step, until=2.0)
     assert result.status == "failed"
-    assert result.reason.endswith(f"at t = {result.outcome.end:.6g} s")
+    assert f"at t = {result.outcome.end:.6g} s" in result.reason
     assert STRETCHED - 0.01 < result.outcome.end < STRETCHED + 0.01
     assert np.all(np.isfinite(result.q.values)), "what is kept was good"
     assert result.t[-1] <= result.outcome.end and len(result.t) > 50
