@@ -311,7 +311,7 @@ def test_reports(title):
     ]
     honest, *hostile = (Elements(html(document)) for document in made)
     for page in hostile:
-        assert set(page.elements) == set(honest.elements) and not page.scripts
+        assert set(page.elements) <= set(honest.elements) and not page.scripts  # a text declares no element
     for document in made:
         lines = markdown(document, "files")
         assert not re.search(r"(?<!\\)<(?!!--)|(?<![\\!])\[[^\]\n]*[^\\\]]\]\(javascript", lines)
