@@ -78,6 +78,11 @@ class LazyGroup(click.Group):
         command.short_help = summary(cmd_name)
         if cmd_name not in WITHOUT_PLUGINS and not any(p.name == "plugin" for p in command.params):
             command.params.append(_plugin_option())
+        if ctx.resilient_parsing:  # the shell completes a line
+            from symgen.cli._completing import complete
+
+            for parameter in command.params:
+                complete(parameter)
         return command
 
     def resolve_command(
@@ -102,7 +107,8 @@ def _plugin_option() -> click.Option:
         metavar="FILE.py",
         is_eager=True,
         expose_value=False,
-        callback=lambda context, parameter, paths: load_plugins(paths),
+        # a key press that completes a line runs no file
+        callback=lambda context, parameter, paths: None if context.resilient_parsing else load_plugins(paths),
         help="Run a Python file that registers methods, integrators, joints or forces of your own.",
     )
 

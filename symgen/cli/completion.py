@@ -12,6 +12,21 @@ _HOW = {
     "zsh": '# put into ~/.zshrc:  eval "$(symgen completion zsh)"',
     "fish": "# save as ~/.config/fish/completions/symgen.fish",
 }
+#: Shell -> lines of click's script -> lines that add no blank behind a word that goes on: ``mass=``, ``models/``.
+_OPEN = {
+    "bash": {
+        "            COMPREPLY+=($value)\n": "            COMPREPLY+=($value)\n"
+        "            [[ $value == *[=/] ]] && compopt -o nospace\n"
+    },
+    "zsh": {
+        "        compadd -U -V unsorted -a completions\n": "        local -a open=(${(M)completions:#*[=/]})\n"
+        "        completions=(${completions:#*[=/]})\n"
+        "        compadd -U -V unsorted -a completions\n"
+        "        compadd -U -S '' -V open -a open\n"
+    },
+    # words of a list contain commas
+    "fish": {'(string split "," $completion)': '(string split -m 1 "," $completion)'},
+}
 
 
 @click.command(
@@ -27,5 +42,7 @@ def command(shell: str) -> int:
     assert kind is not None, "click completes these shells"
     # not source(), which checks the version of the local bash: the script may be for another machine
     script = kind.source_template % kind(group, {}, "symgen", "_SYMGEN_COMPLETE").source_vars()
+    for line, further in _OPEN.get(shell, {}).items():
+        script = script.replace(line, further)
     click.echo(f"{_HOW[shell]}\n{script}")
     return OK

@@ -1,0 +1,174 @@
+"""Completion of values by the shell: models, kinds and the names of the mechanism on the line.
+
+Nothing here imports NumPy: a key press has to be answered in a tenth of a second. The mechanism is read, not validated;
+what is no name is left out, so that text of a file never reaches the shell.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import click
+from click.shell_completion import CompletionItem
+
+from symgen import catalogue
+from symgen.base.errors import SymgenError
+from symgen.base.settings import COORDINATES, SHAPES
+
+#: Files above this size in bytes are not read at a key press.
+LARGEST = 1_000_000
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_PATH = re.compile(r"[A-Za-z0-9_./+-]+")
+#: Coordinates and velocities of a body in the plane and in space.
+_PLANAR = ("x", "y", "theta", "vx", "vy", "omega")
+_SPATIAL = ("x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz")
+
+Candidates = Callable[[click.Context], Iterable[str]]
+Answer = Callable[[click.Context, str], list[CompletionItem[Any]]]
+
+
+def complete(parameter: click.Parameter) -> None:
+    """Let a parameter of a command complete its values.
+
+    Parameters
+    ----------
+    parameter : click.Parameter
+        An option or argument; one without names of its own stays as it is.
+    """
+    answer: Answer
+    name = parameter.name or ""
+    metavar = getattr(parameter, "metavar", None) or ""
+    if isinstance(parameter.type, click.Choice):  # it completes itself
+        return
+    if name in _MODELS:
+        answer = _models
+    elif name == "over" and "=" in metavar:  # of modes
+        answer = _names_of(_assigned(_parameters))
+    elif name == "states" and metavar == "A,B":  # of compare
+        answer = _names_of(lambda context: COORDINATES)
+    elif name in _CANDIDATES:
+        answer = _names_of(_CANDIDATES[name])
+    elif "FILE" in metavar or "RESULT" in metavar:
+        answer = _file
+    else:
+        return
+    # the method that click calls for the parameter at the cursor; its argument `shell_complete` is for decorators
+    parameter.shell_complete = answer  # type: ignore[method-assign, assignment]
+
+
+def _models(context: click.Context, typed: str) -> list[CompletionItem[Any]]:
+    """Return entries of the catalogue, folders and mechanism files."""
+    names = [name for name in catalogue.all_names() if name.startswith(typed)]
+    return [CompletionItem(x) for x in (*names, *_files(typed, (".toml", ".nc")))]
+
+
+def _files(typed: str, endings: Sequence[str]) -> Iterator[str]:
+    folder, slash, first = typed.rpartition("/")
+    with suppress(OSError):
+        for path in sorted(Path(folder + slash or ".").iterdir()):
+            text = folder + slash + path.name
+            hidden = path.name.startswith(".") and not first
+            if hidden or not path.name.startswith(first) or not _PATH.fullmatch(text):
+                continue
+            if path.is_dir():
+                yield text + "/"
+            elif path.name.endswith(tuple(endings)):
+                yield text
+
+
+def _file(context: click.Context, typed: str) -> list[CompletionItem[Any]]:
+    """Leave the word to the shell's own completion of files."""
+    return [CompletionItem(typed, type="file")]
+
+
+def _names_of(candidates: Candidates) -> Answer:
+    """Return the completion of the last word of a comma-separated list."""
+
+    def answer(context: click.Context, typed: str) -> list[CompletionItem[Any]]:
+        before, comma, last = typed.rpartition(",")
+        return [CompletionItem(before + comma + x) for x in candidates(context) if x.startswith(last)]
+
+    return answer
+
+
+def _raw(context: click.Context) -> Mapping[str, Any]:
+    """Return the description of the mechanism on the line, empty where there is none that can be read."""
+    values = context.params.get("model") or context.params.get("models") or context.params.get("what") or context.args
+    word = values if isinstance(values, str) else values[0] if values else ""
+    with suppress(SymgenError, OSError, ValueError, RecursionError):
+        name, colon, size = word.partition(":")
+        if name in catalogue.all_names():
+            return catalogue.raw(name, int(size) if colon else None)
+        path = Path(word)
+        if path.suffix == ".toml" and path.is_file() and path.stat().st_size < LARGEST:
+            return tomllib.loads(path.read_text(encoding="utf-8"))
+    return {}
+
+
+def _section(raw: Mapping[str, Any], name: str) -> list[str]:
+    """Return the names of a section of a mechanism."""
+    section = raw.get(name)
+    return sorted(x for x in section if _NAME.fullmatch(x)) if isinstance(section, dict) else []
+
+
+def _parameters(context: click.Context) -> list[str]:
+    return _section(_raw(context), "parameters")
+
+
+def _inputs(context: click.Context) -> list[str]:
+    return _section(_raw(context), "inputs")
+
+
+def _quantities(context: click.Context) -> list[str]:
+    raw = _raw(context)
+    return [
+        x for section in ("bodies", "joints", "forces", "outputs", "states", "points") for x in _section(raw, section)
+    ]
+
+
+def _start(context: click.Context) -> list[str]:
+    raw = _raw(context)
+    head = raw.get("mechanism")
+    spatial = isinstance(head, dict) and head.get("space") == "spatial"
+    return [f"{body}.{x}" for body in _section(raw, "bodies") for x in (_SPATIAL if spatial else _PLANAR)]
+
+
+def _assigned(candidates: Callable[[click.Context], list[str]]) -> Candidates:
+    """Return candidates that wait for a value: ``mass=``."""
+    return lambda context: [f"{name}=" for name in candidates(context)]
+
+
+def _methods(context: click.Context) -> tuple[str, ...]:
+    from symgen.methods import METHODS
+
+    return METHODS.names
+
+
+def _integrators(context: click.Context) -> tuple[str, ...]:
+    from symgen.integrators import INTEGRATORS
+
+    return INTEGRATORS.names
+
+
+#: Arguments that are models.
+_MODELS = ("model", "models", "what", "described")
+#: Name of a command's argument -> the names that it takes.
+_CANDIDATES: Mapping[str, Candidates] = {
+    "method": lambda context: ("auto", *_methods(context)),
+    "methods": lambda context: ("all", *_methods(context)),
+    "integrator": lambda context: ("auto", *_integrators(context)),
+    "integrators": _integrators,
+    "coordinates": lambda context: COORDINATES,
+    "shape": lambda context: SHAPES,
+    "parameters": _assigned(_parameters),
+    "inputs": _assigned(_inputs),
+    "start": _assigned(_start),
+    "varied": lambda context: (*_assigned(_parameters)(context), *_assigned(_start)(context)),
+    "quantities": _quantities,
+    "over": lambda context: ("t", *_quantities(context)),
+}
