@@ -32,7 +32,8 @@ from symgen.layout.records import Sizes, Span, State
 from symgen.loopcode.bare import part
 from symgen.loopcode.padding import padded
 from symgen.loopcode.vectors import copied
-from symgen.loops.frame import evaluate, loop
+from symgen.loops.frame import loop
+from symgen.loops.frame_parts import evaluate
 from symgen.loops.integrator import Integrator, IntegratorParameter, Setup, law_functions
 from symgen.methods import METHODS
 from symgen.methods._base import (

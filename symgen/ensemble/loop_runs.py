@@ -17,7 +17,7 @@ from symgen.layout.records import Kept, Observed, RowChunk
 from symgen.layout.redundancy import room_of_choice
 from symgen.layout.start_records import Instant
 from symgen.loopcode.padding import aligned
-from symgen.loops.hunting import with_events
+from symgen.loops.event_loop import with_events
 from symgen.loops.searching import decide
 from symgen.loops.stopping import with_table
 from symgen.rows.row_events import OfEffects

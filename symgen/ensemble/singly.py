@@ -23,7 +23,7 @@ from symgen.describe.events import RESET
 from symgen.effects.effects import Effects
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
-from symgen.loops.hunting import undefined_event
+from symgen.loops.event_loop import undefined_event
 from symgen.rows.rows import summarise
 from symgen.running.tree import TreeRun, begin_on_tree
 from symgen.runs.run import outcome_of

@@ -26,7 +26,7 @@ MEASURE = types.FunctionType(types.int64(_F8, _A, _A, _A))
 MOVE = types.FunctionType(types.int64(_A, _A))
 #: observe(t, y, p, w, ydot, out).
 OBSERVE = types.FunctionType(types.int64(_F8, _A, _A, _A, _A, _A))
-#: decide(hunt, n, notes, following, h, hunting, width, y, w, iw) of `symgen.loops.searching`.
+#: decide(hunt, n, notes, following, h, search, width, y, w, iw) of `symgen.loops.searching`.
 DECIDE = types.FunctionType(types.int64(_A, types.int64, types.int64, _F8, _F8, types.int64, types.int64, _A, _A, _I))
 
 # -- positions in the status section at the beginning of w, and in iw --------------------------------------------------
@@ -60,7 +60,7 @@ N_COUNTERS = len(COUNTERS)
     REJECTED,
     EVALUATIONS,
     OUTPUTS,
-    EVENTS,
+    PASSAGES,
     IN_ZONE,
     LAST_RANK,
     JACOBIANS,
@@ -123,10 +123,10 @@ SHORTEST_STEP = 1e-30
 ) = range(22)
 N_GAUGES = 22
 
-#: Columns of the table of rank events.
-EVENT_IN, EVENT_OUT, EVENT_RANK, EVENT_PIVOT = range(4)
-N_EVENT = 4
-MAX_EVENTS = 1000
+#: Columns of the table of passages near singular positions.
+PASSAGE_IN, PASSAGE_OUT, PASSAGE_RANK, PASSAGE_PIVOT = range(4)
+N_PASSAGE = 4
+MAX_PASSAGES = 1000
 
 # -- codes with which a loop ends --------------------------------------------------------------------------------------
 (

@@ -109,7 +109,7 @@ class State(NamedTuple):
         The accepted state.
     p, w, iw : Array
         Parameters, scratch and counters of emitted functions.
-    clock, gauges, control, events : Array
+    clock, gauges, control, passages : Array
         See `symgen.layout.abi`.
     memory : Array
         Data that the scheme keeps from step to step.
@@ -129,7 +129,7 @@ class State(NamedTuple):
     clock: Any
     gauges: Any
     control: Any
-    events: Any
+    passages: Any
     memory: Any
     share: Any
     metric: Any

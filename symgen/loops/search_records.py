@@ -8,7 +8,7 @@ step and its end before the correction.
 
 from __future__ import annotations
 
-from symgen.loops.frame import LOW, RECALL
+from symgen.loops.frame_parts import LOW, RECALL
 
 #: Numbers of a step, behind those that the frame reads (`TRY`, `LOW`): the present task, the number of functions, 1
 #: where rates need v', end of the examined bracket, the whole step, the resolution of time, ...

@@ -16,7 +16,21 @@ from __future__ import annotations
 from typing import Any
 
 from symgen.layout import abi
-from symgen.loops.frame import CROWD, DOUBT, FAIL, HOLD, LOOK, LOW, MEET, NOTHING, REMEMBER, RESTART, SEEK, TAKE, TRY
+from symgen.loops.frame_parts import (
+    CROWD,
+    DOUBT,
+    FAIL,
+    HOLD,
+    LOOK,
+    LOW,
+    MEET,
+    NOTHING,
+    REMEMBER,
+    RESTART,
+    SEEK,
+    TAKE,
+    TRY,
+)
 from symgen.loops.search_records import (
     ACCEPTED,
     ACTION,
@@ -146,10 +160,10 @@ def taken_for(hunt: A, n: int, k: int, h: float) -> float:
 
 
 @plain
-def take_in(hunt: A, n: int, h: float, following: float, hunting: int) -> int:
+def take_in(hunt: A, n: int, h: float, following: float, search: int) -> int:
     """Copy the values at the trial state, which stand behind the columns, into the bracket."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
-    if hunting == NOTHING or hunting == DOUBT:
+    if search == NOTHING or search == DOUBT:
         hunt[DOING], hunt[LOW], hunt[HIGH], hunt[WHOLE] = _LOOKING, 0.0, h, h
         hunt[PROBES] = hunt[ROUNDS] = 0.0
         hunt[RESOLUTION] = _RESOLVED * max(abs(following - h), abs(following))
@@ -274,7 +288,7 @@ def end_before(hunt: A, n: int, h: float) -> int:
 
 
 @plain
-def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int, width: int, y: A, w: A, iw: A) -> int:
+def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int, width: int, y: A, w: A, iw: A) -> int:
     """Take the values at a state and return what to do next, one of `NOTHING` to `FAIL`.
 
     All work on the data of events is done here, so that it is compiled once and separately.
@@ -287,7 +301,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
         Number of functions, and first index of notes.
     following, h : float
         End and length of the trial step [s].
-    hunting : int
+    search : int
         Purpose of the trial step; or another task: `LOOK`, `REMEMBER` at the beginning of a step and `RECALL`, `KEEP`
         at an examined state and `GIVE_BACK`, `AIM` before a step of `h`.
     width, y : int, Array
@@ -295,34 +309,34 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
     w, iw : Array
         Memory of emitted functions.
     """
-    if hunting <= LOOK:
+    if search <= LOOK:
         if is_undefined(hunt, n) == 1:
-            return NOTHING if hunting == DOUBT else FAIL
-        switch_values(hunt, n, h, hunting)
-    if hunting >= LOOK:
-        if hunting == LOOK:
+            return NOTHING if search == DOUBT else FAIL
+        switch_values(hunt, n, h, search)
+    if search >= LOOK:
+        if search == LOOK:
             return int(look(hunt, n))
-        if hunting == AIM:
+        if search == AIM:
             return int(aim(hunt, n, h))
-        if hunting == REMEMBER:
+        if search == REMEMBER:
             hunt[NOTED] = hunt[ACCEPTED]  # notes of a refused attempt are dropped
             if hunt[BEGINNING] != 0.0:
                 begin_step(hunt, following, width, y)
         first = N_HEAD + (N_COLUMNS + N_VALUES) * n + 2 * width
         size = (notes - first) // 2
-        first += size if hunting == KEEP or hunting == GIVE_BACK else 0
-        if hunting == REMEMBER or hunting == KEEP:
+        first += size if search == KEEP or search == GIVE_BACK else 0
+        if search == REMEMBER or search == KEEP:
             return int(keep(hunt, first, size - _COUNTERS, w, iw))
         return int(give_back(hunt, first, size - _COUNTERS, w, iw))
-    if hunting == TAKE and hunt[DOING] != _TO_EVENT:
+    if search == TAKE and hunt[DOING] != _TO_EVENT:
         if hunt[DOING] == _BEFORE:
             end_before(hunt, n, h)
         settle(hunt, n, 1)
         return CROWD if 2 * hunt[NOTED] >= NOTES else NOTHING
-    take_in(hunt, n, h, following, hunting)
-    if hunting == TAKE:
+    take_in(hunt, n, h, following, search)
+    if search == TAKE:
         return int(ended(hunt, n, notes, following, width, y))
-    if hunting == DOUBT and crossed(hunt, n, G_HIGH, NOTE) < ANEW:
+    if search == DOUBT and crossed(hunt, n, G_HIGH, NOTE) < ANEW:
         return NOTHING
     while True:
         high = hunt[HIGH]
@@ -341,7 +355,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
                 return SEEK
             # where notes have to be taken to make room for others, the step ends here as well
             if crossed(hunt, n, G_HIGH, LEAVE) >= LEAVE or hunt[NOTED] > NOTES:
-                if hunting == NOTHING and near == 1:
+                if search == NOTHING and near == 1:
                     return int(ended(hunt, n, notes, following, width, y))
                 hunt[DOING], hunt[TRY] = _TO_EVENT, high
                 return TAKE
@@ -362,7 +376,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
         if high >= hunt[WHOLE]:
             break
         move_on(hunt, n)
-    if hunting == NOTHING:
+    if search == NOTHING:
         settle(hunt, n, 1)
         return NOTHING
     hunt[DOING], hunt[TRY] = _WHOLE_STEP, hunt[WHOLE]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from symgen.loops.frame import LOW
+from symgen.loops.frame_parts import LOW
 from symgen.loops.search_records import (
     ACTION,
     ANEW,

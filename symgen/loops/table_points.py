@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from symgen.loops.frame import DOUBT, LOW, NOTHING, TRY
+from symgen.loops.frame_parts import DOUBT, LOW, NOTHING, TRY
 from symgen.loops.search_records import (
     ACTION,
     ANEW,
@@ -224,7 +224,7 @@ def aim(hunt: A, n: int, h: float) -> int:
 
 
 @plain
-def switch_values(hunt: A, n: int, h: float, hunting: int) -> int:
+def switch_values(hunt: A, n: int, h: float, search: int) -> int:
     """Set the effective values of switches: those within rounding of zero, or undefined, stay on the same side."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     for k in range(n):
@@ -233,7 +233,7 @@ def switch_values(hunt: A, n: int, h: float, hunting: int) -> int:
         if hunt[at + POINTS * n + k] > 0.0:
             s, rate = hunt[out + k], hunt[out + n + k]
             hunt[at + ARGUMENT * n + k], hunt[at + SLOPE * n + k] = s, rate
-            if hunting == NOTHING or hunting == DOUBT:
+            if search == NOTHING or search == DOUBT:
                 face(hunt, n, k, h)
             way = hunt[at + WAY * n + k]
             hunt[out + k], hunt[out + n + k] = way * (hunt[at + LEVEL * n + k] - s), -way * rate

@@ -9,7 +9,7 @@ from symgen.ir.numerics import SKIP
 from symgen.layout import abi
 from symgen.loopcode.vectors import finite, largest
 
-_N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
+_N_PASSAGE, _MAX_PASSAGES = abi.N_PASSAGE, abi.MAX_PASSAGES
 
 #: Least number of attempts over which progress is judged: as many as all before them.
 _WINDOW = 10_000
@@ -130,7 +130,7 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     t : float
         Its time [s].
     """
-    w, gauges, control, events = run.w, run.gauges, run.control, run.events
+    w, gauges, control, passages = run.w, run.gauges, run.control, run.passages
     run.clock[abi.TIME] = t
     moving, behind = sizes.nq, sizes.nq + sizes.nv
     work = y[behind]
@@ -169,18 +169,18 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     gauges[abi.SHORT_FALL] = (gauges[abi.LAST_SHORT] - short) / elapsed if elapsed > 0.0 else 0.0
     gauges[abi.LAST_TIME], gauges[abi.LAST_SINE], gauges[abi.LAST_SHORT] = t, sine, short
     if near or control[abi.IN_ZONE] == 1 or rank != control[abi.LAST_RANK]:
-        k = control[abi.EVENTS] - 1
+        k = control[abi.PASSAGES] - 1
         if control[abi.IN_ZONE] == 0:
             k += 1
-            control[abi.EVENTS] += 1
-            if k < _MAX_EVENTS:
-                events[k * _N_EVENT + abi.EVENT_IN] = entered
-                events[k * _N_EVENT + abi.EVENT_PIVOT] = pivot
-                events[k * _N_EVENT + abi.EVENT_RANK] = rank
-        if 0 <= k < _MAX_EVENTS:
-            events[k * _N_EVENT + abi.EVENT_OUT] = t
-            events[k * _N_EVENT + abi.EVENT_PIVOT] = min(pivot, events[k * _N_EVENT + abi.EVENT_PIVOT])
-            events[k * _N_EVENT + abi.EVENT_RANK] = min(rank, events[k * _N_EVENT + abi.EVENT_RANK])
+            control[abi.PASSAGES] += 1
+            if k < _MAX_PASSAGES:
+                passages[k * _N_PASSAGE + abi.PASSAGE_IN] = entered
+                passages[k * _N_PASSAGE + abi.PASSAGE_PIVOT] = pivot
+                passages[k * _N_PASSAGE + abi.PASSAGE_RANK] = rank
+        if 0 <= k < _MAX_PASSAGES:
+            passages[k * _N_PASSAGE + abi.PASSAGE_OUT] = t
+            passages[k * _N_PASSAGE + abi.PASSAGE_PIVOT] = min(pivot, passages[k * _N_PASSAGE + abi.PASSAGE_PIVOT])
+            passages[k * _N_PASSAGE + abi.PASSAGE_RANK] = min(rank, passages[k * _N_PASSAGE + abi.PASSAGE_RANK])
         control[abi.IN_ZONE] = 1 if near else 0
         control[abi.LAST_RANK] = rank
 

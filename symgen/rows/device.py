@@ -35,9 +35,9 @@ from symgen.rows import rows
 from symgen.runs import observe
 
 _A, _K, _M, _T = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
-#: Numbers of `events` on a device: the present passage, and the narrowest one so far.
-N_EVENTS = 2 * abi.N_EVENT
-_N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
+#: Numbers of `passages` on a device: the present passage, and the narrowest one so far.
+N_PASSAGES = 2 * abi.N_PASSAGE
+_N_PASSAGE, _MAX_PASSAGES = abi.N_PASSAGE, abi.MAX_PASSAGES
 
 
 class Starts(NamedTuple):
@@ -107,10 +107,13 @@ def cut(array: Any, first: int, size: int) -> Any:
 
 def watch_passages(sizes: Any, run: Any, y: Any, t: float) -> int:
     """Watch as on a processor; keep only the present passage and the narrowest one."""
-    code, events = watch_states(sizes, run, y, t), run.events
-    if 0 < run.control[abi.EVENTS] <= _MAX_EVENTS and not events[_N_EVENT + abi.EVENT_PIVOT] <= events[abi.EVENT_PIVOT]:
-        for i in range(_N_EVENT):
-            events[_N_EVENT + i] = events[i]
+    code, passages = watch_states(sizes, run, y, t), run.passages
+    if (
+        0 < run.control[abi.PASSAGES] <= _MAX_PASSAGES
+        and not passages[_N_PASSAGE + abi.PASSAGE_PIVOT] <= passages[abi.PASSAGE_PIVOT]
+    ):
+        for i in range(_N_PASSAGE):
+            passages[_N_PASSAGE + i] = passages[i]
     return code
 
 
@@ -206,7 +209,7 @@ class Need:
     def local_bytes(self) -> int:
         """Local memory of a thread [bytes]."""
         own = 6 * self.width + self.n_p + self.nw + self.stored + self.memory + self.working
-        return 8 * (own + abi.N_COUNTERS + abi.N_CLOCK + abi.N_GAUGES + e.N_CONTROL + N_EVENTS)
+        return 8 * (own + abi.N_COUNTERS + abi.N_CLOCK + abi.N_GAUGES + e.N_CONTROL + N_PASSAGES)
 
 
 def make_kernel(law: Any, model: Any, need: Need) -> Any:
@@ -226,18 +229,18 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
         every array of runs, and no array is empty: an unused one has one element.
     """
     parts: dict[str, Any] = explicit.ADAPTIVE_PARTS if need.adaptive else explicit.CONSTANT_PARTS
-    one_event = on_device(watch.watch, _N_EVENT=0)
-    watched = on_device(watch_passages, watch_states=one_event)
+    one_passage = on_device(watch.watch, _N_PASSAGE=0)
+    watched = on_device(watch_passages, watch_states=one_passage)
     integrate = on_device(frame.integrate, **parts, watch=watched, rows_fell=never)
     begin_run, pick = on_device(rows.begin_run), on_device(rows.pick)
-    summarise = on_device(rows.summarise, _MAX_EVENTS=1)  # only the narrowest passage is kept
+    summarise = on_device(rows.summarise, _MAX_PASSAGES=1)  # only the narrowest passage is kept
     observe_rates, observe_rows = on_device(observe.observe_rates), on_device(observe.observe_rows)
     nothing = on_device(confirm_nothing)
     rhs, accept, confirm = law.rhs, law.accept, getattr(law, "confirm", nothing)
     rates, observed_by = rates_of(law)[0], model.observe if need.joints else nothing
     width, n_p, nw, n_room, n_stored = need.width, max(1, need.n_p), need.nw, need.working, need.stored
     n_counters, n_gauges, n_control, n_clock = abi.N_COUNTERS, abi.N_GAUGES, e.N_CONTROL, abi.N_CLOCK
-    n_events, n_memory, n_rows = N_EVENTS, max(1, need.memory), need.rows
+    n_passages, n_memory, n_rows = N_PASSAGES, max(1, need.memory), need.rows
     wants_rates, wants_joints = need.rates, need.joints
 
     def kernel(scheme: Any, sizes: Any, span: Any, starts: Any, results: Any) -> None:
@@ -247,7 +250,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
         y, p, w = cuda.local.array(width, float64), cuda.local.array(n_p, float64), cuda.local.array(nw, float64)
         stored, room = cuda.local.array(n_stored, float64), cuda.local.array(n_room, float64)
         clock, gauges = cuda.local.array(n_clock, float64), cuda.local.array(n_gauges, float64)
-        events, memory = cuda.local.array(n_events, float64), cuda.local.array(n_memory, float64)
+        passages, memory = cuda.local.array(n_passages, float64), cuda.local.array(n_memory, float64)
         metric, scales = cuda.local.array(2 * width, float64), cuda.local.array(2 * width, float64)
         iw, control = cuda.local.array(n_counters, int64), cuda.local.array(n_control, int64)
         for j in range(width):
@@ -264,17 +267,17 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
             room[j] = 0.0
         for j in range(n_memory):
             memory[j] = 0.0
-        for j in range(n_events):
-            events[j] = math.nan
+        for j in range(n_passages):
+            passages[j] = math.nan
         control[abi.STOP] = 0  # which `begin_run` leaves as it is
-        state = State(y, p, w, iw, clock, gauges, control, events, memory, starts.share, metric, scales, room)
+        state = State(y, p, w, iw, clock, gauges, control, passages, memory, starts.share, metric, scales, room)
         begin_run(state, starts.limits)
         k = starts.times.shape[0]
         outputs = Outputs(starts.times, results.states[:k, :, i], results.status[:k, :, i])
         code = integrate((sizes, rhs, confirm, accept, 0, 0, 0), scheme, span, state, outputs)
         if code == abi.DONE:  # a grid of steps meets the end up to rounding
             clock[abi.TIME] = span.until
-        narrowest = events[_N_EVENT:]
+        narrowest = passages[_N_PASSAGE:]
         ended = State(y, p, w, iw, clock, gauges, control, narrowest, memory, starts.share, metric, scales, room)
         summarise(code, ended, results.summary[:, i])
         count = control[abi.OUTPUTS]

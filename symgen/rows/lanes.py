@@ -67,7 +67,7 @@ def opened(sizes: Any, state: Any) -> Any:
     """Return the states of runs; the trial state is a part of z, for emitted code."""
     s = bare(state)
     trial = part(s.p, 0, sizes.width)
-    kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.events, s.memory
+    kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.passages, s.memory
     return Run(*kept, s.share, s.metric, s.scales, s.room)
 
 
@@ -291,7 +291,7 @@ def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: 
     w, counters = part(z, 2 * width + n_p * _L, nw * _L), part(z, 2 * width + (n_p + nw) * _L, _SPARE * _L)
     outputs = Outputs(times, states, status)
     clock, control, rest = state.clock, state.control, part(room, at, room.shape[0] - at)
-    more = state.events, state.memory, state.share, state.metric, state.scales
+    more = state.passages, state.memory, state.share, state.metric, state.scales
     lanes = State(y, z, w, counters, clock, gauges, control, *more, rest)
     for g in range(0, total, _L):
         if control[abi.STOP] != 0:

@@ -12,7 +12,7 @@ from symgen.layout.start_records import Instant, record_type
 from symgen.loopcode.bare import bare, part
 from symgen.loopcode.loop_instances import called
 from symgen.loops import search_records as records
-from symgen.loops.hunting import notes_at
+from symgen.loops.event_loop import notes_at
 from symgen.native import types
 
 _K = types.int64[::1]

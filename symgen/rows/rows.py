@@ -16,8 +16,8 @@ from symgen.layout.redundancy import choose_rows
 from symgen.loopcode.bare import bare, part
 from symgen.loopcode.loop_instances import called, signature_of
 from symgen.loopcode.loop_instances import loop as compiled_loop
-from symgen.loops.frame import store
-from symgen.loops.hunting import with_events
+from symgen.loops.event_loop import with_events
+from symgen.loops.frame_parts import store
 from symgen.loops.stopping import ROW, change, due, same, with_stops
 from symgen.loops.watch import iterations_in
 from symgen.native import types
@@ -27,7 +27,7 @@ from symgen.store.jit import jit
 
 _F8, _A, _K = types.float64, types.float64[::1], types.int64[::1]
 
-_N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
+_N_PASSAGE, _MAX_PASSAGES = abi.N_PASSAGE, abi.MAX_PASSAGES
 
 
 def take(array: Any, first: int, size: int, out: Any) -> None:
@@ -106,12 +106,12 @@ def pick(sizes: Any, picks: Any, series: Any, count: int, start: float, values: 
 
 def summarise(code: int, state: Any, row: Any) -> None:
     """Write the summary of a run, in the order of `symgen.layout.ensemble_abi.SUMMARY`."""
-    w, clock, gauges, control, events = state.w, state.clock, state.gauges, state.control, state.events
+    w, clock, gauges, control, passages = state.w, state.clock, state.gauges, state.control, state.passages
     narrowest, where = math.nan, math.nan
-    for k in range(min(control[abi.EVENTS], _MAX_EVENTS)):
-        pivot = events[k * _N_EVENT + abi.EVENT_PIVOT]
+    for k in range(min(control[abi.PASSAGES], _MAX_PASSAGES)):
+        pivot = passages[k * _N_PASSAGE + abi.PASSAGE_PIVOT]
         if not narrowest <= pivot:
-            narrowest, where = pivot, events[k * _N_EVENT + abi.EVENT_IN]
+            narrowest, where = pivot, passages[k * _N_PASSAGE + abi.PASSAGE_IN]
     at = e.CODE
     for number in (
         float(code),
@@ -129,7 +129,7 @@ def summarise(code: int, state: Any, row: Any) -> None:
         gauges[abi.ENERGY_SCALE],
         gauges[abi.MAX_ENERGY_JUMP],
         gauges[abi.SMALLEST_PIVOT],
-        float(control[abi.EVENTS]),
+        float(control[abi.PASSAGES]),
         where,
         narrowest,
         w[abi.PHI],

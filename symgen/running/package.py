@@ -28,7 +28,7 @@ from symgen.ir.program import COUNTERS, SETTLED, STATUS, SUFFIXES
 from symgen.lower.looped.law import is_loopable
 from symgen.methods import METHODS
 from symgen.running.plan import Plan, Purpose
-from symgen.running.prepare import assemble, begin, make_plan
+from symgen.running.prepare import begin, code_and_start, make_plan
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -178,7 +178,7 @@ def _started(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] | None, 
         return list(plans), None, "no method here is for explicit integrators"
     usual = next((plan for plan in explicit if plan.choice.method.name == "direct-correction"), explicit[0])
     try:
-        assembled = assemble(usual)
+        assembled = code_and_start(usual)
     except AssemblyError as error:
         return list(plans), None, markdown_text(str(error))
     solver = assembled.compiled.law.options.get("solver", "")

@@ -149,8 +149,8 @@ def prepare(
     AssemblyError
         If the mechanism cannot be closed.
     """
-    plan, assembled = decided(mechanism, settings, purpose, near)
-    assembled = assembled or assemble(plan, near)
+    plan, assembled = _decided(mechanism, settings, purpose, near)
+    assembled = assembled or code_and_start(plan, near)
     return begin(plan, assembled)
 
 
@@ -164,10 +164,10 @@ def make_plan(mechanism: Mechanism, settings: Settings, purpose: Purpose = Purpo
     AssemblyError
         If an automatic choice needs the start, and the mechanism cannot be closed.
     """
-    return decided(mechanism, settings, purpose)[0]
+    return _decided(mechanism, settings, purpose)[0]
 
 
-def decided(
+def _decided(
     mechanism: Mechanism, settings: Settings, purpose: Purpose, near: Array | None = None
 ) -> tuple[Plan, Assembled | None]:
     """Return the plan of a run, and its code and start where an automatic choice has made them.
@@ -185,7 +185,7 @@ def decided(
         return resolved(inputs, settings, purpose), None
     trial = trial_of(mechanism, settings)
     plan = resolved(inputs, trial, purpose)
-    assembled = assemble(plan, near)
+    assembled = code_and_start(plan, near)
     facts = facts_of(mechanism, *assembled.of_bodies, plan.spec.until)
     method, integrator, notes = decide(facts, settings.method, settings.integrator)
     if method == STRUCTURAL and settings.method == AUTO:
@@ -204,7 +204,7 @@ def decided(
     return chosen, same
 
 
-def assemble(plan: Plan, near: Array | None = None) -> Assembled:
+def code_and_start(plan: Plan, near: Array | None = None) -> Assembled:
     """Compile the code of a plan and close its start.
 
     Parameters

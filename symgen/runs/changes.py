@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 #: Results of `watch` at accepted states: they are already present if a run begins anew.
-_WATCHED = [abi.EVENTS, abi.IN_ZONE, abi.LAST_RANK, abi.MASKED, abi.OUTPUTS]
+_WATCHED = [abi.PASSAGES, abi.IN_ZONE, abi.LAST_RANK, abi.MASKED, abi.OUTPUTS]
 
 
 def begin(simulation: Simulation) -> int:
@@ -144,7 +144,7 @@ class Changes:
         """
         simulation, state = self.simulation, self.simulation.state
         front = simulation.snapshot.front
-        before, events = front.copy(), state.events.copy() if state.control[abi.EVENTS] > 0 else None
+        before, passages = front.copy(), state.passages.copy() if state.control[abi.PASSAGES] > 0 else None
         try:
             with np.errstate(all="ignore"):
                 self._check(p)
@@ -153,8 +153,8 @@ class Changes:
                 raise InputError("set", "parameters with which the run can go on", abi.REASONS[code])
         except BaseException:
             front[:] = before
-            if events is not None:
-                state.events[:] = events
+            if passages is not None:
+                state.passages[:] = passages
             raise
 
     def _check(self, p: Array) -> None:

@@ -17,7 +17,7 @@ from symgen.layout import abi
 from symgen.layout.probe import rates_of
 from symgen.layout.start_records import Instant
 from symgen.loopcode.exact import compiled_form
-from symgen.loops import hunting
+from symgen.loops import event_loop
 from symgen.loops import search_records as searching
 from symgen.runs.new_state import sizes_of
 
@@ -30,11 +30,11 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-def event_state(watched: Watched, sizes: Sizes, state: State) -> hunting.HuntingState:
+def event_state(watched: Watched, sizes: Sizes, state: State) -> event_loop.EventState:
     """Return the initial state of a run with that of its events."""
     events, n = len(watched.names), len(watched.names) + len(watched.switches)
     points = [x for switch in watched.switches for x in switch.points]
-    first = hunting.notes_at(n, sizes.width, len(state.w))
+    first = event_loop.notes_at(n, sizes.width, len(state.w))
     noted = events + sum(switch.holds for switch in watched.switches)
     tables = first + ((searching.NOTES + 2 * noted) * (2 + sizes.width) if noted else 0)
     beginning = tables + len(points)
@@ -52,7 +52,7 @@ def event_state(watched: Watched, sizes: Sizes, state: State) -> hunting.Hunting
     sizes_of_tables = [len(switch.points) for switch in watched.switches]
     columns[searching.POINTS, events:] = sizes_of_tables
     columns[searching.FIRST, events:] = np.cumsum([0, *sizes_of_tables])[:-1]
-    return hunting.HuntingState(*state, hunt)
+    return event_loop.EventState(*state, hunt)
 
 
 @dataclass(frozen=True)
@@ -121,10 +121,10 @@ class Events:
                 if event.action == RESET:
                     compiled_form(add_resets)(self._past, self.watched.effects.chosen([numbers[event.name]]), event.t)
 
-    def take(self, state: hunting.HuntingState) -> list[tuple[int, Happening]]:
+    def take(self, state: event_loop.EventState) -> list[tuple[int, Happening]]:
         """Store and return the passages noted by a loop since the last call, with numbers of events."""
         names, actions, info = self.watched.names, self.watched.actions, self.compiled.info
-        notes = hunting.taken_notes(state.hunt, len(state.y), len(state.w))
+        notes = event_loop.taken_notes(state.hunt, len(state.y), len(state.w))
         events = [
             (number, Happening(t, names[number], actions[number], y[: info.work], y[info.own_states]))
             for t, number, y in notes
@@ -134,7 +134,7 @@ class Events:
         self.happened += (event for _, event in events)
         return events
 
-    def meet(self, state: hunting.HuntingState, events: Sequence[tuple[int, Happening]]) -> int:
+    def meet(self, state: event_loop.EventState, events: Sequence[tuple[int, Happening]]) -> int:
         """Execute the actions of the events at which a loop ended; return `DONE` if it may be entered again.
 
         Parameters
@@ -165,12 +165,12 @@ class Events:
             return abi.GATHERED
         return abi.DONE
 
-    def _begin_anew(self, state: hunting.HuntingState) -> None:
+    def _begin_anew(self, state: event_loop.EventState) -> None:
         """Discard what schemes keep of past steps."""
         state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
         state.clock[abi.ALLOWED] = 0.0
 
-    def _finds_jump(self, state: hunting.HuntingState) -> bool:
+    def _finds_jump(self, state: event_loop.EventState) -> bool:
         """Return whether a row jumps or has a kink in the last step, and store the sentence on it."""
         rows = self.watched.rows
         self._jump = "" if rows is None else rows.sentence(self.compiled, state)
@@ -178,7 +178,7 @@ class Events:
 
     # -- resets --------------------------------------------------------------------------------------------------------
 
-    def _reset(self, state: hunting.HuntingState, numbers: Sequence[int]) -> None:
+    def _reset(self, state: event_loop.EventState, numbers: Sequence[int]) -> None:
         watched, now = self.watched, float(state.clock[abi.TIME])
         impact = watched.effects.apply(numbers, now, state.y, state.p, state.w)
         self._begin_anew(state)
@@ -200,7 +200,7 @@ class Events:
         width, nw = sizes_of(compiled).width, len(compiled.scratch())
         return new_past(len(watched.names), functions, width, nw, self.until)
 
-    def _accumulates(self, numbers: Sequence[int], state: hunting.HuntingState) -> bool:
+    def _accumulates(self, numbers: Sequence[int], state: event_loop.EventState) -> bool:
         """Return whether resets accumulate; store the time at which they do."""
         watched, now = self.watched, float(state.clock[abi.TIME])
         chosen, instant = watched.effects.chosen(numbers), Instant(state.y, state.p, state.w)
@@ -225,7 +225,7 @@ class Events:
         """Return the reason for the end of a run at a time [s]: events accumulate, or a condition is undefined."""
         if code == abi.GATHERED:
             return gathered(self.recent, self.accumulation or t)
-        return undefined(self.watched.names[hunting.undefined_event(state)], t)
+        return undefined(self.watched.names[event_loop.undefined_event(state)], t)
 
     def jump(self, state: Any) -> str:
         """Return the sentence on a row that jumps or has a kink where a run failed; empty without one."""

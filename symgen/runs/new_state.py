@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 #: Arrays of a state after those always copied: passages are few, and working memory is not kept.
-_BEHIND = ("events", "room")
+_BEHIND = ("passages", "room")
 
 
 def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: float = np.inf) -> Span:
@@ -88,7 +88,7 @@ def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int, dat
     p = np.zeros(max(1, law.parameter_offset + len(law.parameters) + law.hoisted))
     return State(
         *(np.zeros(sizes.width), p, np.zeros(max(1, law.nw)), counters, np.zeros(abi.N_CLOCK)),
-        *(np.zeros(abi.N_GAUGES), control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)),
+        *(np.zeros(abi.N_GAUGES), control, np.zeros(abi.MAX_PASSAGES * abi.N_PASSAGE)),
         *(np.zeros(memory), share_of(sizes, datum), metric_of(compiled.info, sizes), scales),
         np.zeros(sizes.width + room),
     )
@@ -139,15 +139,15 @@ class Snapshot:
             views[name][:] = arrays[name]
         self.state = type(state)(**views)
         self.front = block[: ends[-len(_BEHIND) - 1]]
-        self.copy, self._events = self.front.copy(), self.state.events.copy()
+        self.copy, self._passages = self.front.copy(), self.state.passages.copy()
         self.rows, self._memory = 0, dict[str, NDArray[Any]]()
         self._names: tuple[str, ...] | None = None
 
     def take(self, scheme: Any) -> None:
         """Copy the state, and the memory in a scheme's record."""
         self.copy[:] = self.front
-        self.rows = min(int(self.state.control[abi.EVENTS]), abi.MAX_EVENTS) * abi.N_EVENT
-        self._events[: self.rows] = self.state.events[: self.rows]
+        self.rows = min(int(self.state.control[abi.PASSAGES]), abi.MAX_PASSAGES) * abi.N_PASSAGE
+        self._passages[: self.rows] = self.state.passages[: self.rows]
         if self._names is None:
             self._names = memory_fields(scheme)
         for name in self._names:
@@ -160,8 +160,8 @@ class Snapshot:
     def put_back(self, scheme: Any) -> Any:
         """Restore the state from the copy, and return the scheme's record with its copied memory."""
         self.front[:] = self.copy
-        self.state.events[: self.rows] = self._events[: self.rows]
-        self.state.events[self.rows :] = 0.0
+        self.state.passages[: self.rows] = self._passages[: self.rows]
+        self.state.passages[self.rows :] = 0.0
         for name, array in self._memory.items():
             scheme = with_memory(scheme, name, array)
         return scheme

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from symgen.breaks.motions import NEAR, jump_at
 from symgen.layout import abi
-from symgen.loops.hunting import beginning_of
+from symgen.loops.event_loop import beginning_of
 
 if TYPE_CHECKING:
     from symgen.describe.kinks import ChangingRow
@@ -62,7 +62,7 @@ class RowJumps:
         ----------
         compiled : CompiledModel
             Model and method.
-        state : HuntingState
+        state : EventState
             State of the run.
         """
         from symgen.layout.probe import rate_function

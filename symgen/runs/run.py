@@ -99,8 +99,8 @@ def outcome_of(
         status = np.vstack([status, here])
     events = simulation.events
     code = abi.DONE if code == abi.MET else code  # an event at which the run was to end
-    n_events = int(min(control[abi.EVENTS], abi.MAX_EVENTS))
-    table = state.events.reshape(-1, abi.N_EVENT)[:n_events]
+    n_passages = int(min(control[abi.PASSAGES], abi.MAX_PASSAGES))
+    table = state.passages.reshape(-1, abi.N_PASSAGE)[:n_passages]
     return Outcome(
         code=code,
         reason=reason_of(simulation, code, end),
@@ -120,7 +120,7 @@ def outcome_of(
         energy_jump=float(gauges[abi.MAX_ENERGY_JUMP]),
         smallest_pivot=float(gauges[abi.SMALLEST_PIVOT]),
         rank_events=tuple(RankEvent(float(a), float(b), int(r), float(s)) for a, b, r, s in table),
-        rank_event_count=int(control[abi.EVENTS]),
+        rank_event_count=int(control[abi.PASSAGES]),
         interrupted=interrupted,
         run_seconds=seconds,
         compiled=compiled,

@@ -114,7 +114,7 @@ class Simulation:
 
     def _watch(self, watched: Watched) -> None:
         """Look for events."""
-        from symgen.loops.hunting import with_events
+        from symgen.loops.event_loop import with_events
         from symgen.loops.searching import decide
         from symgen.runs.events import Events
 
@@ -130,7 +130,7 @@ class Simulation:
     def _take_up(self, saved: Mapping[str, NDArray[Any]], p: Array) -> None:
         """Continue from the state of another run, with the limits, outputs and inputs of this one."""
         info = self.compiled.info
-        state: Any = self.state  # a `HuntingState` where there are events
+        state: Any = self.state  # an `EventState` where there are events
         names = {*state._fields, *memory_fields(self.scheme)}  # older files hold further, empty arrays
         taken = {name: array for name, array in saved.items() if name in names}
         # other events, or data of another version: their sides are determined again
@@ -275,7 +275,7 @@ class Simulation:
         if entry is None or not self.direct:
             snapshot.take(self.scheme)
             return self.enter(self._nothing, until, pause, most)
-        if not self._copied or self._counts[abi.EVENTS] > 0:
+        if not self._copied or self._counts[abi.PASSAGES] > 0:
             snapshot.take(self.scheme)
         else:
             snapshot.rows = 0
@@ -297,7 +297,7 @@ class Simulation:
     def _ended(self, code: int, until: float) -> int | None:
         """Serve the request of a loop; return its end code, None where it has to be entered again."""
         if self.events is not None:
-            state: Any = self.state  # a `HuntingState` where there are events
+            state: Any = self.state  # an `EventState` where there are events
             events = self.events.take(state)
             if code == abi.MET:
                 code = self.events.meet(state, events)

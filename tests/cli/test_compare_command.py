@@ -13,7 +13,8 @@ from support.runs import interrupt
 
 from symgen.api import load
 from symgen.base.errors import SimulationError
-from symgen.study.comparison import compare as module
+from symgen.study.comparison import compare as whole
+from symgen.study.comparison import model_comparison as module
 from symgen.study.journal import Journal
 
 SMALL = ("--methods", "lagrange,direct-correction", "--integrators", "rk4", "--steps", "0.02,0.01", "--until", "0.5")
@@ -85,7 +86,7 @@ def test_rows_of_an_earlier_study_are_shown_where_preparing_is_interrupted(cli, 
 
     interrupt(monkeypatch, module, "timed", 3)
     first = json.loads(cli(*arguments, "--jobs", "1")[1])
-    monkeypatch.setattr(module, "run_cells", never)
+    monkeypatch.setattr(whole, "run_cells", never)
     code, out, err = cli(*arguments, "--jobs", "2")
     assert code == 130 and "the rows that were done are shown" in err
     assert json.loads(out)["rows"] == first["rows"] and len(first["rows"]) == 2
@@ -96,13 +97,13 @@ SCRIPT = """\
 import signal, sys, time
 from symgen.cli import main
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs inherit it ignored
-from symgen.study.comparison import compare
-real = compare.timed
+from symgen.study.comparison import model_comparison
+real = model_comparison.timed
 def slow(*arguments):
     found = real(*arguments)
     time.sleep(0.3)
     return found
-compare.timed = slow
+model_comparison.timed = slow
 sys.exit(main(sys.argv[1:]))
 """
 

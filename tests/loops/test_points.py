@@ -8,7 +8,7 @@ import pytest
 from symgen.loopcode.exact import plain_form
 from symgen.loops import search_records as records
 from symgen.loops import table_points
-from symgen.loops.frame import TRY
+from symgen.loops.frame_parts import TRY
 
 LEVELS = (0.0, 0.17, 0.31, 0.52, 0.8, 1.0)
 REPEATED = 1.0

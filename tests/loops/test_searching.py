@@ -5,7 +5,7 @@ import pytest
 
 from symgen.layout import abi
 from symgen.loopcode.exact import plain_form
-from symgen.loops import frame, hunting, search_records, searching, switching
+from symgen.loops import event_loop, frame_parts, search_records, searching, switching
 
 
 def test_the_search_is_in_the_language_of_emitted_code():
@@ -36,7 +36,7 @@ def test_the_first_root_of_a_cubic_is_numpys():
 def hunted(*functions):
     """What is kept of events whose values and rates are given, with a state of one number that is their time."""
     n, width = len(functions), 8
-    notes = hunting.notes_at(n, width, 1)
+    notes = event_loop.notes_at(n, width, 1)
     hunt = np.zeros(notes + (search_records.NOTES + 2 * n) * (2 + width))
     hunt[search_records.COUNT] = n
     w, iw, y = np.zeros(1), np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros(width)
@@ -64,7 +64,7 @@ def test_a_reset_that_leaves_g_beside_zero_by_rounding_is_no_event_until_g_has_c
     t = 0.0
     for h in (1e-17, 2e-17, 1e-17):
         t += h
-        assert told(t, h, frame.NOTHING) == frame.NOTHING
-    assert told(1.0, 1.0 - t, frame.NOTHING) == frame.NOTHING
+        assert told(t, h, frame_parts.NOTHING) == frame_parts.NOTHING
+    assert told(1.0, 1.0 - t, frame_parts.NOTHING) == frame_parts.NOTHING
     assert columns[search_records.GRAZING] == 0.0 and columns[search_records.SIDE] == 1.0
-    assert told(2.0, 1.0, frame.NOTHING) == frame.NOTHING
+    assert told(2.0, 1.0, frame_parts.NOTHING) == frame_parts.NOTHING

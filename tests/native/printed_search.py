@@ -11,8 +11,8 @@ import numpy as np
 from native import printed
 from symgen.layout import abi
 from symgen.loopcode.loop_instances import Instances
-from symgen.loops import hunting, search_records, searching
-from symgen.loops.frame import FAIL, HOLD, LOOK, MEET, NOTHING, REMEMBER, SEEK, TAKE, TRY
+from symgen.loops import event_loop, search_records, searching
+from symgen.loops.frame_parts import FAIL, HOLD, LOOK, MEET, NOTHING, REMEMBER, SEEK, TAKE, TRY
 
 ARGUMENTS = abi.DECIDE.signature.arguments
 #: `decide` and its callees as plain Python, whose operations are not contracted.
@@ -30,7 +30,7 @@ FUNCTIONS: tuple[tuple[Function, int], ...] = (
 def search(decide: Callable[..., int], steps: int = 80) -> list[float]:
     """Times of the events that `decide` locates in a few seconds, with steps of different lengths."""
     n, width = len(FUNCTIONS), 8
-    notes = hunting.notes_at(n, width, 1)
+    notes = event_loop.notes_at(n, width, 1)
     hunt = np.zeros(notes + (search_records.NOTES + 2 * n) * (2 + width))
     hunt[search_records.COUNT] = n
     columns = hunt[search_records.N_HEAD :][: search_records.N_COLUMNS * n].reshape(-1, n)
@@ -51,7 +51,7 @@ def search(decide: Callable[..., int], steps: int = 80) -> list[float]:
             h = float(hunt[TRY])
         assert doing not in (FAIL, HOLD)
         t += h
-        times += [time for time, _, _ in hunting.taken_notes(hunt, width, 1)]
+        times += [time for time, _, _ in event_loop.taken_notes(hunt, width, 1)]
         if doing == MEET:
             task(t, 0.0, LOOK)
     return times

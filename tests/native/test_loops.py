@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from symgen.base.errors import InputError
-from symgen.loops.hunting import with_events
+from symgen.loops.event_loop import with_events
 from symgen.loops.stopping import with_stops
 from symgen.native.loops import read_loop
 from symgen.native.types import float64

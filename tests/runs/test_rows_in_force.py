@@ -97,7 +97,7 @@ def test_the_motion_is_that_without_the_joint(name, until, method, integrator, m
     np.testing.assert_allclose(compiled.section(state.w, "multipliers")[switchable], 0.0, rtol=0, atol=1e-12)
     assert compiled.rank(state.w) == compiled.info.m - 2
     assert not compiled.redundant(state.w)
-    assert state.control[abi.EVENTS] == 0  # no passage
+    assert state.control[abi.PASSAGES] == 0  # no passage
 
 
 @pytest.mark.parametrize("integrator", ["rk4", "picard"])
@@ -106,10 +106,10 @@ def test_a_passage_without_the_joint_is_noted_as_there(integrator: str) -> None:
     simulation, _, before, _ = released(ready(with_switchable(whole, joint), 1.0, "lagrange", integrator), 0.8)
     alone = ready(less, 0.3, "lagrange", integrator).simulation()
     moved(alone, before, 0.3)
-    tables = [s.state.events.reshape(-1, abi.N_EVENT)[: s.state.control[abi.EVENTS]] for s in (simulation, alone)]
+    tables = [s.state.passages.reshape(-1, abi.N_PASSAGE)[: s.state.control[abi.PASSAGES]] for s in (simulation, alone)]
     assert len(tables[0]) == len(tables[1]) == 1
-    np.testing.assert_array_equal(tables[0][:, abi.EVENT_RANK], tables[1][:, abi.EVENT_RANK])
-    np.testing.assert_allclose(tables[0][0, abi.EVENT_IN], tables[1][0, abi.EVENT_IN] + RELEASED, rtol=0, atol=2e-3)
+    np.testing.assert_array_equal(tables[0][:, abi.PASSAGE_RANK], tables[1][:, abi.PASSAGE_RANK])
+    np.testing.assert_allclose(tables[0][0, abi.PASSAGE_IN], tables[1][0, abi.PASSAGE_IN] + RELEASED, rtol=0, atol=2e-3)
 
 
 @pytest.mark.parametrize("integrator", EXPLICIT)
@@ -143,7 +143,7 @@ def test_on_again_after_closing(integrator: str) -> None:
     np.testing.assert_allclose(state.y[: info.work], alone, rtol=0, atol=1e-12)
     assert run.compiled.off(state.w) == ()
     assert run.compiled.rank(state.w) == info.m
-    assert state.control[abi.EVENTS] == 0
+    assert state.control[abi.PASSAGES] == 0
 
 
 def test_outputs_keep_the_modes() -> None:

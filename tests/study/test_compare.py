@@ -16,7 +16,8 @@ from symgen.base.errors import InputError, SimulationError
 from symgen.cli._tables import show_study
 from symgen.report.comparison import comparison
 from symgen.study.comparison import combinations
-from symgen.study.comparison import compare as module
+from symgen.study.comparison import compare as whole
+from symgen.study.comparison import model_comparison as module
 from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.comparison_rows import with_ratios
 from symgen.study.journal import Journal
@@ -362,14 +363,14 @@ def test_without_a_reference_rows_stay_and_the_study_says_why(monkeypatch):
 def test_several_models_are_checked_before_anything_runs(monkeypatch):
     monkeypatch.setattr(module, "timed", None)
     with pytest.raises(InputError, match="did you mean 'four-bar'"):
-        module.compare_all(["pendulum", "four-bra"], symgen.Settings(until=0.1), Combinations())
+        whole.compare_all(["pendulum", "four-bra"], symgen.Settings(until=0.1), Combinations())
 
 
 @pytest.mark.slow
 def test_preparation_on_several_processes_changes_no_row(study, monkeypatch, tmp_path):
     """Everything goes to processes of its own, the first task too; the cache is a new one, so that they have work."""
     monkeypatch.setenv("SYMGEN_CACHE_DIR", str(tmp_path / "cache"))
-    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    monkeypatch.setattr(whole, "PATIENCE", 0.0)
     seen = []
     again = symgen.compare(
         *("four-bar", ["baumgarte", "lagrange"], ["rk4"], [8e-3, 4e-3], (), 1.0, 1),

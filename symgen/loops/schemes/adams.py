@@ -20,7 +20,8 @@ from symgen.layout.scheme_records import MULTISTEP
 from symgen.loopcode.bare import part
 from symgen.loopcode.loop_instances import called
 from symgen.loopcode.vectors import combine, copied, weigh
-from symgen.loops.frame import evaluate, loop
+from symgen.loops.frame import loop
+from symgen.loops.frame_parts import evaluate
 
 #: Derivatives kept; the highest order of the corrector.
 DEPTH = 9

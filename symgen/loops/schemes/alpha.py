@@ -35,7 +35,8 @@ from symgen.loopcode.bare import part
 from symgen.loopcode.loop_instances import called
 from symgen.loopcode.vectors import weigh
 from symgen.loops import sparse
-from symgen.loops.frame import DIVERGED, TOO_LARGE, evaluate, loop
+from symgen.loops.frame import loop
+from symgen.loops.frame_parts import DIVERGED, TOO_LARGE, evaluate
 from symgen.loops.schemes.implicit import ended, is_settled
 from symgen.loops.sparse import multiply, solve, turn_rows
 

@@ -16,7 +16,8 @@ from symgen.layout.scheme_records import TABLEAU
 from symgen.loopcode.bare import bare, part
 from symgen.loopcode.loop_instances import called
 from symgen.loopcode.vectors import combine, copied, follow, total, weigh
-from symgen.loops.frame import correct, evaluate, loop, store
+from symgen.loops.frame import loop
+from symgen.loops.frame_parts import correct, evaluate, store
 from symgen.loops.watch import keep_maxima
 
 #: Largest growth of the allowed step from one step to the next: with more growth the estimate passes through zero. It

@@ -16,7 +16,8 @@ from symgen.layout.scheme_records import CONSTRAINED
 from symgen.loopcode.bare import part
 from symgen.loopcode.loop_instances import called
 from symgen.loopcode.vectors import copied
-from symgen.loops.frame import TOO_LARGE, loop
+from symgen.loops.frame import loop
+from symgen.loops.frame_parts import TOO_LARGE
 from symgen.loops.schemes.constrained import auxiliary_rates, carry_slopes, factorised, slopes_at, solved
 from symgen.loops.schemes.lie import exponential_rate
 

@@ -20,7 +20,8 @@ from symgen.loopcode.bare import part
 from symgen.loopcode.loop_instances import called
 from symgen.loopcode.vectors import copied, weigh
 from symgen.loops import sparse
-from symgen.loops.frame import DIVERGED, TOO_LARGE, evaluate, loop
+from symgen.loops.frame import loop
+from symgen.loops.frame_parts import DIVERGED, TOO_LARGE, evaluate
 from symgen.loops.sparse import solve
 
 _MOST_ITERATIONS = 15

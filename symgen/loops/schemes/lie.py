@@ -16,7 +16,8 @@ from symgen.layout.scheme_records import ROTATIONS
 from symgen.loopcode.bare import part
 from symgen.loopcode.padding import padded
 from symgen.loopcode.vectors import total
-from symgen.loops.frame import evaluate, loop
+from symgen.loops.frame import loop
+from symgen.loops.frame_parts import evaluate
 
 
 def exponential_rate(v: Any, at: int, u: Any, spins: Any, nv: int, rate: Any) -> None:

@@ -23,7 +23,8 @@ from symgen.loopcode.bare import part
 from symgen.loopcode.loop_instances import called
 from symgen.loopcode.nodes import PLACES, distance, expand, extrapolate, place, sum_up
 from symgen.loopcode.vectors import copied, total
-from symgen.loops.frame import DIVERGED, correct, evaluate, loop, store
+from symgen.loops.frame import loop
+from symgen.loops.frame_parts import DIVERGED, correct, evaluate, store
 from symgen.loops.schemes.explicit import attempt as one_step
 from symgen.loops.watch import keep_maxima
 from symgen.native.types import NODES
@@ -239,7 +240,7 @@ def crossed(system: Any, scheme: Any, span: Any, run: Any, t: float, following: 
     stages = part(run.room, _WIDE + _STATES * width, tableau.nodes.shape[0] * width)
     copied(width, part(run.memory, NODES, width), stages)
     room = part(run.room, _WIDE + _WEIGHED * width, 3 * width)
-    fields = run.y, run.trial, run.p, run.w, run.iw, run.clock, run.gauges, run.control, run.events, stages
+    fields = run.y, run.trial, run.p, run.w, run.iw, run.clock, run.gauges, run.control, run.passages, stages
     one = Run(*fields, run.share, run.metric, run.scales, room)
     error = one_step(system, tableau, span, one, t, following, h, False)
     run.control[abi.ORDER] = NODES

@@ -23,7 +23,8 @@ from symgen.layout.scheme_records import PROJECTION
 from symgen.loopcode.bare import part
 from symgen.loopcode.loop_instances import called
 from symgen.loops import sparse
-from symgen.loops.frame import DIVERGED, TOO_LARGE, evaluate, loop
+from symgen.loops.frame import loop
+from symgen.loops.frame_parts import DIVERGED, TOO_LARGE, evaluate
 from symgen.loops.sparse import multiply, solve, turn_rows
 
 _MOST_ITERATIONS = 100

@@ -23,7 +23,8 @@ from symgen.layout.scheme_records import CONSTRAINED
 from symgen.loopcode.bare import part
 from symgen.loopcode.loop_instances import called
 from symgen.loopcode.vectors import copied
-from symgen.loops.frame import DIVERGED, TOO_LARGE, loop
+from symgen.loops.frame import loop
+from symgen.loops.frame_parts import DIVERGED, TOO_LARGE
 from symgen.loops.schemes.constrained import auxiliary_rates, carry_slopes, factorised, slopes_at, solved
 
 _MOST_ITERATIONS = 50

@@ -20,7 +20,8 @@ from symgen.layout.scheme_records import SCREWS
 from symgen.loopcode.bare import part
 from symgen.loopcode.loop_instances import called
 from symgen.loopcode.vectors import total
-from symgen.loops.frame import evaluate, loop
+from symgen.loops.frame import loop
+from symgen.loops.frame_parts import evaluate
 from symgen.loops.schemes.lie import exponential_rate
 
 

@@ -8,7 +8,8 @@ from symgen.layout import abi
 from symgen.layout.manifold import advance
 from symgen.layout.scheme_records import ROTATIONS
 from symgen.loopcode.bare import part
-from symgen.loops.frame import evaluate, loop
+from symgen.loops.frame import loop
+from symgen.loops.frame_parts import evaluate
 
 
 def attempt(

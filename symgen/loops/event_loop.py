@@ -22,9 +22,9 @@ from symgen.loopcode.loop_instances import loop as compiled_loop
 from symgen.loopcode.vectors import copied
 from symgen.loops import frame
 from symgen.loops import search_records as searching
-from symgen.loops.frame import LOOK, TRY
-from symgen.loops.frame import correct as plain_correct
-from symgen.loops.frame import opened as plain_opened
+from symgen.loops.frame_parts import LOOK, TRY
+from symgen.loops.frame_parts import correct as plain_correct
+from symgen.loops.frame_parts import opened as plain_opened
 from symgen.native import types
 
 Array = NDArray[np.float64]
@@ -34,17 +34,17 @@ Array = NDArray[np.float64]
 FAR, SMALL = 1e3, 1e-3
 
 #: A `State` with `hunt`, the data of events (`symgen.loops.searching`).
-HuntingState = record("HuntingState", *State._fields, "hunt", module=__name__)
+EventState = record("EventState", *State._fields, "hunt", module=__name__)
 #: A `Run` with the data of events.
-HuntingRun = record("HuntingRun", *Run._fields, "hunt", module=__name__)
+EventRun = record("EventRun", *Run._fields, "hunt", module=__name__)
 #: A `ModelSystem` with the functions of events: switching functions with their rates, the function
 #: `symgen.loops.searching.decide`, and the rates q' and v': ``rhs``, or a separate function of a law that does not
 #: integrate v.
-HuntingSystem = record("HuntingSystem", *ModelSystem._fields, "happens", "decide", "rates", module=__name__)
+EventSystem = record("EventSystem", *ModelSystem._fields, "happens", "decide", "rates", module=__name__)
 
 
 #: Type of the state of a run for compiled loops.
-HUNTING_STATE = types.RecordType((*STATE, STATE.parts[0]), HuntingState)
+EVENT_STATE = types.RecordType((*STATE, STATE.parts[0]), EventState)
 
 
 # -- functions for the frame -------------------------------------------------------------------------------------------
@@ -52,7 +52,7 @@ HUNTING_STATE = types.RecordType((*STATE, STATE.parts[0]), HuntingState)
 
 def opened(sizes: Any, state: Any) -> Any:
     """Return the state of a run, its working memory divided into parts, with its events."""
-    return HuntingRun(*plain_opened(sizes, state), bare(state).hunt)
+    return EventRun(*plain_opened(sizes, state), bare(state).hunt)
 
 
 def decided(system: Any, run: Any, t: float, h: float, doing: int, y: Any) -> int:
@@ -80,13 +80,13 @@ def evaluate_events(system: Any, run: Any, t: float, y: Any) -> None:
         decided(system, run, t, 0.0, searching.GIVE_BACK, y)
 
 
-def happened(system: Any, run: Any, following: float, h: float, hunting: int) -> int:
+def located(system: Any, run: Any, following: float, h: float, search: int) -> int:
     """Search an acceptable step for events; return the decision of `decide`."""
     evaluate_events(system, run, following, run.trial)
-    return decided(system, run, following, h, hunting, run.trial)
+    return decided(system, run, following, h, search, run.trial)
 
 
-def attend(system: Any, run: Any, doing: int) -> int:
+def prepare_search(system: Any, run: Any, doing: int) -> int:
     """Find the side of each event on which a run begins, or continues after a change of velocities or parameters.
 
     Or save the memory of emitted functions at the beginning of a step (`REMEMBER`), or restore it (`RECALL`).
@@ -96,7 +96,7 @@ def attend(system: Any, run: Any, doing: int) -> int:
     return decided(system, run, run.clock[abi.TIME], 0.0, doing, run.y)
 
 
-def aimed(system: Any, run: Any, h: float) -> float:
+def step_to_point(system: Any, run: Any, h: float) -> float:
     """Return the step to try in place of one of `h` seconds: one that ends at the next point of a table."""
     decided(system, run, run.clock[abi.TIME], h, searching.AIM, run.y)
     return float(run.hunt[TRY])
@@ -147,8 +147,14 @@ def notes_at(n: int, width: int, nw: int) -> int:
 
 
 _MEANINGS: dict[str, Any] = {
-    **{"EVENTS": True, "opened": opened, "ModelSystem": HuntingSystem},
-    **{"happened": happened, "attend": attend, "aimed": aimed, "correct": correct, "is_astray": is_astray},
+    **{"EVENTS": True, "opened": opened, "ModelSystem": EventSystem},
+    **{
+        "located": located,
+        "prepare_search": prepare_search,
+        "step_to_point": step_to_point,
+        "correct": correct,
+        "is_astray": is_astray,
+    },
 }
 _loops: dict[Any, Any] = {}
 
@@ -166,7 +172,7 @@ def with_events(loop: Any) -> Any:
     if loop not in _loops:
         (module, name, scheme, *functions), meanings = frame.RECIPES[loop]
         kinds = *frame.kinds_of(functions), abi.OBSERVE, abi.DECIDE, abi.RHS
-        signature = types.int64(types.RecordType(kinds), scheme, SPAN, HUNTING_STATE, OUTPUTS)
+        signature = types.int64(types.RecordType(kinds), scheme, SPAN, EVENT_STATE, OUTPUTS)
         own = f"{module.rpartition('.')[2]}_{name}"
         _loops[loop] = compiled_loop(__name__, own, frame.integrate, signature, **{**meanings, **_MEANINGS})
     return _loops[loop]
