@@ -189,7 +189,7 @@ _HEADINGS = (
         "|Phi|",
         "energy [J]",
     ),
-    *("evaluations", "|D v - nu|", "spread"),
+    *("evaluations", "|D v - nu|", "spread", "error / length", "error [m/s]", "error [N]"),
 )
 
 
@@ -203,6 +203,7 @@ def _cells(row: Row) -> tuple[str, ...]:
             f"{row.velocity_violation_max:.1e}",
             "-" if row.run_seconds_spread is None else f"{1e3 * row.run_seconds_spread:.3f}",
         ),
+        *("" if x is None else f"{x:.1e}" for x in (row.relative_error, row.velocity_error, row.reaction_error)),
     )
 
 

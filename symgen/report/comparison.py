@@ -172,9 +172,9 @@ def _cost_table(study: Study) -> tuple[DocumentTable, ...]:
 def _all_rows(study: Study) -> DocumentTable:
     headings = (
         *("method", "integrator", "setting", "status", "error [m]", "run time", "spread", f"× {YARDSTICK}"),
-        *("evaluations", "iterations", "energy [J]"),
+        *("error / length", "error [m/s]", "error [N]", "evaluations", "iterations", "energy [J]"),
     )
-    rows = []
+    rows = list[tuple[str | TableCell, ...]]()
     for row in study.rows:
         longer = row.run_seconds_spread
         spread = longer / row.run_seconds if longer is not None and row.run_seconds > 0.0 else None
@@ -184,6 +184,7 @@ def _all_rows(study: Study) -> DocumentTable:
                 *(row.label, row.integrator, words.setting(row.step, row.rtol)),
                 TableCell(row.status_text, _MOODS[row.status]),
                 *(_error_text(row), words.seconds(row.run_seconds), words.percent(spread), both),
+                *map(words.number, (row.relative_error, row.velocity_error, row.reaction_error)),
                 *(str(row.evaluations), str(row.iterations), words.number(row.energy_drift_max)),
             )
         )

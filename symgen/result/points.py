@@ -35,24 +35,29 @@ class Points:
         Whether some bodies are nodes of beams, whose own lengths say nothing of these.
     datum : tuple of float
         The place that a point is measured from (`symgen.describe.lengths.datum_of`).
+    speeds : tuple of int
+        For each body where its velocities begin.
     """
 
     bodies: tuple[tuple[int, float], ...]
     dimension: int = 2
     slender: bool = False
     datum: tuple[float, ...] = ()
+    speeds: tuple[int, ...] = ()
 
     @classmethod
     def of(cls, mechanism: Mechanism, parameters: Mapping[str, float]) -> Points:
         """Collect the bodies of `mechanism` with the lengths that they have at these parameters."""
-        bodies, first = [], 0
+        bodies, speeds, first, first_speed = [], [], 0, 0
         for body in mechanism.bodies:
             bodies.append((first, own_length(body, parameters)))
+            speeds.append(first_speed)
             first += len(body.coordinates)
+            first_speed += len(body.speeds)
         slender = any(force.flexures for force in mechanism.forces)
         dimension = 3 if mechanism.space == "spatial" else 2
         datum = tuple(datum_of(mechanism, scalars(parameters))[:dimension])
-        return cls(tuple(bodies), dimension, slender, datum)
+        return cls(tuple(bodies), dimension, slender, datum, tuple(speeds))
 
     def size(self, q: Array) -> float:
         """Return the mechanism's size [m]: the longest body's own length.
@@ -94,6 +99,35 @@ class Points:
                 candidates += [np.linalg.norm(centre + length * tips[:, :, k], axis=1) for k in range(self.dimension)]
             largest = np.maximum(largest, np.max(candidates, axis=0))
         return largest
+
+    def speed_distances(self, a: tuple[Array, Array], b: tuple[Array, Array] | None = None) -> Array:
+        """Return the largest difference of the points' velocities [m/s] over all bodies at each time, shape (k,).
+
+        Parameters
+        ----------
+        a, b : pair of Array, shapes (k, nq), (k, nv)
+            Coordinates and velocities at the same times; without `b` at rest.
+        """
+        largest = np.zeros(len(a[0]))
+        for body in range(len(self.bodies)):
+            difference = self._velocities(body, *a)
+            if b is not None:
+                difference = difference - self._velocities(body, *b)
+            largest = np.maximum(largest, np.linalg.norm(difference, axis=2).max(axis=0, initial=0.0))
+        return largest
+
+    def _velocities(self, body: int, q: Array, v: Array) -> Array:
+        """Return the velocities of a body's points, shape (points, k, dimension)."""
+        (i, length), j, n = self.bodies[body], self.speeds[body], self.dimension
+        centre = v[:, j : j + n]
+        if length == 0.0:
+            return centre[np.newaxis]
+        axes, omega = rotation_matrices(q[:, i + n : i + (3 if n == 2 else 7)]), v[:, j + n : j + (3 if n == 2 else 6)]
+        if n == 2:
+            turning = np.stack([omega * np.column_stack([-axes[:, 1, k], axes[:, 0, k]]) for k in range(2)])
+        else:  # angular velocities are in body axes
+            turning = np.stack([(axes @ np.cross(omega, unit)[:, :, np.newaxis])[:, :, 0] for unit in np.eye(3)])
+        return np.concatenate([centre[np.newaxis], centre + length * turning])
 
 
 def rotation_matrices(orientation: Array) -> Array:

@@ -26,7 +26,7 @@ from symgen.study.stress.study import stress
 ROW_KEYS = {
     *("method", "integrator", "step", "rtol", "status", "reason", "error", "run_seconds", "run_seconds_spread"),
     *("evaluations", "position_violation_max", "velocity_violation_max", "energy_drift_max", "below_reference"),
-    *("coordinates", "variant", "beyond_limits"),
+    *("coordinates", "variant", "beyond_limits", "relative_error", "velocity_error", "reaction_error"),
     *("warnings", "iterations", "cost_ratio", "cost_ratio_spread", "run_seconds_median"),
     *(f"{level}_violation_{kind}" for level in ("position", "velocity") for kind in ("rms", "final")),
     *(f"acceleration_violation_{kind}" for kind in ("max", "rms", "final")),
@@ -51,7 +51,7 @@ def test_json_is_the_contract(study):
     found = study.to_json()
     assert json.loads(json.dumps(found, allow_nan=False)) == json.loads(json.dumps(found))
     assert set(found) == {"mechanism", "digest", "until", "reference", "interrupted", "rows"}
-    assert set(found["reference"]) == {"how", "estimated_error", "note"}
+    assert set(found["reference"]) == {"how", "estimated_error", "note", "length", "speed", "reaction"}
     for row in found["rows"]:
         assert set(row) == ROW_KEYS
         assert (row["step"] is None) != (row["rtol"] is None)

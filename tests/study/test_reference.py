@@ -53,6 +53,8 @@ def test_formulas_agree_with_the_general_route(name, until, parameters):
     assert closed.how != general.how
     distance = points.distance(closed.q, general.q)
     assert distance < 1e-11
+    assert points.speed_distances((closed.q, closed.v), (general.q, general.v)).max() < 1e-10
+    assert all(np.allclose(closed.lam[row], general.lam[row], rtol=1e-8, atol=1e-8) for row in general.lam)
     assert distance < 10.0 * (closed.estimated_error + general.estimated_error)
 
 
@@ -60,8 +62,9 @@ def test_the_pendulum_is_periodic_for_ever():
     from scipy.special import ellipk
 
     period = 4.0 * ellipk(0.5) / np.sqrt(9.81)
-    _, _, q = CLOSED["pendulum"](None, {}, np.array([-1.0, 0.0]), np.array([0.0, period / 2, 1000 * period]))
+    _, _, q, v = CLOSED["pendulum"](None, {}, np.array([-1.0, 0.0]), np.array([0.0, period / 2, 1000 * period]))
     assert np.allclose(q, [[-1.0, 0.0], [1.0, 0.0], [-1.0, 0.0]], atol=1e-11)
+    assert np.allclose(v, 0.0, atol=1e-10)
 
 
 def test_andrews_meets_the_published_values():

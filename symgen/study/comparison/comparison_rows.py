@@ -31,7 +31,7 @@ YARDSTICK = "lagrange"
 #: Units of columns.
 UNITS = {
     **dict.fromkeys(("step", "run_seconds", "run_seconds_spread", "run_seconds_median"), "s"),
-    **{"error": "m", "energy_drift_max": "J"},
+    **{"error": "m", "velocity_error": "m/s", "reaction_error": "N", "energy_drift_max": "J"},
     **{
         f"{level}_violation_{kind}": unit
         for level, unit in (("position", "m"), ("velocity", "m/s"), ("acceleration", "m/s^2"))
@@ -62,6 +62,13 @@ class Row:
     error : float or None
         Largest distance to the reference [m] over bodies, output times and points (`symgen.result.points`); None for a
         run that did not reach its end, and where there is no reference.
+    relative_error : float or None
+        The same as a share of the mechanism's length, `Study.length`.
+    velocity_error : float or None
+        Largest difference of the velocities of the same points [m/s].
+    reaction_error : float or None
+        Largest difference of a joint's reaction [N], of those that the motion determines; a moment counts as the force
+        that has it at the mechanism's length. None also where no reaction is determined.
     below_reference : bool
         Whether the error is below the estimated error of the reference, which is then its only bound.
     run_seconds, run_seconds_median : float
@@ -119,6 +126,9 @@ class Row:
     coordinates: str = "absolute"
     variant: str = ""
     beyond_limits: bool = False
+    relative_error: float | None = None
+    velocity_error: float | None = None
+    reaction_error: float | None = None
 
     @property
     def label(self) -> str:
@@ -271,6 +281,9 @@ class Study:
         Changed values.
     repeat : int
         Least number of timed runs a row.
+    length, speed, reaction : float or None
+        Scales of errors, of the reference: the mechanism's length [m], the largest speed of a point [m/s] and the
+        largest reaction [N]; None where there is none.
     """
 
     mechanism: str
@@ -288,6 +301,9 @@ class Study:
     options: Mapping[str, str | float] = field(default_factory=dict)
     repeat: int = 1
     start: Mapping[str, float] = field(default_factory=dict)
+    length: float | None = None
+    speed: float | None = None
+    reaction: float | None = None
 
     def __repr__(self) -> str:
         methods = len({row.label for row in self.rows})
@@ -346,7 +362,10 @@ class Study:
             "mechanism": self.mechanism,
             "digest": self.digest,
             "until": self.until,
-            "reference": {"how": self.how, "estimated_error": self.estimated_error, "note": self.note or None},
+            "reference": {
+                **{"how": self.how, "estimated_error": self.estimated_error, "note": self.note or None},
+                **{"length": self.length, "speed": self.speed, "reaction": self.reaction},
+            },
             "interrupted": self.interrupted,
             "rows": [asdict(row) for row in self.rows],
         }

@@ -12,11 +12,10 @@ from symgen.result.judge import judge
 from symgen.study.comparison.comparison_rows import Row, Trace
 
 if TYPE_CHECKING:
-    from symgen.result.points import Points
     from symgen.running.prepare import Prepared
     from symgen.runs.outcome import Outcome
     from symgen.runs.timing import Timed
-    from symgen.study.references.reference import Reference
+    from symgen.study.comparison.distances import Distances
 
 Array = NDArray[np.float64]
 
@@ -27,8 +26,7 @@ LONGEST = 400
 def measured(
     run: Prepared,
     runs: Timed,
-    reference: Reference | None,
-    points: Points,
+    distances: Distances | None,
     variant: str,
     stopped: Outcome | None = None,
 ) -> tuple[Row, Trace]:
@@ -40,20 +38,19 @@ def measured(
         What was run.
     runs : Timed
         Its results and run times.
-    reference : Reference or None
-        Reference motion; None without one.
-    points : Points
-        Points between which distances are measured.
+    distances : Distances or None
+        Measures of errors; None without a reference.
     variant : str
         Options that distinguish the method from others of the study.
     stopped : Outcome, optional
         The run as one of its limits stopped it, by which it is judged; `runs` then have no limits.
     """
     plan, outcome = run.plan, run.of_bodies(runs.outcome)
-    nq, count = outcome.compiled.info.nq, len(outcome.times)
+    count = len(outcome.times)
     verdict = judge(run, outcome if stopped is None else run.of_bodies(stopped))
-    distances = None if reference is None else points.distances(outcome.states[:, :nq], reference.q[:count])
-    error = float(distances.max(initial=0.0)) if distances is not None and outcome.code == abi.DONE else None
+    along = None if distances is None else distances.of_positions(outcome)
+    judged = distances if outcome.code == abi.DONE else None
+    error = None if along is None or judged is None else float(along.max(initial=0.0))
     accelerations = outcome.acceleration_violations if count else np.zeros(0)
     status, adaptive = outcome.status_columns, plan.spec.adaptive
     violations = {"position": status[:, abi.PHI], "velocity": status[:, abi.DRIFT], "acceleration": accelerations}
@@ -67,8 +64,11 @@ def measured(
         status=verdict.status,
         reason=verdict.reason,
         error=error,
+        relative_error=error / judged.size if error is not None and judged and judged.size > 0.0 else None,
+        velocity_error=None if judged is None else _largest(judged.of_velocities(outcome)),
+        reaction_error=None if judged is None else _largest(judged.of_reactions(outcome)),
         beyond_limits=stopped is not None and outcome.code == abi.DONE,
-        below_reference=error is not None and reference is not None and error < reference.estimated_error,
+        below_reference=error is not None and judged is not None and error < judged.reference.estimated_error,
         run_seconds=outcome.run_seconds,
         run_seconds_spread=runs.spread,
         run_seconds_median=runs.median,
@@ -86,12 +86,16 @@ def measured(
     work = outcome.states[:, outcome.compiled.info.work]
     curves = {
         **violations,
-        **{"t": outcome.times, "error": () if distances is None else distances},
+        **{"t": outcome.times, "error": () if along is None else along},
         **{"kinetic": kinetic, "potential": potential},
         "energy_error": kinetic + potential - outcome.energy_start - work,
     }
     trace = Trace(**{name: _digits(values) for name, values in curves.items()})
     return row, trace
+
+
+def _largest(values: Array | None) -> float | None:
+    return None if values is None else float(values.max(initial=0.0))
 
 
 def _rms(values: Array) -> float | None:

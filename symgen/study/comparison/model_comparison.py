@@ -16,12 +16,12 @@ from symgen.base.settings import Settings
 from symgen.describe.digest import digest, identity
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
-from symgen.result.points import Points
 from symgen.running.plan import Plan, Purpose
 from symgen.running.prepare import Assembled, Prepared, begin, code_and_start, prepare
 from symgen.runs.timing import timed
 from symgen.study.comparison.combinations import words_of_variant
 from symgen.study.comparison.comparison_rows import Study, check_entry, from_entry, to_entry, with_ratios
+from symgen.study.comparison.distances import Distances, exact_reactions
 from symgen.study.comparison.measured_runs import measured
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
 from symgen.study.limits import WATCHES, unlimited
@@ -66,6 +66,11 @@ class ReferenceTask:
             "estimated_error": motion.estimated_error,
             "note": motion.note,
             "q": motion.q.tolist(),
+            "v": motion.v.tolist(),
+            "reactions": {
+                joint: loads.tolist()
+                for joint, loads in exact_reactions(mechanism, values, motion, compiled, start).items()
+            },
         }
 
 
@@ -167,8 +172,7 @@ class ModelComparison:
         motions, interrupted = run_cells([self.reference], motion, self.journal)
         if interrupted:
             return self.study(True)
-        reference_motion, assembled = _reference(motions[self.reference.key], self.times), dict[Any, Assembled]()
-        points = Points.of(self.model.mechanism, self.model.parameters(self.settings[0].parameters))
+        distances, assembled = self._distances(motions[self.reference.key]), dict[Any, Assembled]()
         compiled = set[Any]()
 
         def row(i: int) -> Outcome:
@@ -191,15 +195,25 @@ class ModelComparison:
             if runs.outcome.interrupted:
                 raise KeyboardInterrupt
             variant = words_of_variant(settings, self.common)
-            return to_entry(*measured(run, runs, reference_motion, points, variant, stopped))
+            return to_entry(*measured(run, runs, distances, variant, stopped))
 
         return self.study(run_cells(self.rows, row, self.journal)[1])
+
+    def _distances(self, entry: Outcome) -> Distances | None:
+        """Return the measures of errors by a journal's entry, None where it holds the reason of their absence."""
+        if "unusable" in entry:
+            return None
+        q, v = np.array(entry["q"]), np.array(entry["v"])
+        motion = Reference(entry["how"], entry["estimated_error"], self.times, q, v, entry["note"])
+        reactions = {joint: np.array(loads) for joint, loads in entry["reactions"].items()}
+        return Distances(self.model.mechanism, self.settings[0].parameters, motion, reactions)
 
     def study(self, interrupted: bool) -> Study:
         """Return the study of the finished rows."""
         motion = self.journal.get(self.reference.key) or {"unusable": ""}
         done = [from_entry(entry) for cell in self.rows if (entry := self.journal.get(cell.key)) is not None]
         base, why = self.settings[0], motion.get("unusable")
+        distances = self._distances(motion) if "q" in motion else None
         without = "there is no reference, so errors are unknown"
         return Study(
             mechanism=self.model.name,
@@ -217,6 +231,9 @@ class ModelComparison:
             options=dict(self.common.options),
             repeat=base.repeat,
             start=dict(base.start),
+            length=None if distances is None else distances.size,
+            speed=None if distances is None else distances.speed,
+            reaction=None if distances is None else distances.load,
         )
 
 
@@ -224,6 +241,8 @@ class _Motion(TypedDict):
     how: str
     estimated_error: float
     q: list[list[float]]
+    v: list[list[float]]
+    reactions: dict[str, list[list[float]]]
     note: str
 
 
@@ -234,10 +253,3 @@ class _Unusable(TypedDict):
 def _check_motion(entry: Outcome) -> None:
     """Raise `ValueError` unless an entry of a journal is that of a reference."""
     msgspec.convert(entry, _Unusable if "unusable" in entry else _Motion)
-
-
-def _reference(entry: Outcome, times: Array) -> Reference | None:
-    """Return the reference of a journal's entry, None where the entry holds the reason of its absence."""
-    if "unusable" in entry:
-        return None
-    return Reference(entry["how"], entry["estimated_error"], times, np.array(entry["q"]), entry["note"])

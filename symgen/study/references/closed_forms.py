@@ -14,8 +14,8 @@ from symgen.describe.load import load
 from symgen.describe.mechanism import Mechanism
 
 Array = NDArray[np.float64]
-#: Source of a motion, its estimated error [m], and coordinates at the times.
-Closed = tuple[str, float, Array]
+#: Source of a motion, its estimated error [m], and coordinates and velocities at the times.
+Closed = tuple[str, float, Array, Array]
 Formula = Callable[[Mechanism, Mapping[str, float], Array, Array], Closed]
 
 
@@ -43,10 +43,13 @@ def pendulum(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, ti
     k = math.sin(phi0 / 2.0)
     # whole periods are subtracted first: the functions lose digits as their argument grows
     u = np.remainder(math.sqrt(gravity / length) * times, 4.0 * ellipk(k * k))
-    _, cn, dn, _ = ellipj(u, k * k)
-    phi = 2.0 * np.arcsin(k * cn / dn)
-    motion = length * np.column_stack([np.sin(phi), -np.cos(phi)])
-    return "Jacobi's elliptic functions", 1e-14 * max(100.0, float(times[-1])), motion
+    sn, cn, dn, _ = ellipj(u, k * k)
+    half = np.arcsin(k * cn / dn)
+    rate = -2.0 * math.sqrt(gravity / length) * k * (1.0 - k * k) * sn / dn**2 / np.cos(half)
+    along, across = np.sin(2.0 * half), np.cos(2.0 * half)
+    motion = length * np.column_stack([along, -across])
+    velocities = length * rate[:, None] * np.column_stack([across, along])
+    return "Jacobi's elliptic functions", 1e-14 * max(100.0, float(times[-1])), motion, velocities
 
 
 def n_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
@@ -72,24 +75,28 @@ def parallel_cranks(names: Sequence[str], times: Array) -> Closed:
         end = float(times[-1])
         # short steps: interpolation to the output times must not limit the accuracy
         solution = solve_ivp(rate, (0.0, end), [0.0, 1.0], "DOP853", times, rtol=rtol, atol=rtol, max_step=0.01)
-        return np.asarray(solution.y[0], dtype=float)
+        return np.asarray(solution.y, dtype=float)
 
-    theta = solve(3e-14)
+    theta, speed = solve(3e-14)
     s, c, zero = np.sin(theta), np.cos(theta), np.zeros(len(times))
-    columns: list[Array] = []
+    columns, rates = list[Array](), list[Array]()
     for name in names:
         if name.startswith("vertical"):
             columns += [int(name.removeprefix("vertical")) + 0.5 * s, 0.5 * c, math.pi / 2 - theta]
+            rates += [0.5 * c * speed, -0.5 * s * speed, -speed]
         else:
             columns += [int(name.removeprefix("coupler")) + 0.5 + s, c, zero]
-    estimated = 2.0 * float(np.abs(solve(1e-12) - theta).max(initial=0.0))
-    return "the equation of the regular branch in one coordinate, DOP853 at 3e-14", estimated, np.column_stack(columns)
+            rates += [c * speed, -s * speed, zero]
+    estimated = 2.0 * float(np.abs(solve(1e-12)[0] - theta).max(initial=0.0))
+    how = "the equation of the regular branch in one coordinate, DOP853 at 3e-14"
+    return how, estimated, np.column_stack(columns), np.column_stack(rates)
 
 
 def driven_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
     """Crank angle as prescribed; the joint of coupler and rocker where two circles meet, on the side of the start."""
     crank, coupler, rocker, base = 2.0, 8.0, 5.0, 10.0
-    theta = parameters["crank_start"] + parameters["crank_speed"] * times
+    speed = parameters["crank_speed"]
+    theta = parameters["crank_start"] + speed * times
     bx, by = crank * np.cos(theta), crank * np.sin(theta)
     dx, dy = base - bx, -by
     d = np.hypot(dx, dy)
@@ -105,7 +112,17 @@ def driven_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Ar
     motion = np.column_stack(
         [bx / 2, by / 2, theta, (bx + cx) / 2, (by + cy) / 2, coupler_angle, (base + cx) / 2, cy / 2, rocker_angle]
     )
-    return "closed form: the prescribed crank and the intersection of two circles", 1e-13, motion
+    # C' is normal to C - D, and its part along C - B is that of B'
+    bu, bv, ru, rv, ux, uy = -speed * by, speed * bx, cx - base, cy, cx - bx, cy - by
+    along, area = ux * bu + uy * bv, ux * rv - uy * ru
+    cu, cv = along * rv / area, -along * ru / area
+    coupler_rate, rocker_rate = (ux * (cv - bv) - uy * (cu - bu)) / coupler**2, (ru * cv - rv * cu) / rocker**2
+    turning = np.full(len(times), speed)
+    velocities = np.column_stack(
+        [bu / 2, bv / 2, turning, (bu + cu) / 2, (bv + cv) / 2, coupler_rate, cu / 2, cv / 2, rocker_rate]
+    )
+    how = "closed form: the prescribed crank and the intersection of two circles"
+    return how, 1e-13, motion, velocities
 
 
 def flyball_governor(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
@@ -165,25 +182,34 @@ def flyball_governor(mechanism: Mechanism, parameters: Mapping[str, float], q: A
         return np.asarray(solution.y, dtype=np.float64)
 
     y, rougher = solve(1e-11), solve(1e-10)
-    alpha, s, turned = y[0], y[1], y[4]
-    columns: list[Array] = []
+    alpha, s, alpha_rate, s_rate, turned = y
+    spin = np.array([momentum / inertia(a)[0] for a in alpha.tolist()])
+    columns, rates = list[Array](), list[Array]()
     for body in mechanism.bodies:
         phi = turned + (math.pi if body.name == "arm2" else 0.0)
         about = Rotation.from_rotvec(phi[:, None] * np.array([0.0, 0.0, 1.0]))
-        place, own_turn = np.zeros((len(times), 3)), Rotation.identity()
+        place, speed, own_turn = np.zeros((len(times), 3)), np.zeros((len(times), 3)), Rotation.identity()
+        omega = np.zeros((len(times), 3))  # in axes that turn with the shaft, as place and speed are
+        omega[:, 2] = spin
         if body.name.startswith("arm"):
             place[:, 0] = offset + centre * np.cos(alpha)
             place[:, 2] = 1.0 - centre * np.sin(alpha)
+            speed[:, 0], speed[:, 2] = -centre * np.sin(alpha) * alpha_rate, -centre * np.cos(alpha) * alpha_rate
             own_turn = Rotation.from_rotvec(alpha[:, None] * np.array([0.0, 1.0, 0.0]))
+            omega[:, 1] = alpha_rate
         else:
             place[:, 2] = s if body.name == "slider" else 0.5
+            speed[:, 2] = s_rate if body.name == "slider" else 0.0
+        speed[:, 1] += spin * place[:, 0]
         x, y_, z, w = (about * own_turn).as_quat().T
         columns += [*about.apply(place).T, w, x, y_, z]
+        rates += [*about.apply(speed).T, *own_turn.inv().apply(omega).T]
     estimated = float(np.abs(y[[0, 1, 4]] - rougher[[0, 1, 4]]).max(initial=0.0))
     return (
         "the equations in the angle of the arms and the slider's height, SciPy Radau",
         estimated,
         np.column_stack(columns),
+        np.column_stack(rates),
     )
 
 

@@ -28,6 +28,8 @@ Array = NDArray[np.float64]
 
 #: Singular values of D M^(-1/2) below this fraction of the largest belong to dependent rows.
 CUTOFF = 1e-9
+#: A joint with more than this in a combination of rows that moves nothing has no unique reaction.
+SHARE = 1e-8
 
 
 class IndependentEquations:
@@ -165,6 +167,27 @@ class IndependentEquations:
             change = w.T @ ((u.T @ missing) / values)
         return np.concatenate([v, root @ (free + change)])
 
+    @property
+    def row_names(self) -> tuple[str, ...]:
+        """Names of the rows of joints, which precede those of Euler parameters, as in results."""
+        return tuple(f"{joint.name}.{row.label}" for joint in self.mechanism.joints for row in joint.rows)
+
+    def multipliers(self, t: float, y: Array) -> Array:
+        """Return the multipliers of ``M q'' + D^T l = f``, of minimum norm where rows are dependent."""
+        q, v = y[: self.n], y[self.n :]
+        _, d, _, _, f = self.evaluate(t, q, v)
+        forces = f - self._mass(q) @ self.rate(t, y)[self.n :]
+        return np.asarray(np.linalg.lstsq(d.T, forces, rcond=CUTOFF)[0], dtype=np.float64)
+
+    def undetermined(self, y: Array) -> tuple[str, ...]:
+        """Return the joints that take part in forces which move nothing: their reactions are not determined."""
+        d = self.evaluate(0.0, y[: self.n], y[self.n :])[1]
+        left, values, _ = np.linalg.svd(d, full_matrices=True)
+        idle = left[:, int(np.sum(values > CUTOFF * values.max(initial=0.0))) :]
+        joints = [joint.name for joint in self.mechanism.joints for _ in joint.rows]
+        loose = {name for name, share in zip(joints, np.linalg.norm(idle, axis=1), strict=False) if share > SHARE}
+        return tuple(joint.name for joint in self.mechanism.joints if joint.name in loose)
+
     def _independent(self, d: Array) -> tuple[Array, Array, Array]:
         """Return the singular values of the independent rows of a matrix, with their vectors."""
         u, values, w = np.linalg.svd(d, full_matrices=False)
@@ -182,15 +205,20 @@ class IndependentEquations:
 
     def _with_multipliers(self, q: Array, d: Array, gamma: Array, f: Array) -> Array:
         """Return q'' of M q'' + D^T l = f and D q'' = gamma, D by its independent rows: M may have no inverse."""
-        mass = np.diag(self.mass)
-        for i, block in zip(self._first_e, self._inertia(q), strict=True):
-            mass[i : i + 4, i : i + 4] = block
+        mass = self._mass(q)
         u, values, w = self._independent(d)
         rows = self.usual * w
         system = np.block([[mass, rows.T], [rows, np.zeros((len(values), len(values)))]])
         right = self.usual * (u.T @ gamma) / values
         accelerations: Array = np.linalg.solve(system, np.concatenate([f, right]))[: self.n]
         return accelerations
+
+    def _mass(self, q: Array) -> Array:
+        """Return the mass matrix of the rates, completed along e."""
+        mass = np.diag(self.mass)
+        for i, block in zip(self._first_e, self._inertia(q), strict=True):
+            mass[i : i + 4, i : i + 4] = block
+        return mass
 
     def _inertia(self, q: Array) -> Array:
         """Return the mass matrices of the rates of Euler parameters, completed along e; shape (bodies, 4, 4)."""

@@ -350,19 +350,20 @@ def motion(equations: CompiledEquations, q: Array, v: Array, times: Array) -> Re
         except SimulationError:
             if tolerances == attempts[-1]:
                 raise
-    estimated = Points.of(equations.mechanism, equations.parameters).distance(fine, coarse)
+    n = equations.n
+    estimated = Points.of(equations.mechanism, equations.parameters).distance(fine[:, :n], coarse[:, :n])
     scheme = "SciPy's Radau" if stiff else "Gragg's extrapolation of order 16"
     how = (
         f"independently derived equations, {scheme} at {tolerances[0]:g}, projected at every output; "
         f"estimated from a second run at {tolerances[1]:g}"
     )
-    return Reference(how, max(estimated, 1e-14), times, fine)
+    return Reference.of(equations, how, estimated, times, fine)
 
 
 def _by_extrapolation(
     equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, scale: Array
 ) -> Array:
-    """Return q at `times`; every `every`-th output is projected."""
+    """Return the states at `times`; every `every`-th output is projected."""
     used, longest = np.zeros(1, dtype=np.int64), longest_of(equations, times)
 
     def part(t: float, y: Array, times: Array) -> Array:
@@ -378,7 +379,7 @@ def _by_extrapolation(
             states[k] = y
         return states
 
-    return in_parts(equations, y, times, part)[:, : equations.n]
+    return in_parts(equations, y, times, part)
 
 
 def _scale(y: Array, n: int) -> Array:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -60,17 +60,32 @@ class Reference:
     ----------
     how, estimated_error : str, float
         Source, in one sentence, and estimated error of its points [m].
-    times, q : Array, shapes (k,), (k, nq)
-        Times [s] and coordinates.
+    times, q, v : Array, shapes (k,), (k, nq), (k, nv)
+        Times [s], coordinates, and velocities as in results.
     note : str
         Meaning of errors, in one sentence, where two runs with different steps part at a singular position; else empty.
+    lam : mapping of str to Array, shape (k,)
+        Multipliers by the names of rows; empty where they were not computed.
+    undetermined : tuple of str
+        Joints whose reactions the equations of motion do not determine.
     """
 
     how: str
     estimated_error: float
     times: Array
     q: Array
+    v: Array
     note: str = ""
+    lam: Mapping[str, Array] = field(default_factory=dict)
+    undetermined: tuple[str, ...] = ()
+
+    @classmethod
+    def of(
+        cls, equations: IndependentEquations, how: str, estimated: float, times: Array, states: Array, note: str = ""
+    ) -> Reference:
+        """Return the reference of integrated states: coordinates and their rates, shape (k, 2 n)."""
+        velocities = np.array([equations.velocities(y) for y in states])
+        return cls(how, max(estimated, 1e-14), times, states[:, : equations.n], velocities, note)
 
 
 def reference(
@@ -109,32 +124,29 @@ def reference(
     if any(force.flexures for force in mechanism.forces):
         expected = "a mechanism without beam elements, whose equations are derived a second time"
         raise InputError("reference_by", expected, f"'{mechanism.name}'", f"'{AUTO}' takes two formulations that agree")
-    if check_solver(solver) != AUTO:
-        return _integrated(mechanism, parameters, (q, v), times, solver)
-    closed = closed_form(mechanism) if own_start else None
-    if closed is not None:
-        how, estimated, motion = closed(mechanism, parameters, q, times)
-        return Reference(how, estimated, times, motion)
-    return _integrated(mechanism, parameters, (q, v), times, "scipy-dop853")
+    closed = closed_form(mechanism) if check_solver(solver) == AUTO and own_start else None
+    from symgen.study.references.independent import IndependentEquations
+
+    equations = IndependentEquations(mechanism, parameters)
+    y = equations.project(0.0, equations.state(q, v))
+    if closed is None:
+        found = _integrated(equations, y, times, "scipy-dop853" if solver == AUTO else solver)
+    else:
+        how, estimated, motion, velocities = closed(mechanism, parameters, q, times)
+        found = Reference(how, estimated, times, motion, velocities)
+    states = [equations.state(*state) for state in zip(found.q, found.v, strict=True)]
+    lam = np.array([equations.multipliers(float(t), y) for t, y in zip(times, states, strict=True)])
+    lam = lam.reshape(len(times), equations.m)
+    by_name = {name: lam[:, i] for i, name in enumerate(equations.row_names)}
+    return replace(found, lam=by_name, undetermined=equations.undetermined(y))
 
 
 # -- any mechanism -----------------------------------------------------------------------------------------------------
 
 
-def _integrated(
-    mechanism: Mechanism,
-    parameters: Mapping[str, float],
-    start: tuple[Array, Array],
-    times: Array,
-    solver: str,
-) -> Reference:
+def _integrated(equations: IndependentEquations, y: Array, times: Array, solver: str) -> Reference:
     """Integrate the independently derived equations twice."""
-    from symgen.study.references.independent import IndependentEquations
-
     name, fine_tolerance, coarse_tolerance, goes_on = SOLVERS[solver]
-    equations = IndependentEquations(mechanism, parameters)
-    y = equations.project(0.0, equations.state(*start))
-
     if not goes_on:
         fine = in_one_go(equations, y, times, Scheme(name, fine_tolerance, most=MOST_CALLS))
         coarse = in_one_go(equations, y, times, Scheme(name, coarse_tolerance, most=MOST_CALLS))
@@ -146,12 +158,13 @@ def _integrated(
         if watch.collapsed or watch.smallest < NEAR * watch.largest:
             return pass_through(equations, y, times, watch.usual_step or float(times[-1]) / 1000.0)
         coarse = by_steps(equations, y, times, Scheme(name, coarse_tolerance, 3, False))
-    estimated = Points.of(mechanism, parameters).distance(fine, coarse)
+    n = equations.n
+    estimated = Points.of(equations.mechanism, equations.parameters).distance(fine[:, :n], coarse[:, :n])
     how = (
         f"independently derived equations, SciPy {name} at {fine_tolerance:g}, projected at every output; "
         f"estimated from a second run at {coarse_tolerance:g}"
     )
-    return Reference(how, max(estimated, 1e-14), times, fine)
+    return Reference.of(equations, how, estimated, times, fine)
 
 
 # -- singular positions ------------------------------------------------------------------------------------------------
@@ -232,15 +245,15 @@ def pass_through(equations: IndependentEquations, y: Array, times: Array, step: 
             failures.append(str(error))
             continue
         for other in motions:
-            apart = agreement(points, other, motion)
+            apart = agreement(points, other[:, : equations.n], motion[:, : equations.n])
             if best is None or apart.apart < best[0].apart:
                 best = apart, other, i + 1
         motions.append(motion)
-        if best is not None and best[0].apart < GOOD * points.size(motion):
+        if best is not None and best[0].apart < GOOD * points.size(motion[:, : equations.n]):
             break
     if best is None:
         raise SimulationError(failures[0])
-    apart, q, runs = best
+    apart, states, runs = best
     how = (
         f"independently derived equations, SciPy DOP853 at constant steps near {step:.2g} s, projected after every "
         f"step, through singular positions; estimated from {runs} runs whose steps fall differently"
@@ -252,4 +265,4 @@ def pass_through(equations: IndependentEquations, y: Array, times: Array, step: 
             f"t = {float(times[apart.parts]):.4g} s, behind a singular position: from there on it is not known which "
             "branch the motion takes, and errors are distances to one of them"
         )
-    return Reference(how, max(DOUBT * apart.apart, 1e-14), times, q, note)
+    return Reference.of(equations, how, DOUBT * apart.apart, times, states, note)

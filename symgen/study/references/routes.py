@@ -21,6 +21,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.layout import abi
 from symgen.layout.compiled import CompiledModel
 from symgen.result.points import Points
+from symgen.result.reactions import Forces, seats
 from symgen.running.automatic import linearised
 from symgen.running.prepare import prepare
 from symgen.starts.assembly import Start
@@ -113,8 +114,14 @@ def _by_routes(mechanism: Mechanism, common: Settings, routes: tuple[Route, ...]
         if outcome.code != abi.DONE:
             reason = f"it takes more than {budget:.3g} evaluations" if outcome.code == abi.STOPPED else outcome.reason
             raise SimulationError(f"the reference by {method} with {integrator} does not come to its end: {reason}")
-        motions.append(run.positions(outcome))
-    apart = Points.of(mechanism, parameter_values(mechanism, common.parameters)).distance(*motions)
+        motions.append(run.of_bodies(outcome))
+    values, nq = parameter_values(mechanism, common.parameters), motions[0].compiled.info.nq
+    apart = Points.of(mechanism, values).distance(*(motion.states[:, :nq] for motion in motions))
+    q, v = motions[0].compiled.info.parts(motions[0].states)
+    forces = Forces(motions[0], seats(mechanism, values))
+    multipliers = forces.multipliers()
+    lam = dict(zip(multipliers.names, multipliers.values.T, strict=True))
     (method, integrator, _, rtol), (other, with_other, _, _) = routes
     how = f"{method} with {integrator} at {rtol:g}; estimated from {other} with {with_other}"
-    return Reference(how, max(apart, 1e-14), np.array(common.times), motions[0])
+    times = np.array(common.times)
+    return Reference(how, max(apart, 1e-14), times, q, v, lam=lam, undetermined=forces.non_unique)

@@ -108,7 +108,7 @@ def by_steps(
     scale: Array | None = None,
     see: Callable[[float, float, Array], None] | None = None,
 ) -> Array:
-    """Return q at `times`; steps end at the outputs.
+    """Return the states at `times`, coordinates and their rates; steps end at the outputs.
 
     Where forces compare the state, a step that missed a comparison is repeated with half the length.
 
@@ -188,11 +188,11 @@ def by_steps(
         solver.y = equations.project(float(solver.t), solver.y, scheme.mass_weighted)
         solver.f = solver.fun(float(solver.t), solver.y)
 
-    return in_parts(equations, y, times, part)[:, : equations.n]
+    return in_parts(equations, y, times, part)
 
 
 def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: Scheme) -> Array:
-    """Return q at `times` from a multistep solver: its history forbids changes on the way, so outputs are projected."""
+    """Return the states at `times` from a multistep solver; outputs are projected: it allows no change on the way."""
     from scipy.integrate import solve_ivp
 
     solve: Any = solve_ivp  # SciPy's types lack arrays of tolerances
@@ -219,7 +219,7 @@ def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: S
 
     solution = in_parts(equations, y, times, part)
     states = [equations.project(float(t), state) for t, state in zip(times, solution, strict=True)]
-    return np.array(states).reshape(len(times), len(y))[:, : equations.n]
+    return np.array(states).reshape(len(times), len(y))
 
 
 @contextmanager

@@ -25,7 +25,7 @@ from symgen.result.points import Points
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
 from symgen.starts.assembly import Start
-from symgen.study.references.closed_forms import closed_form, parallel_cranks
+from symgen.study.references.closed_forms import Closed, closed_form, parallel_cranks
 from symgen.study.references.reference import scaled_values
 from symgen.study.references.routes import fastest_decay, two_routes
 from symgen.study.stress.bench import FREE_LENGTH, Level
@@ -67,9 +67,9 @@ def _moved(level: Level) -> Fields:
     if not (np.linalg.norm(phi) <= CONSISTENT * max(1.0, size) and np.linalg.norm(d @ v - nu) <= CONSISTENT * speed):
         raise SimulationError("the start does not satisfy the independent equations")
     times = np.array(times_of(level))
-    how, estimated, moved = _closed(level, parameters, q, times)
+    closed = _closed(level, parameters, q, times)
     falling = fastest_decay(mechanism, compiled, start)
-    if moved is None:
+    if closed is None:
         try:
             reference = motion(equations, q, v, times) if planar else two_routes(mechanism, parameters, times, falling)
         except SimulationError as error:  # over its budget, or at a singular position
@@ -79,7 +79,8 @@ def _moved(level: Level) -> Fields:
                 reference = two_routes(mechanism, parameters, times, falling)
             except SimulationError as other:
                 raise SimulationError(f"{error}; {other}") from None
-        how, estimated, moved = reference.how, reference.estimated_error, reference.q
+        closed = reference.how, reference.estimated_error, reference.q, reference.v
+    how, estimated, moved, _ = closed
     return {
         "unusable": None,
         "how": how,
@@ -140,9 +141,9 @@ def equations_of(level: Level, parameters: Mapping[str, float]) -> Any:
 _COMPILED: dict[str, Any] = {}
 
 
-def _closed(level: Level, parameters: Mapping[str, float], q: Array, times: Array) -> tuple[str, float, Array | None]:
+def _closed(level: Level, parameters: Mapping[str, float], q: Array, times: Array) -> Closed | None:
     if level.closed is None:
-        return "", 0.0, None
+        return None
     if level.closed == "parallelogram":
         return parallel_cranks(("vertical0", "coupler0", "vertical1"), times)
     base = load_mechanism(level.closed)
